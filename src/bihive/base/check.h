@@ -1,0 +1,39 @@
+// Programmer's errors: a failed check prints both values and the place, then aborts.
+//
+// Bad input is never a CHECK: it is a returned Error (base/result.h). DCHECK vanishes when NDEBUG is defined.
+#pragma once
+
+#include <sstream>
+#include <string>
+
+namespace bihive::detail {
+
+[[noreturn]] void check_failed(const char* file, int line, const std::string& what);
+
+template <class A, class B>
+[[noreturn]] void check_failed(const char* file, int line, const char* expression, const A& a, const B& b) {
+  std::ostringstream what;
+  what << expression << " (" << a << " against " << b << ")";
+  check_failed(file, line, what.str());
+}
+
+}  // namespace bihive::detail
+
+#define BIHIVE_CHECK(condition) ((condition) ? void(0) : ::bihive::detail::check_failed(__FILE__, __LINE__, #condition))
+#define BIHIVE_CHECK_OP_(a, op, b)                                                               \
+  do {                                                                                           \
+    const auto& check_a_ = (a);                                                                  \
+    const auto& check_b_ = (b);                                                                  \
+    if (!(check_a_ op check_b_))                                                                 \
+      ::bihive::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, check_a_, check_b_); \
+  } while (false)
+#define BIHIVE_CHECK_EQ(a, b) BIHIVE_CHECK_OP_(a, ==, b)
+#define BIHIVE_CHECK_LT(a, b) BIHIVE_CHECK_OP_(a, <, b)
+#define BIHIVE_CHECK_LE(a, b) BIHIVE_CHECK_OP_(a, <=, b)
+#define BIHIVE_CHECK_GE(a, b) BIHIVE_CHECK_OP_(a, >=, b)
+
+#ifdef NDEBUG
+#define BIHIVE_DCHECK(condition) void(0)
+#else
+#define BIHIVE_DCHECK(condition) BIHIVE_CHECK(condition)
+#endif

@@ -1,0 +1,27 @@
+// parallel_for on oneTBB.
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "bihive/base/parallel.h"
+
+namespace bihive {
+
+int hardware_threads() {
+  return std::max(1, oneapi::tbb::info::default_concurrency());
+}
+
+void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body) {
+  if (threads == 0) threads = hardware_threads();
+  // One thread: a plain loop, so that a single-threaded run involves no scheduler at all.
+  if (threads == 1 || count <= 1) {
+    for (std::int64_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  oneapi::tbb::task_arena arena(threads);
+  arena.execute([&] { oneapi::tbb::parallel_for(std::int64_t{0}, count, body, oneapi::tbb::simple_partitioner()); });
+}
+
+}  // namespace bihive

@@ -1,0 +1,64 @@
+// A value, or the reason why there is none.
+//
+// The library never prints, exits or throws on bad input: it returns a Result. An Error says what was wrong, where
+// (file, and line and column where they are known) and what to do about it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "bihive/base/check.h"
+
+namespace bihive {
+
+/// What was wrong, where, and what to do. `line` and `column` count from 1; 0 means unknown.
+struct Error {
+  std::string message;  ///< what was wrong and what was expected, one line, no final full stop
+  std::string file;     ///< the file as the user named it; empty where there is none
+  std::int64_t line = 0;
+  std::int64_t column = 0;
+  std::string hint;  ///< what the user can do, one line; may be empty
+
+  /// "file:line:column: message; hint", leaving out what is unknown. Always one line.
+  std::string to_string() const;
+};
+
+/// Either a T or an Error. Asking for the one that is not there is a programmer's error and ends the program.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}      // NOLINT(google-explicit-constructor)
+  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT(google-explicit-constructor)
+
+  bool ok() const { return state_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  T& value() {
+    BIHIVE_CHECK(ok());
+    return *std::get_if<0>(&state_);
+  }
+  const T& value() const {
+    BIHIVE_CHECK(ok());
+    return *std::get_if<0>(&state_);
+  }
+  T* operator->() { return &value(); }
+  const T* operator->() const { return &value(); }
+  T& operator*() { return value(); }
+  const T& operator*() const { return value(); }
+
+  const Error& error() const {
+    BIHIVE_CHECK(!ok());
+    return *std::get_if<1>(&state_);
+  }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+/// The value of a Result that only succeeds or fails.
+struct Done {};
+using Status = Result<Done>;
+
+}  // namespace bihive

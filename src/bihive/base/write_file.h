@@ -1,0 +1,23 @@
+// Files come into being whole or not at all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "bihive/base/result.h"
+
+namespace bihive {
+
+/// Writes the bytes to a new file beside `path`, flushes it to the disk, and renames it onto `path`, so that a reader
+/// sees the old file or the whole new one. A symbolic link is followed. Something that is not a regular file (a pipe, a
+/// device) is written to directly. On an error (missing folder, no permission, full disk) nothing is left behind.
+Status write_file(const std::string& path, std::string_view bytes);
+
+/// An error if write_file(path) would surely fail now (missing folder, a folder in its place, no permission). Call it
+/// before long work, so that the user need not wait for the bad news.
+Status check_writable(const std::string& path);
+
+/// The whole file. Errors: missing, a folder, unreadable.
+Result<std::string> read_file(const std::string& path);
+
+}  // namespace bihive

@@ -1,0 +1,24 @@
+// The memory of a tree, predicted from the number of spheres before anything is built.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/bih/tree.h"
+
+namespace bihive {
+
+/// `low`: a perfectly balanced tree of full leaves (the thesis's Scenario 1). `high`: clustered random spheres with
+/// much empty space (Scenario 2 and worse). Real sets fall between; docs/bih.md says how the bounds were found and what
+/// can exceed them.
+struct MemoryPrediction {
+  struct Range {
+    std::int64_t low = 0, high = 0;
+  };
+  Range nodes;            ///< inner nodes and leaves, empty leaves too
+  Range thesis_bytes;     ///< as the thesis counts (bih/statistics.h)
+  Range allocated_bytes;  ///< as this program allocates; the peak while building is below 3 times that
+};
+
+MemoryPrediction predict_tree_memory(std::int64_t spheres, const BuildParameters& parameters);
+
+}  // namespace bihive

@@ -1,0 +1,58 @@
+// A ray: the half-line, the segment of it that counts, and the surface it leaves.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Ids that are not a sphere's position in its set.
+constexpr std::int64_t kNothing = -1;
+constexpr std::int64_t kPlane = -2;
+
+/// Points origin + t direction with t_min <= t <= t_max, both inclusive.
+///
+/// `direction` may have any finite length above 0; t counts in lengths of it. Units are the sphere set's own (world)
+/// units. `leaves` names the surface on which the ray starts: kNothing, kPlane or a sphere's id. Spheres are convex, so
+/// a ray that leaves sphere k outward (`inside` false) never meets k again, and one that goes into it (`inside` true)
+/// meets it at the far root alone. That replaces every epsilon: there is nothing to offset and nothing to tune.
+struct Ray {
+  Vec3f origin;
+  Vec3f direction;
+  double t_min = 0;
+  double t_max = std::numeric_limits<double>::infinity();
+  std::int64_t leaves = kNothing;
+  bool inside = false;
+};
+
+/// False for a ray that hits nothing by definition: NaN anywhere, an infinite origin or direction, a zero direction, or
+/// t_min > t_max.
+inline bool is_valid(const Ray& ray) {
+  const bool nonzero = ray.direction.x != 0 || ray.direction.y != 0 || ray.direction.z != 0;
+  return is_finite(ray.origin) && is_finite(ray.direction) && nonzero && ray.t_min <= ray.t_max;
+}
+
+/// A valid ray on entry to a query: in binary64, in the stored units of one sphere set (world units times 2^k).
+/// The power of two is exact and multiplies origin and direction alike, so t is unchanged.
+struct ScaledRay {
+  Vec3d origin;
+  Vec3d direction;
+  double direction_squared;  ///< direction . direction
+  double t_min, t_max;
+  std::int64_t leaves;
+  bool inside;
+
+  ScaledRay(const Ray& ray, double scale)
+      : origin(to_double(ray.origin) * scale),
+        direction(to_double(ray.direction) * scale),
+        direction_squared(dot(direction, direction)),
+        t_min(ray.t_min),
+        t_max(ray.t_max),
+        leaves(ray.leaves),
+        inside(ray.inside) {}
+};
+
+}  // namespace bihive

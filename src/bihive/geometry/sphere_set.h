@@ -1,0 +1,100 @@
+// The sphere set: structure of arrays of centres and radii, with optional attributes.
+//
+// Centres and radii are binary32 in *stored units* = world units times 2^scale_exponent, chosen so that every bound of
+// the set lies in [-1, 1]. The power of two is exact, and it keeps squares of binary32 away from overflow and underflow
+// for worlds measured in 1e-20 as in 1e20. Ids are 0-based positions in the order in which the set was read; counts are
+// 64-bit.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/math/aabb.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// One number a sphere under a name, as a column of a file gives it (charge, velocity, temperature ...).
+struct NamedNumbers {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// What a file says of the spheres beyond place and size. Each array is empty (not known) or has one entry a sphere.
+struct SphereAttributes {
+  std::vector<std::uint8_t> element;  ///< atomic number; 0 = unknown
+  std::vector<std::int32_t> type;     ///< the file's own particle type
+  std::vector<Vec3f> colour;          ///< linear RGB, each in [0, 1]
+  std::vector<float> opacity;         ///< 0 (clear) to 1 (opaque)
+  std::vector<NamedNumbers> numbers;
+};
+
+class SphereSet {
+ public:
+  SphereSet() = default;
+
+  /// Takes world units, n entries each; rounds once, to binary32 in stored units. Error: NaN, an infinity, a coordinate
+  /// or radius beyond binary32's range (3.4e38), or a radius below 0; the message names the sphere's position. A radius
+  /// of 0 is allowed and never hit. Arrays of unequal length are a programmer's error.
+  static Result<SphereSet> from_world(const std::vector<double>& x, const std::vector<double>& y,
+                                      const std::vector<double>& z, const std::vector<double>& r);
+  static Result<SphereSet> from_world(const std::vector<float>& x, const std::vector<float>& y,
+                                      const std::vector<float>& z, const std::vector<float>& r);
+
+  std::int64_t size() const { return static_cast<std::int64_t>(x_.size()); }
+  bool empty() const { return x_.empty(); }
+
+  /// Stored units.
+  const std::vector<float>& x() const { return x_; }
+  const std::vector<float>& y() const { return y_; }
+  const std::vector<float>& z() const { return z_; }
+  const std::vector<float>& r() const { return r_; }
+  Vec3d stored_centre(std::int64_t id) const {
+    const auto i = static_cast<std::size_t>(id);
+    return {double(x_[i]), double(y_[i]), double(z_[i])};
+  }
+  double stored_radius(std::int64_t id) const { return double(r_[static_cast<std::size_t>(id)]); }
+  /// The sphere's box as the tree uses it: centre -/+ radius in binary32, rounded to nearest.
+  Aabb stored_box(std::int64_t id) const {
+    const auto i = static_cast<std::size_t>(id);
+    return {{x_[i] - r_[i], y_[i] - r_[i], z_[i] - r_[i]}, {x_[i] + r_[i], y_[i] + r_[i], z_[i] + r_[i]}};
+  }
+
+  int scale_exponent() const { return scale_exponent_; }
+  /// stored = world * scale(); a power of two, exact in binary64 (2^-128 to 2^149).
+  double scale() const { return std::ldexp(1.0, scale_exponent_); }
+
+  /// World units.
+  Vec3d centre(std::int64_t id) const { return stored_centre(id) * inverse_scale(); }
+  double radius(std::int64_t id) const { return stored_radius(id) * inverse_scale(); }
+  double inverse_scale() const { return std::ldexp(1.0, -scale_exponent_); }
+  /// The smallest box around all spheres (radius 0 too), in world units as binary64: lo and hi.
+  struct Bounds {
+    Vec3d lo, hi;
+  };
+  Bounds bounds() const;
+
+  /// How many radii are above 0 but below 2^-60 of the set's extent: too small to be told apart from 0 reliably.
+  std::int64_t vanishing_radii() const { return vanishing_radii_; }
+
+  SphereAttributes& attributes() { return attributes_; }
+  const SphereAttributes& attributes() const { return attributes_; }
+
+  /// Bytes held by centres, radii and attributes.
+  std::int64_t allocated_bytes() const;
+
+ private:
+  std::vector<float> x_, y_, z_, r_;
+  int scale_exponent_ = 0;
+  std::int64_t vanishing_radii_ = 0;
+  SphereAttributes attributes_;
+
+  template <class T>
+  static Result<SphereSet> make(const std::vector<T>& x, const std::vector<T>& y, const std::vector<T>& z,
+                                const std::vector<T>& r);
+};
+
+}  // namespace bihive

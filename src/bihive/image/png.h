@@ -1,0 +1,29 @@
+// PNG in and out (libpng).
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/image/image.h"
+
+namespace bihive {
+
+/// Keyword and text of the file's tEXt chunks (Latin-1 keyword of 1 to 79 characters).
+using PngText = std::vector<std::pair<std::string, std::string>>;
+
+/// The whole file in memory.
+Result<std::string> encode_png(const Image& image, const PngText& text);
+
+/// Written aside and renamed (base/write_file.h): on failure nothing is left behind.
+Status write_png(const std::string& path, const Image& image, const PngText& text);
+
+/// 8-bit RGB of any PNG (alpha dropped, grey and palette expanded), and its text chunks.
+struct PngFile {
+  Image image;
+  PngText text;
+};
+Result<PngFile> read_png(const std::string& path);
+
+}  // namespace bihive

@@ -1,0 +1,41 @@
+// From a file of any known format to a sphere set.
+//
+// The format is detected by content, then by name; gzip is undone first. Readers work in binary64 and round once. What
+// every reader takes and leaves out is listed in docs/formats.md and in SphereFile::rules.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/geometry/sphere_set.h"
+
+namespace bihive {
+
+struct ReadOptions {
+  std::optional<double> radius;  ///< replaces every radius; >= 0, world units
+  double radius_scale = 1;       ///< multiplies every radius, after `radius`; >= 0
+  bool recenter = false;         ///< subtract the middle of the set's centres in binary64 before rounding
+  std::int64_t frame = 0;        ///< 0-based frame or model
+};
+
+struct SphereFile {
+  SphereSet spheres;                  ///< at least one sphere, in file order
+  std::string format;                 ///< "PDB", "mmCIF", "XYZ", "LAMMPS dump", "CSV", "NPY"
+  std::int64_t frames = 1;            ///< frames or models in the file
+  std::vector<std::string> rules;     ///< what the reader did, a sentence each ("radii: van der Waals, by element")
+  std::vector<std::string> warnings;  ///< what the user should know, a line each
+  Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
+};
+
+/// Never throws; an error names file, line and column where it can.
+Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options);
+
+/// The same from bytes in memory; `name` is used for messages and as the second clue to the format.
+Result<SphereFile> read_spheres_from_memory(std::string_view bytes, const std::string& name,
+                                            const ReadOptions& options);
+
+}  // namespace bihive

@@ -1,0 +1,38 @@
+// A pinhole camera, and the rays through its pixels.
+#pragma once
+
+#include "bihive/base/result.h"
+#include "bihive/geometry/ray.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// World units. `fov_deg` is the full angle along the picture's shorter side, above 0 and below 180.
+struct Camera {
+  Vec3d eye{0, 0, 100};
+  Vec3d look_at{0, 0, 0};
+  Vec3d up{0, 1, 0};
+  double fov_deg = 30;
+};
+
+/// An error if eye and look_at coincide, up is parallel to the view or zero, a number is not finite, or the angle is
+/// out of range.
+Status check_camera(const Camera& camera);
+
+/// A camera made ready for a picture of width x height pixels.
+class PixelRays {
+ public:
+  /// The camera must pass check_camera().
+  PixelRays(const Camera& camera, int width_px, int height_px);
+
+  /// The ray through picture position (x, y) in pixels: (0, 0) is the top left corner, (0.5, 0.5) the first pixel's
+  /// centre. Its direction has length 1 up to binary32 rounding.
+  Ray at(double x_px, double y_px) const;
+
+ private:
+  Vec3f eye_;
+  Vec3d forward_, right_, down_;  // right_ and down_ span one pixel on the plane at distance 1
+  double half_width_, half_height_;
+};
+
+}  // namespace bihive

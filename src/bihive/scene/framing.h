@@ -1,0 +1,23 @@
+// A camera and a light for a set that comes without: the whole set in view, as large as it fits.
+#pragma once
+
+#include <string>
+
+#include "bihive/geometry/sphere_set.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// The side from which the camera looks. front: from +z with y up, as in the thesis; left from -x, right from +x, back
+/// from -z, top from +y (with -z up), bottom from -y (with +z up), iso from (1, 1, 1).
+enum class ViewFrom { front, back, left, right, top, bottom, iso };
+
+/// Looks at the middle of the set's box. The eye is as near as it can be while every sphere lies wholly inside the
+/// picture (width x height pixels) less a margin of 4 % a side. An empty or single-point set is seen from distance 1.
+Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
+
+/// One white light above, left of and behind the camera, as far from what it looks at as the camera is, or farther.
+PointLight light_behind(const Camera& camera);
+
+}  // namespace bihive

@@ -1,0 +1,35 @@
+// How a surface answers light: the columns of the thesis's Table 4.1.
+#pragma once
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Shares are dimensionless and at least 0; nothing requires them to sum to 1. A reflective or transmissive share of
+/// exactly 0 makes no ray. `colour` is linear RGB and tints the ambient and diffuse terms only.
+struct Material {
+  Vec3d colour{1, 1, 1};
+  double ambient = 0;
+  double diffuse = 0;
+  double reflective = 0;
+  double specular = 0;
+  double power = 1;  ///< Phong exponent, > 0
+  double transmissive = 0;
+  double refraction_index = 1;  ///< relative to the outside; > 0 where transmissive > 0
+};
+
+/// Table 4.1.
+inline Material red_material() {
+  return {{0.9, 0.3, 0.3}, 0.30, 0.30, 0.30, 0.10, 40, 0.00, 0.00};
+}
+inline Material transparent_material() {
+  return {{1, 1, 1}, 0.10, 0.10, 0.00, 0.10, 50, 0.70, 0.95};
+}
+
+/// What spheres of a file look like unless a scene says otherwise: matte with a soft highlight, no further rays. Chosen
+/// so that a white sphere lit frontally reaches 1 and its shadowed side stays readable.
+inline Material matte_material() {
+  return {{1, 1, 1}, 0.30, 0.70, 0.00, 0.15, 40, 0.00, 1.00};
+}
+
+}  // namespace bihive

@@ -1,0 +1,64 @@
+// Everything that a picture shows, and how its author wants it drawn.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/geometry/plane.h"
+#include "bihive/geometry/sphere_set.h"
+#include "bihive/image/transfer.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/material.h"
+
+namespace bihive {
+
+/// White light of strength 1 unless coloured; no fall-off with distance.
+struct PointLight {
+  Vec3d position;
+  Vec3d colour{1, 1, 1};
+};
+
+/// Squares of `size` world units; the material's colour where floor(u / size) + floor(v / size) is even,
+/// `second_colour` where it is odd, the mean of both beyond `fade_distance` from the world's origin.
+struct Checker {
+  double size = 5;
+  Vec3d second_colour{0.6, 0.6, 0.6};
+  double fade_distance = 500;
+};
+
+struct ScenePlane {
+  Plane plane;
+  Material material;
+  std::optional<Checker> checker;
+};
+
+/// How the picture is drawn unless its user says otherwise. These are a file's; the thesis's scenes set their own.
+struct PictureDefaults {
+  int width_px = 1280;
+  int height_px = 720;
+  int samples_per_pixel = 4;  ///< 1 = the pixel's centre
+  int recursion = 5;          ///< generations of rays, 1 to 16
+  bool shadows = true;
+  Transfer transfer = Transfer::srgb;
+};
+
+struct Scene {
+  SphereSet spheres;
+  std::vector<Material> materials{matte_material()};  ///< at least one
+  std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
+  std::vector<PointLight> lights;
+  std::optional<ScenePlane> plane;
+  Camera camera;
+  Vec3d background{1, 1, 1};  ///< linear radiance
+  PictureDefaults picture;
+  std::string name;                   ///< for messages and the picture's text chunks
+  std::optional<std::uint64_t> seed;  ///< of a generated scene
+};
+
+/// The material of one sphere: its material from the list; a colour attribute replaces the colour; an opacity a below 1
+/// scales ambient, diffuse and specular by a and makes 1 - a of the light go straight through (index 1).
+Material material_of(const Scene& scene, std::int64_t sphere_id);
+
+}  // namespace bihive

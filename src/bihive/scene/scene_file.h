@@ -1,0 +1,37 @@
+// The scene file: JSON, checked against the published schema (docs/scene.schema.json), then against what a schema
+// cannot say.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/io/read_spheres.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// A scene read from a file, with what the user should be told.
+struct LoadedScene {
+  Scene scene;
+  bool has_camera = false;  ///< false: the caller frames the spheres
+  bool has_lights = false;
+  std::vector<std::string> warnings;
+};
+
+/// `name` is the file's name for messages and the place that the document's own relative paths start from. The options
+/// apply to a sphere file that the document names, and `radius`, `radius_scale` to inline spheres too. Errors name the
+/// path inside the document (/materials/0/power) and what was expected there.
+Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options);
+
+/// True where the bytes look like a scene document (first character after white space is '{').
+bool looks_like_scene(std::string_view bytes);
+
+/// A complete document with the spheres inline; parse_scene() gives back an equal scene.
+std::string scene_to_json(const Scene& scene);
+
+/// The JSON Schema itself, as text.
+std::string_view scene_schema();
+
+}  // namespace bihive
