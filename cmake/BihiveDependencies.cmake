@@ -1,0 +1,64 @@
+# The libraries that bihive needs. Sets BIHIVE_LIBRARY_DEPENDENCIES and BIHIVE_CLI_DEPENDENCIES.
+
+# Stops with a message that says what to install.
+function(bihive_missing what debian_package)
+  message(FATAL_ERROR "${what} was not found. On Debian or Ubuntu: apt-get install ${debian_package}, "
+                      "or scripts/setup demo for everything that the program needs.")
+endfunction()
+
+# Finds a package that comes with a CMake configuration.
+macro(bihive_require package debian_package)
+  find_package(${package} QUIET ${ARGN})
+  if(NOT ${package}_FOUND)
+    bihive_missing("${package}" ${debian_package})
+  endif()
+endmacro()
+
+# Finds a header-only library by one of its headers.
+function(bihive_require_header header debian_package)
+  string(MAKE_C_IDENTIFIER "BIHIVE_FOLDER_OF_${header}" variable)
+  find_path(${variable} ${header})
+  mark_as_advanced(${variable})
+  if(NOT ${variable})
+    bihive_missing("The header ${header}" ${debian_package})
+  endif()
+endfunction()
+
+# Header-only libraries are never linked to an installed bihive: they matter while it is built.
+set(BIHIVE_LIBRARY_DEPENDENCIES "")
+set(BIHIVE_CLI_DEPENDENCIES "")
+
+if(EMSCRIPTEN)
+  include(BihiveWasm)
+  return()
+endif()
+
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+bihive_require(Threads libc6-dev)
+list(APPEND BIHIVE_LIBRARY_DEPENDENCIES Threads::Threads)
+if(NOT BIHIVE_OWN_POOL)
+  bihive_require(TBB libtbb-dev)
+  list(APPEND BIHIVE_LIBRARY_DEPENDENCIES TBB::tbb)
+endif()
+bihive_require(PNG libpng-dev)
+bihive_require(ZLIB zlib1g-dev)
+bihive_require(fmt libfmt-dev)
+list(APPEND BIHIVE_LIBRARY_DEPENDENCIES PNG::PNG ZLIB::ZLIB fmt::fmt)
+bihive_require(nlohmann_json nlohmann-json3-dev)
+list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
+bihive_require_header(valijson/validator.hpp libvalijson-dev)
+bihive_require_header(gemmi/pdb.hpp gemmi-dev)
+bihive_require_header(tao/pegtl.hpp tao-pegtl-dev)
+target_compile_definitions(bihive_options INTERFACE BIHIVE_HAS_ZLIB=1 BIHIVE_HAS_PNG=1)
+
+if(BIHIVE_BUILD_CLI)
+  bihive_require(CLI11 libcli11-dev)
+  list(APPEND BIHIVE_CLI_DEPENDENCIES CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
+endif()
+if(BIHIVE_BUILD_TESTS)
+  find_package(GTest QUIET)
+  if(NOT TARGET GTest::gmock_main)
+    message(FATAL_ERROR "GoogleTest was not found. On Debian or Ubuntu: apt-get install libgtest-dev libgmock-dev, "
+                        "or scripts/setup all for everything that the tests need.")
+  endif()
+endif()

@@ -1,0 +1,57 @@
+# The switches of the build, and the compile options that every target of the project shares (bihive_options).
+
+include(GNUInstallDirs)
+
+option(BIHIVE_BUILD_CLI "Build the bihive program" ON)
+option(BIHIVE_BUILD_TESTS "Build the tests (needs GoogleTest)" OFF)
+option(BIHIVE_BUILD_FUZZERS "Build the fuzz targets (needs clang)" OFF)
+option(BIHIVE_WERROR "Treat warnings as errors" OFF)
+set(BIHIVE_SANITIZE "" CACHE STRING "Sanitizers: empty, asan (address and undefined behaviour) or tsan (threads)")
+set_property(CACHE BIHIVE_SANITIZE PROPERTY STRINGS "" asan tsan)
+
+# oneTBB does not link under WebAssembly, and ThreadSanitizer reports it because it is not instrumented.
+set(BIHIVE_OWN_POOL_DEFAULT OFF)
+if(EMSCRIPTEN OR BIHIVE_SANITIZE STREQUAL "tsan")
+  set(BIHIVE_OWN_POOL_DEFAULT ON)
+endif()
+option(BIHIVE_OWN_POOL "Use the library's own threads instead of oneTBB" ${BIHIVE_OWN_POOL_DEFAULT})
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+add_library(bihive_options INTERFACE)
+
+# The same bits everywhere: no fused multiply-add, and never fast-math.
+target_compile_options(bihive_options INTERFACE -ffp-contract=off)
+if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}" MATCHES "-ffast-math|-Ofast|-funsafe-math")
+  message(FATAL_ERROR "bihive's pictures depend on exact IEEE arithmetic: remove -ffast-math or -Ofast from the flags")
+endif()
+
+target_compile_options(bihive_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
+if(BIHIVE_WERROR)
+  target_compile_options(bihive_options INTERFACE -Werror)
+endif()
+
+if(BIHIVE_SANITIZE STREQUAL "asan")
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=address,undefined)
+elseif(BIHIVE_SANITIZE STREQUAL "tsan")
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=thread)
+elseif(BIHIVE_SANITIZE)
+  message(FATAL_ERROR "BIHIVE_SANITIZE is '${BIHIVE_SANITIZE}': expected nothing, asan or tsan")
+endif()
+
+if(BIHIVE_BUILD_FUZZERS)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang" OR EMSCRIPTEN)
+    message(FATAL_ERROR "libFuzzer comes with clang: configure with -DCMAKE_CXX_COMPILER=clang++ (Debian package clang, "
+                        "or run scripts/setup all)")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -g1)
+  add_link_options(-fsanitize=address,undefined)
+endif()

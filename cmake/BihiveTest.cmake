@@ -1,0 +1,28 @@
+# How tests are declared.
+
+# add_bihive_test(file): tests/unit/tree_test.cpp becomes the program unit_tree_test and the ctest entry unit.tree with
+# the label unit. Programs get GoogleTest, GoogleMock, the library, and whatever tests/support holds.
+function(add_bihive_test file)
+  cmake_path(GET file STEM stem)
+  cmake_path(GET file PARENT_PATH folder)
+  cmake_path(GET folder FILENAME kind)
+  string(REGEX REPLACE "_test$" "" subject ${stem})
+  set(target ${kind}_${stem})
+  add_executable(${target} ${file})
+  target_link_libraries(${target} PRIVATE bihive_test_support GTest::gmock_main)
+  add_test(NAME ${kind}.${subject} COMMAND ${target})
+  set_tests_properties(${kind}.${subject} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT}")
+endfunction()
+
+# add_bihive_script_test(file): a Python test of the built program, run with BIHIVE (the program) and BIHIVE_SOURCE (the
+# top of the sources) in its environment.
+function(add_bihive_script_test file)
+  cmake_path(GET file STEM stem)
+  cmake_path(GET file PARENT_PATH folder)
+  cmake_path(GET folder FILENAME kind)
+  string(REGEX REPLACE "_test$" "" subject ${stem})
+  add_test(NAME ${kind}.${subject} COMMAND ${Python_EXECUTABLE} ${file} -v)
+  set_tests_properties(
+    ${kind}.${subject}
+    PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT};BIHIVE=$<TARGET_FILE:bihive>")
+endfunction()
