@@ -1,0 +1,127 @@
+#include "bihive/base/write_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+
+namespace bihive {
+namespace {
+
+Error system_error(const std::string& what, const std::string& path, int code, const std::string& hint = "") {
+  return {what + ": " + std::strerror(code), path, 0, 0, hint};
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// The file that the path leads to, so that a link is followed and not replaced. A path to nothing is kept.
+std::string follow_links(const std::string& path) {
+  char resolved[PATH_MAX];
+  return realpath(path.c_str(), resolved) != nullptr ? std::string(resolved) : path;
+}
+
+// Writes everything; 0, or the errno of what failed.
+int write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+// A pipe or a device: there is nothing to rename onto.
+Status write_in_place(const std::string& path, std::string_view bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return system_error("cannot be written", path, errno);
+  int code = write_all(file, bytes);
+  if (::close(file) != 0 && code == 0) code = errno;
+  if (code != 0) return system_error("writing failed", path, code);
+  return Done{};
+}
+
+}  // namespace
+
+Status write_file(const std::string& given_path, std::string_view bytes) {
+  if (Status status = check_writable(given_path); !status) return status;
+  const std::string path = follow_links(given_path);
+  struct stat info {};
+  const bool exists = ::stat(path.c_str(), &info) == 0;
+  if (exists && !S_ISREG(info.st_mode)) return write_in_place(path, bytes);
+
+  // Make a file of a name that is not taken, beside the target so that the rename stays on one disk.
+  std::string aside = path + ".XXXXXX";
+  const int file = ::mkstemp(aside.data());
+  if (file < 0) return system_error("cannot be created", given_path, errno);
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  const mode_t mode = exists ? (info.st_mode & 07777) : (0666 & ~mask);
+
+  // Write, flush, rename; on any failure take the file away again.
+  int code = write_all(file, bytes);
+  if (code == 0 && ::fchmod(file, mode) != 0) code = errno;
+  if (code == 0 && ::fsync(file) != 0) code = errno;
+  if (::close(file) != 0 && code == 0) code = errno;
+  if (code == 0 && ::rename(aside.c_str(), path.c_str()) != 0) code = errno;
+  if (code == 0) return Done{};
+  ::unlink(aside.c_str());
+  return system_error("writing failed", given_path, code, code == ENOSPC ? "free some space or write elsewhere" : "");
+}
+
+Status check_writable(const std::string& given_path) {
+  if (given_path.empty()) return Error{"the output path is empty", "", 0, 0, "name a file"};
+  const std::string path = follow_links(given_path);
+  struct stat info {};
+  if (::stat(path.c_str(), &info) == 0) {
+    if (S_ISDIR(info.st_mode)) return Error{"is a folder", given_path, 0, 0, "name a file in it"};
+    if (::access(path.c_str(), W_OK) != 0) return system_error("cannot be written", given_path, errno);
+    if (!S_ISREG(info.st_mode)) return Done{};
+  } else if (errno != ENOENT) {
+    return system_error("cannot be written", given_path, errno);
+  }
+  const std::string folder = folder_of(path);
+  if (::stat(folder.c_str(), &info) != 0)
+    return system_error("the folder " + folder + " cannot be used", given_path, errno, "make the folder first");
+  if (!S_ISDIR(info.st_mode)) return Error{folder + " is not a folder", given_path, 0, 0, ""};
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    return system_error("the folder " + folder + " cannot be written to", given_path, errno);
+  return Done{};
+}
+
+Result<std::string> read_file(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return system_error("cannot be opened", path, errno);
+  struct stat info {};
+  std::string bytes;
+  int code = ::fstat(file, &info) == 0 ? 0 : errno;
+  if (code == 0 && S_ISDIR(info.st_mode)) {
+    ::close(file);
+    return Error{"is a folder, not a file", path, 0, 0, "name a file"};
+  }
+
+  // Read to the end; the size is only a hint, since a pipe has none and a file may grow.
+  if (code == 0 && info.st_size > 0) bytes.reserve(static_cast<std::size_t>(info.st_size));
+  std::string buffer(1 << 16, '\0');
+  while (code == 0) {
+    const ssize_t count = ::read(file, buffer.data(), buffer.size());
+    if (count == 0) break;
+    if (count > 0) bytes.append(buffer, 0, static_cast<std::size_t>(count));
+    if (count < 0 && errno != EINTR) code = errno;
+  }
+  ::close(file);
+  if (code != 0) return system_error("cannot be read", path, code);
+  return bytes;
+}
+
+}  // namespace bihive

@@ -1,0 +1,24 @@
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+Material material_of(const Scene& scene, std::int64_t sphere_id) {
+  const auto i = static_cast<std::size_t>(sphere_id);
+  Material material =
+      scene.materials[scene.material_of_sphere.empty() ? 0 : static_cast<std::size_t>(scene.material_of_sphere[i])];
+  const SphereAttributes& attributes = scene.spheres.attributes();
+  if (!attributes.colour.empty()) material.colour = to_double(attributes.colour[i]);
+
+  // An opacity lets the rest of the light straight through.
+  if (!attributes.opacity.empty() && attributes.opacity[i] < 1) {
+    const double opacity = double(attributes.opacity[i]);
+    material.ambient *= opacity;
+    material.diffuse *= opacity;
+    material.specular *= opacity;
+    material.transmissive = 1 - opacity;
+    material.refraction_index = 1;
+  }
+  return material;
+}
+
+}  // namespace bihive
