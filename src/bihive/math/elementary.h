@@ -1,0 +1,19 @@
+// Powers and tangents made of + - x / on binary64 alone, so that a picture has the same bits on every platform. The
+// system's mathematics library is never asked: its last bits differ between machines.
+#pragma once
+
+namespace bihive {
+
+/// log2(x) for finite x > 0; absolute error below 2e-16 (1 + |log2 x|).
+double portable_log2(double x);
+
+/// 2^x; relative error below 4e-16 (1 + |x|), 0 below -1075, +inf above 1024.
+double portable_exp2(double x);
+
+/// x^y for x >= 0 and finite y; relative error below 1e-15 (1 + |y log2 x|). 0^0 = 1, 0^y = 0 for y > 0.
+double portable_pow(double x, double y);
+
+/// tan(degrees) for 0 <= degrees < 90; relative error below 1e-14 up to 89 degrees.
+double tan_deg(double degrees);
+
+}  // namespace bihive

@@ -1,0 +1,43 @@
+#include "bihive/render/integrator.h"
+
+#include <utility>
+
+#include "bihive/render/shading.h"
+#include "bihive/render/surface.h"
+
+namespace bihive {
+
+Vec3d Integrator::radiance(const Ray& primary) {
+  Vec3d sum;
+  deepest_hit_ = 0;
+  ++rays_.primary;
+  generation_.assign(1, {primary, 1.0});
+  for (int depth = 1; depth <= recursion_ && !generation_.empty(); ++depth) {
+    next_.clear();
+    for (const WeightedRay& item : generation_) {
+      const SceneHit hit = scene_hit(scene_, tracer_, item.ray);
+      if (!hit.found()) {
+        sum = sum + item.weight * scene_.background;
+        continue;
+      }
+      deepest_hit_ = depth;
+      const Surface surface = surface_at(scene_, item.ray, hit);
+      sum = sum + item.weight * local_light(scene_, tracer_, surface, shadows_, rays_.shadow);
+
+      // Send on what the surface reflects and lets through; a share of exactly 0 makes no ray.
+      if (depth == recursion_) continue;
+      if (surface.material.reflective != 0) {
+        ++rays_.reflected;
+        next_.push_back({reflected_ray(surface), item.weight * surface.material.reflective});
+      }
+      if (surface.material.transmissive != 0) {
+        ++rays_.transmitted;
+        next_.push_back({transmitted_ray(surface), item.weight * surface.material.transmissive});
+      }
+    }
+    std::swap(generation_, next_);
+  }
+  return sum;
+}
+
+}  // namespace bihive

@@ -1,0 +1,74 @@
+#include "bihive/render/shading.h"
+
+#include <cmath>
+
+#include "bihive/math/elementary.h"
+
+namespace bihive {
+namespace {
+
+// A ray that starts on the surface. On a sphere, `inside` says whether it goes into the ball; a plane has no inside.
+Ray ray_from(const Surface& surface, Vec3d direction, bool inside) {
+  Ray ray;
+  ray.origin = surface.origin;
+  ray.direction = to_float(direction);
+  ray.leaves = surface.id;
+  ray.inside = surface.id != kPlane && inside;
+  return ray;
+}
+
+Vec3d mirrored(const Surface& surface) {
+  return surface.incoming - (2 * dot(surface.incoming, surface.normal)) * surface.normal;
+}
+
+}  // namespace
+
+Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows,
+                  std::int64_t& shadow_rays) {
+  const Material& material = surface.material;
+  const Vec3d to_viewer = -surface.incoming;
+  Vec3d diffuse;
+  Vec3d specular;
+  for (const PointLight& light : scene.lights) {
+    // Leave out lights behind the surface.
+    const Vec3d offset = light.position - to_double(surface.origin);
+    const double distance = length(offset);
+    if (!(distance > 0)) continue;
+    const Vec3d to_light = offset / distance;
+    const double facing = dot(surface.normal, to_light);
+    if (!(facing > 0)) continue;
+
+    // Leave out lights behind a sphere: any hit up to the light, which lies at t = 1.
+    if (shadows) {
+      Ray shadow = ray_from(surface, offset, surface.from_inside);
+      shadow.t_max = 1;
+      ++shadow_rays;
+      if (tracer.occluded(shadow)) continue;
+    }
+
+    diffuse = diffuse + (material.diffuse * facing) * light.colour;
+    const Vec3d mirrored_light = (2 * facing) * surface.normal - to_light;
+    const double highlight = dot(mirrored_light, to_viewer);
+    if (highlight > 0)
+      specular = specular + (material.specular * portable_pow(highlight, material.power)) * light.colour;
+  }
+  const Vec3d ambient{material.ambient, material.ambient, material.ambient};
+  return material.colour * (ambient + diffuse) + specular;
+}
+
+Ray reflected_ray(const Surface& surface) {
+  return ray_from(surface, mirrored(surface), surface.from_inside);
+}
+
+Ray transmitted_ray(const Surface& surface) {
+  if (surface.id == kPlane) return ray_from(surface, surface.incoming, false);
+  const double index = surface.material.refraction_index;
+  const double ratio = surface.from_inside ? index : 1 / index;
+  const double cosine = -dot(surface.incoming, surface.normal);
+  const double cosine_beyond_squared = 1 - ratio * ratio * (1 - cosine * cosine);
+  if (cosine_beyond_squared < 0) return ray_from(surface, mirrored(surface), surface.from_inside);
+  const double along_normal = ratio * cosine - std::sqrt(cosine_beyond_squared);
+  return ray_from(surface, ratio * surface.incoming + along_normal * surface.normal, !surface.from_inside);
+}
+
+}  // namespace bihive

@@ -1,0 +1,63 @@
+#include "bihive/render/surface.h"
+
+#include <cmath>
+
+namespace bihive {
+namespace {
+
+// Two directions that span the plane. For the thesis's ground they are +x and +z.
+struct PlaneAxes {
+  Vec3d u, v;
+};
+
+PlaneAxes axes_of(Vec3d normal) {
+  // Start from the world axis that lies flattest in the plane; of equal ones the first.
+  int flattest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(normal[axis]) < std::abs(normal[flattest])) flattest = axis;
+  Vec3d start;
+  start[flattest] = 1;
+  const Vec3d u = normalized(start - dot(start, normal) * normal);
+  return {u, cross(u, normal)};
+}
+
+// Parity in floor arithmetic: a conversion to an integer would overflow near the horizon.
+bool is_odd(double whole) {
+  return whole - 2 * std::floor(whole / 2) != 0;
+}
+
+Vec3d checker_colour(const ScenePlane& plane, const Checker& checker, Vec3d point) {
+  const Vec3d first = plane.material.colour;
+  if (dot(point, point) > checker.fade_distance * checker.fade_distance) return 0.5 * (first + checker.second_colour);
+  const PlaneAxes axes = axes_of(plane.plane.normal);
+  const double squares = std::floor(dot(point, axes.u) / checker.size) + std::floor(dot(point, axes.v) / checker.size);
+  return is_odd(squares) ? checker.second_colour : first;
+}
+
+}  // namespace
+
+Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
+  Surface surface;
+  surface.id = hit.id;
+  const Vec3d direction = to_double(ray.direction);
+  const Vec3d point = to_double(ray.origin) + hit.t * direction;
+  surface.origin = to_float(point);
+
+  // Both vectors below are brought to length 1 in stored units, where no square can overflow or vanish.
+  const ScaledRay scaled(ray, scene.spheres.scale());
+  surface.incoming = normalized(scaled.direction);
+  Vec3d outward;
+  if (hit.id == kPlane) {
+    outward = scene.plane->plane.normal;
+    surface.material = scene.plane->material;
+    if (scene.plane->checker) surface.material.colour = checker_colour(*scene.plane, *scene.plane->checker, point);
+  } else {
+    outward = normalized((scaled.origin - scene.spheres.stored_centre(hit.id)) + hit.t * scaled.direction);
+    surface.material = material_of(scene, hit.id);
+  }
+  surface.from_inside = dot(surface.incoming, outward) > 0;
+  surface.normal = surface.from_inside ? -outward : outward;
+  return surface;
+}
+
+}  // namespace bihive

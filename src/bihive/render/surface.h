@@ -1,0 +1,25 @@
+// What shading needs to know of the place where a ray hit something. World units, binary64.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/geometry/ray.h"
+#include "bihive/math/vec3.h"
+#include "bihive/render/scene_hit.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+struct Surface {
+  std::int64_t id;    ///< sphere or kPlane
+  Vec3f origin;       ///< the hit point, rounded to binary32: where the next rays start
+  Vec3d incoming;     ///< the ray's direction, length 1
+  Vec3d normal;       ///< length 1, turned against the ray
+  bool from_inside;   ///< the ray comes from inside the sphere: direction . outward normal > 0
+  Material material;  ///< with the checker's colour where there is one
+};
+
+/// `hit` must be found.
+Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit);
+
+}  // namespace bihive

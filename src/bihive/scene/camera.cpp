@@ -1,0 +1,44 @@
+#include "bihive/scene/camera.h"
+
+#include <algorithm>
+
+#include "bihive/math/elementary.h"
+
+namespace bihive {
+
+Status check_camera(const Camera& camera) {
+  const auto bad = [](const std::string& message, const std::string& hint) {
+    return Error{"camera: " + message, "", 0, 0, hint};
+  };
+  if (!is_finite(camera.eye) || !is_finite(camera.look_at) || !is_finite(camera.up))
+    return bad("eye, look_at and up must be finite", "");
+  if (!(camera.fov_deg > 0 && camera.fov_deg < 180)) return bad("fov must be above 0 and below 180 degrees", "");
+  const Vec3d view = camera.look_at - camera.eye;
+  if (!(length(view) > 0)) return bad("eye and look_at are the same point", "move one of them");
+  if (!(length(camera.up) > 0)) return bad("up is zero", "give a direction such as 0,1,0");
+  // Cross products of unit vectors below 1e-9 leave the picture's horizontal undecided.
+  if (!(length(cross(normalized(view), normalized(camera.up))) > 1e-9))
+    return bad("up is parallel to the direction of view", "give another up");
+  return Done{};
+}
+
+PixelRays::PixelRays(const Camera& camera, int width_px, int height_px)
+    : eye_(to_float(camera.eye)), forward_(normalized(camera.look_at - camera.eye)) {
+  // One pixel on the plane at distance 1: the shorter side of the picture spans the angle.
+  const double pixel = 2 * tan_deg(camera.fov_deg / 2) / std::min(width_px, height_px);
+  const Vec3d right = normalized(cross(forward_, normalized(camera.up)));
+  right_ = right * pixel;
+  down_ = cross(forward_, right) * pixel;
+  half_width_ = 0.5 * width_px;
+  half_height_ = 0.5 * height_px;
+}
+
+Ray PixelRays::at(double x_px, double y_px) const {
+  const Vec3d direction = forward_ + (x_px - half_width_) * right_ + (y_px - half_height_) * down_;
+  Ray ray;
+  ray.origin = eye_;
+  ray.direction = to_float(normalized(direction));
+  return ray;
+}
+
+}  // namespace bihive
