@@ -14,15 +14,17 @@ function(add_bihive_test file)
   set_tests_properties(${kind}.${subject} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT}")
 endfunction()
 
-# add_bihive_script_test(file): a Python test of the built program, run with BIHIVE (the program) and BIHIVE_SOURCE (the
-# top of the sources) in its environment.
+# add_bihive_script_test(file): a Python test, run with BIHIVE (the built program) and BIHIVE_SOURCE (the top of the
+# sources) in its environment.
 function(add_bihive_script_test file)
   cmake_path(GET file STEM stem)
   cmake_path(GET file PARENT_PATH folder)
   cmake_path(GET folder FILENAME kind)
   string(REGEX REPLACE "_test$" "" subject ${stem})
+  set(environment ${BIHIVE_TEST_ENVIRONMENT})
+  if(TARGET bihive)
+    list(APPEND environment "BIHIVE=$<TARGET_FILE:bihive>")
+  endif()
   add_test(NAME ${kind}.${subject} COMMAND ${Python_EXECUTABLE} ${file} -v)
-  set_tests_properties(
-    ${kind}.${subject}
-    PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT};BIHIVE=$<TARGET_FILE:bihive>")
+  set_tests_properties(${kind}.${subject} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${environment}")
 endfunction()

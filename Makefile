@@ -1,0 +1,29 @@
+# Shortcuts: each job is a script in scripts/.
+
+.PHONY: help demo test check verify lint format clean
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
+
+demo: ## install what the program needs, build it, render the bundled molecule
+	scripts/setup demo
+	scripts/demo
+
+test: ## install what the tests need, run every test (about 20 minutes on two cores)
+	scripts/setup all
+	scripts/test
+
+check: ## the quick checks for daily work
+	scripts/check
+
+verify: ## the intersection against the long-double oracle, ten million rays a scene (hours)
+	scripts/verify
+
+lint: ## formatting, directions of includes, clang-tidy
+	scripts/lint
+
+format: ## format the sources in place
+	scripts/format
+
+clean: ## remove everything that was built
+	rm -rf build build-* out

@@ -1,0 +1,21 @@
+# cmake --install: the program, the library, its headers, and what find_package(bihive) needs.
+
+include(CMakePackageConfigHelpers)
+
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/bihive)
+install(TARGETS bihive_lib EXPORT bihiveTargets)
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/src/bihive
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING
+  PATTERN "*.h")
+install(EXPORT bihiveTargets NAMESPACE bihive:: DESTINATION ${config_folder})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/bihiveConfig.cmake.in ${PROJECT_BINARY_DIR}/bihiveConfig.cmake
+                              INSTALL_DESTINATION ${config_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/bihiveConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/bihiveConfig.cmake ${PROJECT_BINARY_DIR}/bihiveConfigVersion.cmake
+        DESTINATION ${config_folder})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(TARGET bihive)
+  install(TARGETS bihive)
+endif()

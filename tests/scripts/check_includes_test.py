@@ -1,0 +1,85 @@
+"""scripts/check_includes.py finds what it is there to find, and is content with this project."""
+
+import importlib.util
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ.get("BIHIVE_SOURCE", pathlib.Path(__file__).parent.parent.parent))
+
+sys.dont_write_bytecode = True
+spec = importlib.util.spec_from_file_location("check_includes", SOURCE / "scripts" / "check_includes.py")
+check_includes = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(check_includes)
+
+
+class CheckIncludes(unittest.TestCase):
+    def offences(self, files):
+        """Of a little project: its files by path."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                path = pathlib.Path(folder) / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            return check_includes.offences(pathlib.Path(folder).resolve())
+
+    def test_arrow_that_runs_forward(self):
+        files = {
+            "src/bihive/math/vec3.h": '#include "bihive/base/check.h"\n#include <cmath>\n',
+            "src/bihive/base/check.h": "#pragma once\n",
+        }
+        self.assertEqual(self.offences(files), [])
+
+    def test_arrow_that_runs_back(self):
+        files = {
+            "src/bihive/base/check.h": '#pragma once\n#include "bihive/math/vec3.h"\n',
+            "src/bihive/math/vec3.h": "#pragma once\n",
+        }
+        found = self.offences(files)
+        self.assertEqual(len(found), 1)
+        self.assertTrue(found[0].startswith("src/bihive/base/check.h:2: base must not include math"), found)
+
+    def test_render_must_not_read_files(self):
+        files = {
+            "src/bihive/render/film.cpp": "#include <bihive/io/npy.h>\n",
+            "src/bihive/io/npy.h": "#pragma once\n",
+        }
+        self.assertEqual(len(self.offences(files)), 1)
+
+    def test_header_that_is_not_there(self):
+        self.assertEqual(len(self.offences({"src/bihive/base/a.cpp": '#include "bihive/base/a.h"\n'})), 1)
+
+    def test_header_from_outside(self):
+        self.assertEqual(len(self.offences({"src/bihive/base/a.cpp": '#include "support/oracle.h"\n'})), 1)
+
+    def test_unknown_folder(self):
+        self.assertEqual(len(self.offences({"src/bihive/misc/a.cpp": "\n"})), 1)
+
+    def test_program_includes_its_own_headers_and_the_library(self):
+        files = {
+            "src/bihive/base/check.h": "#pragma once\n",
+            "apps/cli/main.cpp": '#include "options.h"\n#include "bihive/base/check.h"\n',
+            "apps/cli/options.h": "#pragma once\n",
+        }
+        self.assertEqual(self.offences(files), [])
+
+    def test_program_includes_a_test(self):
+        files = {
+            "src/bihive/base/check.h": "#pragma once\n",
+            "apps/cli/main.cpp": '#include "../../tests/oracle.h"\n',
+            "tests/oracle.h": "#pragma once\n",
+        }
+        self.assertEqual(len(self.offences(files)), 1)
+
+    def test_long_file(self):
+        self.assertEqual(self.offences({"src/bihive/base/a.cpp": "\n" * 800}), [])
+        self.assertEqual(len(self.offences({"src/bihive/base/a.cpp": "\n" * 801})), 1)
+
+    def test_this_project(self):
+        self.assertEqual(check_includes.offences(SOURCE.resolve()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,121 @@
+// Prints one line for each of a set of small pictures: what it is, and the hash of its pixels.
+//
+// Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
+// with each other, and fails where a picture differs. The pictures: the three scenarios, the four spheres and the
+// bundled molecule; recursion 1 to 5, every view, the sRGB curve, shadows, several samples.
+#include <cinttypes>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/io/bundled.h"
+#include "bihive/io/read_spheres.h"
+#include "bihive/render/renderer.h"
+#include "bihive/scene/framing.h"
+#include "bihive/scene/generators.h"
+#include "bihive/scene/palette.h"
+
+namespace {
+
+using bihive::Engine;
+using bihive::View;
+
+constexpr int kWidthPx = 96;
+constexpr int kHeightPx = 72;
+
+struct NamedView {
+  const char* name;
+  View view;
+};
+constexpr NamedView kViews[] = {{"recursion", View::recursion},
+                                {"traversal", View::traversal},
+                                {"normal", View::normal},
+                                {"distance", View::distance},
+                                {"id", View::id}};
+
+struct NamedEngine {
+  const char* name;
+  Engine engine;
+};
+constexpr NamedEngine kEngines[] = {{"reference", Engine::reference}, {"brute", Engine::brute}};
+
+// The bundled molecule as the program shows it: coloured by element, framed, white background, with shadows.
+bihive::Result<bihive::Scene> molecule_scene() {
+  auto file = bihive::read_spheres_from_memory(bihive::bundled_molecule(), "1hpv.pdb", {});
+  if (!file) return file.error();
+  bihive::Scene scene;
+  scene.name = "molecule";
+  scene.spheres = std::move(file->spheres);
+  bihive::colour_spheres(scene.spheres);
+  scene.camera = bihive::frame_spheres(scene.spheres, bihive::ViewFrom::front, 30, kWidthPx, kHeightPx);
+  scene.lights = {bihive::light_behind(scene.camera)};
+  return scene;
+}
+
+// Prints the picture's line. False if the picture cannot be made, or depends on engine or threads.
+bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted, const char* view_name) {
+  bool good = true;
+  bool have_first = false;
+  std::uint64_t first = 0;
+  for (const auto& [engine_name, engine] : kEngines) {
+    // Brute force has no tree, and so no picture of its traversal.
+    if (wanted.view == View::traversal && engine == Engine::brute) continue;
+    const bihive::Tracer tracer(scene.spheres, engine, {});
+    for (const int threads : {1, 4}) {
+      bihive::RenderSettings settings = wanted;
+      settings.threads = threads;
+      const auto rendered = bihive::render(scene, tracer, settings);
+      if (!rendered) {
+        std::fprintf(stderr, "%s: %s\n", scene.name.c_str(), rendered.error().to_string().c_str());
+        return false;
+      }
+      const std::uint64_t hash =
+          bihive::picture_hash(bihive::image_from_film(rendered->film, settings.view, scene.picture.transfer));
+      std::printf("%s view %s recursion %d samples %d engine %s threads %d: %016" PRIx64 "\n", scene.name.c_str(),
+                  view_name, settings.recursion, settings.samples_per_pixel, engine_name, threads, hash);
+      if (!have_first) first = hash;
+      have_first = true;
+      if (hash != first) {
+        std::fprintf(stderr, "%s view %s recursion %d: engine %s with %d threads makes another picture\n",
+                     scene.name.c_str(), view_name, settings.recursion, engine_name, threads);
+        good = false;
+      }
+    }
+  }
+  return good;
+}
+
+// All pictures of one scene.
+bool print_hashes(const bihive::Scene& scene) {
+  bool good = true;
+  bihive::RenderSettings settings = bihive::settings_from(scene.picture);
+  settings.width_px = kWidthPx;
+  settings.height_px = kHeightPx;
+  for (int recursion = 1; recursion <= 5; ++recursion) {
+    settings.recursion = recursion;
+    good = print_hash(scene, settings, "shaded") && good;
+  }
+  for (const auto& [name, view] : kViews) {
+    settings.view = view;
+    good = print_hash(scene, settings, name) && good;
+  }
+  return good;
+}
+
+}  // namespace
+
+int main() {
+  bool good = true;
+  bihive::ScenarioParameters parameters;
+  parameters.count = 256;
+  for (const auto scenario : {bihive::Scenario::grid, bihive::Scenario::corners, bihive::Scenario::mixed}) {
+    const auto scene = bihive::scenario_scene(scenario, parameters);
+    good = scene && print_hashes(*scene) && good;
+  }
+  good = print_hashes(bihive::four_spheres_scene()) && good;
+  const auto molecule = molecule_scene();
+  if (!molecule) std::fprintf(stderr, "%s\n", molecule.error().to_string().c_str());
+  good = molecule && print_hashes(*molecule) && good;
+  return good ? 0 : 1;
+}
