@@ -1,6 +1,7 @@
 #include "bihive/geometry/sphere_set.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 
 namespace bihive {
@@ -9,13 +10,19 @@ namespace {
 // Radii below this share of the extent are stated: their squares still fit binary32, but little else does.
 constexpr double kVanishingShare = 0x1p-60;
 
+// Brings the smallest number of binary32, 2^-149, to 1. A binary64 file may hold smaller sets, but no ray can see them,
+// and a larger scale could overflow.
+constexpr int kLargestScaleExponent = 149;
+
 template <class T>
 std::int64_t bytes_of(const std::vector<T>& array) {
   return static_cast<std::int64_t>(array.capacity() * sizeof(T));
 }
 
 Error bad_sphere(std::size_t i, const std::string& what, double value) {
-  return {"sphere " + std::to_string(i) + ": " + what + " is " + std::to_string(value), "", 0, 0, ""};
+  char number[40];
+  std::snprintf(number, sizeof number, "%.9g", value);
+  return {"sphere " + std::to_string(i) + ": " + what + " is " + number, "", 0, 0, ""};
 }
 
 }  // namespace
@@ -45,7 +52,7 @@ Result<SphereSet> SphereSet::make(const std::vector<T>& x, const std::vector<T>&
   // Choose the power of two that brings that bound into [1/2, 1], and round once.
   SphereSet set;
   if (extent > 0) std::frexp(extent, &set.scale_exponent_);
-  set.scale_exponent_ = -set.scale_exponent_;
+  set.scale_exponent_ = std::min(-set.scale_exponent_, kLargestScaleExponent);
   const double scale = set.scale();
   const auto round = [scale](const std::vector<T>& world) {
     std::vector<float> stored(world.size());

@@ -64,7 +64,7 @@ class SphereSet {
   }
 
   int scale_exponent() const { return scale_exponent_; }
-  /// stored = world * scale(); a power of two, exact in binary64 (2^-128 to 2^149).
+  /// stored = world * scale(); a power of two, exact in binary64 (2^-129 to 2^149).
   double scale() const { return std::ldexp(1.0, scale_exponent_); }
 
   /// World units.

@@ -1,0 +1,132 @@
+#include "bihive/geometry/sphere.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bihive/geometry/hit.h"
+#include "bihive/geometry/plane.h"
+
+namespace bihive {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+double hit(const Ray& ray, Vec3d centre, double radius, std::int64_t id = 0) {
+  return sphere_hit(ScaledRay(ray, 1), id, centre, radius);
+}
+
+TEST(Sphere, IsHitAtTheNearRoot) {
+  EXPECT_EQ(hit({{0, 0, 10}, {0, 0, -1}}, {0, 0, 0}, 1), 9);
+}
+
+TEST(Sphere, CountsTInLengthsOfTheDirection) {
+  EXPECT_EQ(hit({{0, 0, 10}, {0, 0, -2}}, {0, 0, 0}, 1), 4.5);
+  EXPECT_EQ(hit({{0, 0, 10}, {0, 0, -0.125f}}, {0, 0, 0}, 1), 72);
+}
+
+TEST(Sphere, IsHitAtTheFarRootFromInside) {
+  EXPECT_EQ(hit({{0, 0, 0.5f}, {0, 0, -1}}, {0, 0, 0}, 1), 1.5);
+}
+
+TEST(Sphere, IsMissedBehindTheRayAndBesideIt) {
+  EXPECT_EQ(hit({{0, 0, 10}, {0, 0, 1}}, {0, 0, 0}, 1), kInf);
+  EXPECT_EQ(hit({{2, 0, 10}, {0, 0, -1}}, {0, 0, 0}, 1), kInf);
+}
+
+TEST(Sphere, IsHitOnceByATangent) {
+  const SphereRoots roots = sphere_roots(ScaledRay({{1, 0, 10}, {0, 0, -1}}, 1), {0, 0, 0}, 1);
+  EXPECT_EQ(roots.t_near, 10);
+  EXPECT_EQ(roots.t_far, 10);
+  const float beside = std::nextafter(1.0f, 2.0f);
+  EXPECT_EQ(hit({{beside, 0, 10}, {0, 0, -1}}, {0, 0, 0}, 1), kInf);
+}
+
+TEST(Sphere, BothEndsOfTheSegmentCount) {
+  Ray ray{{0, 0, 10}, {0, 0, -1}};
+  ray.t_max = 9;
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1), 9);
+  ray.t_max = std::nextafter(9.0, 0.0);
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1), kInf);
+  ray.t_min = 9;
+  ray.t_max = kInf;
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1), 9);
+  ray.t_min = std::nextafter(9.0, 10.0);
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1), 11) << "the near root lies before the segment: the far one counts";
+  ray.t_min = ray.t_max = 11;
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1), 11);
+  ray.t_min = std::nextafter(11.0, 12.0);
+  ray.t_max = kInf;
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1), kInf);
+}
+
+TEST(Sphere, ANegativeSegmentLooksBack) {
+  Ray ray{{0, 0, 10}, {0, 0, 1}};
+  ray.t_min = -kInf;
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1), -11);
+}
+
+TEST(Sphere, OfRadiusZeroIsNeverHit) {
+  EXPECT_EQ(hit({{0, 0, 10}, {0, 0, -1}}, {0, 0, 0}, 0), kInf);
+  EXPECT_EQ(hit({{0, 0, 0}, {0, 0, -1}}, {0, 0, 0}, 0), kInf);
+}
+
+TEST(Sphere, ThatTheRayLeavesOutwardIsSkipped) {
+  Ray ray{{0, 0, 0.5f}, {0, 0, -1}};
+  ray.leaves = 7;
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 7), kInf);
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 8), 1.5) << "another sphere in the same place is not skipped";
+}
+
+TEST(Sphere, ThatTheRayGoesIntoIsMetAtTheFarRootAlone) {
+  // The start lies a little outside, as a rounded point of the surface may.
+  Ray ray{{0, 0, 1.0001f}, {0, 0, -1}};
+  ray.leaves = 7;
+  ray.inside = true;
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 7), double(1.0001f) + 1);
+  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 8), double(1.0001f) - 1);
+}
+
+TEST(Sphere, SmallAndFarIsNotLost) {
+  // Radius 0.001 seen from distance 100, at 0.999999 and 1.000001 radii: binary32 could not tell these apart.
+  const double radius = double(0.001f);
+  EXPECT_LT(hit({{0, 0, 100}, {0, 0, -1}}, {radius * 0.999999, 0, 0}, radius), 100);
+  EXPECT_EQ(hit({{0, 0, 100}, {0, 0, -1}}, {radius * 1.000001, 0, 0}, radius), kInf);
+}
+
+TEST(Hit, OfEqualTKeepsTheSmallerId) {
+  Hit best;
+  EXPECT_FALSE(best.found());
+  best.keep_nearer(kInf, 0);
+  EXPECT_FALSE(best.found()) << "no hit is no candidate";
+  best.keep_nearer(2, 5);
+  best.keep_nearer(2, 7);
+  EXPECT_EQ(best.sphere_id, 5);
+  best.keep_nearer(2, 3);
+  EXPECT_EQ(best.sphere_id, 3);
+  best.keep_nearer(1, 9);
+  EXPECT_EQ(best.sphere_id, 9);
+  EXPECT_EQ(best.t, 1);
+}
+
+TEST(Plane, IsHitFromBothSidesInsideTheSegmentOnly) {
+  const Plane ground{{0, -20, 0}, {0, 1, 0}};
+  Ray ray{{3, 10, 4}, {0, -2, 0}};
+  EXPECT_EQ(plane_hit(ray, ground), 15);
+  EXPECT_EQ(plane_hit({{3, -25, 4}, {1, 5, 0}}, ground), 1);
+  EXPECT_EQ(plane_hit({{3, 10, 4}, {0, 1, 0}}, ground), kInf);
+  EXPECT_EQ(plane_hit({{3, 10, 4}, {1, 0, 0}}, ground), kInf) << "parallel";
+  EXPECT_EQ(plane_hit({{3, -20, 4}, {1, 0, 0}}, ground), kInf) << "inside the plane";
+  ray.t_max = 15;
+  EXPECT_EQ(plane_hit(ray, ground), 15);
+  ray.t_max = std::nextafter(15.0, 0.0);
+  EXPECT_EQ(plane_hit(ray, ground), kInf);
+  ray = {{3, -20, 4}, {0, 1, 0}};
+  EXPECT_EQ(plane_hit(ray, ground), 0);
+  ray.leaves = kPlane;
+  EXPECT_EQ(plane_hit(ray, ground), kInf);
+}
+
+}  // namespace
+}  // namespace bihive
