@@ -1,0 +1,88 @@
+// Small pictures of every scene, recursion depth and view, kept pixel by pixel.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "bihive/io/bundled.h"
+#include "bihive/io/read_spheres.h"
+#include "bihive/render/renderer.h"
+#include "bihive/scene/framing.h"
+#include "bihive/scene/generators.h"
+#include "bihive/scene/palette.h"
+#include "support/golden.h"
+
+namespace bihive {
+namespace {
+
+constexpr int kWidth = 96;
+constexpr int kHeight = 72;
+
+Image picture_of(const Scene& scene, View view, int recursion, const BuildParameters& parameters, int samples) {
+  const Tracer tracer(scene.spheres, Engine::reference, parameters);
+  RenderSettings settings = settings_from(scene.picture);
+  settings.width_px = kWidth;
+  settings.height_px = kHeight;
+  settings.view = view;
+  settings.recursion = recursion;
+  settings.samples_per_pixel = samples;
+  Result<Rendered> rendered = render(scene, tracer, settings);
+  return image_from_film(rendered.value().film, view, scene.picture.transfer);
+}
+
+Scene scene_of(const std::string& name) {
+  if (name == "four-spheres") return four_spheres_scene();
+  ScenarioParameters parameters;
+  parameters.count = 512;
+  return scenario_scene(static_cast<Scenario>(name.back() - '0'), parameters).value();
+}
+
+class Scenes : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Scenes, recursion_depths_1_to_5) {
+  const Scene scene = scene_of(GetParam());
+  for (int depth = 1; depth <= 5; ++depth)
+    testing::expect_golden(GetParam() + "-recursion" + std::to_string(depth),
+                           picture_of(scene, View::shaded, depth, {}, 1));
+}
+
+TEST_P(Scenes, views) {
+  const Scene scene = scene_of(GetParam());
+  const std::pair<View, const char*> views[] = {{View::recursion, "recursion"},
+                                                {View::traversal, "traversal"},
+                                                {View::normal, "normal"},
+                                                {View::distance, "distance"},
+                                                {View::id, "id"}};
+  for (const auto& [view, name] : views)
+    testing::expect_golden(GetParam() + "-view-" + name, picture_of(scene, view, 5, {}, 1));
+}
+
+INSTANTIATE_TEST_SUITE_P(all, Scenes, ::testing::Values("scenario1", "scenario2", "scenario3", "four-spheres"),
+                         [](const auto& info) { return info.param == "four-spheres" ? "four_spheres" : info.param; });
+
+TEST(Traversal, figure_4_3) {
+  // Scenario 1 with 64 spheres: one leaf, four leaves, all; and the same trees by the other parameter.
+  ScenarioParameters parameters;
+  parameters.count = 64;
+  const Scene scene = scenario_scene(Scenario::grid, parameters).value();
+  const auto draw = [&](std::int64_t max_prims, std::int64_t max_depth) {
+    return picture_of(scene, View::traversal, 1, {max_prims, max_depth}, 1);
+  };
+  testing::expect_golden("figure-4-3a", draw(1, 1));
+  testing::expect_golden("figure-4-3b", draw(1, 3));
+  testing::expect_golden("figure-4-3c", draw(1, kUnlimited));
+  testing::expect_golden("figure-4-3a", draw(kUnlimited, kUnlimited));
+  testing::expect_golden("figure-4-3e", draw(32, kUnlimited));
+}
+
+TEST(Molecule, bundled) {
+  Result<SphereFile> file = read_spheres_from_memory(bundled_molecule(), "1hpv.pdb", {});
+  Scene scene;
+  scene.spheres = std::move(file.value().spheres);
+  colour_spheres(scene.spheres);
+  scene.camera = frame_spheres(scene.spheres, ViewFrom::front, 30, kWidth, kHeight);
+  scene.lights = {light_behind(scene.camera)};
+  testing::expect_golden("molecule", picture_of(scene, View::shaded, 5, {}, 4));
+}
+
+}  // namespace
+}  // namespace bihive

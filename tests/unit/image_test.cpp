@@ -1,0 +1,101 @@
+// Transfer curves, hashes, differences and PNG files.
+#include "bihive/image/image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "bihive/base/write_file.h"
+#include "bihive/image/image_diff.h"
+#include "bihive/image/png.h"
+#include "bihive/image/transfer.h"
+#include "bihive/math/rng.h"
+
+namespace bihive {
+namespace {
+
+Image noise(int width, int height, std::uint64_t seed) {
+  Image image{width, height, {}};
+  SplitMix64 random(seed);
+  for (int i = 0; i < 3 * width * height; ++i) image.rgb.push_back(static_cast<std::uint8_t>(random.next()));
+  return image;
+}
+
+TEST(Transfer, known_values) {
+  // From the standard's formula, by hand: linear 0.5 is 188 of 255, 0.1 is 89, 0.2 is 124.
+  EXPECT_EQ(byte_from_radiance(0.5, Transfer::srgb), 188);
+  EXPECT_EQ(byte_from_radiance(0.1, Transfer::srgb), 89);
+  EXPECT_EQ(byte_from_radiance(0.2, Transfer::srgb), 124);
+  EXPECT_EQ(byte_from_radiance(0.1, Transfer::none), 26);
+  EXPECT_EQ(byte_from_radiance(0.2, Transfer::none), 51);
+}
+
+TEST(Transfer, clamps) {
+  for (const Transfer transfer : {Transfer::srgb, Transfer::none}) {
+    EXPECT_EQ(byte_from_radiance(-1, transfer), 0);
+    EXPECT_EQ(byte_from_radiance(7, transfer), 255);
+    EXPECT_EQ(byte_from_radiance(std::numeric_limits<double>::infinity(), transfer), 255);
+    EXPECT_EQ(byte_from_radiance(std::numeric_limits<double>::quiet_NaN(), transfer), 0);
+  }
+}
+
+TEST(Transfer, every_byte_comes_back) {
+  for (int byte = 0; byte < 256; ++byte)
+    EXPECT_EQ(byte_from_radiance(linear_from_srgb(byte / 255.0), Transfer::srgb), byte);
+}
+
+TEST(Hash, tells_pictures_and_shapes_apart) {
+  const Image image = noise(6, 4, 1);
+  Image turned = image;
+  std::swap(turned.width, turned.height);
+  Image other = image;
+  other.rgb[5] ^= 1;
+  EXPECT_EQ(picture_hash(image), picture_hash(noise(6, 4, 1)));
+  EXPECT_NE(picture_hash(image), picture_hash(turned));
+  EXPECT_NE(picture_hash(image), picture_hash(other));
+}
+
+TEST(Difference, counts_pixels_and_brightens) {
+  const Image image = noise(5, 5, 2);
+  EXPECT_EQ(difference_of(image, image).pixels, 0);
+  Image other = image;
+  other.rgb[0] = static_cast<std::uint8_t>(image.rgb[0] < 128 ? image.rgb[0] + 2 : image.rgb[0] - 2);
+  const ImageDifference difference = difference_of(image, other);
+  EXPECT_EQ(difference.pixels, 1);
+  EXPECT_EQ(difference.largest, 2);
+  EXPECT_EQ(difference.picture.rgb[0], 255);
+  EXPECT_FALSE(difference_of(image, noise(4, 5, 2)).same_size);
+}
+
+class PngFiles : public ::testing::Test {
+ protected:
+  const std::string path_ = ::testing::TempDir() + "bihive_image_test.png";
+  void TearDown() override { std::filesystem::remove(path_); }
+};
+
+TEST_F(PngFiles, come_back_with_their_text) {
+  const Image image = noise(37, 21, 3);
+  ASSERT_TRUE(write_png(path_, image, {{"Software", "bihive"}, {"Settings", "{\"a\": 1}"}}));
+  const Result<PngFile> file = read_png(path_);
+  ASSERT_TRUE(file) << file.error().to_string();
+  EXPECT_EQ(file->image.width, 37);
+  EXPECT_EQ(file->image.height, 21);
+  EXPECT_EQ(file->image.rgb, image.rgb);
+  ASSERT_EQ(file->text.size(), 2u);
+  EXPECT_EQ(file->text[1].first, "Settings");
+  EXPECT_EQ(file->text[1].second, "{\"a\": 1}");
+}
+
+TEST_F(PngFiles, cut_anywhere_are_errors) {
+  const std::string bytes = encode_png(noise(16, 16, 4), {}).value();
+  for (std::size_t size = 0; size < bytes.size(); size += 7) {
+    ASSERT_TRUE(write_file(path_, bytes.substr(0, size)));
+    EXPECT_FALSE(read_png(path_)) << size;
+  }
+}
+
+}  // namespace
+}  // namespace bihive
