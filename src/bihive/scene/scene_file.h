@@ -2,6 +2,7 @@
 // cannot say.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,8 @@ struct LoadedScene {
   Scene scene;
   bool has_camera = false;  ///< false: the caller frames the spheres
   bool has_lights = false;
+  std::int64_t frames = 1;         ///< frames or models in the sphere file that the document names
+  std::vector<std::string> rules;  ///< what the reader of that file did, a sentence each
   std::vector<std::string> warnings;
 };
 

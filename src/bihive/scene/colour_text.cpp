@@ -1,0 +1,53 @@
+#include "bihive/scene/colour_text.h"
+
+#include <cstdint>
+
+namespace bihive {
+namespace {
+
+struct NamedColour {
+  std::string_view name;
+  std::uint32_t rgb;
+};
+
+// The primaries and their mixtures at full strength, and some others as the web knows them [CSSColor4].
+constexpr NamedColour kNamedColours[] = {
+    {"white", 0xFFFFFF},  {"black", 0x000000},  {"grey", 0x808080}, {"red", 0xFF0000},     {"green", 0x00FF00},
+    {"blue", 0x0000FF},   {"yellow", 0xFFFF00}, {"cyan", 0x00FFFF}, {"magenta", 0xFF00FF}, {"orange", 0xFFA500},
+    {"purple", 0x800080}, {"brown", 0xA52A2A},  {"pink", 0xFFC0CB},
+};
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::optional<std::uint32_t> bytes_from_text(std::string_view text) {
+  for (const NamedColour& named : kNamedColours)
+    if (named.name == text) return named.rgb;
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  std::uint32_t rgb = 0;
+  for (const char c : text.substr(1)) {
+    const int digit = hex_digit(c);
+    if (digit < 0) return std::nullopt;
+    rgb = rgb * 16 + static_cast<std::uint32_t>(digit);
+  }
+  return rgb;
+}
+
+}  // namespace
+
+std::optional<Vec3d> colour_from_text(std::string_view text, Transfer transfer) {
+  const std::optional<std::uint32_t> rgb = bytes_from_text(text);
+  if (!rgb) return std::nullopt;
+  Vec3d colour;
+  for (int channel = 0; channel < 3; ++channel) {
+    const double screen = ((*rgb >> (16 - 8 * channel)) & 0xFF) / 255.0;
+    colour[channel] = transfer == Transfer::srgb ? linear_from_srgb(screen) : screen;
+  }
+  return colour;
+}
+
+}  // namespace bihive

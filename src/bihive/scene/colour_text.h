@@ -1,0 +1,21 @@
+// Colours as people write them: "#rrggbb" or a name.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "bihive/image/transfer.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// The linear radiance that appears on the screen as the text says: each byte v is v / 255 under the transfer `none`,
+/// and that taken through the inverse of the sRGB curve under `srgb`. Nothing if the text is neither "#rrggbb" nor one
+/// of kColourNames.
+std::optional<Vec3d> colour_from_text(std::string_view text, Transfer transfer);
+
+/// For messages: every name that colour_from_text() knows.
+constexpr std::string_view kColourNames =
+    "white, black, grey, red, green, blue, yellow, cyan, magenta, orange, purple, brown, pink";
+
+}  // namespace bihive

@@ -1,0 +1,283 @@
+#include "bihive/scene/scene_file.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bihive/scene/colour_text.h"
+#include "bihive/scene/scene_json.h"
+
+namespace bihive {
+namespace {
+
+using nlohmann::json;
+
+// Turns a document that the schema accepts into a scene. The first thing that a schema cannot see but that is wrong all
+// the same is kept in `error`, and what follows it does not matter any more.
+class Extraction {
+ public:
+  Extraction(const json& document, const std::string& name, const ReadOptions& options)
+      : document_(document), name_(name), options_(options) {}
+
+  Result<LoadedScene> run() {
+    Scene& scene = loaded_.scene;
+    scene.name = document_.value("name", name_);
+    if (document_.contains("seed")) scene.seed = document_.at("seed").get<std::uint64_t>();
+    take_picture();
+    take_materials();
+    take_camera();
+    take_lights();
+    take_plane();
+    if (document_.contains("background")) scene.background = colour(document_.at("background"));
+    if (failed_.message.empty()) take_spheres();
+    if (!failed_.message.empty()) return failed_;
+    return std::move(loaded_);
+  }
+
+ private:
+  void fail(const std::string& pointer, const std::string& what, const std::string& hint = "") {
+    if (failed_.message.empty()) failed_ = Error{pointer + ": " + what, name_, 0, 0, hint};
+  }
+
+  static Vec3d vector(const json& value) {
+    return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+  }
+
+  Vec3d colour(const json& value) const {
+    if (value.is_array()) return vector(value);
+    return *colour_from_text(value.get_ref<const std::string&>(), loaded_.scene.picture.transfer);
+  }
+
+  // The picture comes first, because its transfer says what a text colour means.
+  void take_picture() {
+    if (!document_.contains("picture")) return;
+    const json& value = document_.at("picture");
+    PictureDefaults& picture = loaded_.scene.picture;
+    picture.width_px = value.value("width_px", picture.width_px);
+    picture.height_px = value.value("height_px", picture.height_px);
+    picture.samples_per_pixel = value.value("samples_per_pixel", picture.samples_per_pixel);
+    picture.recursion = value.value("recursion", picture.recursion);
+    picture.shadows = value.value("shadows", picture.shadows);
+    picture.transfer = value.value("transfer", std::string("srgb")) == "srgb" ? Transfer::srgb : Transfer::none;
+  }
+
+  Material material(const json& value, const std::string& pointer) {
+    Material made = matte_material();
+    if (value.contains("colour")) made.colour = colour(value.at("colour"));
+    made.ambient = value.value("ambient", made.ambient);
+    made.diffuse = value.value("diffuse", made.diffuse);
+    made.reflective = value.value("reflective", made.reflective);
+    made.specular = value.value("specular", made.specular);
+    made.power = value.value("power", made.power);
+    made.transmissive = value.value("transmissive", made.transmissive);
+    made.refraction_index = value.value("refraction_index", made.refraction_index);
+    if (made.transmissive > 0 && !(made.refraction_index > 0))
+      fail(pointer + "/refraction_index", "expected a number above 0, because transmissive is above 0, found 0");
+    return made;
+  }
+
+  void take_materials() {
+    if (!document_.contains("materials")) return;
+    const json& values = document_.at("materials");
+    std::vector<Material>& materials = loaded_.scene.materials;
+    materials.clear();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string pointer = "/materials/" + std::to_string(i);
+      const std::string& material_name = values[i].at("name").get_ref<const std::string&>();
+      if (!position_of_material_.emplace(material_name, static_cast<std::int32_t>(i)).second)
+        fail(pointer + "/name", "another material is called \"" + material_name + "\" too");
+      materials.push_back(material(values[i], pointer));
+    }
+  }
+
+  // A material's position from its name or its position.
+  std::int32_t material_position(const json& value, const std::string& pointer) {
+    const std::size_t count = loaded_.scene.materials.size();
+    if (value.is_string()) {
+      const auto known = position_of_material_.find(value.get_ref<const std::string&>());
+      if (known != position_of_material_.end()) return known->second;
+      fail(pointer, "no material is called \"" + value.get<std::string>() + "\"", known_materials());
+    } else if (value.get<std::uint64_t>() < count) {
+      return value.get<std::int32_t>();
+    } else {
+      fail(pointer,
+           "expected a material's position from 0 to " + std::to_string(count - 1) + ", found " + value.dump());
+    }
+    return 0;
+  }
+
+  std::string known_materials() const {
+    constexpr std::size_t kMost = 12;
+    std::string names;
+    for (const auto& [known, position] : position_of_material_) {
+      if (static_cast<std::size_t>(std::count(names.begin(), names.end(), ',')) + 1 == kMost) return names + ", ...";
+      names += (names.empty() ? "known materials: " : ", ") + known;
+    }
+    return names.empty() ? "the document has no materials" : names;
+  }
+
+  void take_camera() {
+    loaded_.has_camera = document_.contains("camera");
+    if (!loaded_.has_camera) return;
+    const json& value = document_.at("camera");
+    Camera& camera = loaded_.scene.camera;
+    camera.eye = vector(value.at("eye"));
+    camera.look_at = vector(value.at("look_at"));
+    if (value.contains("up")) camera.up = vector(value.at("up"));
+    camera.fov_deg = value.value("fov_deg", camera.fov_deg);
+    const Status status = check_camera(camera);
+    if (!status) fail("/camera", status.error().message, status.error().hint);
+  }
+
+  void take_lights() {
+    loaded_.has_lights = document_.contains("lights");
+    if (!loaded_.has_lights) return;
+    for (const json& value : document_.at("lights")) {
+      PointLight light{vector(value.at("position"))};
+      if (value.contains("colour")) light.colour = colour(value.at("colour"));
+      loaded_.scene.lights.push_back(light);
+    }
+  }
+
+  void take_plane() {
+    if (!document_.contains("plane")) return;
+    const json& value = document_.at("plane");
+    ScenePlane plane;
+    plane.plane.point = vector(value.at("point"));
+    // Scale the normal by its largest component first, so that its length neither overflows nor underflows.
+    Vec3d normal = vector(value.at("normal"));
+    const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    if (largest == 0) return fail("/plane/normal", "expected a vector of a length above 0, found [0, 0, 0]");
+    // A normal whose length is 1 up to rounding is kept as it is: what was written is read again.
+    const bool unit = std::abs(dot(normal, normal) - 1) < 1e-15;
+    plane.plane.normal = unit ? normal : normalized(normal / largest);
+    plane.material = loaded_.scene.materials.front();
+    if (value.contains("material")) {
+      const json& described = value.at("material");
+      const std::string pointer = "/plane/material";
+      if (described.is_object())
+        plane.material = material(described, pointer);
+      else
+        plane.material = loaded_.scene.materials[static_cast<std::size_t>(material_position(described, pointer))];
+    }
+    if (value.contains("checker")) {
+      const json& described = value.at("checker");
+      Checker checker;
+      checker.size = described.at("size").get<double>();
+      checker.second_colour = colour(described.at("second_colour"));
+      checker.fade_distance = described.value("fade_distance", checker.fade_distance);
+      plane.checker = checker;
+    }
+    loaded_.scene.plane = plane;
+  }
+
+  void take_spheres() {
+    const json& value = document_.at("spheres");
+    if (value.is_array())
+      take_inline_spheres(value);
+    else
+      take_sphere_file(value);
+  }
+
+  void take_inline_spheres(const json& values) {
+    if (options_.frame != 0)
+      return fail("/spheres",
+                  "there is no frame " + std::to_string(options_.frame) + ": the spheres are in the document");
+    if (options_.recenter) loaded_.warnings.push_back("spheres inside a scene file are never recentred");
+
+    // Go through all of them; one that leaves its colour, opacity or material out gets what it would have anyway.
+    const std::size_t n = values.size();
+    std::vector<double> x(n), y(n), z(n), r(n);
+    std::vector<std::int32_t> materials(n, 0);
+    std::vector<Vec3f> colours;
+    std::vector<float> opacities;
+    std::vector<bool> coloured(n, false);
+    for (std::size_t i = 0; i < n; ++i) {
+      const json& value = values[i];
+      const bool plain = value.is_array();
+      const json& centre = plain ? value : value.at("centre");
+      x[i] = centre.at(0).get<double>();
+      y[i] = centre.at(1).get<double>();
+      z[i] = centre.at(2).get<double>();
+      r[i] = options_.radius_scale *
+             (options_.radius ? *options_.radius : (plain ? value.at(3) : value.at("radius")).get<double>());
+      const std::string pointer = "/spheres/" + std::to_string(i);
+      if (plain && value.size() > 4) materials[i] = material_position(value.at(4), pointer + "/4");
+      if (plain) continue;
+      if (value.contains("material")) materials[i] = material_position(value.at("material"), pointer + "/material");
+      if (value.contains("colour")) {
+        colours.resize(n);
+        colours[i] = to_float(colour(value.at("colour")));
+        coloured[i] = true;
+      }
+      if (value.contains("opacity")) {
+        opacities.resize(n, 1.0f);
+        opacities[i] = value.at("opacity").get<float>();
+      }
+    }
+    if (!failed_.message.empty()) return;
+    Scene& scene = loaded_.scene;
+    for (std::size_t i = 0; i < colours.size(); ++i)
+      if (!coloured[i]) colours[i] = to_float(scene.materials[static_cast<std::size_t>(materials[i])].colour);
+
+    // Make the set.
+    Result<SphereSet> spheres = SphereSet::from_world(x, y, z, r);
+    if (!spheres) return fail("/spheres", spheres.error().message, spheres.error().hint);
+    scene.spheres = std::move(*spheres);
+    scene.spheres.attributes().colour = std::move(colours);
+    scene.spheres.attributes().opacity = std::move(opacities);
+    if (std::any_of(materials.begin(), materials.end(), [](std::int32_t position) { return position != 0; }))
+      scene.material_of_sphere = std::move(materials);
+  }
+
+  void take_sphere_file(const json& value) {
+    // What the caller asks for goes before what the document says.
+    ReadOptions options = options_;
+    if (!options.radius && value.contains("radius")) options.radius = value.at("radius").get<double>();
+    options.radius_scale *= value.value("radius_scale", 1.0);
+    options.recenter = options.recenter || value.value("recenter", false);
+    if (options.frame == 0) options.frame = value.value("frame", std::int64_t{0});
+
+    // A relative path starts from the document's folder.
+    std::string path = value.at("file").get<std::string>();
+    const std::size_t slash = name_.rfind('/');
+    if (path.front() != '/' && slash != std::string::npos) path = name_.substr(0, slash + 1) + path;
+    Result<SphereFile> file = read_spheres(path, options);
+    if (!file) return fail("/spheres/file", file.error().to_string());
+
+    Scene& scene = loaded_.scene;
+    scene.spheres = std::move(file->spheres);
+    loaded_.frames = file->frames;
+    loaded_.rules = std::move(file->rules);
+    for (const std::string& warning : file->warnings) loaded_.warnings.push_back(path + ": " + warning);
+    if (!value.contains("material")) return;
+    const std::int32_t position = material_position(value.at("material"), "/spheres/material");
+    if (position != 0) scene.material_of_sphere.assign(static_cast<std::size_t>(scene.spheres.size()), position);
+  }
+
+  const json& document_;
+  const std::string& name_;
+  const ReadOptions& options_;
+  LoadedScene loaded_;
+  std::map<std::string, std::int32_t> position_of_material_;
+  Error failed_;
+};
+
+}  // namespace
+
+Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, const ReadOptions& options) {
+  const Result<json> document = parse_json(text, name);
+  if (!document) return document.error();
+  const Status status = check_against_schema(*document, name);
+  if (!status) return status.error();
+  return Extraction(*document, name, options).run();
+}
+
+bool looks_like_scene(std::string_view bytes) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (bytes.substr(0, kByteOrderMark.size()) == kByteOrderMark) bytes.remove_prefix(kByteOrderMark.size());
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && bytes[first] == '{';
+}
+
+}  // namespace bihive

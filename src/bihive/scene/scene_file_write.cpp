@@ -1,0 +1,114 @@
+// The other half of scene_file.h: from a scene to its document.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "bihive/scene/scene_file.h"
+
+namespace bihive {
+namespace {
+
+// The shortest text that reads as the same number again. JSON knows -0 as a fraction only.
+std::string number(double value) {
+  return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
+}
+
+// The same for a stored coordinate in world units: it has 24 bits, so that fewer digits do.
+std::string coordinate(double world) {
+  const float rounded = static_cast<float>(world);
+  return std::isnormal(rounded) && double(rounded) == world ? fmt::format("{}", rounded) : number(world);
+}
+
+std::string vector(Vec3d v) {
+  return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
+}
+
+std::string text(const std::string& value) {
+  return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// The members of a material, without braces.
+std::string members(const Material& m) {
+  return fmt::format(
+      R"("colour": {}, "ambient": {}, "diffuse": {}, "reflective": {}, "specular": {}, "power": {}, "transmissive": {}, "refraction_index": {})",
+      vector(m.colour), number(m.ambient), number(m.diffuse), number(m.reflective), number(m.specular), number(m.power),
+      number(m.transmissive), number(m.refraction_index));
+}
+
+void write_materials(const Scene& scene, std::string& out) {
+  out += "  \"materials\": [\n";
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    out += fmt::format("    {{\"name\": \"material {}\", {}}}{}\n", i, members(scene.materials[i]),
+                       i + 1 < scene.materials.size() ? "," : "");
+  out += "  ],\n";
+}
+
+void write_plane(const ScenePlane& plane, std::string& out) {
+  out += fmt::format("  \"plane\": {{\n    \"point\": {}, \"normal\": {},\n    \"material\": {{{}}}",
+                     vector(plane.plane.point), vector(plane.plane.normal), members(plane.material));
+  if (plane.checker)
+    out += fmt::format(",\n    \"checker\": {{\"size\": {}, \"second_colour\": {}, \"fade_distance\": {}}}",
+                       number(plane.checker->size), vector(plane.checker->second_colour),
+                       number(plane.checker->fade_distance));
+  out += "\n  },\n";
+}
+
+void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
+  const std::size_t i = static_cast<std::size_t>(id);
+  const SphereSet& spheres = scene.spheres;
+  const SphereAttributes& attributes = spheres.attributes();
+  const Vec3d centre = spheres.centre(id);
+  const std::string xyz = coordinate(centre.x) + ", " + coordinate(centre.y) + ", " + coordinate(centre.z);
+  const std::string radius = coordinate(spheres.radius(id));
+  const std::int32_t material = scene.material_of_sphere.empty() ? 0 : scene.material_of_sphere[i];
+  if (attributes.colour.empty() && attributes.opacity.empty()) {
+    out += "    [" + xyz + ", " + radius + (material == 0 ? "" : fmt::format(", {}", material)) + "]";
+    return;
+  }
+  out += fmt::format("    {{\"centre\": [{}], \"radius\": {}", xyz, radius);
+  if (material != 0) out += fmt::format(", \"material\": {}", material);
+  if (!attributes.colour.empty()) {
+    const Vec3f colour = attributes.colour[i];
+    out += fmt::format(", \"colour\": [{}, {}, {}]", colour.x, colour.y, colour.z);
+  }
+  if (!attributes.opacity.empty()) out += fmt::format(", \"opacity\": {}", attributes.opacity[i]);
+  out += "}";
+}
+
+}  // namespace
+
+std::string scene_to_json(const Scene& scene) {
+  const Camera& camera = scene.camera;
+  const PictureDefaults& picture = scene.picture;
+  std::string out = "{\n  \"bihive_scene\": 1,\n";
+  if (!scene.name.empty()) out += "  \"name\": " + text(scene.name) + ",\n";
+  if (scene.seed) out += fmt::format("  \"seed\": {},\n", *scene.seed);
+  out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}}},\n",
+                     vector(camera.eye), vector(camera.look_at), vector(camera.up), number(camera.fov_deg));
+  out += "  \"lights\": [";
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    out += fmt::format("{}{{\"position\": {}, \"colour\": {}}}", i == 0 ? "" : ", ", vector(scene.lights[i].position),
+                       vector(scene.lights[i].colour));
+  out += "],\n";
+  write_materials(scene, out);
+  if (scene.plane) write_plane(*scene.plane, out);
+  out += "  \"background\": " + vector(scene.background) + ",\n";
+  out += fmt::format(
+      "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
+      "\"shadows\": {}, \"transfer\": \"{}\"}},\n",
+      picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
+      picture.transfer == Transfer::srgb ? "srgb" : "none");
+  out += "  \"spheres\": [\n";
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+    write_sphere(scene, id, out);
+    out += id + 1 < scene.spheres.size() ? ",\n" : "\n";
+  }
+  out += "  ]\n}\n";
+  return out;
+}
+
+}  // namespace bihive
