@@ -22,7 +22,7 @@ class Extraction {
   Result<LoadedScene> run() {
     Scene& scene = loaded_.scene;
     scene.name = document_.value("name", name_);
-    if (document_.contains("seed")) scene.seed = document_.at("seed").get<std::uint64_t>();
+    take_seed();
     take_picture();
     take_materials();
     take_camera();
@@ -46,6 +46,15 @@ class Extraction {
   Vec3d colour(const json& value) const {
     if (value.is_array()) return vector(value);
     return *colour_from_text(value.get_ref<const std::string&>(), loaded_.scene.picture.transfer);
+  }
+
+  void take_seed() {
+    if (!document_.contains("seed")) return;
+    const json& value = document_.at("seed");
+    if (value.is_number_unsigned())
+      loaded_.scene.seed = value.get<std::uint64_t>();
+    else
+      fail("/seed", "expected a whole number from 0 to 18446744073709551615, found " + value.dump());
   }
 
   // The picture comes first, because its transfer says what a text colour means.

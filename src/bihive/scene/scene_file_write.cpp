@@ -17,10 +17,12 @@ std::string number(double value) {
   return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
 }
 
-// The same for a stored coordinate in world units: it has 24 bits, so that fewer digits do.
+// The same for a stored coordinate in world units: it has 24 bits, so that fewer digits do. (Not where they could round
+// up to more than binary32 holds.)
 std::string coordinate(double world) {
   const float rounded = static_cast<float>(world);
-  return std::isnormal(rounded) && double(rounded) == world ? fmt::format("{}", rounded) : number(world);
+  return std::isnormal(rounded) && double(rounded) == world && std::abs(world) < 3.4e38 ? fmt::format("{}", rounded)
+                                                                                        : number(world);
 }
 
 std::string vector(Vec3d v) {
