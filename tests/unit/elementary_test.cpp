@@ -52,7 +52,8 @@ TEST(Elementary, pow_as_shading_uses_it) {
     const double y = random.next_double() * 100;
     const long double expected = std::pow((long double)x, (long double)y);
     if (expected < 1e-300L) continue;
-    ASSERT_LT(std::abs(portable_pow(x, y) - expected), 1e-15L * (1 + std::abs(y * std::log2((long double)x))) * expected)
+    ASSERT_LT(std::abs(portable_pow(x, y) - expected),
+              1e-15L * (1 + std::abs(y * std::log2((long double)x))) * expected)
         << x << ' ' << y;
   }
   EXPECT_EQ(portable_pow(0, 40), 0);

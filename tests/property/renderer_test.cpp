@@ -1,0 +1,132 @@
+// The same picture bit for bit: any number of threads, tree or brute force, and trees of any parameters.
+#include "bihive/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <mutex>
+
+#include "bihive/scene/generators.h"
+
+namespace bihive {
+namespace {
+
+RenderSettings small(const Scene& scene, View view, int threads) {
+  RenderSettings settings = settings_from(scene.picture);
+  settings.width_px = 70;
+  settings.height_px = 50;
+  settings.samples_per_pixel = 2;
+  settings.view = view;
+  settings.threads = threads;
+  return settings;
+}
+
+void expect_same_bits(const Film& a, const Film& b) {
+  ASSERT_EQ(a.radiance.size(), b.radiance.size());
+  EXPECT_EQ(std::memcmp(a.radiance.data(), b.radiance.data(), a.radiance.size() * sizeof(Vec3f)), 0);
+}
+
+class EveryScene : public ::testing::TestWithParam<int> {
+ protected:
+  Scene scene() const {
+    if (GetParam() == 4) return four_spheres_scene();
+    return scenario_scene(static_cast<Scenario>(GetParam()), {150, 2, 3}).value();
+  }
+};
+
+TEST_P(EveryScene, threads_do_not_show) {
+  const Scene drawn = scene();
+  const Tracer tracer(drawn.spheres, Engine::reference, {});
+  for (const View view : {View::shaded, View::recursion, View::traversal, View::normal, View::distance, View::id}) {
+    const Result<Rendered> one = render(drawn, tracer, small(drawn, view, 1));
+    for (const int threads : {2, 7}) {
+      const Result<Rendered> many = render(drawn, tracer, small(drawn, view, threads));
+      expect_same_bits(one->film, many->film);
+      EXPECT_EQ(one->rays.reflected, many->rays.reflected);
+      EXPECT_EQ(one->rays.primary, 70 * 50 * 2);
+    }
+  }
+}
+
+TEST_P(EveryScene, brute_force_and_every_tree_agree) {
+  Scene drawn = scene();
+  for (const bool shadows : {false, true}) {
+    drawn.picture.shadows = shadows;
+    for (const View view : {View::shaded, View::recursion, View::normal, View::distance, View::id}) {
+      const Tracer brute(drawn.spheres, Engine::brute, {});
+      const Result<Rendered> expected = render(drawn, brute, small(drawn, view, 2));
+      for (const BuildParameters parameters :
+           {BuildParameters{1, kUnlimited}, {8, kUnlimited}, {1, 3}, {kUnlimited, kUnlimited}}) {
+        const Tracer tracer(drawn.spheres, Engine::reference, parameters);
+        expect_same_bits(expected->film, render(drawn, tracer, small(drawn, view, 2))->film);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(scenes, EveryScene, ::testing::Values(1, 2, 3, 4));
+
+TEST(Renderer, a_picture_in_other_units_is_the_same_picture) {
+  // Everything times a power of two: every step of the way scales exactly.
+  const auto draw = [](double unit) {
+    Scene scene = thesis_scene_without_spheres();
+    scene.plane.reset();
+    std::vector<double> x{-8, 8, 0, 2}, y{-10, -10, 4, -9}, z{-4, -4, -6, 12}, r{7.5, 7.5, 7.5, 5};
+    for (std::vector<double>* values : {&x, &y, &z, &r})
+      for (double& value : *values) value *= unit;
+    scene.spheres = SphereSet::from_world(x, y, z, r).value();
+    scene.material_of_sphere = {0, 0, 0, 1};
+    scene.camera.eye = scene.camera.eye * unit;
+    scene.lights[0].position = scene.lights[0].position * unit;
+    const Tracer tracer(scene.spheres, Engine::reference, {});
+    return render(scene, tracer, small(scene, View::shaded, 1)).value().film;
+  };
+  const Film expected = draw(1);
+  expect_same_bits(expected, draw(0x1p-66));
+  expect_same_bits(expected, draw(0x1p66));
+}
+
+TEST(Renderer, progress_ends_at_1_and_cancelling_stops) {
+  const Scene scene = four_spheres_scene();
+  const Tracer tracer(scene.spheres, Engine::reference, {});
+  double last = 0;
+  const auto watch = [&](double done) { last = std::max(last, done); };
+  ASSERT_TRUE(render(scene, tracer, small(scene, View::distance, 1), watch));
+  EXPECT_EQ(last, 1);
+
+  CancelToken cancel;
+  int calls = 0;
+  const auto stop = [&](double) {
+    ++calls;
+    cancel.cancel();
+  };
+  EXPECT_FALSE(render(scene, tracer, small(scene, View::shaded, 1), stop, &cancel));
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(Renderer, the_traversal_view_needs_a_tree) {
+  const Scene scene = four_spheres_scene();
+  const Tracer tracer(scene.spheres, Engine::brute, {});
+  EXPECT_FALSE(render(scene, tracer, small(scene, View::traversal, 1)));
+}
+
+TEST(Renderer, samples_cover_the_pixel_evenly) {
+  // Four samples must fall into four quarters of the pixel; one into its centre. A vertical edge through pixels shows
+  // it.
+  Scene scene = four_spheres_scene();
+  scene.plane.reset();
+  const Tracer tracer(scene.spheres, Engine::reference, {});
+  RenderSettings settings = small(scene, View::shaded, 1);
+  settings.samples_per_pixel = 4;
+  const Result<Rendered> four = render(scene, tracer, settings);
+  settings.samples_per_pixel = 64;
+  const Result<Rendered> many = render(scene, tracer, settings);
+  double difference = 0;
+  for (std::size_t i = 0; i < four->film.radiance.size(); ++i)
+    difference += std::abs(double(four->film.radiance[i].x) - double(many->film.radiance[i].x));
+  EXPECT_LT(difference / static_cast<double>(four->film.radiance.size()), 0.01);
+}
+
+}  // namespace
+}  // namespace bihive

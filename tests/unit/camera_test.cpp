@@ -1,0 +1,115 @@
+// Pixel rays and automatic framing.
+#include "bihive/scene/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bihive/math/rng.h"
+#include "bihive/scene/framing.h"
+
+namespace bihive {
+namespace {
+
+TEST(PixelRays, centre_looks_ahead_and_the_angle_spans_the_shorter_side) {
+  const Camera camera{{0, 0, 100}, {0, 0, 0}, {0, 1, 0}, 30};
+  const PixelRays wide(camera, 200, 100);
+  EXPECT_EQ(wide.at(100, 50).direction, (Vec3f{0, 0, -1}));
+  EXPECT_EQ(wide.at(100, 50).origin, (Vec3f{0, 0, 100}));
+  const Vec3d top = to_double(wide.at(100, 0).direction);
+  EXPECT_NEAR(top.y / -top.z, std::tan(15 * std::acos(-1.0) / 180), 1e-6);
+  const PixelRays tall(camera, 100, 200);
+  const Vec3d right = to_double(tall.at(100, 100).direction);
+  EXPECT_NEAR(right.x / -right.z, std::tan(15 * std::acos(-1.0) / 180), 1e-6);
+  EXPECT_GT(right.x, 0) << "x grows to the right";
+}
+
+TEST(PixelRays, directions_have_length_1) {
+  const PixelRays rays({{3, 1, 2}, {-4, 5, 6}, {0, 0, 1}, 100}, 64, 48);
+  for (int y = 0; y < 48; y += 5)
+    for (int x = 0; x < 64; x += 5) EXPECT_NEAR(length(to_double(rays.at(x, y).direction)), 1, 1e-7);
+}
+
+TEST(CheckCamera, names_what_is_wrong) {
+  const Camera good;
+  EXPECT_TRUE(check_camera(good));
+  Camera camera = good;
+  camera.look_at = camera.eye;
+  EXPECT_FALSE(check_camera(camera));
+  camera = good;
+  camera.up = {0, 0, 5};
+  EXPECT_FALSE(check_camera(camera)) << "parallel to the view";
+  camera = good;
+  camera.up = {0, 0, 0};
+  EXPECT_FALSE(check_camera(camera));
+  for (const double fov : {0.0, 180.0, -3.0, std::numeric_limits<double>::quiet_NaN()}) {
+    camera = good;
+    camera.fov_deg = fov;
+    EXPECT_FALSE(check_camera(camera)) << fov;
+  }
+  camera = good;
+  camera.eye.x = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(check_camera(camera));
+}
+
+// Every sphere's silhouette must lie inside the picture, and one must come close to its border.
+class Framing : public ::testing::TestWithParam<std::tuple<ViewFrom, double>> {};
+
+TEST_P(Framing, whole_set_in_view_and_as_large_as_it_fits) {
+  const auto [from, unit] = GetParam();
+  SplitMix64 random(7);
+  std::vector<double> x, y, z, r;
+  for (int i = 0; i < 100; ++i) {
+    x.push_back(unit * (random.next_double() * 3 + 50));
+    y.push_back(unit * random.next_double());
+    z.push_back(unit * random.next_double() * 2);
+    r.push_back(unit * random.next_double() * 0.2);
+  }
+  const SphereSet set = SphereSet::from_world(x, y, z, r).value();
+  const Camera camera = frame_spheres(set, from, 30, 320, 200);
+  ASSERT_TRUE(check_camera(camera));
+
+  const Vec3d forward = normalized(camera.look_at - camera.eye);
+  const Vec3d right = normalized(cross(forward, camera.up));
+  const Vec3d up = cross(right, forward);
+  const double tangent = std::tan(15 * std::acos(-1.0) / 180);
+  double used = 0;
+  for (std::int64_t id = 0; id < set.size(); ++id) {
+    const Vec3d c = set.centre(id) - camera.eye;
+    const double depth = dot(c, forward);
+    ASSERT_GT(depth, set.radius(id));
+    // The angle of a sphere's silhouette on either side, in the plane of the axis and the view.
+    for (const auto& [axis, limit] : {std::pair{right, tangent * 320 / 200}, std::pair{up, tangent}}) {
+      const double flat = std::hypot(depth, dot(c, axis));
+      const double edge = std::tan(std::atan2(std::abs(dot(c, axis)), depth) + std::asin(set.radius(id) / flat));
+      ASSERT_LE(edge, limit) << id;
+      used = std::max(used, edge / limit);
+    }
+  }
+  EXPECT_GT(used, 0.9);
+}
+
+INSTANTIATE_TEST_SUITE_P(sides, Framing,
+                         ::testing::Combine(::testing::Values(ViewFrom::front, ViewFrom::back, ViewFrom::left,
+                                                              ViewFrom::right, ViewFrom::top, ViewFrom::bottom,
+                                                              ViewFrom::iso),
+                                            ::testing::Values(1.0, 1e-20, 1e20)));
+
+TEST(Framing, single_points_and_empty_sets_are_seen_from_somewhere) {
+  EXPECT_TRUE(check_camera(frame_spheres({}, ViewFrom::iso, 30, 4, 3)));
+  const SphereSet point = SphereSet::from_world(std::vector<double>{5}, {6}, {7}, {0}).value();
+  const Camera camera = frame_spheres(point, ViewFrom::front, 30, 4, 3);
+  EXPECT_TRUE(check_camera(camera));
+  EXPECT_EQ(camera.look_at, (Vec3d{5, 6, 7}));
+}
+
+TEST(Light, is_above_left_and_behind) {
+  const PointLight light = light_behind({{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 30});
+  EXPECT_LT(light.position.x, 0);
+  EXPECT_GT(light.position.y, 0);
+  EXPECT_GT(light.position.z, 10);
+}
+
+}  // namespace
+}  // namespace bihive

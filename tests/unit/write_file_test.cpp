@@ -1,0 +1,81 @@
+// Files come into being whole or not at all.
+#include "bihive/base/write_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+namespace bihive {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WriteFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "bihive_write_XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string in(const std::string& name) const { return folder_ + "/" + name; }
+  std::set<std::string> names() const {
+    std::set<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder_)) found.insert(entry.path().filename());
+    return found;
+  }
+  std::string folder_;
+};
+
+TEST_F(WriteFile, writes_and_replaces) {
+  ASSERT_TRUE(write_file(in("a"), "first"));
+  ASSERT_TRUE(write_file(in("a"), "second"));
+  EXPECT_EQ(read_file(in("a")).value(), "second");
+  EXPECT_EQ(names(), std::set<std::string>{"a"});
+}
+
+TEST_F(WriteFile, follows_a_link_and_keeps_the_mode) {
+  ASSERT_TRUE(write_file(in("real"), "old"));
+  ASSERT_EQ(chmod(in("real").c_str(), 0640), 0);
+  fs::create_symlink("real", in("link"));
+  ASSERT_TRUE(write_file(in("link"), "new"));
+  EXPECT_TRUE(fs::is_symlink(in("link")));
+  EXPECT_EQ(read_file(in("real")).value(), "new");
+  struct stat info {};
+  ASSERT_EQ(stat(in("real").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0640u);
+}
+
+TEST_F(WriteFile, says_what_is_wrong_and_leaves_nothing) {
+  fs::create_directory(in("folder"));
+  const Status folder = write_file(in("folder"), "x");
+  ASSERT_FALSE(folder);
+  EXPECT_NE(folder.error().to_string().find("is a folder"), std::string::npos);
+  const Status missing = write_file(in("no/such"), "x");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().to_string().find(in("no")), std::string::npos);
+  EXPECT_FALSE(check_writable(in("no/such")));
+  EXPECT_FALSE(write_file("", "x"));
+  EXPECT_EQ(names(), std::set<std::string>{"folder"});
+}
+
+TEST_F(WriteFile, a_full_disk_is_an_error) {
+  const Status full = write_file("/dev/full", "x");
+  ASSERT_FALSE(full);
+  EXPECT_NE(full.error().to_string().find("No space left"), std::string::npos);
+  EXPECT_TRUE(write_file("/dev/null", "x")) << "a device is written to, not replaced";
+  EXPECT_FALSE(fs::is_regular_file("/dev/null"));
+}
+
+TEST_F(WriteFile, reading_says_what_is_wrong) {
+  EXPECT_FALSE(read_file(in("none")));
+  const Result<std::string> folder = read_file(folder_);
+  ASSERT_FALSE(folder);
+  EXPECT_NE(folder.error().to_string().find("is a folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bihive
