@@ -33,6 +33,10 @@ if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}" MATCHES "-ffast-math|-Ofast|-
 endif()
 
 target_compile_options(bihive_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 sees overlaps in string concatenations where there are none (GCC bug 105651).
+  target_compile_options(bihive_options INTERFACE -Wno-restrict)
+endif()
 if(BIHIVE_WERROR)
   target_compile_options(bihive_options INTERFACE -Werror)
 endif()
