@@ -57,7 +57,9 @@ TEST_P(Scenes, views) {
 }
 
 INSTANTIATE_TEST_SUITE_P(all, Scenes, ::testing::Values("scenario1", "scenario2", "scenario3", "four-spheres"),
-                         [](const auto& info) { return info.param == "four-spheres" ? "four_spheres" : info.param; });
+                         [](const auto& scene) {
+                           return scene.param == "four-spheres" ? "four_spheres" : scene.param;
+                         });
 
 TEST(Traversal, figure_4_3) {
   // Scenario 1 with 64 spheres: one leaf, four leaves, all; and the same trees by the other parameter.
