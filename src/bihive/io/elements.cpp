@@ -1,0 +1,24 @@
+#include "bihive/io/elements.h"
+
+#include <gemmi/elem.hpp>
+
+namespace bihive {
+
+int atomic_number(std::string_view symbol) {
+  // gemmi looks at two characters only, and takes a blank for a part of a symbol: check them first.
+  if (symbol.empty() || symbol.size() > 2) return 0;
+  char text[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < symbol.size(); ++i) {
+    const char c = symbol[i];
+    if (!((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'))) return 0;
+    text[i] = c;
+  }
+  return gemmi::Element(text).atomic_number();
+}
+
+double van_der_waals_radius(int atomic_number) {
+  if (atomic_number < 1 || atomic_number > 118) return 0;
+  return double(gemmi::Element(atomic_number).vdw_r());
+}
+
+}  // namespace bihive

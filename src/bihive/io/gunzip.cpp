@@ -1,0 +1,82 @@
+#include "bihive/io/gunzip.h"
+
+#include <algorithm>
+
+#if BIHIVE_HAS_ZLIB
+#include <zlib.h>
+#endif
+
+namespace bihive {
+
+bool looks_gzipped(std::string_view bytes) {
+  return bytes.substr(0, 2) == "\x1f\x8b";
+}
+
+#if BIHIVE_HAS_ZLIB
+
+namespace {
+
+// zlib's state, ended whatever happens.
+struct Inflater {
+  z_stream stream{};
+  bool ready;
+  Inflater() {
+    constexpr int kGzipOnly = 16;
+    ready = inflateInit2(&stream, kGzipOnly + MAX_WBITS) == Z_OK;
+  }
+  ~Inflater() {
+    if (ready) inflateEnd(&stream);
+  }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+};
+
+}  // namespace
+
+Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
+  const auto bad = [&name](const std::string& what) { return Error{what, name, 0, 0, ""}; };
+  Inflater inflater;
+  if (!inflater.ready) return bad("there is no memory left to undo gzip");
+  z_stream& stream = inflater.stream;
+
+  // zlib counts in 32 bits: feed it piece by piece, and let it write into a buffer of fixed size.
+  constexpr std::size_t kPiece = std::size_t{1} << 30;
+  std::string unpacked, buffer(std::size_t{1} << 18, '\0');
+  std::size_t fed = 0;
+  for (;;) {
+    if (stream.avail_in == 0) {
+      const std::size_t piece = std::min(kPiece, bytes.size() - fed);
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + fed));
+      stream.avail_in = static_cast<uInt>(piece);
+      fed += piece;
+    }
+    stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
+    stream.avail_out = static_cast<uInt>(buffer.size());
+    const int state = inflate(&stream, Z_NO_FLUSH);
+    unpacked.append(buffer.data(), buffer.size() - stream.avail_out);
+    if (state == Z_OK) continue;
+    if (state == Z_BUF_ERROR) {
+      if (fed < bytes.size()) continue;
+      return bad("the gzip data is cut: it ends before its end mark");
+    }
+    if (state != Z_STREAM_END)
+      return bad("the gzip data is damaged" + (stream.msg ? ": " + std::string(stream.msg) : std::string()));
+
+    // Behind a member comes another, or padding, or nothing.
+    std::string_view rest = bytes.substr(fed - stream.avail_in);
+    if (rest.find_first_not_of('\0') == std::string_view::npos) return unpacked;
+    if (!looks_gzipped(rest)) return bad("the gzip data is damaged: something else follows its end mark");
+    inflateReset(&stream);
+  }
+}
+
+#else
+
+Result<std::string> gunzip(std::string_view, const std::string& name) {
+  return Error{"this build of bihive cannot undo gzip, as it was made without zlib", name, 0, 0,
+               "unpack the file first"};
+}
+
+#endif
+
+}  // namespace bihive

@@ -1,0 +1,266 @@
+// mmCIF by gemmi's grammar of CIF. Its actions are replaced by ours, which keep the _atom_site category only, in file
+// order, and know where every value stands.
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <gemmi/cif.hpp>
+#include <iterator>
+#include <unordered_map>
+
+#include "bihive/io/alternates.h"
+#include "bihive/io/elements.h"
+#include "bihive/io/parse_number.h"
+#include "bihive/io/readers.h"
+#include "bihive/io/text_scanner.h"
+
+namespace bihive {
+namespace {
+
+// The items of _atom_site that are read.
+enum Item {
+  kX,
+  kY,
+  kZ,
+  kGroup,
+  kElement,
+  kOccupancy,
+  kBFactor,
+  kModel,
+  kAlternate,
+  kInsertion,
+  kAuthChain,
+  kAuthSequence,
+  kAuthAtom,
+  kLabelChain,
+  kLabelSequence,
+  kLabelAtom,
+  kItems
+};
+constexpr std::string_view kItemNames[kItems] = {
+    "cartn_x",      "cartn_y",           "cartn_z",        "group_pdb",
+    "type_symbol",  "occupancy",         "b_iso_or_equiv", "pdbx_pdb_model_num",
+    "label_alt_id", "pdbx_pdb_ins_code", "auth_asym_id",   "auth_seq_id",
+    "auth_atom_id", "label_asym_id",     "label_seq_id",   "label_atom_id"};
+
+// Thrown out of the grammar with an error that has its place.
+struct Stop {
+  Error error;
+};
+
+// A value as it stands in the file.
+struct Value {
+  std::string_view text;
+  std::size_t line = 0, column = 0;
+
+  bool missing() const { return text.empty() || text == "?" || text == "."; }
+  std::string_view unquoted() const {
+    const bool quoted = text.size() >= 2 && (text[0] == '\'' || text[0] == '"') && text.back() == text[0];
+    return quoted ? text.substr(1, text.size() - 2) : text;
+  }
+};
+
+using Row = std::array<Value, kItems>;
+
+int item_of(std::string_view tag) {
+  constexpr std::string_view category = "_atom_site.";
+  const std::string lower = lower_case(tag);
+  if (lower.compare(0, category.size(), category) != 0) return kItems;
+  const auto found = std::find(std::begin(kItemNames), std::end(kItemNames), lower.substr(category.size()));
+  return static_cast<int>(found - std::begin(kItemNames));
+}
+
+// Takes the values of _atom_site as the grammar meets them.
+class AtomSites {
+ public:
+  AtomSites(const std::string& file, std::int64_t frame) : file_(file), frame_(frame) {
+    spheres_.format = "mmCIF";
+    spheres_.attributes.numbers = {{"occupancy", {}}, {"b_factor", {}}};
+  }
+
+  // The first block that has atoms is the only one that is read.
+  void begin_block() {
+    add_atom(pair_row_);
+    pair_row_ = {};
+    done_ = done_ || atoms_ > 0;
+  }
+
+  void begin_loop() {
+    columns_.clear();
+    column_ = 0;
+    row_ = {};
+    ours_ = false;
+  }
+  void add_loop_tag(std::string_view tag) {
+    columns_.push_back(item_of(tag));
+    ours_ = ours_ || columns_.back() != kItems;
+  }
+  void add_loop_value(const Value& value) {
+    if (!ours_) return;
+    const int item = columns_[column_];
+    if (item != kItems) row_[static_cast<std::size_t>(item)] = value;
+    if (++column_ < columns_.size()) return;
+    column_ = 0;
+    add_atom(row_);
+  }
+
+  // A single atom may stand outside a loop, as pairs of tag and value.
+  void add_pair_tag(std::string_view tag) { pair_item_ = item_of(tag); }
+  void add_pair_value(const Value& value) {
+    if (pair_item_ != kItems) pair_row_[static_cast<std::size_t>(pair_item_)] = value;
+  }
+
+  Result<RawSpheres> finish() {
+    begin_block();
+    if (atoms_ == 0)
+      return Error{"there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it", file_, 0, 0,
+                   "crystal files with fractional coordinates are not read"};
+    const auto models = static_cast<std::int64_t>(model_of_name_.size());
+    if (frame_ < 0 || frame_ >= models) return no_such_frame(file_, frame_, models);
+    spheres_.frames = models;
+    spheres_.rules.push_back("atoms: ATOM and HETATM of model " + std::to_string(frame_) + " (from 0)");
+    alternates_.remove_from(spheres_);
+    return std::move(spheres_);
+  }
+
+ private:
+  [[noreturn]] void stop(const Value& at, const std::string& what) const {
+    throw Stop{{what, file_, static_cast<std::int64_t>(at.line), static_cast<std::int64_t>(at.column), ""}};
+  }
+
+  double number(const Value& value, const std::string& what) const {
+    // A standard uncertainty may follow in brackets: 1.234(5).
+    std::string_view digits = value.unquoted();
+    if (!digits.empty() && digits.back() == ')') digits = digits.substr(0, digits.find('('));
+    const auto parsed = parse_double(digits);
+    if (!parsed) stop(value, "expected a number for " + what + " but found " + quote(value.text));
+    return *parsed;
+  }
+
+  double coordinate(const Value& value, const std::string& what) const {
+    const double parsed = number(value, what);
+    if (const char* fault = coordinate_fault(parsed)) stop(value, what + " " + fault + ": " + quote(value.text));
+    return parsed;
+  }
+
+  void add_atom(const Row& row) {
+    if (done_ || row[kX].text.empty() || row[kY].text.empty() || row[kZ].text.empty()) return;
+
+    // Take atoms of one model only.
+    ++atoms_;
+    const auto next_model = static_cast<std::int64_t>(model_of_name_.size());
+    const auto model = model_of_name_.try_emplace(std::string(row[kModel].text), next_model).first->second;
+    if (model != frame_) return;
+    spheres_.x.push_back(coordinate(row[kX], "Cartn_x"));
+    spheres_.y.push_back(coordinate(row[kY], "Cartn_y"));
+    spheres_.z.push_back(coordinate(row[kZ], "Cartn_z"));
+    spheres_.attributes.element.push_back(static_cast<std::uint8_t>(atomic_number(row[kElement].unquoted())));
+    const double occupancy = row[kOccupancy].missing() ? 1 : number(row[kOccupancy], "occupancy");
+    const double b_factor = row[kBFactor].missing() ? 0 : number(row[kBFactor], "B_iso_or_equiv");
+    spheres_.attributes.numbers[0].values.push_back(occupancy);
+    spheres_.attributes.numbers[1].values.push_back(b_factor);
+
+    // An atom site is named by its chain, residue number with insertion code, and name: the author's, else the label's.
+    const std::string_view mark = row[kAlternate].unquoted();
+    if (row[kAlternate].missing() || mark.empty()) return;
+    const auto name = [&row](Item author, Item label) {
+      return std::string(row[row[author].missing() ? label : author].unquoted()) + ' ';
+    };
+    const std::string site = name(kAuthChain, kLabelChain) + name(kAuthSequence, kLabelSequence) +
+                             std::string(row[kInsertion].text) + ' ' + name(kAuthAtom, kLabelAtom);
+    alternates_.add(site, mark.front(), occupancy, spheres_.size() - 1);
+  }
+
+  std::string file_;
+  std::int64_t frame_;
+  bool done_ = false;
+  std::vector<int> columns_;  // of the loop: items, kItems where not ours
+  std::size_t column_ = 0;
+  bool ours_ = false;  // some column of the loop is
+  Row row_{};
+  int pair_item_ = kItems;
+  Row pair_row_{};
+  std::int64_t atoms_ = 0;  // of all models
+  std::unordered_map<std::string, std::int64_t> model_of_name_;
+  RawSpheres spheres_;
+  Alternates alternates_;
+};
+
+// What happens where a rule of the grammar matched.
+namespace rules = gemmi::cif::rules;
+template <class Rule>
+struct Action : tao::pegtl::nothing<Rule> {};
+
+template <class Input>
+Value value_of(const Input& in) {
+  return {{in.begin(), in.size()}, in.iterator().line, in.iterator().column};
+}
+template <>
+struct Action<rules::datablockname> {
+  template <class Input>
+  static void apply(const Input&, AtomSites& sites) {
+    sites.begin_block();
+  }
+};
+template <>
+struct Action<rules::str_global> {
+  template <class Input>
+  static void apply(const Input&, AtomSites& sites) {
+    sites.begin_block();
+  }
+};
+template <>
+struct Action<rules::str_loop> {
+  template <class Input>
+  static void apply(const Input&, AtomSites& sites) {
+    sites.begin_loop();
+  }
+};
+template <>
+struct Action<rules::loop_tag> {
+  template <class Input>
+  static void apply(const Input& in, AtomSites& sites) {
+    sites.add_loop_tag({in.begin(), in.size()});
+  }
+};
+template <>
+struct Action<rules::loop_value> {
+  template <class Input>
+  static void apply(const Input& in, AtomSites& sites) {
+    sites.add_loop_value(value_of(in));
+  }
+};
+template <>
+struct Action<rules::item_tag> {
+  template <class Input>
+  static void apply(const Input& in, AtomSites& sites) {
+    sites.add_pair_tag({in.begin(), in.size()});
+  }
+};
+template <>
+struct Action<rules::item_value> {
+  template <class Input>
+  static void apply(const Input& in, AtomSites& sites) {
+    sites.add_pair_value(value_of(in));
+  }
+};
+
+}  // namespace
+
+Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, std::int64_t frame) {
+  AtomSites sites(file, frame);
+  try {
+    tao::pegtl::memory_input<> input(text.data(), text.size(), file);
+    tao::pegtl::parse<rules::file, Action, gemmi::cif::Errors>(input, sites);
+    return sites.finish();
+  } catch (const Stop& stop) {
+    return stop.error;
+  } catch (const tao::pegtl::parse_error& e) {
+    const tao::pegtl::position at = e.positions().empty() ? tao::pegtl::position(1, 1, 1, file) : e.positions().front();
+    return Error{"this is no CIF: " + std::string(e.message()), file, static_cast<std::int64_t>(at.line),
+                 static_cast<std::int64_t>(at.column), ""};
+  } catch (const std::exception& e) {
+    return Error{"reading CIF failed: " + std::string(e.what()), file, 0, 0, ""};
+  }
+}
+
+}  // namespace bihive

@@ -1,0 +1,135 @@
+// PDB, fixed columns [wwPDB-3.3]. Read directly rather than with gemmi's PDB reader, which sorts atoms into chains and
+// residues (file order is lost) and takes what is no number for 0; elements follow gemmi's rules and tables.
+#include <cmath>
+#include <limits>
+
+#include "bihive/io/alternates.h"
+#include "bihive/io/elements.h"
+#include "bihive/io/parse_number.h"
+#include "bihive/io/readers.h"
+#include "bihive/io/text_scanner.h"
+
+namespace bihive {
+namespace {
+
+// Columns first to last, counted from 1 as in the format's description; shorter where the line ends.
+std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
+  return first > line.size() ? std::string_view() : line.substr(first - 1, last - first + 1);
+}
+
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// The element from columns 77 and 78, else from the atom's name in columns 13 to 16, whose first two columns hold the
+// symbol flush right. A four-letter name that begins with H is a hydrogen; a digit beside a letter is no part of it.
+int element_of(std::string_view line) {
+  const std::string_view given = columns(line, 77, 78);
+  for (const char c : given)
+    if (is_letter(c)) return atomic_number(trim(given));
+  char name[4] = {' ', ' ', ' ', ' '};
+  columns(line, 13, 16).copy(name, 4);
+  if ((name[0] == 'H' || name[0] == 'h') && name[3] != ' ') return 1;
+  if (name[0] == ' ' || is_digit(name[0])) return atomic_number({&name[1], 1});
+  return atomic_number({name, is_letter(name[1]) ? std::size_t{2} : std::size_t{1}});
+}
+
+class PdbReader {
+ public:
+  PdbReader(std::string_view text, const std::string& file, std::int64_t frame) : scanner_(text, file), frame_(frame) {
+    spheres_.format = "PDB";
+    spheres_.attributes.numbers = {{"occupancy", {}}, {"b_factor", {}}};
+  }
+
+  Result<RawSpheres> read() {
+    // Models lie between MODEL and ENDMDL; simulations separate theirs by ENDMDL or END alone.
+    bool in_model = false;
+    std::int64_t models = 0;
+    while (scanner_.next_line()) {
+      const std::string_view record = scanner_.line().substr(0, 6);
+      if (record.substr(0, 4) == "ATOM" || record == "HETATM") {
+        if (!in_model) ++models;
+        in_model = true;
+        if (models - 1 != frame_) continue;
+        if (Status atom = read_atom(); !atom) return atom.error();
+      } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
+        in_model = false;
+      }
+    }
+    if (models == 0) return Error{"there is no ATOM or HETATM record in it", scanner_.file(), 0, 0, ""};
+    if (frame_ < 0 || frame_ >= models) return no_such_frame(scanner_.file(), frame_, models);
+    finish(models);
+    return std::move(spheres_);
+  }
+
+ private:
+  Status read_atom() {
+    // The place must be there.
+    const std::string_view line = scanner_.line();
+    std::vector<double>* const axes[3] = {&spheres_.x, &spheres_.y, &spheres_.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t first = 31 + 8 * axis;
+      const std::string name(1, static_cast<char>('x' + axis));
+      const std::string_view field = trim(columns(line, first, first + 7));
+      const auto value = parse_double(field);
+      const auto bad = [&](const std::string& what) {
+        return scanner_.column_error(static_cast<std::int64_t>(first), what);
+      };
+      if (!value)
+        return bad("expected a number for " + name + " in columns " + std::to_string(first) + " to " +
+                   std::to_string(first + 7) + " but found " + quote(field));
+      if (const char* fault = coordinate_fault(*value)) return bad(name + " " + fault + ": " + quote(field));
+      axes[axis]->push_back(*value);
+    }
+    spheres_.attributes.element.push_back(static_cast<std::uint8_t>(element_of(line)));
+
+    // Occupancy and B factor may be missing.
+    const double occupancy = optional_number(columns(line, 55, 60), 1);
+    spheres_.attributes.numbers[0].values.push_back(occupancy);
+    spheres_.attributes.numbers[1].values.push_back(optional_number(columns(line, 61, 66), 0));
+
+    // An atom site is named by its chain, residue number with insertion code, and name.
+    const char mark = line[16];
+    if (mark != ' ') {
+      const std::string site = std::string(columns(line, 21, 27)) + std::string(columns(line, 13, 16));
+      alternates_.add(site, mark, std::isnan(occupancy) ? 0 : occupancy, spheres_.size() - 1);
+    }
+    return Done{};
+  }
+
+  double optional_number(std::string_view field, double missing) {
+    field = trim(field);
+    if (field.empty()) return missing;
+    if (const auto value = parse_double(field)) return *value;
+    if (unreadable_++ == 0) first_unreadable_line_ = scanner_.line_number();
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  void finish(std::int64_t models) {
+    spheres_.frames = models;
+    spheres_.rules.push_back("atoms: ATOM and HETATM records of model " + std::to_string(frame_) + " (from 0)");
+    alternates_.remove_from(spheres_);
+    if (unreadable_ > 0)
+      spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_unreadable_line_) + ": " +
+                                  std::to_string(unreadable_) +
+                                  " occupancies or B factors are no numbers and are taken as unknown");
+  }
+
+  TextScanner scanner_;
+  std::int64_t frame_;
+  RawSpheres spheres_;
+  Alternates alternates_;
+  std::int64_t unreadable_ = 0;
+  std::int64_t first_unreadable_line_ = 0;
+};
+
+}  // namespace
+
+Result<RawSpheres> read_pdb(std::string_view text, const std::string& file, std::int64_t frame) {
+  return PdbReader(text, file, frame).read();
+}
+
+}  // namespace bihive

@@ -1,0 +1,26 @@
+#include "bihive/io/raw_spheres.h"
+
+#include <cmath>
+#include <limits>
+
+namespace bihive {
+
+Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames) {
+  const std::string have =
+      frames == 1 ? "1 frame (0)" : std::to_string(frames) + " frames (0 to " + std::to_string(frames - 1) + ")";
+  return {"there is no frame " + std::to_string(frame) + ": the file has " + have, file, 0, 0,
+          "choose one with --frame, counting from 0"};
+}
+
+const char* coordinate_fault(double value) {
+  if (!std::isfinite(value)) return "is not finite";
+  if (!(std::abs(value) <= double(std::numeric_limits<float>::max()))) return "is beyond single precision (3.4e38)";
+  return nullptr;
+}
+
+const char* radius_fault(double value) {
+  if (const char* fault = coordinate_fault(value)) return fault;
+  return value < 0 ? "is negative" : nullptr;
+}
+
+}  // namespace bihive

@@ -1,0 +1,62 @@
+#include "bihive/io/read_spheres.h"
+
+#include <exception>
+
+#include "bihive/base/write_file.h"
+#include "bihive/io/detect.h"
+#include "bihive/io/finish.h"
+#include "bihive/io/gunzip.h"
+#include "bihive/io/readers.h"
+
+namespace bihive {
+namespace {
+
+Result<RawSpheres> read_format(Format format, std::string_view bytes, const std::string& name, std::int64_t frame) {
+  switch (format) {
+    case Format::pdb:
+      return read_pdb(bytes, name, frame);
+    case Format::mmcif:
+      return read_mmcif(bytes, name, frame);
+    case Format::xyz:
+      return read_xyz(bytes, name, frame);
+    case Format::lammps_dump:
+      return read_lammps_dump(bytes, name, frame);
+    case Format::csv:
+      return read_csv(bytes, name, frame);
+    case Format::npy:
+      return read_npy(bytes, name, frame);
+  }
+  return Error{"unknown format", name, 0, 0, ""};
+}
+
+Result<SphereFile> read_unpacked(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  if (bytes.empty()) return Error{"the file is empty", name, 0, 0, ""};
+  const auto format = detect_format(bytes, name);
+  if (!format) return Error{"this is no file of spheres in a known format", name, 0, 0, "known are " + known_formats()};
+  Result<RawSpheres> raw = read_format(*format, bytes, name, options.frame);
+  if (!raw) return raw.error();
+  return finish_spheres(std::move(*raw), name, options);
+}
+
+}  // namespace
+
+Result<SphereFile> read_spheres_from_memory(std::string_view bytes, const std::string& name,
+                                            const ReadOptions& options) {
+  // Running out of memory is the one thing that the readers do not return as an error themselves.
+  try {
+    if (!looks_gzipped(bytes)) return read_unpacked(bytes, name, options);
+    Result<std::string> unpacked = gunzip(bytes, name);
+    if (!unpacked) return unpacked.error();
+    return read_unpacked(*unpacked, name, options);
+  } catch (const std::exception& e) {
+    return Error{"reading failed: " + std::string(e.what()), name, 0, 0, ""};
+  }
+}
+
+Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return read_spheres_from_memory(*bytes, path, options);
+}
+
+}  // namespace bihive

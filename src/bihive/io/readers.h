@@ -1,0 +1,34 @@
+// One reader a format. Each takes the whole file (already unpacked) and gives what it finds in the asked-for frame.
+//
+// `file` is the file's name for messages; `frame` counts from 0. None of them throws. Errors carry the line and, where
+// there is one, the column. docs/formats.md lists what each takes and what it leaves out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bihive/base/result.h"
+#include "bihive/io/raw_spheres.h"
+
+namespace bihive {
+
+/// Protein Data Bank, fixed columns: ATOM and HETATM records.
+Result<RawSpheres> read_pdb(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// mmCIF / PDBx: the _atom_site category of the first data block that has one.
+Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// XYZ and extended XYZ: a count, a comment, one line a sphere; any number of frames.
+Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// LAMMPS dump in text (styles atom and custom); any number of frames.
+Result<RawSpheres> read_lammps_dump(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// CSV with a header line, or plain `x y z [r]` lines. One frame.
+Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// NumPy array of n x 3 (x, y, z) or n x 4 (x, y, z, r). One frame.
+Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+}  // namespace bihive

@@ -1,0 +1,184 @@
+#include "bihive/io/sphere_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bihive/io/parse_number.h"
+
+namespace bihive {
+namespace {
+
+// Why a number cannot stand in a column of that role, or nullptr if it can.
+const char* number_fault(ColumnRole role, double value) {
+  switch (role) {
+    case ColumnRole::x:
+    case ColumnRole::y:
+    case ColumnRole::z:
+      return coordinate_fault(value);
+    case ColumnRole::radius:
+    case ColumnRole::diameter:
+      return radius_fault(value);
+    case ColumnRole::atomic_number:
+      return value >= 0 && value <= 118 && value == std::floor(value) ? nullptr : "is not one of 0 to 118";
+    case ColumnRole::red:
+    case ColumnRole::green:
+    case ColumnRole::blue:
+      return value >= 0 && value <= 255 ? nullptr : "is outside 0 to 255";
+    case ColumnRole::opacity:
+    case ColumnRole::transparency:
+      return value >= 0 && value <= 1 ? nullptr : "is outside 0 to 1";
+    default:
+      return nullptr;
+  }
+}
+
+bool holds_labels(ColumnRole role) {
+  return role == ColumnRole::species || role == ColumnRole::type;
+}
+
+}  // namespace
+
+ColumnRole usual_role(std::string_view name) {
+  static const std::unordered_map<std::string, ColumnRole> roles = {
+      {"x", ColumnRole::x},
+      {"y", ColumnRole::y},
+      {"z", ColumnRole::z},
+      {"radius", ColumnRole::radius},
+      {"diameter", ColumnRole::diameter},
+      {"element", ColumnRole::species},
+      {"symbol", ColumnRole::species},
+      {"species", ColumnRole::species},
+      {"atomic_number", ColumnRole::atomic_number},
+      {"type", ColumnRole::type},
+      {"red", ColumnRole::red},
+      {"green", ColumnRole::green},
+      {"blue", ColumnRole::blue},
+      {"opacity", ColumnRole::opacity},
+      {"transparency", ColumnRole::transparency},
+  };
+  const auto found = roles.find(lower_case(name));
+  return found == roles.end() ? ColumnRole::number : found->second;
+}
+
+SphereTable::SphereTable(const std::vector<TableColumn>& columns) {
+  for (const TableColumn& column : columns) {
+    columns_.emplace_back();
+    columns_.back().name = column.name;
+    columns_.back().role = column.role;
+  }
+}
+
+std::string SphereTable::columns_fault() const {
+  const auto count = [this](std::initializer_list<ColumnRole> roles) {
+    return std::count_if(columns_.begin(), columns_.end(), [roles](const Column& column) {
+      return std::find(roles.begin(), roles.end(), column.role) != roles.end();
+    });
+  };
+
+  // Exactly one of each axis.
+  const std::pair<ColumnRole, const char*> axes[3] = {{ColumnRole::x, "x"}, {ColumnRole::y, "y"}, {ColumnRole::z, "z"}};
+  for (const auto& [role, name] : axes) {
+    if (count({role}) == 0) return std::string("expected columns x, y and z, but there is no ") + name;
+    if (count({role}) > 1) return std::string("expected one column ") + name + " only";
+  }
+
+  // At most one of everything else.
+  if (count({ColumnRole::radius, ColumnRole::diameter}) > 1)
+    return "expected one column for the radius or diameter only";
+  if (count({ColumnRole::opacity, ColumnRole::transparency}) > 1) return "expected one column for the opacity only";
+  if (count({ColumnRole::species}) > 1 || count({ColumnRole::atomic_number}) > 1)
+    return "expected one column for the element only";
+  if (count({ColumnRole::type}) > 1) return "expected one column for the type only";
+
+  // A colour has all three of its parts.
+  const auto red = count({ColumnRole::red}), green = count({ColumnRole::green}), blue = count({ColumnRole::blue});
+  if (red != green || red != blue || red > 1) return "expected red, green and blue once each, or none of them";
+  return "";
+}
+
+std::string SphereTable::column_names() const {
+  std::string names;
+  for (const Column& column : columns_) names += (names.empty() ? "" : " ") + column.name;
+  return names;
+}
+
+void SphereTable::reserve(std::int64_t rows, std::int64_t bytes_left) {
+  // A field and the blank or the end of line behind it take two bytes at least.
+  const auto row_bytes = static_cast<std::int64_t>(2 * columns_.size());
+  const auto room = static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(rows, bytes_left / row_bytes + 1)));
+  for (Column& column : columns_) {
+    if (holds_labels(column.role))
+      column.label_of_row.reserve(room);
+    else if (column.role != ColumnRole::ignored)
+      column.values.reserve(room);
+  }
+}
+
+Status SphereTable::add_row(TextScanner& scanner) {
+  std::string_view field;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (!scanner.next_field(field)) return width_error(scanner, static_cast<std::int64_t>(i));
+    Column& column = columns_[i];
+    if (column.role == ColumnRole::ignored) continue;
+    if (holds_labels(column.role)) {
+      read_label(column, field);
+    } else if (Status read = read_number(column, field, scanner); !read) {
+      return read;
+    }
+  }
+  if (!more_fields_allowed_ && scanner.next_field(field))
+    return scanner.field_error("expected " + std::to_string(columns_.size()) + " columns (" + column_names() +
+                               ") but found one more: " + quote(field));
+  return Done{};
+}
+
+Status SphereTable::read_number(Column& column, std::string_view field, const TextScanner& scanner) {
+  if (column.is_text) return Done{};
+  const auto value = parse_double(field);
+
+  // A further column may have gaps, and may turn out to be text at its first entry.
+  if (!value && column.role == ColumnRole::number) {
+    if (field.empty()) {
+      column.values.push_back(std::numeric_limits<double>::quiet_NaN());
+      return Done{};
+    }
+    if (!column.has_number) {
+      column.is_text = true;
+      column.values = {};
+      return Done{};
+    }
+  }
+  if (!value) return scanner.field_error("expected a number for " + column.name + " but found " + quote(field));
+  if (const char* fault = number_fault(column.role, *value))
+    return scanner.field_error(column.name + " " + fault + ": " + quote(field));
+  column.has_number = true;
+  column.values.push_back(*value);
+  return Done{};
+}
+
+void SphereTable::read_label(Column& column, std::string_view field) {
+  // Neighbours often share their label.
+  if (!column.label_of_row.empty() && column.labels[std::size_t(column.label_of_row.back())] == field) {
+    column.label_of_row.push_back(column.label_of_row.back());
+    return;
+  }
+  const auto [entry, is_new] =
+      column.position_of_label.try_emplace(std::string(field), static_cast<std::int32_t>(column.labels.size()));
+  if (is_new) column.labels.emplace_back(field);
+  column.label_of_row.push_back(entry->second);
+}
+
+Status SphereTable::check_width(const TextScanner& scanner) const {
+  const std::int64_t found = scanner.count_fields();
+  if (found < static_cast<std::int64_t>(columns_.size())) return width_error(scanner, found);
+  return Done{};
+}
+
+Status SphereTable::width_error(const TextScanner& scanner, std::int64_t found) const {
+  return scanner.line_error("expected " + std::to_string(columns_.size()) + " columns (" + column_names() +
+                            ") but found " + std::to_string(found));
+}
+
+}  // namespace bihive

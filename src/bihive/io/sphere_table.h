@@ -1,0 +1,96 @@
+// Spheres from a table of text: one line a sphere, columns by name. What LAMMPS dumps, XYZ and CSV have in common.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/io/raw_spheres.h"
+#include "bihive/io/text_scanner.h"
+
+namespace bihive {
+
+/// What a column says of a sphere.
+enum class ColumnRole {
+  ignored,  ///< read over
+  x,        ///< centre
+  y,
+  z,
+  radius,
+  diameter,
+  atomic_number,
+  red,  ///< sRGB, 0 to 1 or 0 to 255 (take() tells which)
+  green,
+  blue,
+  opacity,       ///< 0 (clear) to 1
+  transparency,  ///< 1 - opacity
+  number,        ///< any number, kept under the column's name; a column of text is left out
+  species,       ///< an element's symbol, an atomic number (1 to 118), or any other label
+  type,          ///< a whole number, or a label
+};
+
+struct TableColumn {
+  std::string name;
+  ColumnRole role;
+};
+
+/// The role that a column's name stands for in most formats (upper or lower case): x, y, z, radius, diameter, element,
+/// symbol, species, atomic_number, type, red, green, blue, opacity, transparency; else `number`.
+ColumnRole usual_role(std::string_view name);
+
+class SphereTable {
+ public:
+  explicit SphereTable(const std::vector<TableColumn>& columns);
+
+  /// What keeps the columns from making spheres (no x, two radii ...), or an empty text.
+  std::string columns_fault() const;
+  /// "x y z radius"
+  std::string column_names() const;
+  /// Fields behind the last column are read over instead of being an error.
+  void allow_more_fields() { more_fields_allowed_ = true; }
+  /// Makes room for that many rows, but never for more than the text left can hold.
+  void reserve(std::int64_t rows, std::int64_t bytes_left);
+
+  /// Reads the scanner's line. Errors: too few fields or too many; a field that is no number where one is due; a
+  /// coordinate, radius, colour or opacity out of range.
+  Status add_row(TextScanner& scanner);
+  /// Checks the width of a line that is not read otherwise.
+  Status check_width(const TextScanner& scanner) const;
+
+  /// What was read, without `format`. Colours go from sRGB to linear; they are taken as 0 to 255 if any is above 1.
+  RawSpheres take() &&;
+
+ private:
+  struct Column {
+    std::string name;
+    ColumnRole role;
+    // Numbers.
+    std::vector<double> values;
+    bool has_number = false;
+    bool is_text = false;
+    // Labels: of each row the position in `labels`, which holds each once, in order of appearance.
+    std::vector<std::int32_t> label_of_row;
+    std::vector<std::string> labels;
+    std::unordered_map<std::string, std::int32_t> position_of_label;
+  };
+
+  static Status read_number(Column& column, std::string_view field, const TextScanner& scanner);
+  static void read_label(Column& column, std::string_view field);
+  static std::vector<std::int32_t> types_of(const Column& column);
+  Status width_error(const TextScanner& scanner, std::int64_t found) const;
+  const Column* find(ColumnRole role) const;
+  Column* find(ColumnRole role);
+  std::vector<double> take_values(ColumnRole role);
+  void take_radii(RawSpheres& spheres);
+  void take_elements(RawSpheres& spheres);
+  void take_colours(RawSpheres& spheres);
+  void take_numbers(RawSpheres& spheres);
+
+  std::vector<Column> columns_;
+  bool more_fields_allowed_ = false;
+};
+
+}  // namespace bihive

@@ -1,0 +1,152 @@
+#include "bihive/io/text_scanner.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace bihive {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+}  // namespace
+
+TextScanner::TextScanner(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text_.substr(0, 3) == byte_order_mark) text_.remove_prefix(3);
+}
+
+bool TextScanner::next_line() {
+  if (at_end()) return false;
+  // Find the end of the line.
+  const char* const begin = text_.data() + next_;
+  const std::size_t left = text_.size() - next_;
+  const void* const found = std::memchr(begin, '\n', left);
+  const std::size_t length = found ? static_cast<std::size_t>(static_cast<const char*>(found) - begin) : left;
+  next_ += found ? length + 1 : length;
+  ++line_number_;
+
+  whole_line_ = std::string_view(begin, length);
+  if (!whole_line_.empty() && whole_line_.back() == '\r') whole_line_.remove_suffix(1);
+  restart_line();
+  return true;
+}
+
+void TextScanner::restart_line() {
+  line_ = comment_ ? whole_line_.substr(0, whole_line_.find(comment_)) : whole_line_;
+  cursor_ = field_begin_ = 0;
+  more_fields_ = separator_ != kBlanks;
+}
+
+void TextScanner::set_separator(char separator) {
+  separator_ = separator;
+  restart_line();
+}
+
+void TextScanner::set_comment(char comment) {
+  comment_ = comment;
+  restart_line();
+}
+
+bool TextScanner::next_filled_line() {
+  while (next_line())
+    if (!trim(line_).empty()) return true;
+  return false;
+}
+
+bool TextScanner::skip_lines(std::int64_t count) {
+  for (; count > 0; --count)
+    if (!next_line()) return false;
+  return true;
+}
+
+bool TextScanner::next_field(std::string_view& field) {
+  if (separator_ != kBlanks) return next_quoted_field(field);
+  while (cursor_ < line_.size() && is_blank(line_[cursor_])) ++cursor_;
+  field_begin_ = cursor_;
+  while (cursor_ < line_.size() && !is_blank(line_[cursor_])) ++cursor_;
+  field = line_.substr(field_begin_, cursor_ - field_begin_);
+  return !field.empty();
+}
+
+bool TextScanner::next_quoted_field(std::string_view& field) {
+  if (!more_fields_) {
+    field_begin_ = line_.size();
+    return false;
+  }
+  while (cursor_ < line_.size() && is_blank(line_[cursor_]) && line_[cursor_] != separator_) ++cursor_;
+  field_begin_ = cursor_;
+
+  // Without quotes the field goes to the next separator.
+  if (cursor_ == line_.size() || line_[cursor_] != '"') {
+    const std::size_t end = std::min(line_.find(separator_, cursor_), line_.size());
+    field = trim(line_.substr(cursor_, end - cursor_));
+    more_fields_ = end < line_.size();
+    cursor_ = end + (more_fields_ ? 1 : 0);
+    return true;
+  }
+
+  // With quotes it goes to the first quote that is not doubled.
+  unquoted_.clear();
+  std::size_t at = cursor_ + 1;
+  while (at < line_.size()) {
+    if (line_[at] != '"') {
+      unquoted_ += line_[at++];
+    } else if (at + 1 < line_.size() && line_[at + 1] == '"') {
+      unquoted_ += '"';
+      at += 2;
+    } else {
+      break;
+    }
+  }
+  const std::size_t end = std::min(line_.find(separator_, at), line_.size());
+  const bool clean = at < line_.size() && trim(line_.substr(at + 1, end - at - 1)).empty();
+  field = clean ? std::string_view(unquoted_) : line_.substr(cursor_, end - cursor_);
+  more_fields_ = end < line_.size();
+  cursor_ = end + (more_fields_ ? 1 : 0);
+  return true;
+}
+
+std::int64_t TextScanner::count_fields() const {
+  TextScanner rest(*this);
+  std::string_view field;
+  std::int64_t count = 0;
+  while (rest.next_field(field)) ++count;
+  return count;
+}
+
+Error TextScanner::field_error(const std::string& message, const std::string& hint) const {
+  return column_error(static_cast<std::int64_t>(field_begin_) + 1, message, hint);
+}
+
+Error TextScanner::line_error(const std::string& message, const std::string& hint) const {
+  return column_error(0, message, hint);
+}
+
+Error TextScanner::column_error(std::int64_t column, const std::string& message, const std::string& hint) const {
+  return {message, file_, line_number_, column, hint};
+}
+
+std::string quote(std::string_view text) {
+  constexpr std::size_t kReadable = 40;
+  std::string quoted = "'";
+  for (const char c : text.substr(0, kReadable)) quoted += (c >= ' ' && c <= '~') ? c : '?';
+  return quoted + (text.size() > kReadable ? "...'" : "'");
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+}  // namespace bihive

@@ -1,0 +1,82 @@
+// Walks through text line by line and field by field, and knows where it is.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bihive/base/result.h"
+
+namespace bihive {
+
+/// Lines end in "\n" or "\r\n"; the last may end without. The text must outlive the scanner.
+class TextScanner {
+ public:
+  /// Fields are separated by runs of blanks and tabs.
+  static constexpr char kBlanks = ' ';
+
+  TextScanner(std::string_view text, std::string file);
+
+  /// kBlanks, or the one character between fields; then a field may be empty or "quoted" (with "" for a quote inside).
+  /// Begins the current line again.
+  void set_separator(char separator);
+  /// From this character to its end a line is ignored; 0 for none. Begins the current line again.
+  void set_comment(char comment);
+  /// Begins the current line again.
+  void restart_line();
+
+  /// Goes to the next line; false at the end of the text.
+  bool next_line();
+  /// Goes to the next line that has more than blanks (and a comment) in it.
+  bool next_filled_line();
+  /// Goes to the next line without a look at what is in it: the quick way past `count` lines. False at the end.
+  bool skip_lines(std::int64_t count);
+
+  std::string_view line() const { return line_; }
+  std::int64_t line_number() const { return line_number_; }
+  bool at_end() const { return next_ == text_.size(); }
+  std::int64_t bytes_left() const { return static_cast<std::int64_t>(text_.size() - next_); }
+  /// False where the text's last line has no end.
+  bool ends_in_newline() const { return text_.empty() || text_.back() == '\n'; }
+
+  /// Takes the next field of the line, without blanks around it; false where there is none. The view lives until the
+  /// next call. A quote that is not closed on its line gives the rest of the line, quote and all.
+  bool next_field(std::string_view& field);
+  /// How many fields of the line are left, without taking them.
+  std::int64_t count_fields() const;
+
+  /// An error at the field taken last, at the current line as a whole (at the end of the text: its last line), or at a
+  /// column of it, counted from 1.
+  Error field_error(const std::string& message, const std::string& hint = "") const;
+  Error line_error(const std::string& message, const std::string& hint = "") const;
+  Error column_error(std::int64_t column, const std::string& message, const std::string& hint = "") const;
+
+  const std::string& file() const { return file_; }
+
+ private:
+  bool next_quoted_field(std::string_view& field);
+
+  std::string_view text_;
+  std::string file_;
+  char separator_ = kBlanks;
+  char comment_ = 0;
+  std::size_t next_ = 0;         // where the next line begins
+  std::string_view whole_line_;  // with its comment
+  std::string_view line_;
+  std::int64_t line_number_ = 0;
+  std::size_t cursor_ = 0;       // in line_, behind the field taken last
+  std::size_t field_begin_ = 0;  // in line_
+  bool more_fields_ = false;     // with a separator: one more field follows, though it may be empty
+  std::string unquoted_;
+};
+
+/// The text in quotes, cut to a readable length and without control characters: for messages.
+std::string quote(std::string_view text);
+
+/// ASCII lower case.
+std::string lower_case(std::string_view text);
+
+/// Without blanks, tabs and carriage returns at both ends.
+std::string_view trim(std::string_view text);
+
+}  // namespace bihive

@@ -1,0 +1,140 @@
+// XYZ: a count, a comment, and one line a sphere, again for every frame. Extended XYZ [ExtXYZ] names its columns in the
+// comment: Properties=species:S:1:pos:R:3:radius:R:1
+#include <algorithm>
+#include <optional>
+
+#include "bihive/io/parse_number.h"
+#include "bihive/io/readers.h"
+#include "bihive/io/sphere_table.h"
+
+namespace bihive {
+namespace {
+
+std::vector<TableColumn> plain_columns() {
+  return {{"symbol", ColumnRole::species}, {"x", ColumnRole::x}, {"y", ColumnRole::y}, {"z", ColumnRole::z}};
+}
+
+// The value of Properties in a comment line, or nothing. It may stand in quotes.
+std::optional<std::string_view> properties_of(std::string_view comment) {
+  const std::string lower = lower_case(comment);
+  const std::string key = "properties=";
+  for (std::size_t at = lower.find(key); at != std::string::npos; at = lower.find(key, at + 1)) {
+    if (at > 0 && lower[at - 1] != ' ' && lower[at - 1] != '\t') continue;
+    std::string_view value = comment.substr(at + key.size());
+    if (!value.empty() && (value[0] == '"' || value[0] == '\'')) {
+      const char mark = value[0];
+      value.remove_prefix(1);
+      return value.substr(0, value.find(mark));
+    }
+    return value.substr(0, value.find_first_of(" \t"));
+  }
+  return std::nullopt;
+}
+
+// Adds the columns of one property, such as pos:R:3.
+void add_property(const std::string& name, char kind, std::int64_t width, std::vector<TableColumn>& columns) {
+  const std::string lower = lower_case(name);
+  const auto add_three = [&](ColumnRole first, const char* const(&names)[3]) {
+    for (int i = 0; i < 3; ++i) columns.push_back({names[i], static_cast<ColumnRole>(static_cast<int>(first) + i)});
+  };
+  if (lower == "pos" && width == 3) return add_three(ColumnRole::x, {"x", "y", "z"});
+  if ((lower == "color" || lower == "colour") && width == 3)
+    return add_three(ColumnRole::red, {"red", "green", "blue"});
+  if (width == 1) {
+    const bool z_number = name == "Z" || lower == "numbers";
+    ColumnRole role = z_number ? ColumnRole::atomic_number : usual_role(name);
+    // A position stands in pos alone; 'x' and the like are further numbers.
+    if (role == ColumnRole::x || role == ColumnRole::y || role == ColumnRole::z) role = ColumnRole::number;
+    if (kind == 'L') role = ColumnRole::ignored;
+    columns.push_back({name, role});
+    return;
+  }
+  for (std::int64_t i = 1; i <= width; ++i)
+    columns.push_back(
+        {name + "_" + std::to_string(i), kind == 'R' || kind == 'I' ? ColumnRole::number : ColumnRole::ignored});
+}
+
+// The columns that a Properties value stands for, or the message of an error.
+std::string columns_of(std::string_view properties, std::vector<TableColumn>& columns) {
+  constexpr std::size_t kMostColumns = 1000;
+  while (!properties.empty()) {
+    std::string_view part[3];
+    for (std::string_view& p : part) {
+      p = properties.substr(0, properties.find(':'));
+      properties.remove_prefix(std::min(p.size() + 1, properties.size()));
+    }
+    const auto width = parse_int(part[2]);
+    if (part[0].empty() || part[1].size() != 1 || std::string_view("SIRL").find(part[1]) == std::string_view::npos ||
+        !width || *width < 1 || columns.size() + static_cast<std::uint64_t>(*width) > kMostColumns)
+      return "expected name:type:columns in Properties, with one of S, I, R, L for the type, but found " +
+             quote(std::string(part[0]) + ":" + std::string(part[1]) + ":" + std::string(part[2]));
+    add_property(std::string(part[0]), part[1][0], *width, columns);
+  }
+  return "";
+}
+
+// The table that a frame's comment line describes.
+Result<SphereTable> table_of(const TextScanner& scanner) {
+  const auto properties = properties_of(scanner.line());
+  if (!properties) {
+    SphereTable table(plain_columns());
+    table.allow_more_fields();
+    return table;
+  }
+  std::vector<TableColumn> columns;
+  std::string fault = columns_of(*properties, columns);
+  SphereTable table(columns);
+  if (fault.empty()) fault = table.columns_fault();
+  if (!fault.empty()) return scanner.line_error(fault, "Properties needs pos:R:3");
+  return table;
+}
+
+}  // namespace
+
+Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std::int64_t frame) {
+  TextScanner scanner(text, file);
+  RawSpheres spheres;
+  std::int64_t frames = 0;
+  for (; scanner.next_filled_line(); ++frames) {
+    // Read the count, and the comment that may name the columns.
+    std::string_view field;
+    scanner.next_field(field);
+    const auto count = parse_int(field);
+    if (!count || *count < 0)
+      return scanner.field_error("expected the number of spheres of frame " + std::to_string(frames) + " but found " +
+                                 quote(field));
+    if (scanner.next_field(field))
+      return scanner.field_error("expected nothing but the number of spheres on this line, but found " + quote(field));
+    const std::int64_t count_line = scanner.line_number();
+    const auto cut = [&](std::int64_t found) {
+      return scanner.line_error("the file ends in frame " + std::to_string(frames) + ": line " +
+                                std::to_string(count_line) + " promises " + std::to_string(*count) +
+                                " spheres, but there are " + std::to_string(found));
+    };
+    if (!scanner.next_line()) {
+      if (*count == 0) continue;
+      return cut(0);
+    }
+    Result<SphereTable> table = table_of(scanner);
+    if (!table) return table.error();
+
+    // Read the spheres, or pass by them with a look at the last.
+    const bool wanted = frames == frame;
+    if (wanted) table->reserve(*count, scanner.bytes_left());
+    for (std::int64_t i = 0; i < *count; ++i) {
+      if (!scanner.next_line()) return cut(i);
+      Status row = wanted ? table->add_row(scanner) : scanner.at_end() ? table->check_width(scanner) : Done{};
+      if (!row) return row.error();
+    }
+    if (!wanted) continue;
+    const std::string columns = table->column_names();
+    spheres = std::move(*table).take();
+    spheres.rules.insert(spheres.rules.begin(), "columns: " + columns);
+  }
+  if (frame < 0 || frame >= frames) return no_such_frame(file, frame, frames);
+  spheres.format = "XYZ";
+  spheres.frames = frames;
+  return spheres;
+}
+
+}  // namespace bihive
