@@ -1,30 +1,36 @@
 # How tests are declared.
 
-# add_bihive_test(file): tests/unit/tree_test.cpp becomes the program unit_tree_test and the ctest entry unit.tree with
-# the label unit. Programs get GoogleTest, GoogleMock, the library, and whatever tests/support holds.
-function(add_bihive_test file)
+# The name of the test in a file: unit.tree for tests/unit/tree_test.cpp; kind and target too if asked for.
+function(bihive_test_name file name)
   cmake_path(GET file STEM stem)
   cmake_path(GET file PARENT_PATH folder)
   cmake_path(GET folder FILENAME kind)
   string(REGEX REPLACE "_test$" "" subject ${stem})
-  set(target ${kind}_${stem})
+  set(${name} ${kind}.${subject} PARENT_SCOPE)
+  if(ARGC GREATER 2)
+    set(${ARGV2} ${kind} PARENT_SCOPE)
+    set(${ARGV3} ${kind}_${stem} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# add_bihive_test(file): tests/unit/tree_test.cpp becomes the program unit_tree_test and the ctest entry unit.tree with
+# the label unit. Programs get GoogleTest, GoogleMock, the library, and whatever tests/support holds.
+function(add_bihive_test file)
+  bihive_test_name(${file} name kind target)
   add_executable(${target} ${file})
   target_link_libraries(${target} PRIVATE bihive_test_support GTest::gmock_main)
-  add_test(NAME ${kind}.${subject} COMMAND ${target})
-  set_tests_properties(${kind}.${subject} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT}")
+  add_test(NAME ${name} COMMAND ${target})
+  set_tests_properties(${name} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT}")
 endfunction()
 
 # add_bihive_script_test(file): a Python test, run with BIHIVE (the built program) and BIHIVE_SOURCE (the top of the
 # sources) in its environment.
 function(add_bihive_script_test file)
-  cmake_path(GET file STEM stem)
-  cmake_path(GET file PARENT_PATH folder)
-  cmake_path(GET folder FILENAME kind)
-  string(REGEX REPLACE "_test$" "" subject ${stem})
+  bihive_test_name(${file} name kind target)
   set(environment ${BIHIVE_TEST_ENVIRONMENT})
   if(TARGET bihive)
     list(APPEND environment "BIHIVE=$<TARGET_FILE:bihive>")
   endif()
-  add_test(NAME ${kind}.${subject} COMMAND ${Python_EXECUTABLE} ${file} -v)
-  set_tests_properties(${kind}.${subject} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${environment}")
+  add_test(NAME ${name} COMMAND ${Python_EXECUTABLE} ${file} -v)
+  set_tests_properties(${name} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${environment}")
 endfunction()
