@@ -35,7 +35,7 @@ struct Encounter {
   bool exists = false;                   ///< the line meets the sphere
   bool surely_exists = false;            ///< and binary64 cannot miss it
   bool near_counts = true;               ///< false for the sphere from whose surface the ray goes inside
-  long double t_error_unit = 0;          ///< u L / D, to measure errors with
+  long double t_error_unit = 0;          ///< u (L + r) / D, to measure errors with
   long double discriminant_share = 0;    ///< discriminant / r^2
 };
 
@@ -177,7 +177,7 @@ class Oracle {
     e.exists = discriminant >= 0;
     e.surely_exists = discriminant - slack >= 0;
     e.near_counts = ray.leaves != id;
-    e.t_error_unit = kU * L / D;
+    e.t_error_unit = kU * (L + r) / D;
     e.discriminant_share = discriminant / (r * r);
     const Real half = std::sqrt(std::max(Real(0), discriminant)) / D;
     e.t_near = t_closest - half;

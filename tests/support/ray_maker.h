@@ -19,7 +19,7 @@ namespace bihive::test {
 /// Directions are of lengths over twelve orders of magnitude. Ray i depends on the seed and i alone.
 class RayMaker {
  public:
-  RayMaker(const World& world, std::uint64_t seed, double view_distance = 0) : world_(&world), seed_(seed) {
+  RayMaker(const World& world, std::uint64_t seed) : world_(&world), seed_(seed) {
     for (std::size_t i = 0; i < world.size(); ++i) {
       const double c[3] = {world.x[i], world.y[i], world.z[i]};
       for (int axis = 0; axis < 3; ++axis) {
@@ -30,7 +30,6 @@ class RayMaker {
     middle_ = (lo_ + hi_) * 0.5;
     size_ = std::max({hi_.x - lo_.x, hi_.y - lo_.y, hi_.z - lo_.z});
     if (!(size_ > 0)) size_ = 1;
-    view_distance_ = view_distance;
   }
 
   Ray operator()(std::uint64_t i) const {
@@ -69,7 +68,6 @@ class RayMaker {
   static constexpr double kInf = std::numeric_limits<double>::infinity();
   const World* world_;
   std::uint64_t seed_;
-  double view_distance_;
   Vec3d lo_{kInf, kInf, kInf}, hi_{-kInf, -kInf, -kInf}, middle_;
   double size_ = 0;
 
@@ -88,7 +86,7 @@ class RayMaker {
 
   /// Mostly outside the set, sometimes in it.
   Vec3d eye(SplitMix64& rng) const {
-    if (view_distance_ > 0) return middle_ + unit(rng) * view_distance_;
+    if (world_->view_distance > 0) return middle_ + unit(rng) * world_->view_distance;
     if (rng.next_below(8) == 0) return somewhere(rng, 1);
     return middle_ + unit(rng) * (size_ * uniform(rng, 0.9, 3));
   }

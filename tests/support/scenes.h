@@ -82,6 +82,7 @@ inline std::vector<World> hostile_worlds(std::int64_t scenario_count, int count)
     worlds.push_back(world_of(*set, names[s]));
   }
   worlds.push_back(random_world("far_small", 11, count, 20, 0.001, 0.001));
+  worlds.back().view_distance = 100;
   worlds.push_back(random_world("mixed_radii", 12, count, 1, 1e-5, 1));
   worlds.push_back(random_world("offset", 13, count, 12, 1, 1, 1e5, -1e5, 1e5));
   worlds.push_back(coincident_world(14, count / 5, 5));

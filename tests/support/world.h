@@ -13,6 +13,7 @@ namespace bihive::test {
 struct World {
   std::string name;
   std::vector<float> x, y, z, r;
+  double view_distance = 0;  ///< where rays start, from the middle; 0: around the set and in it
 
   std::size_t size() const { return x.size(); }
   void add(double cx, double cy, double cz, double radius) {

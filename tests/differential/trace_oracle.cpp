@@ -1,0 +1,232 @@
+// `bihive trace` against the long-double oracle, on every ray of every hostile scene.
+//
+//   trace_oracle --bihive PROGRAM [--rays N] [--threads N] [--scene NAME] [--seed N]     (or BIHIVE in the environment)
+//   trace_oracle --library ...                                                          the library, without files
+//
+// An answer is right if it is the oracle's, or if it is one that binary64 can give where the two differ: tests/support/
+// oracle.h states that as an interval for each root, which is never wider than a few 1e-15 of the distance and so
+// within the relative 1e-12 that the project allows itself. Such answers are counted as excused, and too many of them
+// fail too. Spheres that are equal bit for bit have equal roots in both arithmetics: there the smaller id is always
+// required. Brute force must give the reference's bits, and --any must agree with both; those run on the first million
+// rays.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bihive/base/parallel.h"
+#include "bihive/base/timer.h"
+#include "support/edge_rays.h"
+#include "support/engine_under_test.h"
+#include "support/oracle.h"
+#include "support/ray_maker.h"
+#include "support/scenes.h"
+
+namespace bihive::test {
+namespace {
+
+constexpr std::int64_t kChunk = 500000;          // rays in memory at a time
+constexpr std::int64_t kComparedRays = 1000000;  // rays for brute force and any-hit
+// Shares of all rays that may be excused: where the ray maker aims at ties and ends on purpose, and elsewhere.
+constexpr double kMostOnPurpose = 1e-2;
+constexpr double kMostAtSilhouettes = 1e-4;
+constexpr double kFewestHits = 0.2;
+
+struct Options {
+  std::string program, scene;
+  bool library = false;
+  std::int64_t rays = 200000;
+  int threads = 0;
+  std::uint64_t seed = 1;
+};
+
+// Why binary64 and long double may differ: a root at an end of the segment, two spheres met at one t, a silhouette.
+enum Reason { kEnd, kTie, kSilhouette };
+
+struct Tally {
+  std::int64_t rays = 0, hits = 0, wrong = 0, excused[3] = {0, 0, 0};
+  double worst_error = 0;  // of t away from silhouettes, in u (L + r) / D
+
+  void add(const Tally& other) {
+    rays += other.rays;
+    hits += other.hits;
+    for (int reason = 0; reason < 3; ++reason) excused[reason] += other.excused[reason];
+    wrong += other.wrong;
+    worst_error = std::max(worst_error, other.worst_error);
+  }
+};
+
+Reason reason_to_differ(const Ray& ray, const std::vector<Encounter>& encounters, double t, std::int64_t id,
+                        const Oracle::Answer& truth) {
+  for (const Encounter& e : encounters) {
+    if (e.id != id && e.id != truth.id) continue;
+    for (const double end : {ray.t_min, ray.t_max})
+      if ((end >= e.near_lo && end <= e.near_hi) || (end >= e.far_lo && end <= e.far_hi)) return kEnd;
+    if (id >= 0 && truth.id >= 0 && std::abs(t - truth.t) <= 32 * e.t_error_unit) return kTie;
+  }
+  return kSilhouette;
+}
+
+void judge(const Oracle& oracle, const Ray& ray, double t, std::int64_t id, const std::int64_t* any, Tally& tally) {
+  const std::vector<Encounter> encounters = oracle.encounters(ray);
+  const Oracle::Answer truth = Oracle::closest(ray, encounters);
+  ++tally.rays;
+  tally.hits += truth.id >= 0 ? 1 : 0;
+  const bool right =
+      oracle.accepts(ray, encounters, t, id) && (any == nullptr || Oracle::accepts_any(ray, encounters, *any == 0));
+  if (!right) {
+    if (tally.wrong++ == 0)
+      std::fprintf(stderr, "WRONG: t %a of %lld, oracle %.17Lg of %lld, any %lld: %s\n", t, static_cast<long long>(id),
+                   truth.t, static_cast<long long>(truth.id), any ? static_cast<long long>(*any) : -9,
+                   text_of(ray).c_str());
+    return;
+  }
+  if (id != truth.id) ++tally.excused[reason_to_differ(ray, encounters, t, id, truth)];
+  if (id < 0 || id != truth.id) return;
+  for (const Encounter& e : encounters) {
+    if (e.id != id) continue;
+    const double error = static_cast<double>(std::abs(t - truth.t) / e.t_error_unit);
+    const bool other_root = std::abs(t - truth.t) > 0.5L * (e.t_far - e.t_near);
+    if (other_root) ++tally.excused[kEnd];
+    if (!other_root && e.discriminant_share > 0.01L) tally.worst_error = std::max(tally.worst_error, error);
+  }
+}
+
+/// One chunk of rays; false if the engine failed or two engines differ.
+bool run_chunk(EngineUnderTest& engine, const Oracle& oracle, const std::vector<Ray>& rays, bool compare, int threads,
+               Tally& tally) {
+  if (!engine.set_rays(rays)) return false;
+  const auto reference = engine.trace("reference", false);
+  if (!reference) return false;
+  std::optional<Answers> any;
+  if (compare) {
+    const auto brute = engine.trace("brute", false), brute_any = engine.trace("brute", true);
+    any = engine.trace("reference", true);
+    if (!brute || !any || !brute_any) return false;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool found = reference->id[i] >= 0;
+      const bool same =
+          brute->id[i] == reference->id[i] && std::memcmp(&brute->t[i], &reference->t[i], sizeof(double)) == 0;
+      const bool same_any = any->id[i] == (found ? 0 : -1) && brute_any->id[i] == any->id[i] &&
+                            any->t[i] == (found ? 0.0 : HUGE_VAL) && brute_any->t[i] == any->t[i];
+      if (same && same_any) continue;
+      std::fprintf(stderr, "ENGINES DIFFER: reference %a of %lld, brute %a of %lld, any %lld and %lld: %s\n",
+                   reference->t[i], static_cast<long long>(reference->id[i]), brute->t[i],
+                   static_cast<long long>(brute->id[i]), static_cast<long long>(any->id[i]),
+                   static_cast<long long>(brute_any->id[i]), text_of(rays[i]).c_str());
+      return false;
+    }
+  }
+  constexpr std::size_t kBlock = 512;
+  const std::size_t blocks = (rays.size() + kBlock - 1) / kBlock;
+  std::vector<Tally> tallies(blocks);
+  parallel_for(threads, static_cast<std::int64_t>(blocks), [&](std::int64_t block) {
+    const std::size_t first = static_cast<std::size_t>(block) * kBlock;
+    for (std::size_t i = first; i < std::min(first + kBlock, rays.size()); ++i)
+      judge(oracle, rays[i], reference->t[i], reference->id[i], any ? &any->id[i] : nullptr,
+            tallies[static_cast<std::size_t>(block)]);
+  });
+  for (const Tally& part : tallies) tally.add(part);
+  return true;
+}
+
+bool run_scene(EngineUnderTest& engine, const World& world, const Options& options) {
+  const Timer timer;
+  const Oracle oracle(world);
+  const RayMaker make_ray(world, options.seed);
+  Tally tally;
+  bool ran = engine.load(world);
+  for (std::int64_t first = 0; ran && first < options.rays; first += kChunk) {
+    std::vector<Ray> rays(static_cast<std::size_t>(std::min(kChunk, options.rays - first)));
+    parallel_for(options.threads, static_cast<std::int64_t>(rays.size()), [&](std::int64_t i) {
+      rays[static_cast<std::size_t>(i)] = make_ray(static_cast<std::uint64_t>(first + i));
+    });
+    ran = run_chunk(engine, oracle, rays, first < kComparedRays, options.threads, tally);
+  }
+  const double rays = static_cast<double>(std::max<std::int64_t>(1, tally.rays));
+  const bool enough_hits = static_cast<double>(tally.hits) >= kFewestHits * rays;
+  const bool few_excused = static_cast<double>(tally.excused[kEnd] + tally.excused[kTie]) <= kMostOnPurpose * rays &&
+                           static_cast<double>(tally.excused[kSilhouette]) <= kMostAtSilhouettes * rays;
+  const bool good = ran && tally.rays == options.rays && tally.wrong == 0 && enough_hits && few_excused;
+  std::printf("%-14s %7zu %10lld %7.2f %6lld %6lld %6lld %6lld %7.2f %8.1f  %s\n", world.name.c_str(), world.size(),
+              static_cast<long long>(tally.rays), 100 * static_cast<double>(tally.hits) / rays,
+              static_cast<long long>(tally.excused[kEnd]), static_cast<long long>(tally.excused[kTie]),
+              static_cast<long long>(tally.excused[kSilhouette]), static_cast<long long>(tally.wrong),
+              tally.worst_error, timer.elapsed_ms() / 1000,
+              good           ? "good"
+              : !ran         ? "FAILED to run"
+              : tally.wrong  ? "WRONG"
+              : !enough_hits ? "TOO FEW HITS"
+                             : "TOO MANY EXCUSED");
+  std::fflush(stdout);
+  return good;
+}
+
+int run(const Options& options) {
+  std::unique_ptr<EngineUnderTest> engine;
+  if (options.library) {
+    engine = std::make_unique<LibraryUnderTest>(options.threads);
+  } else {
+    std::string folder = (std::filesystem::temp_directory_path() / "trace_oracle_XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) {
+      std::fprintf(stderr, "cannot make a folder for the files: %s\n", folder.c_str());
+      return 1;
+    }
+    engine = std::make_unique<ProgramUnderTest>(options.program, folder);
+  }
+  std::printf(
+      "seed %llu. Excused at an end of the segment, a tie, a silhouette. Error: the largest |t - oracle| in\n"
+      "2^-53 (distance + radius) / |direction|, away from silhouettes.\n",
+      static_cast<unsigned long long>(options.seed));
+  std::printf("%-14s %7s %10s %7s %6s %6s %6s %6s %7s %8s\n", "scene", "spheres", "rays", "hits %", "end", "tie",
+              "silh.", "wrong", "error", "seconds");
+  bool all_good = true, any_scene = false;
+  for (const World& world : hostile_worlds(4096, 1000)) {
+    if (!options.scene.empty() && options.scene != world.name) continue;
+    any_scene = true;
+    all_good = run_scene(*engine, world, options) && all_good;
+  }
+  if (!any_scene) std::fprintf(stderr, "no scene is called %s\n", options.scene.c_str());
+  return all_good && any_scene ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace bihive::test
+
+int main(int argc, char** argv) {
+  bihive::test::Options options;
+  if (const char* program = std::getenv("BIHIVE")) options.program = program;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    const char* const value = i + 1 < argc ? argv[i + 1] : "";
+    if (name == "--library") {
+      options.library = true;
+      continue;
+    }
+    ++i;
+    if (name == "--bihive")
+      options.program = value;
+    else if (name == "--rays")
+      options.rays = std::atoll(value);
+    else if (name == "--threads")
+      options.threads = std::atoi(value);
+    else if (name == "--scene")
+      options.scene = value;
+    else if (name == "--seed")
+      options.seed = std::strtoull(value, nullptr, 10);
+    else {
+      std::fprintf(stderr, "unknown option %s; see the top of trace_oracle.cpp\n", name.c_str());
+      return 2;
+    }
+  }
+  if (!options.library && options.program.empty()) {
+    std::fprintf(stderr, "name the program by --bihive or BIHIVE, or say --library\n");
+    return 2;
+  }
+  return bihive::test::run(options);
+}

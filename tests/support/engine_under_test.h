@@ -1,0 +1,125 @@
+// Who answers the rays of the differential test: the real program by way of files, or the library directly.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/base/parallel.h"
+#include "bihive/geometry/ray.h"
+#include "bihive/render/tracer.h"
+#include "support/npy_file.h"
+#include "support/world.h"
+
+namespace bihive::test {
+
+struct Answers {
+  std::vector<double> t;
+  std::vector<std::int64_t> id;
+};
+
+/// Empty answers mean that the engine failed; why has been printed.
+class EngineUnderTest {
+ public:
+  virtual ~EngineUnderTest() = default;
+  virtual bool load(const World& world) = 0;
+  virtual bool set_rays(const std::vector<Ray>& rays) = 0;
+  virtual std::optional<Answers> trace(const std::string& engine, bool any) = 0;
+};
+
+/// `bihive trace`, run as its users run it.
+class ProgramUnderTest : public EngineUnderTest {
+ public:
+  ProgramUnderTest(std::string program, std::string folder) : program_(std::move(program)), folder_(std::move(folder)) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~ProgramUnderTest() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  bool load(const World& world) override {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < world.size(); ++i)
+      values.insert(values.end(), {world.x[i], world.y[i], world.z[i], world.r[i]});
+    return write_npy(file("spheres"), "<f4", values, 4);
+  }
+
+  bool set_rays(const std::vector<Ray>& rays) override {
+    count_ = rays.size();
+    std::vector<float> values;
+    values.reserve(8 * rays.size());
+    for (const Ray& ray : rays)
+      values.insert(values.end(), {ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y,
+                                   ray.direction.z, static_cast<float>(ray.t_min), static_cast<float>(ray.t_max)});
+    return write_npy(file("rays"), "<f4", values, 8);
+  }
+
+  std::optional<Answers> trace(const std::string& engine, bool any) override {
+    const std::string command = "'" + program_ + "' trace '" + file("spheres") + "' --rays '" + file("rays") +
+                                "' --t '" + file("t") + "' --id '" + file("id") + "' --engine " + engine +
+                                (any ? " --any" : "") + " 2>'" + file("stderr") + "'";
+    if (std::system(command.c_str()) != 0) {
+      std::fprintf(stderr, "failed: %s\n", command.c_str());
+      return std::nullopt;
+    }
+    Answers answers{read_npy<double>(file("t"), "<f8", count_), read_npy<std::int64_t>(file("id"), "<i8", count_)};
+    if (answers.t.size() != count_ || answers.id.size() != count_) {
+      std::fprintf(stderr, "not the arrays that were asked for: %s\n", command.c_str());
+      return std::nullopt;
+    }
+    return answers;
+  }
+
+ private:
+  std::string program_, folder_;
+  std::size_t count_ = 0;
+  std::string file(const std::string& name) const {
+    return folder_ + "/" + name + (name == "stderr" ? ".txt" : ".npy");
+  }
+};
+
+/// The same queries without files, to tell a fault of the library from one of the program.
+class LibraryUnderTest : public EngineUnderTest {
+ public:
+  explicit LibraryUnderTest(int threads) : threads_(threads) {}
+  bool load(const World& world) override {
+    spheres_ = sphere_set(world);
+    return true;
+  }
+  bool set_rays(const std::vector<Ray>& rays) override {
+    rays_ = &rays;
+    return true;
+  }
+  std::optional<Answers> trace(const std::string& engine, bool any) override {
+    const Tracer tracer(spheres_, engine == "brute" ? Engine::brute : Engine::reference, BuildParameters{});
+    Answers answers{std::vector<double>(rays_->size(), std::numeric_limits<double>::infinity()),
+                    std::vector<std::int64_t>(rays_->size(), -1)};
+    constexpr std::size_t kBlock = 1024;
+    parallel_for(threads_, static_cast<std::int64_t>((rays_->size() + kBlock - 1) / kBlock), [&](std::int64_t block) {
+      const std::size_t first = static_cast<std::size_t>(block) * kBlock;
+      for (std::size_t i = first; i < std::min(first + kBlock, rays_->size()); ++i) {
+        if (any) {
+          if (tracer.occluded((*rays_)[i])) answers.t[i] = 0, answers.id[i] = 0;
+        } else {
+          const Hit hit = tracer.closest_hit((*rays_)[i]);
+          answers.t[i] = hit.t;
+          answers.id[i] = hit.sphere_id;
+        }
+      }
+    });
+    return answers;
+  }
+
+ private:
+  int threads_;
+  SphereSet spheres_;
+  const std::vector<Ray>* rays_ = nullptr;
+};
+
+}  // namespace bihive::test
