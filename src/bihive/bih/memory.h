@@ -7,9 +7,8 @@
 
 namespace bihive {
 
-/// `low`: a perfectly balanced tree of full leaves (the thesis's Scenario 1). `high`: clustered random spheres with
-/// much empty space (Scenario 2 and worse). Real sets fall between; docs/bih.md says how the bounds were found and what
-/// can exceed them.
+/// `low`: a balanced tree of full leaves (the thesis's Scenario 1), less a fifth for spheres that coincide. `high`: the
+/// most scattered sets measured (small Scenarios 2). Sets of a file fall between; docs/bih.md says what can exceed it.
 struct MemoryPrediction {
   struct Range {
     std::int64_t low = 0, high = 0;

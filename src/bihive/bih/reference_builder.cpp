@@ -14,8 +14,8 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 // fitting the thesis's counts of optimized nodes [Aroxa2014, Table 4.2].
 constexpr float kClipGain = 1.3f;
 
-// Guards for hostile sets. Each turn halves one side of a box of at most 2 stored units, and binary32 ends 150 halvings below
-// that: a node takes at most about 450 turns.
+// Guards for hostile sets. Each turn halves one side of a box of at most 2 stored units, and binary32 ends 150 halvings
+// below that: a node takes at most about 450 turns.
 constexpr int kMostTurns = 1000;
 constexpr std::int64_t kDeepest = 1000;
 

@@ -1,5 +1,7 @@
 #include "bihive/bih/validate.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -73,6 +75,7 @@ Status validate_tree(const Tree& tree, const SphereSet& spheres) {
     if (visit.depth > tree.parameters.max_depth) return wrong("lies deeper than max_depth", at);
     if (!node.is_leaf()) {
       if (node.split_axis > 2) return wrong("has no axis", at);
+      if (std::isnan(node.left_clip) || std::isnan(node.right_clip)) return wrong("has a plane that is no number", at);
       for (const Visit& child : children_of(node, visit)) pending.push_back(child);
       continue;
     }
@@ -102,6 +105,10 @@ Status validate_tree(const Tree& tree, const SphereSet& spheres) {
   const TreeStatistics statistics = tree_statistics(tree);
   if (statistics.inner_nodes != statistics.leaves - 1 + statistics.optimized_nodes)
     return wrong("inner nodes are not leaves - 1 + optimized nodes", 0);
+  if (statistics.one_sided_nodes != tree.empty_leaves)
+    return wrong("one-sided nodes: " + std::to_string(statistics.one_sided_nodes) +
+                     ", but empty leaves: " + std::to_string(tree.empty_leaves),
+                 0);
   if (oversized != tree.forced_leaves)
     return wrong("leaves over max_prims and above max_depth: " + std::to_string(oversized) +
                      ", but forced leaves: " + std::to_string(tree.forced_leaves),
