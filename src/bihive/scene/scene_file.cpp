@@ -135,7 +135,11 @@ class Extraction {
     if (value.contains("up")) camera.up = vector(value.at("up"));
     camera.fov_deg = value.value("fov_deg", camera.fov_deg);
     const Status status = check_camera(camera);
-    if (!status) fail("/camera", status.error().message, status.error().hint);
+    if (status) return;
+    // The path says already that it is the camera.
+    const std::string& what = status.error().message;
+    const std::size_t colon = what.rfind("camera: ", 0) == 0 ? std::string_view("camera: ").size() : 0;
+    fail("/camera", what.substr(colon), status.error().hint);
   }
 
   void take_lights() {

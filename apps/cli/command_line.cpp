@@ -1,0 +1,215 @@
+#include "command_line.h"
+
+#include <CLI/CLI.hpp>
+
+#include "bihive/base/version.h"
+#include "failure.h"
+#include "names.h"
+
+namespace bihive::cli {
+namespace {
+
+constexpr double kLargestFloat = 3.4028234663852886e38;
+constexpr std::int64_t kMostThreads = 4096;
+
+// An option with one value of its own syntax: `parse` makes a Result of the text.
+template <class Target, class Parse>
+CLI::Option* add_value(CLI::App& app, const std::string& name, Target& target, const std::string& type,
+                       const std::string& help, Parse parse) {
+  const auto take = [&target, name, parse](const std::string& text) {
+    auto value = parse(text);
+    if (!value) throw CLI::ValidationError(name, value.error().message);
+    target = *value;
+  };
+  return app.add_option_function<std::string>(name, take, help)->type_name(type);
+}
+
+template <class Target>
+CLI::Option* add_integer(CLI::App& app, const std::string& name, Target& target, std::int64_t min, std::int64_t max,
+                         const std::string& help) {
+  return add_value(app, name, target, "N", help,
+                   [min, max](const std::string& text) { return integer_from(text, min, max); });
+}
+
+template <class Target>
+CLI::Option* add_number(CLI::App& app, const std::string& name, Target& target, double max, const std::string& type,
+                        const std::string& help) {
+  return add_value(app, name, target, type, help, [max](const std::string& text) { return number_from(text, 0, max); });
+}
+
+template <class T>
+std::string list_of(const Names<T>& names) {
+  std::string list;
+  for (const auto& [name, value] : names) list += (list.empty() ? "" : "|") + name;
+  return list;
+}
+
+template <class Target, class T>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Target& target, const Names<T>& names,
+                        const std::string& help) {
+  return add_value(app, name, target, list_of(names), help,
+                   [&names](const std::string& text) { return choice_from(text, names); });
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& target, const std::string& help) {
+  return app.add_option(name, target, help)->type_name("FILE")->required();
+}
+
+void add_generator_options(CLI::App& app, InputOptions& input) {
+  add_integer(app, "--count", input.count, 1, kUnlimited, "Scenarios: how many spheres (4096)");
+  add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", seed_from);
+}
+
+void add_input_options(CLI::App& app, InputOptions& input) {
+  app.add_option("INPUT", input.input,
+                 "A file (PDB, mmCIF, XYZ, LAMMPS dump, CSV, NPY, scene JSON) or a built-in name:\n"
+                 "scenario1, scenario2, scenario3, four-spheres, demo")
+      ->type_name("")
+      ->required();
+  add_generator_options(app, input);
+  add_number(app, "--radius", input.radius, kLargestFloat, "R", "Radius of every sphere (scenarios: 1)");
+  add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
+  app.add_flag("--recenter", input.recenter, "Files: move the middle of the set to the origin");
+  add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
+}
+
+void add_tree_options(CLI::App& app, BuildParameters& tree) {
+  add_value(app, "--max-prims", tree.max_prims, "N|unlimited", "Most spheres of a leaf (8)", limit_from);
+  add_value(app, "--max-depth", tree.max_depth, "N|unlimited", "Most levels of the tree (unlimited)", limit_from);
+}
+
+void add_engine_options(CLI::App& app, Engine& engine, BuildParameters& tree, std::int64_t& threads) {
+  add_choice(app, "--engine", engine, kEngines, "What answers the rays (auto); all give the same bits");
+  add_tree_options(app, tree);
+  add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
+}
+
+void add_json_flag(CLI::App& app, bool& json) {
+  app.add_flag("--json", json, "Print one JSON object instead of text");
+}
+
+// A sub-command whose help ends in two examples. `request` becomes `options` if it is called.
+template <class Options>
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help, const std::string& first_example,
+                      const std::string& second_example, const Options& options, Request& request) {
+  CLI::App* command = app.add_subcommand(name, help);
+  command->footer("Examples:\n  " + first_example + "\n  " + second_example);
+  command->final_callback([&options, &request] { request = options; });
+  return *command;
+}
+
+void add_render(CLI::App& app, RenderOptions& options, Request& request) {
+  CLI::App& command = add_command(
+      app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
+      "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
+  add_input_options(command, options.input);
+  add_path(command, "-o,--output", options.output, "The picture (PNG)");
+  add_value(command, "--size", options.size, "WxH", "Pixels (1280x720)", size_from);
+  add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
+  add_integer(command, "--samples", options.samples, 1, 4096, "Samples a pixel (files: 4, thesis's scenes: 1)");
+  add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
+  const auto set_shadows = [&options](bool on) { return [&options, on] { options.shadows = on; }; };
+  CLI::Option* on = command.add_flag_callback("--shadows", set_shadows(true), "Spheres cast shadows (files)");
+  command.add_flag_callback("--no-shadows", set_shadows(false), "They do not (thesis's scenes)")->excludes(on);
+  add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
+  add_value(command, "--background", options.background, "COLOUR",
+            "A name, #rrggbb or r,g,b from 0 to 1 (files: white)", [](const std::string& text) -> Result<std::string> {
+              const Result<Vec3d> colour = colour_from(text, Transfer::none);
+              if (!colour) return colour.error();
+              return text;
+            });
+  add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
+  add_value(command, "--eye", options.eye, "X,Y,Z", "Where the camera is", vector_from);
+  add_value(command, "--look-at", options.look_at, "X,Y,Z", "The middle of the picture", vector_from);
+  add_value(command, "--up", options.up, "X,Y,Z", "What is up in the picture", vector_from);
+  add_value(command, "--fov", options.fov_deg, "DEG", "Angle along the shorter side (30)",
+            [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
+  add_engine_options(command, options.engine, options.tree, options.threads);
+  add_json_flag(command, options.json);
+}
+
+void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
+  CLI::App& command =
+      add_command(app, "stats", "Build the tree and show what it looks like in numbers", "bihive stats demo",
+                  "bihive stats scenario2 --max-prims 1 --seed 7 --json", options, request);
+  add_input_options(command, options.input);
+  add_tree_options(command, options.tree);
+  add_json_flag(command, options.json);
+}
+
+void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
+  CLI::App& command = add_command(
+      app, "trace", "Trace rays from a .npy file", "bihive trace scenario1 --rays rays.npy --t t.npy --id id.npy",
+      "bihive trace demo --rays rays.npy --t t.npy --id id.npy --any --threads 2", options, request);
+  add_input_options(command, options.input);
+  add_path(command, "--rays", options.rays, "float32 (n, 6): origin, direction; or (n, 8): and t_min, t_max");
+  add_path(command, "--t", options.t, "Written: float64 (n), the hit is at origin + t direction; inf for none");
+  add_path(command, "--id", options.id, "Written: int64 (n), position in the set; -1 for nothing, -2 for the plane");
+  command.add_flag("--any", options.any, "Whether anything is hit: id 0 or -1, t 0 or inf");
+  command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
+  add_engine_options(command, options.engine, options.tree, options.threads);
+}
+
+void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "scene", "Write a scene of the thesis into a file",
+                                  "bihive scene scenario3 --count 1000 --radius 0.5 --seed 2 -o spheres.npy",
+                                  "bihive scene four-spheres -o four.json", options, request);
+  command.add_option("NAME", options.input.input, "scenario1, scenario2, scenario3 or four-spheres")
+      ->type_name("")
+      ->required();
+  add_generator_options(command, options.input);
+  add_number(command, "--radius", options.input.radius, kLargestFloat, "R", "Scenarios: radius of every sphere (1)");
+  add_path(command, "-o,--output", options.output, ".npy: x, y, z, r as float32 (n, 4); .json: a scene file");
+}
+
+void add_info(CLI::App& app, InfoOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "info", "Show what an input holds and how it was read", "bihive info demo",
+                                  "bihive info scenario1 --count 1000000 --radius 0.1 --json", options, request);
+  add_input_options(command, options.input);
+  add_tree_options(command, options.tree);
+  add_json_flag(command, options.json);
+}
+
+std::string version_text() {
+  const std::string revision = commit().empty() ? "" : " (" + std::string(commit()) + ")";
+  return "bihive " + std::string(version()) + revision;
+}
+
+}  // namespace
+
+Request parse_command_line(int argc, const char* const* argv) {
+  CLI::App app("bihive: ray tracing of spheres on a bounding interval hierarchy", "bihive");
+  app.set_version_flag("--version", version_text());
+  app.get_formatter()->column_width(34);
+  app.footer("bihive COMMAND --help shows a command's options and two examples.");
+  app.require_subcommand(0, 1);
+
+  RenderOptions render;
+  StatsOptions stats;
+  TraceOptions trace;
+  SceneOptions scene;
+  InfoOptions info;
+  Request request = HelpText{"", false};
+  add_render(app, render, request);
+  add_stats(app, stats, request);
+  add_trace(app, trace, request);
+  add_scene(app, scene, request);
+  add_info(app, info, request);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    return HelpText{version_text() + "\n", true};
+  } catch (const CLI::Success&) {
+    // The help of the sub-command that it was asked of, if any.
+    for (const CLI::App* command : app.get_subcommands()) return HelpText{command->help("bihive"), true};
+    return HelpText{app.help(), true};
+  } catch (const CLI::ParseError& error) {
+    std::string command = "bihive";
+    for (const CLI::App* called : app.get_subcommands()) command += " " + called->get_name();
+    fail_usage(error.what(), "see " + command + " --help");
+  }
+  if (std::holds_alternative<HelpText>(request)) return HelpText{app.help(), false};
+  return request;
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,70 @@
+// The sub-commands: their options, as parsed and checked one by one, and what runs them. They end by returning, or by a
+// Failure (failure.h).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bihive/bih/tree.h"
+#include "bihive/image/transfer.h"
+#include "bihive/math/vec3.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/framing.h"
+#include "input.h"
+#include "values.h"
+
+namespace bihive::cli {
+
+/// Unset: as the scene says.
+struct RenderOptions {
+  InputOptions input;
+  std::string output;
+  std::optional<PictureSize> size;
+  std::optional<std::int64_t> recursion, samples;
+  View view = View::shaded;
+  Engine engine = Engine::automatic;
+  BuildParameters tree;
+  std::int64_t threads = 0;  ///< 0 = all that the machine runs at once
+  std::optional<bool> shadows;
+  std::optional<Transfer> transfer;
+  std::optional<std::string> background;  ///< a valid colour; its meaning depends on the transfer
+  std::optional<Vec3d> eye, look_at, up;
+  std::optional<double> fov_deg;
+  std::optional<ViewFrom> view_from;
+  bool json = false;
+};
+void run_render(const RenderOptions& options);
+
+struct StatsOptions {
+  InputOptions input;
+  BuildParameters tree;
+  bool json = false;
+};
+void run_stats(const StatsOptions& options);
+
+struct TraceOptions {
+  InputOptions input;
+  std::string rays, t, id;  ///< paths
+  bool any = false;
+  bool plane = false;
+  Engine engine = Engine::automatic;
+  BuildParameters tree;
+  std::int64_t threads = 0;
+};
+void run_trace(const TraceOptions& options);
+
+struct SceneOptions {
+  InputOptions input;
+  std::string output;
+};
+void run_scene(const SceneOptions& options);
+
+struct InfoOptions {
+  InputOptions input;
+  BuildParameters tree;
+  bool json = false;
+};
+void run_info(const InfoOptions& options);
+
+}  // namespace bihive::cli

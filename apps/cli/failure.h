@@ -1,0 +1,39 @@
+// How the program ends when it cannot do what was asked. Inside the program (never in the library) that is an
+// exception.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "bihive/base/result.h"
+
+namespace bihive::cli {
+
+enum ExitCode : int {
+  kSuccess = 0,
+  kBadInput = 1,     ///< bad input, missing folder, unwritable path, full disk
+  kBadUsage = 2,     ///< options that are unknown, out of range or contradict each other
+  kEnvironment = 3,  ///< a missing device, driver or program
+  kInterrupted = 130
+};
+
+struct Failure {
+  ExitCode code;
+  Error error;
+};
+
+[[noreturn]] inline void fail(Error error) {
+  throw Failure{kBadInput, std::move(error)};
+}
+[[noreturn]] inline void fail_usage(const std::string& message, const std::string& hint = "") {
+  throw Failure{kBadUsage, Error{message, "", 0, 0, hint}};
+}
+
+/// The value, or the end of the program with the result's error.
+template <class T>
+T value_or_fail(Result<T> result) {
+  if (!result) fail(result.error());
+  return std::move(*result);
+}
+
+}  // namespace bihive::cli

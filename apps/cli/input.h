@@ -1,0 +1,49 @@
+// INPUT of every sub-command: a built-in name, a scene file or a file of spheres.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/bih/tree.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive::cli {
+
+/// What the command line says of the input; unset where it says nothing.
+struct InputOptions {
+  std::string input;
+  std::optional<std::int64_t> count;
+  std::optional<double> radius;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> radius_scale;
+  std::optional<std::int64_t> frame;
+  bool recenter = false;
+};
+
+struct Input {
+  Scene scene;  ///< coloured, at least one sphere; camera and lights as below
+  bool has_camera = false;
+  bool has_lights = false;
+  std::string format;  ///< "built-in", "scene file", or a sphere file's format
+  std::int64_t frames = 1;
+  std::vector<std::string> rules;     ///< what the reader did
+  std::vector<std::string> warnings;  ///< said on stderr already
+  Vec3d recentred_by;
+};
+
+/// Built-in names go first: scenario1, scenario2, scenario3, four-spheres, demo. Says warnings on stderr. Fails with
+/// kBadUsage on options that do not fit the input, and with kBadInput on a file that cannot be read.
+Input load_input(const InputOptions& options);
+
+/// The scene of a name that `bihive scene` knows: scenario1, scenario2, scenario3 or four-spheres; nothing otherwise.
+std::optional<Scene> generated_scene(const InputOptions& options);
+
+/// Fails if the tree cannot fit this machine's memory.
+void check_tree_memory(const SphereSet& spheres, const BuildParameters& parameters);
+
+/// Fails if `bytes` exceed this machine's memory: "what needs about 77 GB, ...".
+void check_memory(double bytes, const std::string& what);
+
+}  // namespace bihive::cli

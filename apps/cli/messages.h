@@ -1,0 +1,50 @@
+// What the program says on stderr, and results on stdout.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bihive/base/timer.h"
+
+namespace bihive::cli {
+
+/// "bihive: warning: ..." in one line.
+void warn(const std::string& text);
+void warn(const std::vector<std::string>& texts);
+/// "bihive: error: ..." in one line.
+void say_error(const std::string& text);
+
+/// To stdout. Whether it arrived is checked by finish_output().
+void print(const std::string& text);
+/// Flushes stdout; fails if something did not arrive (a full disk).
+void finish_output();
+
+/// 4096 as "4,096".
+std::string grouped(std::int64_t value);
+/// 1536 as "1.5 kB"; powers of 1000.
+std::string readable_bytes(double bytes);
+/// 1234.5 as "1.23 s", 12.34 as "12.3 ms".
+std::string readable_ms(double ms);
+
+/// A line with the share that is done and the time left, rewritten in place: on a terminal only, and only when the work
+/// takes over a second. Wiped at the end. update() is for one thread at a time.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `done`: 0 to 1.
+  void update(double done);
+
+ private:
+  std::string what_;
+  Timer timer_;
+  double next_draw_ms_;
+  bool terminal_;
+  bool drawn_ = false;
+};
+
+}  // namespace bihive::cli

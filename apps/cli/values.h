@@ -1,0 +1,50 @@
+// From the text of an option to its value. An error says what was expected and what was found.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/image/transfer.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive::cli {
+
+struct PictureSize {
+  int width_px, height_px;
+};
+
+/// Decimal digits, with a sign if negative numbers are allowed; nothing before or after.
+Result<std::int64_t> integer_from(const std::string& text, std::int64_t min, std::int64_t max);
+Result<std::uint64_t> seed_from(const std::string& text);
+
+/// "unlimited" (kUnlimited) or at least 1.
+Result<std::int64_t> limit_from(const std::string& text);
+
+/// Finite, and in [min, max], or in (min, max) where `open`.
+Result<double> number_from(const std::string& text, double min, double max, bool open = false);
+
+/// "X,Y,Z", each within +-3.4e38.
+Result<Vec3d> vector_from(const std::string& text);
+
+/// "1280x720", each side 1 to 65535.
+Result<PictureSize> size_from(const std::string& text);
+
+/// A name, "#rrggbb" (both as seen on the screen under the transfer), or "r,g,b" (linear, each 0 to 1).
+Result<Vec3d> colour_from(const std::string& text, Transfer transfer);
+
+/// One of the names, by position.
+template <class T>
+Result<T> choice_from(const std::string& text, const std::vector<std::pair<std::string, T>>& choices) {
+  std::string names;
+  for (const auto& [name, value] : choices) {
+    if (name == text) return value;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return Error{"expected one of " + names + ", found \"" + text + "\"", "", 0, 0, ""};
+}
+
+}  // namespace bihive::cli
