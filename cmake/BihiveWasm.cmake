@@ -22,3 +22,8 @@ list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:bihive_wasm_libraries>
 # Exceptions: the header-only libraries throw, and the library turns that into errors. Threads: through workers.
 add_compile_options(-fexceptions -pthread)
 add_link_options(-fexceptions -pthread)
+
+# Debian keeps the JavaScript modules that em++ needs for linking here.
+if(IS_DIRECTORY /usr/share/nodejs)
+  set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
+endif()

@@ -2,7 +2,6 @@
 // literal with exactly the keys descr, fortran_order and shape, then the numbers.
 #include "bihive/io/npy.h"
 
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -150,13 +149,22 @@ std::optional<NumberType> number_type(std::string_view dtype) {
   return NumberType{kind, static_cast<std::size_t>(digit - '0'), order == '>'};
 }
 
+// std::bit_cast, which libc++ 13 has not yet.
+template <class To, class From>
+To same_bits(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  std::memcpy(&to, &from, sizeof(to));
+  return to;
+}
+
 double number_at(const char* bytes, const NumberType& type) {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < type.size; ++i)
     bits = bits << 8 | static_cast<unsigned char>(bytes[type.big_endian ? i : type.size - 1 - i]);
   if (type.kind == 'f') {
-    if (type.size == 8) return std::bit_cast<double>(bits);
-    return double(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    if (type.size == 8) return same_bits<double>(bits);
+    return double(same_bits<float>(static_cast<std::uint32_t>(bits)));
   }
   if (type.kind == 'u') return static_cast<double>(bits);
   // Extend the sign.
@@ -183,7 +191,7 @@ std::string bytes_of(const std::vector<T>& values, const std::vector<std::int64_
   bytes.reserve(bytes.size() + values.size() * sizeof(T));
   for (const T value : values) {
     using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-    const Bits bits = std::bit_cast<Bits>(value);
+    const Bits bits = same_bits<Bits>(value);
     for (std::size_t i = 0; i < sizeof(T); ++i) bytes += static_cast<char>(bits >> (8 * i) & 0xff);
   }
   return bytes;
