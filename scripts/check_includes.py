@@ -18,7 +18,7 @@ ALLOWED = {
     "bih": {"base", "math", "geometry"},
     "kernels": {"base", "math", "geometry", "bih"},
     "image": {"base", "math"},
-    "io": {"base", "math", "geometry"},
+    "io": {"base", "math", "geometry", "image"},
     "scene": {"base", "math", "geometry", "io", "image"},
     "render": {"base", "math", "geometry", "bih", "kernels", "scene", "image"},
     "gl": {"base", "math", "geometry", "bih", "scene", "image"},

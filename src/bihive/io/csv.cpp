@@ -14,11 +14,12 @@ bool next_data_line(TextScanner& scanner) {
   return false;
 }
 
-// The fields of the current line, from its beginning, with the separator set.
+// The fields of the current line, from its beginning, with the separator set; not many more than a table may have.
 std::vector<std::string> fields_of(TextScanner& scanner, char separator) {
   scanner.set_separator(separator);
   std::vector<std::string> fields;
-  for (std::string_view field; scanner.next_field(field);) fields.emplace_back(field);
+  for (std::string_view field; fields.size() <= SphereTable::kMostColumns && scanner.next_field(field);)
+    fields.emplace_back(field);
   return fields;
 }
 
@@ -74,8 +75,8 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
 
   SphereTable table(has_header ? columns_of_header(fields) : columns_of_numbers(fields.size()));
   if (const std::string fault = table.columns_fault(); !fault.empty())
-    return scanner.line_error(fault + " in the header '" + table.column_names() + "'");
-  table.reserve(scanner.bytes_left(), scanner.bytes_left());
+    return scanner.line_error(fault + " in the header " + quote(table.column_names()));
+  table.reserve(scanner.lines_left() + 1, scanner.bytes_left());
 
   // Every further line is a sphere.
   if (!has_header) {

@@ -78,7 +78,8 @@ std::optional<Format> by_name(const std::string& name) {
       {".xyz", Format::xyz},          {".extxyz", Format::xyz},
       {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
       {".csv", Format::csv},          {".tsv", Format::csv},
-      {".txt", Format::csv},          {".npy", Format::npy},
+      {".txt", Format::csv},          {".dat", Format::csv},
+      {".npy", Format::npy},
   };
   std::string lower = lower_case(name);
   if (lower.size() > 3 && lower.compare(lower.size() - 3, 3, ".gz") == 0) lower.resize(lower.size() - 3);
@@ -97,7 +98,7 @@ std::optional<Format> detect_format(std::string_view bytes, const std::string& n
 
 std::string known_formats() {
   return "PDB (.pdb .ent), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), LAMMPS dump (.dump .lammpstrj), CSV or plain "
-         "'x y z r' (.csv .tsv .txt), NPY (.npy), each also as .gz";
+         "'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
 }
 
 }  // namespace bihive

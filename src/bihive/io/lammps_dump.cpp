@@ -132,7 +132,8 @@ class LammpsReader {
     std::vector<TableColumn> columns;
     TextScanner header(item.substr(5), "");
     header.next_line();
-    for (std::string_view name; header.next_field(name);) columns.push_back({std::string(name), ColumnRole::number});
+    for (std::string_view name; columns.size() <= SphereTable::kMostColumns && header.next_field(name);)
+      columns.push_back({std::string(name), ColumnRole::number});
     const Naming* const naming = choose_coordinates(columns);
     if (!naming)
       return scanner_.line_error("expected columns x y z, xu yu zu, xs ys zs or xsu ysu zsu but found " +

@@ -98,9 +98,15 @@ class AtomSites {
     if (!ours_) return;
     const int item = columns_[column_];
     if (item != kItems) row_[static_cast<std::size_t>(item)] = value;
+    last_ = value;
     if (++column_ < columns_.size()) return;
     column_ = 0;
     add_atom(row_);
+  }
+  void end_loop() const {
+    if (column_ > 0)
+      stop(last_, "the last row of this loop has " + std::to_string(column_) + " of its " +
+                      std::to_string(columns_.size()) + " values");
   }
 
   // A single atom may stand outside a loop, as pairs of tag and value.
@@ -177,6 +183,7 @@ class AtomSites {
   std::size_t column_ = 0;
   bool ours_ = false;  // some column of the loop is
   Row row_{};
+  Value last_;
   int pair_item_ = kItems;
   Row pair_row_{};
   std::int64_t atoms_ = 0;  // of all models
@@ -227,6 +234,13 @@ struct Action<rules::loop_value> {
   template <class Input>
   static void apply(const Input& in, AtomSites& sites) {
     sites.add_loop_value(value_of(in));
+  }
+};
+template <>
+struct Action<rules::loop> {
+  template <class Input>
+  static void apply(const Input&, AtomSites& sites) {
+    sites.end_loop();
   }
 };
 template <>

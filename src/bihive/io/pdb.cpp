@@ -1,5 +1,6 @@
 // PDB, fixed columns [wwPDB-3.3]. Read directly rather than with gemmi's PDB reader, which sorts atoms into chains and
-// residues (file order is lost) and takes what is no number for 0; elements follow gemmi's rules and tables.
+// residues (file order is lost), takes what is no number for 0, and stops at the older format's line numbers; elements
+// follow gemmi's rules and tables.
 #include <cmath>
 #include <limits>
 

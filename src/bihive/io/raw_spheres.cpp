@@ -6,10 +6,11 @@
 namespace bihive {
 
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames) {
+  const std::string what = "there is no frame " + std::to_string(frame) + ": the file has ";
+  if (frames == 0) return {what + "none", file, 0, 0, ""};
   const std::string have =
-      frames == 1 ? "1 frame (0)" : std::to_string(frames) + " frames (0 to " + std::to_string(frames - 1) + ")";
-  return {"there is no frame " + std::to_string(frame) + ": the file has " + have, file, 0, 0,
-          "choose one with --frame, counting from 0"};
+      frames == 1 ? "one only (0)" : std::to_string(frames) + " (0 to " + std::to_string(frames - 1) + ")";
+  return {what + have, file, 0, 0, "choose one with --frame, counting from 0"};
 }
 
 const char* coordinate_fault(double value) {

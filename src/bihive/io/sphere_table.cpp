@@ -64,6 +64,7 @@ ColumnRole usual_role(std::string_view name) {
 
 SphereTable::SphereTable(const std::vector<TableColumn>& columns) {
   for (const TableColumn& column : columns) {
+    if (columns_.size() > kMostColumns) break;
     columns_.emplace_back();
     columns_.back().name = column.name;
     columns_.back().role = column.role;
@@ -76,6 +77,8 @@ std::string SphereTable::columns_fault() const {
       return std::find(roles.begin(), roles.end(), column.role) != roles.end();
     });
   };
+
+  if (columns_.size() > kMostColumns) return "expected at most " + std::to_string(kMostColumns) + " columns";
 
   // Exactly one of each axis.
   const std::pair<ColumnRole, const char*> axes[3] = {{ColumnRole::x, "x"}, {ColumnRole::y, "y"}, {ColumnRole::z, "z"}};

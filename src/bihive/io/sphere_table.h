@@ -22,7 +22,7 @@ enum class ColumnRole {
   radius,
   diameter,
   atomic_number,
-  red,  ///< sRGB, 0 to 1 or 0 to 255 (take() tells which)
+  red,  ///< 0 to 1 or 0 to 255
   green,
   blue,
   opacity,       ///< 0 (clear) to 1
@@ -43,6 +43,9 @@ ColumnRole usual_role(std::string_view name);
 
 class SphereTable {
  public:
+  /// More columns are a fault: no real file has them.
+  static constexpr std::size_t kMostColumns = 1000;
+
   explicit SphereTable(const std::vector<TableColumn>& columns);
 
   /// What keeps the columns from making spheres (no x, two radii ...), or an empty text.
@@ -60,7 +63,7 @@ class SphereTable {
   /// Checks the width of a line that is not read otherwise.
   Status check_width(const TextScanner& scanner) const;
 
-  /// What was read, without `format`. Colours go from sRGB to linear; they are taken as 0 to 255 if any is above 1.
+  /// What was read, without `format`. Colours are linear, 0 to 1; if any part is above 1, all are sRGB, 0 to 255.
   RawSpheres take() &&;
 
  private:

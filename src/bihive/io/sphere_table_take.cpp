@@ -121,11 +121,12 @@ void SphereTable::take_colours(RawSpheres& spheres) {
   double largest = 0;
   for (const auto* part : {&red, &green, &blue})
     largest = std::max(largest, *std::max_element(part->begin(), part->end()));
-  const double full = largest > 1 ? 255 : 1;
-  spheres.rules.push_back(full > 1 ? "colours: sRGB, 0 to 255" : "colours: sRGB, 0 to 1");
+  const bool bytes = largest > 1;
+  spheres.rules.push_back(bytes ? "colours: sRGB, 0 to 255" : "colours: linear, 0 to 1");
 
   // Make them linear.
-  const auto linear = [full](double part) { return static_cast<float>(linear_from_srgb(part / full)); };
+  const auto linear = [bytes](double part) { return static_cast<float>(bytes ? linear_from_srgb(part / 255) : part); };
+  spheres.attributes.colour.reserve(red.size());
   for (std::size_t i = 0; i < red.size(); ++i)
     spheres.attributes.colour.push_back({linear(red[i]), linear(green[i]), linear(blue[i])});
 }

@@ -62,6 +62,11 @@ bool TextScanner::skip_lines(std::int64_t count) {
   return true;
 }
 
+std::int64_t TextScanner::lines_left() const {
+  if (at_end()) return 0;
+  return std::count(text_.begin() + static_cast<std::ptrdiff_t>(next_), text_.end(), '\n') + !ends_in_newline();
+}
+
 bool TextScanner::next_field(std::string_view& field) {
   if (separator_ != kBlanks) return next_quoted_field(field);
   while (cursor_ < line_.size() && is_blank(line_[cursor_])) ++cursor_;

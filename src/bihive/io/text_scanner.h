@@ -35,6 +35,8 @@ class TextScanner {
   std::string_view line() const { return line_; }
   std::int64_t line_number() const { return line_number_; }
   bool at_end() const { return next_ == text_.size(); }
+  /// Behind the current line: lines, counted in one quick pass, and bytes.
+  std::int64_t lines_left() const;
   std::int64_t bytes_left() const { return static_cast<std::int64_t>(text_.size() - next_); }
   /// False where the text's last line has no end.
   bool ends_in_newline() const { return text_.empty() || text_.back() == '\n'; }

@@ -56,7 +56,6 @@ void add_property(const std::string& name, char kind, std::int64_t width, std::v
 
 // The columns that a Properties value stands for, or the message of an error.
 std::string columns_of(std::string_view properties, std::vector<TableColumn>& columns) {
-  constexpr std::size_t kMostColumns = 1000;
   while (!properties.empty()) {
     std::string_view part[3];
     for (std::string_view& p : part) {
@@ -65,7 +64,7 @@ std::string columns_of(std::string_view properties, std::vector<TableColumn>& co
     }
     const auto width = parse_int(part[2]);
     if (part[0].empty() || part[1].size() != 1 || std::string_view("SIRL").find(part[1]) == std::string_view::npos ||
-        !width || *width < 1 || columns.size() + static_cast<std::uint64_t>(*width) > kMostColumns)
+        !width || *width < 1 || columns.size() + static_cast<std::uint64_t>(*width) > SphereTable::kMostColumns)
       return "expected name:type:columns in Properties, with one of S, I, R, L for the type, but found " +
              quote(std::string(part[0]) + ":" + std::string(part[1]) + ":" + std::string(part[2]));
     add_property(std::string(part[0]), part[1][0], *width, columns);

@@ -1,0 +1,47 @@
+// Reads spheres from text in a test, and says what went wrong in one line.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/io/read_spheres.h"
+
+namespace bihive::test {
+
+/// The file that the text stands for; the test fails where there is an error.
+inline SphereFile read_text(std::string_view text, const std::string& name, const ReadOptions& options = {}) {
+  Result<SphereFile> file = read_spheres_from_memory(text, name, options);
+  EXPECT_TRUE(file.ok()) << file.error().to_string();
+  return file.ok() ? *file : SphereFile{};
+}
+
+/// The message that the text gets; the test fails where there is none.
+inline std::string error_of(std::string_view text, const std::string& name, const ReadOptions& options = {}) {
+  const Result<SphereFile> file = read_spheres_from_memory(text, name, options);
+  EXPECT_FALSE(file.ok()) << name << " was read, but should not have been";
+  return file.ok() ? "" : file.error().to_string();
+}
+
+inline ReadOptions at_frame(std::int64_t frame) {
+  ReadOptions options;
+  options.frame = frame;
+  return options;
+}
+
+/// The values of a named number, or nothing.
+inline std::vector<double> numbers_of(const SphereFile& file, const std::string& name) {
+  for (const NamedNumbers& column : file.spheres.attributes().numbers)
+    if (column.name == name) return column.values;
+  return {};
+}
+
+inline std::vector<std::string> number_names(const SphereFile& file) {
+  std::vector<std::string> names;
+  for (const NamedNumbers& column : file.spheres.attributes().numbers) names.push_back(column.name);
+  return names;
+}
+
+}  // namespace bihive::test

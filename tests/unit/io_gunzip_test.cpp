@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "bihive/io/gunzip.h"
+#include "support/read_text.h"
+
+namespace bihive {
+namespace {
+
+std::string gzip(const std::string& text, int level = 6) {
+  z_stream stream{};
+  deflateInit2(&stream, level, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
+  std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream.avail_in = static_cast<uInt>(text.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(packed.size() - stream.avail_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+std::string long_text() {
+  std::string text;
+  for (int i = 0; i < 200000; ++i) text += std::to_string(i * 7919) + " ";
+  return text;
+}
+
+TEST(Gunzip, GivesBackWhatWasPacked) {
+  for (const std::string& text : {std::string(), std::string("x"), long_text()}) {
+    const Result<std::string> back = gunzip(gzip(text), "a.gz");
+    ASSERT_TRUE(back.ok()) << back.error().to_string();
+    EXPECT_EQ(*back, text);
+  }
+  EXPECT_EQ(*gunzip(gzip(long_text(), 0), "a.gz"), long_text());
+}
+
+TEST(Gunzip, GoesOnWithFurtherMembersAndPadding) {
+  const std::string text = long_text();
+  EXPECT_EQ(*gunzip(gzip("one ") + gzip("") + gzip(text), "a.gz"), "one " + text);
+  EXPECT_EQ(*gunzip(gzip("one ") + gzip("two") + std::string(512, '\0'), "a.gz"), "one two");
+}
+
+TEST(Gunzip, RefusesCutData) {
+  const std::string packed = gzip("some text that is packed") + gzip("and more of it");
+  const std::size_t first = gzip("some text that is packed").size();
+  for (std::size_t size = 2; size < packed.size(); ++size) {
+    if (size == first) continue;
+    const Result<std::string> back = gunzip(packed.substr(0, size), "a.gz");
+    ASSERT_FALSE(back.ok()) << "cut at " << size;
+    if (size > first + 1)
+      EXPECT_EQ(back.error().to_string(), "a.gz: the gzip data is cut: it ends before its end mark");
+  }
+}
+
+TEST(Gunzip, RefusesDamagedData) {
+  const std::string packed = gzip("some text that is packed, some text that is packed");
+  std::string damaged = packed;
+  damaged[packed.size() - 6] = static_cast<char>(damaged[packed.size() - 6] ^ 1);
+  EXPECT_EQ(gunzip(damaged, "a.gz").error().to_string(), "a.gz: the gzip data is damaged: incorrect data check");
+  EXPECT_FALSE(gunzip(std::string("\x1f\x8b") + std::string(50, 'x'), "a.gz").ok());
+  EXPECT_EQ(gunzip(packed + "more", "a.gz").error().to_string(),
+            "a.gz: the gzip data is damaged: something else follows its end mark");
+}
+
+TEST(Gunzip, UnpacksEveryFormat) {
+  EXPECT_EQ(test::read_text(gzip("1 2 3 4\n"), "a.txt.gz").format, "CSV");
+  EXPECT_EQ(test::read_text(gzip("1\n\nC 1 2 3\n"), "misleading.npy").format, "XYZ");
+  EXPECT_EQ(test::read_text(gzip(std::string("x,y,z\n1,2,3\n")), "a.csv.gz").spheres.size(), 1);
+  EXPECT_EQ(test::error_of(gzip(""), "a.pdb.gz"), "a.pdb.gz: the file is empty");
+  EXPECT_EQ(test::error_of(gzip("1 2 3\n4 5 x\n"), "a.gz"), "a.gz:2:5: expected a number for z but found 'x'");
+  EXPECT_EQ(test::error_of(gzip("1 2 3\n").substr(0, 12), "a.pdb.gz"),
+            "a.pdb.gz: the gzip data is cut: it ends before its end mark");
+}
+
+}  // namespace
+}  // namespace bihive

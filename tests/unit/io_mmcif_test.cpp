@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include "support/read_text.h"
+
+namespace bihive {
+namespace {
+
+using test::at_frame;
+using test::error_of;
+using test::numbers_of;
+using test::read_text;
+
+const std::string kTags =
+    "loop_\n_atom_site.group_PDB\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.label_alt_id\n"
+    "_atom_site.label_asym_id\n_atom_site.label_seq_id\n_atom_site.pdbx_PDB_ins_code\n_atom_site.Cartn_x\n"
+    "_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.occupancy\n_atom_site.B_iso_or_equiv\n"
+    "_atom_site.auth_seq_id\n_atom_site.auth_asym_id\n_atom_site.pdbx_PDB_model_num\n";
+
+std::vector<double> xs(const SphereFile& file) {
+  std::vector<double> x;
+  for (std::int64_t id = 0; id < file.spheres.size(); ++id) x.push_back(file.spheres.centre(id).x);
+  return x;
+}
+using Xs = std::vector<double>;
+
+TEST(Mmcif, TakesAtomsInFileOrder) {
+  const SphereFile file = read_text("# a comment\ndata_TEST\n_entry.id TEST\n#\n" + kTags +
+                                        "ATOM   N N   . A 1 ? 1.5 2.5 -3.5 1.00 20.5 1 A 1\n"
+                                        "HETATM ZN 'ZN A' . B . ? 4 5 6 ? . 301 B 1\n"
+                                        "ATOM   C \"C1'\" . A 2 ? 7.25(3) 8\n9 0.5 10 2 A 1\n"
+                                        "#\nloop_\n_other.x\n_other.y\n1 2\n",
+                                    "a.cif");
+  EXPECT_EQ(file.format, "mmCIF");
+  EXPECT_EQ(file.frames, 1);
+  ASSERT_EQ(file.spheres.size(), 3);
+  EXPECT_EQ(file.spheres.centre(0), (Vec3d{1.5, 2.5, -3.5}));
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{4, 5, 6}));
+  EXPECT_EQ(file.spheres.centre(2), (Vec3d{7.25, 8, 9}));
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{7, 30, 6}));
+  EXPECT_FLOAT_EQ(static_cast<float>(file.spheres.radius(0)), 1.55f);
+  EXPECT_EQ(numbers_of(file, "occupancy"), (std::vector<double>{1, 1, 0.5}));
+  EXPECT_EQ(numbers_of(file, "b_factor"), (std::vector<double>{20.5, 0, 10}));
+}
+
+TEST(Mmcif, TakesTheLikeliestOfAlternateLocations) {
+  const SphereFile file = read_text("data_T\n" + kTags +
+                                        "ATOM C CA A A 1 ? 0 0 0 0.3 0 1 A 1\n"
+                                        "ATOM C CB A A 1 ? 1 0 0 0.5 0 1 A 1\n"
+                                        "ATOM C CA B A 1 ? 2 0 0 0.7 0 1 A 1\n"
+                                        "ATOM C CB B A 1 ? 3 0 0 0.5 0 1 A 1\n"
+                                        "ATOM C CA B A 1 X 4 0 0 0.1 0 1 A 1\n"
+                                        "HETATM O O A W . ? 5 0 0 0.5 0 901 A 1\n"
+                                        "HETATM O O B W . ? 6 0 0 0.5 0 902 A 1\n"
+                                        "HETATM O O '' W . ? 7 0 0 0.5 0 902 A 1\n",
+                                    "a.cif");
+  EXPECT_EQ(xs(file), (Xs{1, 2, 4, 5, 6, 7}));
+}
+
+TEST(Mmcif, TakesTheModelAskedFor) {
+  const std::string text = "data_T\n" + kTags +
+                           "ATOM C CA . A 1 ? 1 0 0 1 0 1 A 1\nATOM C CA . A 1 ? 2 0 0 1 0 1 A 4\n"
+                           "ATOM C CA . A 2 ? 3 0 0 1 0 2 A 4\nATOM C CA . A 2 ? 4 0 0 1 0 2 A 1\n";
+  EXPECT_EQ(read_text(text, "a.cif").frames, 2);
+  EXPECT_EQ(xs(read_text(text, "a.cif")), (Xs{1, 4}));
+  EXPECT_EQ(xs(read_text(text, "a.cif", at_frame(1))), (Xs{2, 3}));
+  EXPECT_EQ(error_of(text, "a.cif", at_frame(2)),
+            "a.cif: there is no frame 2: the file has 2 (0 to 1); choose one with --frame, counting from 0");
+}
+
+TEST(Mmcif, TakesASingleAtomOutsideALoopAndTheFirstBlockWithAtoms) {
+  const std::string pairs =
+      "data_EMPTY\n_entry.id E\ndata_ONE\n_atom_site.type_symbol O\n_atom_site.Cartn_x 1\n_atom_site.Cartn_y 2\n"
+      "_atom_site.Cartn_z 3\n_other.x 9\n";
+  EXPECT_EQ(read_text(pairs, "a.cif").spheres.centre(0), (Vec3d{1, 2, 3}));
+  const SphereFile two = read_text(
+      pairs + "data_TWO\nLOOP_\n_ATOM_SITE.CARTN_X\n_atom_site.cartn_y\n_atom_site.Cartn_z\n7 8 9\n", "a.cif");
+  EXPECT_EQ(xs(two), (Xs{1}));
+  EXPECT_EQ(two.frames, 1);
+}
+
+TEST(Mmcif, NamesLineAndColumnOfAFault) {
+  const std::string head = "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 2 3\n";
+  EXPECT_EQ(error_of(head + "4 nan 6\n", "a.cif"), "a.cif:7:3: Cartn_y is not finite: 'nan'");
+  EXPECT_EQ(error_of(head + "4\n5 ?\n", "a.cif"), "a.cif:8:3: expected a number for Cartn_z but found '?'");
+  EXPECT_EQ(error_of(head + "4 5 6x\n", "a.cif"), "a.cif:7:5: expected a number for Cartn_z but found '6x'");
+  EXPECT_EQ(error_of(head + "4 5\n", "a.cif"), "a.cif:7:3: the last row of this loop has 2 of its 3 values");
+  EXPECT_EQ(error_of("data_T\n_cell.length_a 1\n", "a.cif"),
+            "a.cif: there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it; crystal files with "
+            "fractional coordinates are not read");
+  EXPECT_EQ(error_of(head + "1 2 'open\n", "a.cif"), "a.cif:7:10: this is no CIF: unterminated 'string'");
+  EXPECT_EQ(error_of("nothing of the kind\n", "a.cif"), "a.cif:1:1: this is no CIF: expected block header (data_)");
+}
+
+}  // namespace
+}  // namespace bihive

@@ -1,0 +1,207 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "support/read_text.h"
+
+namespace bihive {
+namespace {
+
+using test::at_frame;
+using test::error_of;
+using test::numbers_of;
+using test::read_text;
+
+// One ATOM line in the format's columns. `name` has its four columns, `element` its two.
+struct Atom {
+  double x = 0;
+  std::string name = " CA ", alternate = " ", chain = " A", residue = "   1", insertion = " ", element = " C";
+  double occupancy = 1;
+  std::string record = "ATOM  ", serial = "    1";
+
+  std::string line() const {
+    char text[128];
+    std::snprintf(text, sizeof text, "%s%s %s%sALA%s%s%s   %8.3f%8.3f%8.3f%6.2f%6.2f          %s  \n", record.c_str(),
+                  serial.c_str(), name.c_str(), alternate.c_str(), chain.c_str(), residue.c_str(), insertion.c_str(), x,
+                  0.0, 0.0, occupancy, 20.0, element.c_str());
+    return text;
+  }
+};
+
+std::vector<double> xs(const SphereFile& file) {
+  std::vector<double> x;
+  for (std::int64_t id = 0; id < file.spheres.size(); ++id) x.push_back(file.spheres.centre(id).x);
+  return x;
+}
+using Xs = std::vector<double>;
+
+TEST(Pdb, TakesPlaceElementOccupancyAndBFactor) {
+  const SphereFile file = read_text(
+      "HEADER    TEST\n"
+      "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 20.25           N  \n"
+      "HETATM    2 FE   HEM A   2    -100.125   0.000   3.000  0.50 -1.00          FE  \n"
+      "TER\nEND\n",
+      "a.pdb");
+  EXPECT_EQ(file.format, "PDB");
+  EXPECT_EQ(file.frames, 1);
+  ASSERT_EQ(file.spheres.size(), 2);
+  EXPECT_NEAR(file.spheres.centre(0).x, 11.104, 1e-6);
+  EXPECT_NEAR(file.spheres.centre(0).y, 6.134, 1e-6);
+  EXPECT_NEAR(file.spheres.centre(0).z, -6.504, 1e-6);
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{-100.125, 0, 3}));
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{7, 26}));
+  EXPECT_FLOAT_EQ(static_cast<float>(file.spheres.radius(0)), 1.55f);
+  EXPECT_EQ(numbers_of(file, "occupancy"), (std::vector<double>{1, 0.5}));
+  EXPECT_EQ(numbers_of(file, "b_factor"), (std::vector<double>{20.25, -1}));
+  EXPECT_TRUE(file.warnings.empty());
+}
+
+TEST(Pdb, KeepsFileOrderThoughChainsAndResiduesAreInterleaved) {
+  std::string text;
+  for (int i = 0; i < 9; ++i) {
+    Atom atom;
+    atom.x = i;
+    atom.chain = i % 3 == 0 ? " A" : i % 3 == 1 ? " B" : "  ";
+    atom.residue = i % 2 ? "   7" : "   3";
+    atom.record = i % 4 == 3 ? "HETATM" : "ATOM  ";
+    text += atom.line();
+    if (i == 4) text += "TER\n";
+  }
+  EXPECT_EQ(xs(read_text(text, "a.pdb")), (Xs{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+}
+
+TEST(Pdb, TakesTheLikeliestOfAlternateLocationsAndOfEqualOnesTheFirst) {
+  std::string text;
+  const auto add = [&text](double x, const char* name, const char* mark, double occupancy, const char* residue = "   1",
+                           const char* insertion = " ", const char* chain = " A") {
+    Atom atom;
+    atom.x = x;
+    atom.name = name;
+    atom.alternate = mark;
+    atom.occupancy = occupancy;
+    atom.residue = residue;
+    atom.insertion = insertion;
+    atom.chain = chain;
+    text += atom.line();
+  };
+  add(0, " N  ", " ", 1);
+  add(1, " CA ", "A", 0.4);                     // goes: 0.6 follows
+  add(2, " CB ", "A", 0.5);                     // stays: the first of two
+  add(3, " CA ", "B", 0.6);                     // stays
+  add(4, " CB ", "B", 0.5);                     // goes
+  add(5, " CA ", "C", 0.6);                     // goes: equal, but later
+  add(6, " CA ", "A", 0.1, "   2");             // stays: another residue
+  add(7, " CA ", "B", 0.1, "   1", "X");        // stays: another insertion code
+  add(8, " CA ", "B", 0.1, "   1", " ", " B");  // stays: another chain
+  add(9, " N  ", " ", 1);                       // stays: no mark, whatever its name
+  const SphereFile file = read_text(text, "a.pdb");
+  EXPECT_EQ(xs(file), (Xs{0, 2, 3, 6, 7, 8, 9}));
+  EXPECT_EQ(numbers_of(file, "occupancy"), (std::vector<double>{1, 0.5, 0.6, 0.1, 0.1, 0.1, 1}));
+  EXPECT_EQ(file.spheres.attributes().element.size(), 7u);
+  EXPECT_EQ(file.rules[1], "alternate locations: the highest occupancy, of equal ones the first; 3 atoms left out");
+}
+
+TEST(Pdb, TakesARepeatedMarkForAnotherSite) {
+  // A simulation counts residues round and round: the same names come again.
+  std::string text;
+  for (int i = 0; i < 4; ++i) {
+    Atom atom;
+    atom.x = i;
+    atom.alternate = i % 2 ? "B" : "A";
+    atom.occupancy = i == 1 ? 0.9 : 0.5;
+    text += atom.line();
+  }
+  EXPECT_EQ(xs(read_text(text, "a.pdb")), (Xs{1, 2}));
+}
+
+TEST(Pdb, TakesHybrid36Numbers) {
+  std::string text;
+  for (const auto& [serial, residue] :
+       {std::pair{"99999", "9999"}, {"A0000", "A000"}, {"zzzzz", "zzzz"}, {"*****", "****"}}) {
+    Atom atom;
+    atom.x = static_cast<double>(text.size());
+    atom.serial = serial;
+    atom.residue = residue;
+    atom.alternate = "A";
+    text += atom.line();
+  }
+  EXPECT_EQ(read_text(text, "a.pdb").spheres.size(), 4);
+}
+
+TEST(Pdb, GuessesTheElementFromTheNameWhereColumnsAreShort) {
+  const std::pair<const char*, int> cases[] = {{" CA ", 6}, {"CA  ", 20}, {" N  ", 7}, {"FE  ", 26}, {"HG11", 1},
+                                               {"1HB ", 1}, {"HG  ", 80}, {" OXT", 8}, {"ZN  ", 30}, {"C210", 6},
+                                               {"1C4A", 6}, {" Q  ", 0},  {" DT ", 1}, {"O5' ", 8},  {"    ", 0}};
+  for (const auto& [name, number] : cases) {
+    Atom atom;
+    atom.name = name;
+    const SphereFile file = read_text(atom.line().substr(0, 66) + "\n", "a.pdb");
+    const auto& element = file.spheres.attributes().element;
+    EXPECT_EQ(element.empty() ? 0 : int(element[0]), number) << "'" << name << "'";
+    EXPECT_EQ(file.warnings.size(), number == 0 ? 1u : 0u) << "'" << name << "'";
+  }
+}
+
+TEST(Pdb, TakesElementsInAnyCaseAndGivesUnknownOnesTheDefaultRadius) {
+  Atom calcium, unknown, deuterium;
+  calcium.element = "Ca";
+  unknown.element = " X";
+  deuterium.element = " D";
+  const SphereFile file = read_text(calcium.line() + unknown.line() + deuterium.line(), "a.pdb");
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{20, 0, 1}));
+  EXPECT_EQ(file.spheres.radius(1), 0.5);
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0], "1 sphere has neither element nor radius: the radius 0.5 is used; set it with --radius");
+}
+
+TEST(Pdb, TakesTheModelAskedFor) {
+  const auto atom = [](double x) {
+    Atom a;
+    a.x = x;
+    return a.line();
+  };
+  const std::string models = "MODEL        1\n" + atom(1) + atom(2) + "ENDMDL\nMODEL        2\n" + atom(3) +
+                             "ENDMDL\nMODEL        1\n" + atom(4) + "ENDMDL\nEND\n";
+  EXPECT_EQ(read_text(models, "a.pdb").frames, 3);
+  EXPECT_EQ(xs(read_text(models, "a.pdb")), (Xs{1, 2}));
+  EXPECT_EQ(xs(read_text(models, "a.pdb", at_frame(1))), (Xs{3}));
+  EXPECT_EQ(xs(read_text(models, "a.pdb", at_frame(2))), (Xs{4}));
+  EXPECT_EQ(error_of(models, "a.pdb", at_frame(3)),
+            "a.pdb: there is no frame 3: the file has 3 (0 to 2); choose one with --frame, counting from 0");
+  const std::string ends = atom(1) + "END\n" + atom(2) + "ENDMDL\n" + atom(3) + "ENDMDL\n";
+  EXPECT_EQ(xs(read_text(ends, "a.pdb", at_frame(2))), (Xs{3}));
+}
+
+TEST(Pdb, NamesLineAndColumnsOfAFault) {
+  const auto with = [](std::size_t column, const std::string& text) {
+    std::string line = Atom{}.line();
+    return "REMARK\n" + line.replace(column - 1, text.size(), text);
+  };
+  EXPECT_EQ(error_of(with(31, "     nan"), "a.pdb"), "a.pdb:2:31: x is not finite: 'nan'");
+  EXPECT_EQ(error_of(with(39, "     inf"), "a.pdb"), "a.pdb:2:39: y is not finite: 'inf'");
+  EXPECT_EQ(error_of(with(47, "********"), "a.pdb"),
+            "a.pdb:2:47: expected a number for z in columns 47 to 54 but found '********'");
+  EXPECT_EQ(error_of(with(31, "        "), "a.pdb"),
+            "a.pdb:2:31: expected a number for x in columns 31 to 38 but found ''");
+  EXPECT_EQ(error_of(with(31, " 1.0 2.0"), "a.pdb"),
+            "a.pdb:2:31: expected a number for x in columns 31 to 38 but found '1.0 2.0'");
+  EXPECT_EQ(error_of("ATOM      1  CA  ALA A   1       1.000\n", "a.pdb"),
+            "a.pdb:1:39: expected a number for y in columns 39 to 46 but found ''");
+  EXPECT_EQ(error_of("ATOM\n", "a.pdb"), "a.pdb:1:31: expected a number for x in columns 31 to 38 but found ''");
+  EXPECT_EQ(error_of("HEADER    NOTHING\nEND\n", "a.pdb"), "a.pdb: there is no ATOM or HETATM record in it");
+}
+
+TEST(Pdb, WarnsOfAnUnreadableOccupancyOrBFactor) {
+  std::string line = Atom{}.line();
+  line.replace(60, 6, "******");
+  const SphereFile file = read_text("REMARK\n" + line, "a.pdb");
+  EXPECT_TRUE(std::isnan(numbers_of(file, "b_factor")[0]));
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0], "a.pdb:2: 1 occupancies or B factors are no numbers and are taken as unknown");
+  const SphereFile bare = read_text(Atom{}.line().substr(0, 54) + "\n", "a.pdb");
+  EXPECT_EQ(numbers_of(bare, "occupancy"), (std::vector<double>{1}));
+}
+
+}  // namespace
+}  // namespace bihive

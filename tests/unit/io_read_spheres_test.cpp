@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "bihive/io/detect.h"
+#include "bihive/io/elements.h"
+#include "bihive/io/npy.h"
+#include "bihive/io/read_spheres.h"
+#include "support/read_text.h"
+
+namespace bihive {
+namespace {
+
+using test::error_of;
+using test::read_text;
+
+TEST(Detect, GoesByContentFirst) {
+  const std::pair<const char*, Format> cases[] = {
+      {"\n  \nITEM: TIMESTEP\n0\n", Format::lammps_dump},
+      {"HEADER    X\n", Format::pdb},
+      {"ATOM      1  N   ALA A   1      11.104   6.134  -6.504\n", Format::pdb},
+      {"HETATM99999  N   ALA A   1      11.104   6.134  -6.504\n", Format::pdb},
+      {"CRYST1    1.000\n", Format::pdb},
+      {"data_1ABC\n", Format::mmcif},
+      {"# comment\n\nDATA_x\n", Format::mmcif},
+      {"12\ncomment\n", Format::xyz},
+      {"100000000000\n", Format::xyz},
+      {"1 2 3\n", Format::csv},
+      {"# comment\n1,2,3,4\n", Format::csv},
+      {"\xEF\xBB\xBFid;X;Y;Z\n", Format::csv},
+      {"\"x\",\"y\",\"z\"\n", Format::csv},
+      {"\x93NUMPY", Format::npy},
+  };
+  for (const auto& [text, format] : cases)
+    for (const char* name : {"a", "a.pdb", "a.npy", "a.xyz.gz"})
+      EXPECT_EQ(detect_format(text, name), format) << text << " as " << name;
+}
+
+TEST(Detect, GoesByNameWhereContentSaysNothing) {
+  const std::pair<const char*, Format> cases[] = {
+      {"a.pdb", Format::pdb},          {"a.ENT", Format::pdb},
+      {"b/a.cif.gz", Format::mmcif},   {"a.mmcif", Format::mmcif},
+      {"a.xyz", Format::xyz},          {"a.extxyz", Format::xyz},
+      {"a.dump", Format::lammps_dump}, {"a.lammpstrj", Format::lammps_dump},
+      {"a.csv", Format::csv},          {"a.tsv", Format::csv},
+      {"a.txt.GZ", Format::csv},       {"a.dat", Format::csv},
+      {"a.npy", Format::npy},
+  };
+  for (const auto& [name, format] : cases) EXPECT_EQ(detect_format("what is this?", name), format) << name;
+  for (const char* name : {"a", "pdb", "a.", "a.zip", "a.pdb.zip", ".gz"})
+    EXPECT_FALSE(detect_format("what is this?", name).has_value()) << name;
+}
+
+TEST(Elements, KnowTheirSymbolsAndRadii) {
+  EXPECT_EQ(atomic_number("H"), 1);
+  EXPECT_EQ(atomic_number("D"), 1);
+  EXPECT_EQ(atomic_number("cl"), 17);
+  EXPECT_EQ(atomic_number("FE"), 26);
+  EXPECT_EQ(atomic_number("Og"), 118);
+  for (const char* symbol : {"", "X", "Xx", "C1", "Carbon", " C", "C ", "1", "*"})
+    EXPECT_EQ(atomic_number(symbol), 0) << symbol;
+  EXPECT_FLOAT_EQ(static_cast<float>(van_der_waals_radius(6)), 1.7f);
+  EXPECT_EQ(van_der_waals_radius(0), 0.0);
+  EXPECT_EQ(van_der_waals_radius(119), 0.0);
+  for (int number = 1; number <= 118; ++number) {
+    EXPECT_GE(van_der_waals_radius(number), 1.0) << number;
+    EXPECT_LE(van_der_waals_radius(number), 3.5) << number;
+  }
+}
+
+TEST(ReadSpheres, AppliesRadiusThenScale) {
+  ReadOptions options;
+  options.radius = 2;
+  EXPECT_EQ(read_text("1 2 3 0.5\n", "a", options).spheres.radius(0), 2);
+  options.radius_scale = 0.25;
+  EXPECT_EQ(read_text("1 2 3 0.5\n", "a", options).spheres.radius(0), 0.5);
+  EXPECT_EQ(read_text("1\n\nC 1 2 3\n", "a", options).spheres.radius(0), 0.5);
+  options.radius.reset();
+  EXPECT_EQ(read_text("1 2 3 0.5\n", "a", options).spheres.radius(0), 0.125);
+  options.radius = 0;
+  EXPECT_EQ(read_text("1 2 3\n", "a", options).spheres.radius(0), 0);
+}
+
+TEST(ReadSpheres, SaysWhatItAssumedUnlessToldOtherwise) {
+  EXPECT_EQ(read_text("1 2 3\n", "a").warnings,
+            (std::vector<std::string>{
+                "the spheres have neither element nor radius: the radius 0.5 is used; set it with --radius"}));
+  ReadOptions options;
+  options.radius = 0.5;
+  EXPECT_TRUE(read_text("1 2 3\n", "a", options).warnings.empty());
+  EXPECT_EQ(read_text("1 2 3\n", "a", options).rules.back(), "radii: all 0.5, as asked for");
+}
+
+TEST(ReadSpheres, RefusesRadiiThatAreNone) {
+  ReadOptions options;
+  options.radius = -1;
+  EXPECT_EQ(error_of("1 2 3\n", "a", options),
+            "a: the radius that replaces all others is negative: -1; give --radius a number from 0");
+  options.radius = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error_of("1 2 3\n", "a", options),
+            "a: the radius that replaces all others is not finite: nan; give --radius a number from 0");
+  options.radius.reset();
+  options.radius_scale = -2;
+  EXPECT_EQ(error_of("1 2 3\n", "a", options),
+            "a: the factor for radii is negative: -2; give --radius-scale a number from 0");
+  options.radius_scale = 1e30;
+  EXPECT_EQ(error_of("1 2 3 1e30\n", "a", options).substr(0, 3), "a: ");
+}
+
+TEST(ReadSpheres, RecentersInDoubleAndOffersIt) {
+  // Spheres of radius 0.01 around 1e6: single precision moves them by up to 0.03.
+  const std::string text = "1000000.01 0 0 0.01\n1000000.02 0 0 0.01\n1000000.03 0 0 0.01\n1 0 0 1000\n";
+  const std::string far = text.substr(0, text.rfind("1 0 0"));
+  const SphereFile as_is = read_text(far, "a");
+  ASSERT_EQ(as_is.warnings.size(), 1u);
+  EXPECT_NE(as_is.warnings[0].find("moves 3 of 3 centres by more than 1 % of the radius"), std::string::npos);
+  EXPECT_NE(as_is.warnings[0].find("--recenter"), std::string::npos);
+  EXPECT_EQ(as_is.recentred_by, (Vec3d{}));
+
+  ReadOptions options;
+  options.recenter = true;
+  const SphereFile recentred = read_text(far, "a", options);
+  EXPECT_TRUE(recentred.warnings.empty());
+  EXPECT_NEAR(recentred.recentred_by.x, 1000000.02, 1e-9);
+  EXPECT_NEAR(recentred.spheres.centre(0).x, -0.01, 1e-9);
+  EXPECT_NEAR(recentred.spheres.centre(2).x, 0.01, 1e-9);
+
+  // Where the extent itself is too large, there is no use in offering it again.
+  const SphereFile wide = read_text("-1000000.01 0 0 1e-3\n1000000.02 0 0 1e-3\n5 0 0 1e-3\n", "a", options);
+  ASSERT_EQ(wide.warnings.size(), 1u);
+  EXPECT_EQ(wide.warnings[0].find("--recenter"), std::string::npos);
+}
+
+TEST(ReadSpheres, KeepsQuietWhereRoundingDoesNoHarm) {
+  EXPECT_TRUE(read_text("0.1 0.2 0.3 1\n100.1 0 0 1\n", "a").warnings.empty());
+  EXPECT_TRUE(read_text("1000000.01 0 0 0\n0 0 0 1\n", "a").warnings.empty()) << "a point is never hit";
+}
+
+TEST(ReadSpheres, WarnsOfVanishingRadii) {
+  const SphereFile file = read_text("0 0 0 1e-25\n1 0 0 1\n", "a");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0], "1 sphere has a radius below 2^-60 of the whole extent and cannot be told from a point");
+}
+
+TEST(ReadSpheres, NamesWhatItCannotRead) {
+  const std::string known =
+      "; known are PDB (.pdb .ent), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), LAMMPS dump (.dump "
+      ".lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+  EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
+  EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
+  std::string junk;
+  for (int i = 0; i < 5000; ++i) junk += static_cast<char>((i * i * 31 + i * 7) >> 3);
+  EXPECT_EQ(error_of(junk, "a"), "a: this is no file of spheres in a known format" + known);
+  for (const char* name : {"a.pdb", "a.cif", "a.xyz", "a.dump", "a.csv", "a.npy"})
+    EXPECT_EQ(error_of(junk, name).find(std::string(name) + ":"), 0u) << error_of(junk, name);
+  EXPECT_EQ(error_of("no array", "a.npy"), "a.npy: this is no NPY file: it does not begin with \\x93NUMPY");
+  EXPECT_EQ(error_of(" \n \n", "a.xyz"), "a.xyz: there is no frame 0: the file has none");
+}
+
+TEST(ReadSpheres, ReadsFilesAndNamesThoseItCannot) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "bihive_io_read_spheres";
+  fs::create_directories(folder);
+  const std::string good = (folder / "good.txt").string(), empty = (folder / "empty.txt").string();
+  std::ofstream(good) << "1 2 3 4\n";
+  std::ofstream(empty).flush();
+  const Result<SphereFile> file = read_spheres(good, {});
+  ASSERT_TRUE(file.ok()) << file.error().to_string();
+  EXPECT_EQ(file->spheres.radius(0), 4);
+  EXPECT_EQ(read_spheres(empty, {}).error().to_string(), empty + ": the file is empty");
+  for (const std::string& path : {(folder / "missing.pdb").string(), folder.string()}) {
+    const Result<SphereFile> none = read_spheres(path, {});
+    ASSERT_FALSE(none.ok());
+    EXPECT_EQ(none.error().file, path);
+  }
+  fs::remove_all(folder);
+}
+
+TEST(ReadSpheres, ReadsTheBundledMolecule) {
+  const Result<SphereFile> file = read_spheres(std::string(BIHIVE_SOURCE_DIR) + "/data/1hpv.pdb", {});
+  ASSERT_TRUE(file.ok()) << file.error().to_string();
+  EXPECT_EQ(file->spheres.size(), 1631);
+  EXPECT_TRUE(file->warnings.empty());
+}
+
+}  // namespace
+}  // namespace bihive
