@@ -122,7 +122,8 @@ class RayMaker {
                                  rng.next_below(2) == 0 ? -1.0 : 1.0};
       if (k != axis) past[k] += radius * choices[rng.next_below(12) == 0 ? 3 : rng.next_below(3)];
     }
-    ray.origin = to_float(past - ahead * (size_ * uniform(rng, 0.2, 3)));
+    const double back = world_->view_distance > 0 ? world_->view_distance : size_ * uniform(rng, 0.2, 3);
+    ray.origin = to_float(past - ahead * back);
     // Keep the other coordinates exactly where they were meant, as far as binary32 allows.
     for (int k = 0; k < 3; ++k)
       if (ahead[k] == 0) ray.origin[k] = static_cast<float>(past[k]);

@@ -31,6 +31,9 @@ class Slabs {
     pad_ = 0x1p-24 + 0x1p-46 * farthest;
   }
 
+  /// How far every plane is moved outward, in stored units.
+  double pad() const { return pad_; }
+
   /// The part at or below `plane` (bounding what lies lower) on the axis.
   Interval below(Interval part, int axis, double plane) const { return cut(part, axis, plane + pad_, true); }
   /// The part at or above `plane`.
