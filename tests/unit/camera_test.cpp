@@ -87,7 +87,7 @@ TEST_P(Framing, whole_set_in_view_and_as_large_as_it_fits) {
       used = std::max(used, edge / limit);
     }
   }
-  EXPECT_GT(used, 0.9);
+  EXPECT_GT(used, 0.9) << "no border is reached";
 }
 
 INSTANTIATE_TEST_SUITE_P(sides, Framing,

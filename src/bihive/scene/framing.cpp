@@ -1,7 +1,6 @@
 #include "bihive/scene/framing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -38,6 +37,30 @@ Side side_of(ViewFrom from) {
   return {normalized(Vec3d{1, 1, 1}), {0, 1, 0}};
 }
 
+// The two opposite planes through the eye that bound the picture to the left and right, or below and above. With the
+// eye at (shift, distance) along (the span's axis, back), a sphere is inside a plane when its centre is at least a
+// radius away from it:
+//   distance * tangent - shift >= radius * slope - place + tangent * depth    and the same with -shift and -place.
+class Span {
+ public:
+  explicit Span(double tangent) : tangent_(tangent), slope_(std::sqrt(1 + tangent * tangent)) {}
+
+  void add(double place, double depth, double radius) {
+    low_ = std::max(low_, radius * slope_ - place + tangent_ * depth);
+    high_ = std::max(high_, radius * slope_ + place + tangent_ * depth);
+  }
+  /// The smallest distance at which both planes hold, and the shift at which they do.
+  double distance() const { return empty() ? 0 : (low_ + high_) / (2 * tangent_); }
+  double shift() const { return empty() ? 0 : (high_ - low_) / 2; }
+
+ private:
+  bool empty() const { return low_ == kNone; }
+
+  static constexpr double kNone = -std::numeric_limits<double>::infinity();
+  double tangent_, slope_;
+  double low_ = kNone, high_ = kNone;
+};
+
 }  // namespace
 
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {
@@ -47,29 +70,27 @@ Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, in
   const SphereSet::Bounds bounds = spheres.bounds();
   const Vec3d middle = spheres.empty() ? Vec3d{} : bounds.lo + 0.5 * (bounds.hi - bounds.lo);
 
-  // The four planes through the eye that bound the picture less its margin, by their inward normals.
+  // The tangents of the angles that the picture less its margin spans to either side.
   const double shorter = std::min(width_px, height_px);
   const double tangent = tan_deg(fov_deg / 2) * (1 - 2 * kMargin);
-  const double tan_x = tangent * width_px / shorter;
-  const double tan_y = tangent * height_px / shorter;
-  const std::array<Vec3d, 4> normals{normalized(right - tan_x * side.back), normalized(-right - tan_x * side.back),
-                                     normalized(up - tan_y * side.back), normalized(-up - tan_y * side.back)};
-
-  // A sphere is inside a plane when its centre is a radius away from it. With the eye at middle + d back that is a
-  // lower bound of d; the largest of all is the nearest eye. The sphere must also lie before the eye.
+  Span across{tangent * width_px / shorter};
+  Span along{tangent * height_px / shorter};
   double distance = 0;
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     const Vec3d centre = spheres.centre(id) - middle;
     const double radius = spheres.radius(id);
-    for (const Vec3d& normal : normals)
-      distance = std::max(distance, (radius - dot(normal, centre)) / -dot(normal, side.back));
-    distance = std::max(distance, dot(centre, side.back) + radius);
+    const double depth = dot(centre, side.back);
+    across.add(dot(centre, right), depth, radius);
+    along.add(dot(centre, up), depth, radius);
+    distance = std::max(distance, depth + radius);
   }
+  distance = std::max({distance, across.distance(), along.distance()});
   if (!(distance > 0)) distance = 1;
+  const Vec3d shift = across.shift() * right + along.shift() * up;
 
   Camera camera;
-  camera.look_at = middle;
-  camera.eye = middle + distance * side.back;
+  camera.look_at = middle + shift;
+  camera.eye = camera.look_at + distance * side.back;
   camera.up = up;
   camera.fov_deg = fov_deg;
   return camera;

@@ -13,8 +13,8 @@ namespace bihive {
 /// from -z, top from +y (with -z up), bottom from -y (with +z up), iso from (1, 1, 1).
 enum class ViewFrom { front, back, left, right, top, bottom, iso };
 
-/// Looks at the middle of the set's box. The eye is as near as it can be while every sphere lies wholly inside the
-/// picture (width x height pixels) less a margin of 4 % a side. An empty or single-point set is seen from distance 1.
+/// The eye is as near as it can be, and so shifted sideways, that every sphere lies wholly inside the picture (width x
+/// height pixels) less a margin of 4 % a side. An empty or single-point set is seen from distance 1.
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
 
 /// One white light above, left of and behind the camera, as far from what it looks at as the camera is, or farther.
