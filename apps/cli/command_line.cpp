@@ -60,12 +60,15 @@ void add_generator_options(CLI::App& app, InputOptions& input) {
   add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", seed_from);
 }
 
-void add_input_options(CLI::App& app, InputOptions& input) {
+void add_input(CLI::App& app, InputOptions& input) {
   app.add_option("INPUT", input.input,
                  "A file (PDB, mmCIF, XYZ, LAMMPS dump, CSV, NPY, scene JSON) or a built-in name:\n"
                  "scenario1, scenario2, scenario3, four-spheres, demo")
       ->type_name("")
       ->required();
+}
+
+void add_input_options(CLI::App& app, InputOptions& input) {
   add_generator_options(app, input);
   add_number(app, "--radius", input.radius, kLargestFloat, "R", "Radius of every sphere (scenarios: 1)");
   add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
@@ -102,7 +105,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   CLI::App& command = add_command(
       app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
       "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
-  add_input_options(command, options.input);
+  add_input(command, options.input);
   add_path(command, "-o,--output", options.output, "The picture (PNG)");
   add_value(command, "--size", options.size, "WxH", "Pixels (1280x720)", size_from);
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
@@ -125,6 +128,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_value(command, "--fov", options.fov_deg, "DEG", "Angle along the shorter side (30)",
             [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
   add_engine_options(command, options.engine, options.tree, options.threads);
+  add_input_options(command, options.input);
   add_json_flag(command, options.json);
 }
 
@@ -132,8 +136,9 @@ void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
   CLI::App& command =
       add_command(app, "stats", "Build the tree and show what it looks like in numbers", "bihive stats demo",
                   "bihive stats scenario2 --max-prims 1 --seed 7 --json", options, request);
-  add_input_options(command, options.input);
+  add_input(command, options.input);
   add_tree_options(command, options.tree);
+  add_input_options(command, options.input);
   add_json_flag(command, options.json);
 }
 
@@ -141,13 +146,14 @@ void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
   CLI::App& command = add_command(
       app, "trace", "Trace rays from a .npy file", "bihive trace scenario1 --rays rays.npy --t t.npy --id id.npy",
       "bihive trace demo --rays rays.npy --t t.npy --id id.npy --any --threads 2", options, request);
-  add_input_options(command, options.input);
+  add_input(command, options.input);
   add_path(command, "--rays", options.rays, "float32 (n, 6): origin, direction; or (n, 8): and t_min, t_max");
   add_path(command, "--t", options.t, "Written: float64 (n), the hit is at origin + t direction; inf for none");
   add_path(command, "--id", options.id, "Written: int64 (n), position in the set; -1 for nothing, -2 for the plane");
   command.add_flag("--any", options.any, "Whether anything is hit: id 0 or -1, t 0 or inf");
   command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
   add_engine_options(command, options.engine, options.tree, options.threads);
+  add_input_options(command, options.input);
 }
 
 void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
@@ -165,8 +171,9 @@ void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
 void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   CLI::App& command = add_command(app, "info", "Show what an input holds and how it was read", "bihive info demo",
                                   "bihive info scenario1 --count 1000000 --radius 0.1 --json", options, request);
-  add_input_options(command, options.input);
+  add_input(command, options.input);
   add_tree_options(command, options.tree);
+  add_input_options(command, options.input);
   add_json_flag(command, options.json);
 }
 
@@ -206,7 +213,11 @@ Request parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     std::string command = "bihive";
     for (const CLI::App* called : app.get_subcommands()) command += " " + called->get_name();
-    fail_usage(error.what(), "see " + command + " --help");
+    // CLI11 speaks of "At Most 1 required" where an option is repeated.
+    std::string what = error.what();
+    const std::size_t repeated = what.find(": At Most 1 required but received ");
+    if (repeated != std::string::npos) what = what.substr(0, repeated) + " is given more than once";
+    fail_usage(what, "see " + command + " --help");
   }
   if (std::holds_alternative<HelpText>(request)) return HelpText{app.help(), false};
   return request;

@@ -4,8 +4,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "bihive/scene/generators.h"
+#include "bihive/scene/palette.h"
 
 namespace bihive {
 namespace {
@@ -146,6 +151,54 @@ TEST(SceneFile, RadiusOptionsReachInlineSpheres) {
   EXPECT_EQ(parse(with_spheres("[[0,0,0,1]]"), options)->scene.spheres.radius(0), 1.5);
   options.radius.reset();
   EXPECT_EQ(parse(with_spheres("[[0,0,0,1]]"), options)->scene.spheres.radius(0), 0.5);
+}
+
+// A folder with a molecule of two atoms in it.
+class SceneFileWithMolecule : public testing::Test {
+ protected:
+  SceneFileWithMolecule() : folder_(testing::TempDir() + "scene_file_test_" + std::to_string(getpid())) {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ + "/two.xyz") << "2\ntwo atoms\nC 10 20 30\nO 12 20 30\n";
+  }
+  ~SceneFileWithMolecule() override { std::filesystem::remove_all(folder_); }
+
+  Result<LoadedScene> load(const std::string& more, const ReadOptions& options = {}) const {
+    const std::string json = R"({"bihive_scene": 1, "materials": [{"name": "plain"}, {"name": "red", "colour": "red"}],
+                             "spheres": {"file": "two.xyz")" +
+                             more + "}}";
+    return parse_scene(json, folder_ + "/scene.json", options);
+  }
+
+ private:
+  std::string folder_;
+};
+
+TEST_F(SceneFileWithMolecule, PathsStartFromTheDocument) {
+  const Result<LoadedScene> loaded = load("");
+  ASSERT_TRUE(loaded) << loaded.error().to_string();
+  EXPECT_EQ(loaded->scene.spheres.size(), 2);
+  EXPECT_EQ(loaded->scene.spheres.centre(1), (Vec3d{12, 20, 30}));
+  EXPECT_EQ(loaded->frames, 1);
+  EXPECT_FALSE(loaded->rules.empty());
+}
+
+TEST_F(SceneFileWithMolecule, TheCallersWishesGoFirst) {
+  EXPECT_EQ(load(R"(, "radius": 2, "radius_scale": 0.5)")->scene.spheres.radius(0), 1);
+  ReadOptions options;
+  options.radius = 8;
+  options.radius_scale = 2;
+  EXPECT_EQ(load(R"(, "radius": 2, "radius_scale": 0.5)", options)->scene.spheres.radius(0), 8);
+  EXPECT_EQ(load(R"(, "recenter": true)")->scene.spheres.centre(1), (Vec3d{1, 0, 0}));
+  EXPECT_FALSE(load(R"(, "frame": 1)"));
+}
+
+TEST_F(SceneFileWithMolecule, AStatedColourGoesBeforeTheElements) {
+  const Result<LoadedScene> by_element = load(R"(, "material": "plain")");
+  ASSERT_EQ(by_element->scene.spheres.attributes().colour.size(), 2u);
+  EXPECT_EQ(by_element->scene.spheres.attributes().colour[1], element_colour(8));
+  const Result<LoadedScene> red = load(R"(, "material": "red")");
+  EXPECT_TRUE(red->scene.spheres.attributes().colour.empty());
+  EXPECT_EQ(red->scene.material_of_sphere, (std::vector<std::int32_t>{1, 1}));
 }
 
 TEST(SceneFile, EmptyLightsAreLights) {

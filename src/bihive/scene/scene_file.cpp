@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/scene/colour_text.h"
+#include "bihive/scene/palette.h"
 #include "bihive/scene/scene_json.h"
 
 namespace bihive {
@@ -263,9 +264,16 @@ class Extraction {
     loaded_.frames = file->frames;
     loaded_.rules = std::move(file->rules);
     for (const std::string& warning : file->warnings) loaded_.warnings.push_back(path + ": " + warning);
-    if (!value.contains("material")) return;
-    const std::int32_t position = material_position(value.at("material"), "/spheres/material");
+    // The material: where it states a colour, all have that; otherwise those of the file, by element or by type.
+    const std::int32_t position =
+        value.contains("material") ? material_position(value.at("material"), "/spheres/material") : 0;
     if (position != 0) scene.material_of_sphere.assign(static_cast<std::size_t>(scene.spheres.size()), position);
+    const bool states_colour = document_.contains("materials") &&
+                               document_.at("materials").at(static_cast<std::size_t>(position)).contains("colour");
+    if (states_colour)
+      scene.spheres.attributes().colour.clear();
+    else
+      colour_spheres(scene.spheres);
   }
 
   const json& document_;

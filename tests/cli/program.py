@@ -1,0 +1,135 @@
+"""What the tests of the program share: running it, scratch folders, PNG chunks."""
+
+import json
+import os
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+BIHIVE = os.environ.get("BIHIVE", "bihive")
+
+
+class ProgramTest(unittest.TestCase):
+    """Each test runs in an empty folder of its own."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="bihive_cli_")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def contents(self):
+        """Every path below the folder, with its bytes; of what is no regular file, None."""
+        found = {}
+        for top, folders, files in os.walk(self.folder):
+            for name in folders + files:
+                path = os.path.join(top, name)
+                found[path] = None
+                if os.path.isfile(path) and os.access(path, os.R_OK):
+                    with open(path, "rb") as file:
+                        found[path] = file.read()
+        return found
+
+    def run_bihive(self, *arguments, **options):
+        """The finished process; stdout and stderr are text."""
+        options.setdefault("cwd", self.folder)
+        options.setdefault("stdout", subprocess.PIPE)
+        return subprocess.run([BIHIVE, *arguments], stderr=subprocess.PIPE, text=True, timeout=300, **options)
+
+    def succeed(self, *arguments):
+        """Runs, demands exit code 0 and silence on stderr, and returns stdout."""
+        done = self.run_bihive(*arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
+        return done.stdout
+
+    def succeed_json(self, *arguments):
+        """The same with one JSON object, and nothing else, on stdout."""
+        value = json.loads(self.succeed(*arguments, "--json"))
+        self.assertIsInstance(value, dict)
+        return value
+
+    def assert_one_error_line(self, stderr, arguments=()):
+        self.assertRegex(stderr, r"\Abihive: error: [^\n]+\n\Z", arguments)
+
+    def fail_with(self, code, *arguments, **options):
+        """Demands this exit code, one clear line on stderr, nothing on stdout, and an unchanged folder. Returns the
+        line's text."""
+        before = self.contents()
+        done = self.run_bihive(*arguments, **options)
+        self.assertEqual(done.returncode, code, (arguments, done.stderr))
+        self.assertEqual(done.stdout, "", arguments)
+        self.assert_one_error_line(done.stderr, arguments)
+        self.assertEqual(self.contents(), before, arguments)
+        return done.stderr[len("bihive: error: ") : -1]
+
+    def fail_usage(self, *arguments):
+        return self.fail_with(2, *arguments)
+
+    def fail_input(self, *arguments, **options):
+        return self.fail_with(1, *arguments, **options)
+
+
+def png_chunks(data):
+    """(type, bytes) of each chunk; checks signature and check sums."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", "no PNG"
+    chunks = []
+    at = 8
+    while at < len(data):
+        (size,) = struct.unpack(">I", data[at : at + 4])
+        kind, body = data[at + 4 : at + 8], data[at + 8 : at + 8 + size]
+        (check,) = struct.unpack(">I", data[at + 8 + size : at + 12 + size])
+        assert check == zlib.crc32(kind + body), kind
+        chunks.append((kind.decode(), body))
+        at += 12 + size
+    return chunks
+
+
+def png_size(data):
+    return struct.unpack(">II", dict(png_chunks(data))["IHDR"][:8])
+
+
+def png_text(data):
+    """Keyword -> text of the tEXt chunks."""
+    pairs = [body.split(b"\0", 1) for kind, body in png_chunks(data) if kind == "tEXt"]
+    return {key.decode("latin-1"): text.decode("latin-1") for key, text in pairs}
+
+
+def png_pixels(data):
+    """Rows of (r, g, b) of an 8-bit RGB picture."""
+    width, height = png_size(data)
+    raw = zlib.decompress(b"".join(body for kind, body in png_chunks(data) if kind == "IDAT"))
+    stride = 3 * width
+    rows, above = [], bytes(stride)
+    for y in range(height):
+        start = y * (stride + 1)
+        above = unfiltered(raw[start], raw[start + 1 : start + 1 + stride], above)
+        rows.append([tuple(above[i : i + 3]) for i in range(0, stride, 3)])
+    return rows
+
+
+def unfiltered(method, line, above):
+    """A row of bytes as it was before PNG's filter (0 none, 1 left, 2 above, 3 mean, 4 Paeth)."""
+    line = bytearray(line)
+    for i in range(len(line)):
+        left = line[i - 3] if i >= 3 else 0
+        corner = above[i - 3] if i >= 3 else 0
+        estimate = left + above[i] - corner
+        nearest = min((abs(estimate - value), rank, value) for rank, value in enumerate((left, above[i], corner)))
+        line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, nearest[2])[method]) & 255
+    return bytes(line)
+
+
+def main():
+    unittest.main()

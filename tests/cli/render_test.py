@@ -1,0 +1,195 @@
+"""bihive render: what is written, what is said, and that it is the same however it is made."""
+
+import json
+import os
+
+from program import ProgramTest, main, png_pixels, png_size, png_text
+
+SMALL = ["--size", "48x32"]
+
+
+class Render(ProgramTest):
+    def render(self, *arguments, out="a.png"):
+        """The JSON that the program prints; the picture is in `out`."""
+        return self.succeed_json("render", *arguments, "-o", out)
+
+    def settings(self, *arguments):
+        return self.render(*arguments)["settings"]
+
+    def test_defaults_of_a_file(self):
+        self.write("a.xyz", "1\n\nC 0 0 0\n")
+        self.succeed("render", "a.xyz", "-o", "a.png")
+        self.assertEqual(png_size(self.read("a.png")), (1280, 720))
+        settings = json.loads(png_text(self.read("a.png"))["Settings"])
+        expected = {"samples_per_pixel": 4, "recursion": 5, "shadows": True, "transfer": "srgb", "view": "shaded"}
+        self.assertEqual({key: settings[key] for key in expected}, expected)
+        self.assertEqual(settings["background"], [1, 1, 1])
+        self.assertEqual(settings["camera"]["fov_deg"], 30)
+        self.assertEqual(png_pixels(self.read("a.png"))[0][0], (255, 255, 255))
+
+    def test_defaults_of_the_thesis(self):
+        for name in ["scenario1", "scenario2", "scenario3", "four-spheres"]:
+            settings = self.settings(name, *SMALL)
+            expected = {"samples_per_pixel": 1, "recursion": 5, "shadows": False, "transfer": "none"}
+            self.assertEqual({key: settings[key] for key in expected}, expected)
+            self.assertEqual(settings["background"], [0, 0, 0])
+            self.assertEqual(settings["camera"], {"eye": [0, 0, 100], "look_at": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 30})
+
+    def test_every_option_arrives(self):
+        settings = self.settings(
+            *"demo --size 20x10 --recursion 3 --samples 2 --no-shadows --transfer none --background 0.25,0.5,1".split(),
+            *"--eye 100,0,1 --look-at 0,0,1 --up 0,0,2 --fov 45 --radius 2 --radius-scale 0.5 --frame 0 --recenter".split(),
+        )
+        self.assertEqual((settings["width_px"], settings["height_px"]), (20, 10))
+        self.assertEqual((settings["recursion"], settings["samples_per_pixel"]), (3, 2))
+        self.assertEqual((settings["shadows"], settings["transfer"]), (False, "none"))
+        self.assertEqual(settings["background"], [0.25, 0.5, 1])
+        self.assertEqual(settings["camera"], {"eye": [100, 0, 1], "look_at": [0, 0, 1], "up": [0, 0, 2], "fov_deg": 45})
+        self.assertEqual((settings["radius"], settings["radius_scale"], settings["recenter"]), (2, 0.5, True))
+        self.assertTrue(self.settings("scenario1", *SMALL, "--shadows")["shadows"])
+
+    def test_json_says_what_was_done(self):
+        said = self.render("scenario2", *SMALL, "--count", "64", "--seed", "9")
+        self.assertEqual((said["output"], said["scene"], said["seed"]), ("a.png", "scenario2", 9))
+        self.assertEqual((said["size"], said["view"], said["engine"]), ("48x32", "shaded", "reference"))
+        self.assertEqual(said["spheres"], 64)
+        self.assertEqual(said["rays"]["primary"], 48 * 32)
+        self.assertEqual(said["rays"]["shadow"], 0)
+        self.assertGreater(said["rays"]["reflected"], 0)
+        self.assertGreater(said["rays"]["transmitted"], 0)
+        self.assertRegex(said["picture_hash"], r"\A[0-9a-f]{16}\Z")
+        for key in ["build_ms", "render_ms", "mray_per_s"]:
+            self.assertGreater(said[key], 0)
+
+    def test_text_is_one_line(self):
+        said = self.succeed("render", "demo", "-o", "a.png", *SMALL)
+        self.assertRegex(said, r"\Aa\.png: 48 x 32, 1,631 spheres; [^\n]+\n\Z")
+
+    def test_text_chunks(self):
+        self.render("scenario3", *SMALL, "--seed", "12")
+        text = png_text(self.read("a.png"))
+        self.assertRegex(text["Software"], r"\Abihive \d")
+        self.assertEqual((text["Scene"], text["Seed"]), ("scenario3", "12"))
+        self.render("demo", *SMALL)
+        self.assertNotIn("Seed", png_text(self.read("a.png")))
+
+    def test_names_beyond_ascii(self):
+        self.write("grün.xyz", "1\n\nC 0 0 0\n")
+        self.render("grün.xyz", *SMALL, out="größe.png")
+        self.assertEqual(png_text(self.read("größe.png"))["Scene"], "grün.xyz")
+
+    def test_the_same_bytes_for_any_engine_and_threads(self):
+        for view in ["shaded", "recursion", "normal", "distance", "id"]:
+            pictures = set()
+            for options in [
+                [],
+                ["--engine", "brute"],
+                ["--engine", "reference", "--threads", "1"],
+                ["--threads", "7", "--max-prims", "1"],
+                ["--max-depth", "3", "--max-prims", "unlimited"],
+            ]:
+                self.render("scenario3", "--count", "200", *SMALL, "--view", view, *options)
+                pictures.add(self.read("a.png"))
+            self.assertEqual(len(pictures), 1, view)
+
+    def test_views_and_recursion_differ(self):
+        views = ["shaded", "recursion", "traversal", "normal", "distance", "id"]
+        hashes = {self.render("four-spheres", *SMALL, "--view", view)["picture_hash"] for view in views}
+        self.assertEqual(len(hashes), len(views))
+        depths = {self.render("four-spheres", "--size", "320x240", "--recursion", str(n))["picture_hash"] for n in range(1, 6)}
+        self.assertEqual(len(depths), 5)
+
+    def test_the_traversal_view_shows_the_tree(self):
+        def picture(*options):
+            return self.render("scenario1", "--count", "64", *SMALL, "--view", "traversal", *options)["picture_hash"]
+
+        self.assertNotEqual(picture("--max-prims", "1"), picture("--max-prims", "32"))
+        self.assertEqual(picture("--max-depth", "1"), picture("--max-prims", "unlimited"))
+
+    def test_background_is_what_is_seen(self):
+        def corner(*options):
+            self.render("demo", *SMALL, *options)
+            return png_pixels(self.read("a.png"))[0][0]
+
+        self.assertEqual(corner("--background", "#204080"), (0x20, 0x40, 0x80))
+        self.assertEqual(corner("--background", "#204080", "--transfer", "none"), (0x20, 0x40, 0x80))
+        self.assertEqual(corner("--background", "red"), (255, 0, 0))
+        self.assertEqual(corner("--background", "0,0.5,1", "--transfer", "none"), (0, 128, 255))
+        self.assertEqual(corner("--background", "0,0.5,1"), (0, 188, 255))
+
+    def test_the_side_that_is_seen(self):
+        self.write("two.csv", "x,y,z,r\n0,0,0,1\n5,0,0,1\n")
+        eyes = {}
+        for side in ["front", "back", "left", "right", "top", "bottom", "iso"]:
+            camera = self.settings("two.csv", *SMALL, "--view-from", side)["camera"]
+            eyes[side] = [eye - middle for eye, middle in zip(camera["eye"], camera["look_at"])]
+        self.assertEqual(eyes["front"], self.eye_of("two.csv"))
+        self.assertTrue(eyes["front"][2] > 0 > eyes["back"][2])
+        self.assertTrue(eyes["right"][0] > 0 > eyes["left"][0])
+        self.assertTrue(eyes["top"][1] > 0 > eyes["bottom"][1])
+        self.assertTrue(min(eyes["iso"]) > 0)
+
+    def eye_of(self, given):
+        camera = self.settings(given, *SMALL)["camera"]
+        return [eye - middle for eye, middle in zip(camera["eye"], camera["look_at"])]
+
+    def test_the_whole_set_is_in_view(self):
+        for size in ["64x48", "48x64"]:
+            self.render("demo", "--size", size)
+            rows = png_pixels(self.read("a.png"))
+            border = rows[0] + rows[-1] + [row[0] for row in rows] + [row[-1] for row in rows]
+            self.assertEqual(set(border), {(255, 255, 255)})
+            self.assertGreater(sum(pixel != (255, 255, 255) for row in rows for pixel in row), 64 * 48 / 5)
+
+    def test_missing_parts_of_the_camera_are_filled_in(self):
+        middle = self.settings("demo", *SMALL)["camera"]["look_at"]
+        camera = self.settings("demo", *SMALL, "--eye", "200,0,0")["camera"]
+        self.assertEqual((camera["eye"], camera["look_at"], camera["up"]), ([200, 0, 0], middle, [0, 1, 0]))
+        camera = self.settings("scenario1", *SMALL, "--eye", "0,100,0")["camera"]
+        self.assertEqual((camera["look_at"], camera["up"]), ([0, 0, 0], [0, 0, -1]))
+        camera = self.settings("scenario1", *SMALL, "--look-at", "5,0,0")["camera"]
+        self.assertEqual((camera["eye"], camera["look_at"]), ([0, 0, 100], [5, 0, 0]))
+
+    def test_radius_reaches_scenarios_and_files(self):
+        self.write("a.csv", "x,y,z,r\n0,0,0,1\n9,0,0,1\n")
+        for given in ["scenario1", "a.csv", "demo"]:
+            wide = self.render(given, *SMALL, "--radius", "1.5")["picture_hash"]
+            self.assertNotEqual(wide, self.render(given, *SMALL, "--radius", "0.5")["picture_hash"], given)
+
+    def test_a_scene_file_with_everything(self):
+        self.write(
+            "s.json",
+            """{"bihive_scene": 1, "name": "all of it",
+            "camera": {"eye": [0, 2, 20], "look_at": [0, 0, 0], "fov_deg": 40},
+            "lights": [{"position": [10, 20, 10]}, {"position": [-10, 20, 10], "colour": "blue"}],
+            "materials": [{"name": "mirror", "reflective": 0.6, "colour": "grey"}],
+            "plane": {"point": [0, -2, 0], "normal": [0, 1, 0], "checker": {"size": 1, "second_colour": "black"}},
+            "background": "#102030", "picture": {"width_px": 40, "height_px": 30, "samples_per_pixel": 2},
+            "spheres": [[0, 0, 0, 2], {"centre": [3, 0, 0], "radius": 1, "colour": "red", "opacity": 0.5}]}""",
+        )
+        said = self.render("s.json")
+        self.assertEqual(png_size(self.read("a.png")), (40, 30))
+        self.assertEqual(said["scene"], "all of it")
+        self.assertEqual(said["settings"]["samples_per_pixel"], 2)
+        self.assertGreater(said["rays"]["reflected"], 0)
+        self.assertGreater(said["rays"]["shadow"], 0)
+        self.assertGreater(said["rays"]["transmitted"], 0)
+        self.assertEqual(self.settings("s.json", "--size", "8x6")["width_px"], 8)
+
+    def test_a_scene_file_finds_its_spheres(self):
+        os.mkdir(self.path("data"))
+        self.write("data/a.xyz", "2\n\nC 0 0 0\nO 3 0 0\n")
+        self.write("data/s.json", '{"bihive_scene": 1, "spheres": {"file": "a.xyz"}}')
+        from_scene = self.render("data/s.json", *SMALL)["picture_hash"]
+        self.assertEqual(from_scene, self.render("data/a.xyz", *SMALL)["picture_hash"])
+
+    def test_a_link_is_followed(self):
+        self.write("real.png", "old")
+        os.symlink("real.png", self.path("link.png"))
+        self.succeed("render", "demo", *SMALL, "-o", "link.png")
+        self.assertTrue(os.path.islink(self.path("link.png")))
+        self.assertEqual(png_size(self.read("real.png")), (48, 32))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,127 @@
+"""bihive scene and bihive info."""
+
+import json
+
+import numpy
+from program import ProgramTest, main
+
+
+class Scene(ProgramTest):
+    def test_npy_has_four_columns(self):
+        said = self.succeed("scene", "scenario2", "--count", "100", "--radius", "0.5", "--seed", "3", "-o", "s.npy")
+        self.assertEqual(said, "s.npy: scenario2, 100 spheres, seed 3\n")
+        spheres = numpy.load(self.path("s.npy"))
+        self.assertEqual((spheres.shape, spheres.dtype), ((100, 4), numpy.float32))
+        self.assertTrue((spheres[:, 3] == 0.5).all())
+        self.assertTrue((abs(spheres[:, :3]) >= 12).all() and (abs(spheres[:, :3]) <= 19.5).all())
+
+    def test_defaults(self):
+        self.succeed("scene", "scenario1", "-o", "s.npy")
+        spheres = numpy.load(self.path("s.npy"))
+        self.assertEqual(spheres.shape, (4096, 4))
+        self.assertTrue((spheres[:, 3] == 1).all())
+        self.assertEqual(spheres[0].tolist(), [-19, -19, -19, 1])
+
+    def test_seeds_matter_where_there_is_chance(self):
+        for name, differ in [("scenario1", False), ("scenario2", True), ("scenario3", True)]:
+            self.succeed("scene", name, "-o", "default.npy")
+            self.succeed("scene", name, "--seed", "1", "-o", "one.npy")
+            self.succeed("scene", name, "--seed", "2", "-o", "two.npy")
+            self.assertEqual(self.read("default.npy"), self.read("one.npy"))
+            self.assertEqual(self.read("one.npy") != self.read("two.npy"), differ, name)
+
+    def test_a_written_scene_is_the_same_scene(self):
+        for name in ["scenario1", "scenario2", "scenario3", "four-spheres"]:
+            self.succeed("scene", name, "-o", "s.json")
+            size = ["--size", "64x36"]
+            from_file = self.succeed_json("render", "s.json", "-o", "file.png", *size)
+            built_in = self.succeed_json("render", name, "-o", "name.png", *size)
+            self.assertEqual(from_file["picture_hash"], built_in["picture_hash"], name)
+            self.assertEqual(from_file["settings"], built_in["settings"], name)
+            self.assertEqual(self.read("file.png"), self.read("name.png"), name)
+
+    def test_json_is_json(self):
+        self.succeed("scene", "scenario3", "--count", "9", "-o", "s.json")
+        document = json.loads(self.read("s.json"))
+        self.assertEqual(document["bihive_scene"], 1)
+        self.assertEqual(document["seed"], 1)
+        self.assertEqual(len(document["spheres"]), 9)
+
+    def test_spheres_alone_have_the_same_tree(self):
+        self.succeed("scene", "scenario3", "-o", "s.npy")
+        from_file, built_in = self.succeed_json("stats", "s.npy"), self.succeed_json("stats", "scenario3")
+        for varying in ["build_ms", "seed"]:
+            del from_file[varying], built_in[varying]
+        self.assertEqual(from_file, built_in)
+
+    def test_an_old_file_is_replaced(self):
+        self.write("s.npy", "old")
+        self.succeed("scene", "four-spheres", "-o", "s.npy")
+        self.assertEqual(numpy.load(self.path("s.npy")).shape, (4, 4))
+
+
+class Info(ProgramTest):
+    def test_of_a_molecule(self):
+        info = self.succeed_json("info", "demo")
+        self.assertEqual(info["format"], "PDB")
+        self.assertEqual(info["frames"], 1)
+        self.assertTrue(info["rules"])
+        self.assertEqual(info["warnings"], [])
+        self.assertIn("element", [attribute["name"] for attribute in info["attributes"]])
+        for axis in range(3):
+            self.assertLess(info["bounds"]["lo"][axis], info["bounds"]["hi"][axis])
+        self.assertLess(0, info["radius"]["min"])
+        predicted = info["predicted_tree"]
+        held = self.succeed_json("stats", "demo")
+        self.assertTrue(predicted["allocated_bytes"]["low"] <= held["allocated_bytes"])
+        self.assertTrue(held["allocated_bytes"] <= predicted["allocated_bytes"]["high"])
+        self.assertTrue(predicted["thesis_bytes"]["low"] <= held["bytes"]["total"] <= predicted["thesis_bytes"]["high"])
+
+    def test_of_a_file_with_everything(self):
+        self.write("a.csv", "x,y,z,radius,charge\n0,0,0,1,-2\n10,0,0,0,3\n0,5,0,2,4\n")
+        info = self.succeed_json("info", "a.csv")
+        self.assertEqual(info["spheres"], 3)
+        self.assertEqual(info["bounds"], {"lo": [-2, -1, -2], "hi": [10, 7, 2]})
+        self.assertEqual(info["radius"], {"min": 0, "max": 2})
+        self.assertEqual(info["zero_radii"], 1)
+        self.assertIn({"name": "charge", "min": -2, "max": 4}, info["attributes"])
+
+    def test_reading_options(self):
+        self.write("a.csv", "x,y,z,r\n10,0,0,1\n12,0,0,3\n")
+        self.assertEqual(self.succeed_json("info", "a.csv", "--radius", "7")["radius"], {"min": 7, "max": 7})
+        self.assertEqual(self.succeed_json("info", "a.csv", "--radius-scale", "2")["radius"], {"min": 2, "max": 6})
+        moved = self.succeed_json("info", "a.csv", "--recenter")
+        self.assertEqual(moved["recentred_by"], [11, 0, 0])
+        self.assertEqual(moved["bounds"], {"lo": [-2, -3, -3], "hi": [4, 3, 3]})
+
+    def test_frames(self):
+        self.write("a.xyz", "1\n\nC 1 0 0\n1\n\nC 2 0 0\n1\n\nC 3 0 0\n")
+        for frame in range(3):
+            info = self.succeed_json("info", "a.xyz", "--frame", str(frame))
+            self.assertEqual(info["frames"], 3)
+            self.assertAlmostEqual((info["bounds"]["lo"][0] + info["bounds"]["hi"][0]) / 2, frame + 1, places=6)
+        self.assertIn("3", self.fail_input("info", "a.xyz", "--frame", "3"))
+
+    def test_a_scene_file_says_what_it_has(self):
+        self.write("s.json", '{"bihive_scene": 1, "lights": [], "spheres": [[0, 0, 0, 1]]}')
+        info = self.succeed_json("info", "s.json")
+        self.assertEqual((info["format"], info["camera"], info["lights"]), ("scene file", False, 0))
+
+    def test_a_missing_radius_is_said_once_on_stderr(self):
+        self.write("a.txt", "0 0 0\n1 1 1\n")
+        done = self.run_bihive("info", "a.txt", "--json")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"\Abihive: warning: [^\n]*--radius[^\n]*\n\Z")
+        info = json.loads(done.stdout)
+        self.assertEqual(info["radius"], {"min": 0.5, "max": 0.5})
+        self.assertEqual(len(info["warnings"]), 1)
+        self.succeed("info", "a.txt", "--radius", "2")
+
+    def test_text(self):
+        text = self.succeed("info", "scenario1")
+        self.assertIn("4,096 spheres", text)
+        self.assertIn("-20 to 20", text)
+
+
+if __name__ == "__main__":
+    main()
