@@ -1,0 +1,7 @@
+// Whatever the bytes are: gzip, detection, every reader, and the steps behind them.
+#include "read_and_check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  bihive::fuzz::read_whole(data, size);
+  return 0;
+}

@@ -1,0 +1,68 @@
+// What every fuzz target of a reader asks of it: an answer that agrees with itself, or an error in one line.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "bihive/io/read_spheres.h"
+#include "bihive/io/readers.h"
+
+namespace bihive::fuzz {
+
+inline void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+inline void check_error(const Error& error) {
+  require(!error.message.empty());
+  require(error.line >= 0 && error.column >= 0);
+  for (const char c : error.message + error.file + error.hint) require(c >= ' ' && c <= '~');
+}
+
+inline void check_attributes(const SphereAttributes& attributes, std::size_t size) {
+  const auto fits = [size](const auto& values) { return values.empty() || values.size() == size; };
+  require(fits(attributes.element) && fits(attributes.type) && fits(attributes.colour) && fits(attributes.opacity));
+  for (const NamedNumbers& column : attributes.numbers) require(column.values.size() == size);
+  for (const Vec3f& colour : attributes.colour)
+    for (int part = 0; part < 3; ++part) require(colour[part] >= 0 && colour[part] <= 1);
+  for (const float opacity : attributes.opacity) require(opacity >= 0 && opacity <= 1);
+}
+
+/// A reader's own answer. The first byte of the input chooses the frame.
+template <class Reader>
+void read_raw(Reader reader, const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const Result<RawSpheres> raw = reader(text, "fuzz", data[0] % 4);
+  if (!raw) return check_error(raw.error());
+  require(raw->frames > data[0] % 4 && !raw->format.empty());
+  require(raw->y.size() == raw->size() && raw->z.size() == raw->size());
+  require(raw->r.empty() || raw->r.size() == raw->size());
+  for (const auto* axis : {&raw->x, &raw->y, &raw->z})
+    for (const double value : *axis) require(std::isfinite(value));
+  for (const double r : raw->r) require(r >= 0 && std::isfinite(r));
+  check_attributes(raw->attributes, raw->size());
+}
+
+/// The whole way from bytes to a sphere set. The first byte chooses the options.
+inline void read_whole(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
+  ReadOptions options;
+  options.frame = data[0] & 1;
+  options.recenter = data[0] & 2;
+  if (data[0] & 4) options.radius = 0.25;
+  const char* const names[] = {"fuzz", "fuzz.pdb.gz", "fuzz.cif", "fuzz.xyz", "fuzz.dump", "fuzz.csv", "fuzz.npy"};
+  const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const Result<SphereFile> file = read_spheres_from_memory(bytes, names[data[0] / 8 % 7], options);
+  if (!file) return check_error(file.error());
+  require(file->spheres.size() > 0 && file->frames > options.frame);
+  for (std::int64_t id = 0; id < file->spheres.size(); ++id)
+    require(is_finite(file->spheres.centre(id)) && file->spheres.radius(id) >= 0);
+  check_attributes(file->spheres.attributes(), static_cast<std::size_t>(file->spheres.size()));
+}
+
+}  // namespace bihive::fuzz
