@@ -1,5 +1,5 @@
-// The format is NumPy's own description, numpy.lib.format: magic, version, length of the header, a Python dictionary
-// literal with exactly the keys descr, fortran_order and shape, then the numbers.
+// The format [NumPy-format]: magic, version, length of the header, a Python dictionary literal with exactly the keys
+// descr, fortran_order and shape, then the numbers.
 #include "bihive/io/npy.h"
 
 #include <cstring>
