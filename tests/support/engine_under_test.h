@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -63,9 +65,12 @@ class ProgramUnderTest : public EngineUnderTest {
   std::optional<Answers> trace(const std::string& engine, bool any) override {
     const std::string command = "'" + program_ + "' trace '" + file("spheres") + "' --rays '" + file("rays") +
                                 "' --t '" + file("t") + "' --id '" + file("id") + "' --engine " + engine +
-                                (any ? " --any" : "") + " 2>'" + file("stderr") + "'";
+                                (any ? " --any" : "") + " >'" + file("said") + "' 2>&1";
     if (std::system(command.c_str()) != 0) {
-      std::fprintf(stderr, "failed: %s\n", command.c_str());
+      std::ifstream said(file("said"));
+      std::stringstream text;
+      text << said.rdbuf();
+      std::fprintf(stderr, "failed: %s\n%s", command.c_str(), text.str().c_str());
       return std::nullopt;
     }
     Answers answers{read_npy<double>(file("t"), "<f8", count_), read_npy<std::int64_t>(file("id"), "<i8", count_)};
@@ -79,9 +84,7 @@ class ProgramUnderTest : public EngineUnderTest {
  private:
   std::string program_, folder_;
   std::size_t count_ = 0;
-  std::string file(const std::string& name) const {
-    return folder_ + "/" + name + (name == "stderr" ? ".txt" : ".npy");
-  }
+  std::string file(const std::string& name) const { return folder_ + "/" + name + (name == "said" ? ".txt" : ".npy"); }
 };
 
 /// The same queries without files, to tell a fault of the library from one of the program.
