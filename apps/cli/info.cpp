@@ -20,10 +20,12 @@ struct Range {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
 
+  /// NaN, which means unknown, is left out.
   void add(double value) {
     min = std::min(min, value);
     max = std::max(max, value);
   }
+  bool known() const { return min <= max; }
 };
 
 template <class T>
@@ -88,7 +90,9 @@ void print_json(const Facts& facts) {
   json["scale_exponent"] = facts.spheres.scale_exponent();
   json["attributes"] = ordered_json::array();
   for (const Range& attribute : facts.attributes)
-    json["attributes"].push_back({{"name", attribute.name}, {"min", attribute.min}, {"max", attribute.max}});
+    json["attributes"].push_back({{"name", attribute.name},
+                                  {"min", attribute.known() ? ordered_json(attribute.min) : ordered_json()},
+                                  {"max", attribute.known() ? ordered_json(attribute.max) : ordered_json()}});
   json["frames"] = facts.input.frames;
   json["rules"] = facts.input.rules;
   json["warnings"] = facts.input.warnings;
@@ -111,7 +115,8 @@ void print_text(const Facts& facts) {
     print(fmt::format("  {:<18}{}\n", name, value));
   };
   const auto interval = [](double min, double max) {
-    return min == max ? fmt::format("{:.6g}", min) : fmt::format("{:.6g} to {:.6g}", min, max);
+    // Adding 0 makes 0 of -0.
+    return min == max ? fmt::format("{:.6g}", min + 0) : fmt::format("{:.6g} to {:.6g}", min + 0, max + 0);
   };
   const auto bytes = [](const MemoryPrediction::Range& r) {
     return readable_bytes(static_cast<double>(r.low)) + " to " + readable_bytes(static_cast<double>(r.high));
@@ -124,7 +129,8 @@ void print_text(const Facts& facts) {
   if (facts.zero_radii > 0) row("", fmt::format("{} spheres of radius 0 are never hit", grouped(facts.zero_radii)));
   if (facts.spheres.vanishing_radii() > 0)
     row("", fmt::format("{} radii are below 2^-60 of the set's extent", grouped(facts.spheres.vanishing_radii())));
-  for (const Range& attribute : facts.attributes) row(attribute.name, interval(attribute.min, attribute.max));
+  for (const Range& attribute : facts.attributes)
+    row(attribute.name, attribute.known() ? interval(attribute.min, attribute.max) : "unknown");
   row("frames", grouped(facts.input.frames));
   for (const std::string& rule : facts.input.rules) row("read as", rule);
   const Vec3d shift = facts.input.recentred_by;

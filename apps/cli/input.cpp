@@ -64,6 +64,7 @@ Input from_scene_file(LoadedScene loaded) {
   input.frames = loaded.frames;
   input.rules = std::move(loaded.rules);
   input.warnings = std::move(loaded.warnings);
+  input.recentred_by = loaded.recentred_by;
   return input;
 }
 

@@ -37,6 +37,9 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
                            settings.width_px, settings.height_px);
   if (!placed) return camera;
 
+  // A camera that is placed by hand looks at the middle of the set unless the scene or the user says otherwise.
+  const SphereSet::Bounds bounds = scene.spheres.bounds();
+  if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
   camera.eye = options.eye.value_or(camera.eye);
   camera.look_at = options.look_at.value_or(camera.look_at);
   const Vec3d view = camera.look_at - camera.eye;

@@ -142,7 +142,8 @@ class Render(ProgramTest):
             self.assertGreater(sum(pixel != (255, 255, 255) for row in rows for pixel in row), 64 * 48 / 5)
 
     def test_missing_parts_of_the_camera_are_filled_in(self):
-        middle = self.settings("demo", *SMALL)["camera"]["look_at"]
+        bounds = self.succeed_json("info", "demo")["bounds"]
+        middle = [0.5 * lo + 0.5 * hi for lo, hi in zip(bounds["lo"], bounds["hi"])]
         camera = self.settings("demo", *SMALL, "--eye", "200,0,0")["camera"]
         self.assertEqual((camera["eye"], camera["look_at"], camera["up"]), ([200, 0, 0], middle, [0, 1, 0]))
         camera = self.settings("scenario1", *SMALL, "--eye", "0,100,0")["camera"]

@@ -86,6 +86,14 @@ class Info(ProgramTest):
         self.assertEqual(info["zero_radii"], 1)
         self.assertIn({"name": "charge", "min": -2, "max": 4}, info["attributes"])
 
+    def test_unknown_numbers_are_null(self):
+        self.write("a.csv", "x,y,z,r,charge,mass\n0,0,0,1,nan,1\n9,0,0,1,nan,nan\n")
+        done = self.run_bihive("info", "a.csv", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        attributes = json.loads(done.stdout)["attributes"]
+        self.assertIn({"name": "charge", "min": None, "max": None}, attributes)
+        self.assertIn({"name": "mass", "min": 1, "max": 1}, attributes)
+
     def test_reading_options(self):
         self.write("a.csv", "x,y,z,r\n10,0,0,1\n12,0,0,3\n")
         self.assertEqual(self.succeed_json("info", "a.csv", "--radius", "7")["radius"], {"min": 7, "max": 7})

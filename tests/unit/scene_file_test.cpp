@@ -162,10 +162,11 @@ class SceneFileWithMolecule : public testing::Test {
   }
   ~SceneFileWithMolecule() override { std::filesystem::remove_all(folder_); }
 
-  Result<LoadedScene> load(const std::string& more, const ReadOptions& options = {}) const {
-    const std::string json = R"({"bihive_scene": 1, "materials": [{"name": "plain"}, {"name": "red", "colour": "red"}],
-                             "spheres": {"file": "two.xyz")" +
-                             more + "}}";
+  Result<LoadedScene> load(const std::string& more, const ReadOptions& options = {},
+                           const std::string& before = "") const {
+    const std::string materials = R"("materials": [{"name": "plain"}, {"name": "red", "colour": "red"}], )";
+    const std::string json =
+        R"({"bihive_scene": 1, )" + before + materials + R"("spheres": {"file": "two.xyz")" + more + "}}";
     return parse_scene(json, folder_ + "/scene.json", options);
   }
 
@@ -190,6 +191,37 @@ TEST_F(SceneFileWithMolecule, TheCallersWishesGoFirst) {
   EXPECT_EQ(load(R"(, "radius": 2, "radius_scale": 0.5)", options)->scene.spheres.radius(0), 8);
   EXPECT_EQ(load(R"(, "recenter": true)")->scene.spheres.centre(1), (Vec3d{1, 0, 0}));
   EXPECT_FALSE(load(R"(, "frame": 1)"));
+}
+
+TEST(SceneFile, RecentringFromOutsideMovesEverythingAlong) {
+  ReadOptions options;
+  options.recenter = true;
+  const Result<LoadedScene> loaded = parse(R"({"bihive_scene": 1, "spheres": [[10, 20, 30, 1], [12, 20, 30, 1]],
+    "camera": {"eye": [11, 20, 40], "look_at": [11, 20, 30]}, "lights": [{"position": [0, 0, 0]}],
+    "plane": {"point": [0, 15, 0], "normal": [0, 1, 0]}})",
+                                           options);
+  ASSERT_TRUE(loaded) << loaded.error().to_string();
+  EXPECT_EQ(loaded->recentred_by, (Vec3d{11, 20, 30}));
+  EXPECT_EQ(loaded->scene.spheres.centre(0), (Vec3d{-1, 0, 0}));
+  EXPECT_EQ(loaded->scene.camera.eye, (Vec3d{0, 0, 10}));
+  EXPECT_EQ(loaded->scene.camera.look_at, (Vec3d{0, 0, 0}));
+  EXPECT_EQ(loaded->scene.lights.at(0).position, (Vec3d{-11, -20, -30}));
+  EXPECT_EQ(loaded->scene.plane->plane.point, (Vec3d{-11, -5, -30}));
+}
+
+TEST(SceneFile, CoarseRoundingIsWarnedOf) {
+  const Result<LoadedScene> loaded = parse(with_spheres("[[0, 0, 0, 0.001], [1234567.1, 0, 0, 0.001]]"));
+  ASSERT_EQ(loaded->warnings.size(), 1u);
+  EXPECT_THAT(loaded->warnings[0], HasSubstr("--recenter"));
+}
+
+TEST_F(SceneFileWithMolecule, TheDocumentsOwnRecentringLeavesItsCamera) {
+  const std::string camera = R"("camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0]}, )";
+  ReadOptions options;
+  EXPECT_EQ(load(R"(, "recenter": true)", options, camera)->scene.camera.eye, (Vec3d{0, 0, 9}));
+  options.recenter = true;
+  EXPECT_EQ(load(R"(, "recenter": true)", options, camera)->scene.camera.eye, (Vec3d{0, 0, 9}));
+  EXPECT_EQ(load("", options, camera)->scene.camera.eye, (Vec3d{-11, -20, -21}));
 }
 
 TEST_F(SceneFileWithMolecule, AStatedColourGoesBeforeTheElements) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bihive/io/finish.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/palette.h"
 #include "bihive/scene/scene_json.h"
@@ -197,24 +198,23 @@ class Extraction {
     if (options_.frame != 0)
       return fail("/spheres",
                   "there is no frame " + std::to_string(options_.frame) + ": the spheres are in the document");
-    if (options_.recenter) loaded_.warnings.push_back("spheres inside a scene file are never recentred");
-
     // Go through all of them; one that leaves its colour, opacity or material out gets what it would have anyway.
     const std::size_t n = values.size();
-    std::vector<double> x(n), y(n), z(n), r(n);
+    RawSpheres raw;
+    raw.format = "scene file";
+    for (std::vector<double>* numbers : {&raw.x, &raw.y, &raw.z, &raw.r}) numbers->resize(n);
     std::vector<std::int32_t> materials(n, 0);
-    std::vector<Vec3f> colours;
-    std::vector<float> opacities;
+    std::vector<Vec3f>& colours = raw.attributes.colour;
+    std::vector<float>& opacities = raw.attributes.opacity;
     std::vector<bool> coloured(n, false);
     for (std::size_t i = 0; i < n; ++i) {
       const json& value = values[i];
       const bool plain = value.is_array();
       const json& centre = plain ? value : value.at("centre");
-      x[i] = centre.at(0).get<double>();
-      y[i] = centre.at(1).get<double>();
-      z[i] = centre.at(2).get<double>();
-      r[i] = options_.radius_scale *
-             (options_.radius ? *options_.radius : (plain ? value.at(3) : value.at("radius")).get<double>());
+      raw.x[i] = centre.at(0).get<double>();
+      raw.y[i] = centre.at(1).get<double>();
+      raw.z[i] = centre.at(2).get<double>();
+      raw.r[i] = (plain ? value.at(3) : value.at("radius")).get<double>();
       const std::string pointer = "/spheres/" + std::to_string(i);
       if (plain && value.size() > 4) materials[i] = material_position(value.at(4), pointer + "/4");
       if (plain) continue;
@@ -230,18 +230,30 @@ class Extraction {
       }
     }
     if (!failed_.message.empty()) return;
-    Scene& scene = loaded_.scene;
     for (std::size_t i = 0; i < colours.size(); ++i)
-      if (!coloured[i]) colours[i] = to_float(scene.materials[static_cast<std::size_t>(materials[i])].colour);
+      if (!coloured[i]) colours[i] = to_float(loaded_.scene.materials[static_cast<std::size_t>(materials[i])].colour);
 
-    // Make the set.
-    Result<SphereSet> spheres = SphereSet::from_world(x, y, z, r);
-    if (!spheres) return fail("/spheres", spheres.error().message, spheres.error().hint);
-    scene.spheres = std::move(*spheres);
-    scene.spheres.attributes().colour = std::move(colours);
-    scene.spheres.attributes().opacity = std::move(opacities);
+    // Go on as with any file.
+    Result<SphereFile> file = finish_spheres(std::move(raw), "", options_);
+    if (!file) return fail("/spheres", file.error().message, file.error().hint);
     if (std::any_of(materials.begin(), materials.end(), [](std::int32_t position) { return position != 0; }))
-      scene.material_of_sphere = std::move(materials);
+      loaded_.scene.material_of_sphere = std::move(materials);
+    keep(std::move(*file), "", options_.recenter);
+  }
+
+  // What a file gave, inline or not. With `move_the_rest` everything else goes where the spheres go.
+  void keep(SphereFile file, const std::string& name_of_file, bool move_the_rest) {
+    Scene& scene = loaded_.scene;
+    scene.spheres = std::move(file.spheres);
+    loaded_.frames = file.frames;
+    loaded_.rules = std::move(file.rules);
+    loaded_.recentred_by = file.recentred_by;
+    for (const std::string& warning : file.warnings) loaded_.warnings.push_back(name_of_file + warning);
+    if (!move_the_rest) return;
+    scene.camera.eye = scene.camera.eye - file.recentred_by;
+    scene.camera.look_at = scene.camera.look_at - file.recentred_by;
+    for (PointLight& light : scene.lights) light.position = light.position - file.recentred_by;
+    if (scene.plane) scene.plane->plane.point = scene.plane->plane.point - file.recentred_by;
   }
 
   void take_sphere_file(const json& value) {
@@ -249,7 +261,8 @@ class Extraction {
     ReadOptions options = options_;
     if (!options.radius && value.contains("radius")) options.radius = value.at("radius").get<double>();
     options.radius_scale *= value.value("radius_scale", 1.0);
-    options.recenter = options.recenter || value.value("recenter", false);
+    const bool recentred_by_document = value.value("recenter", false);
+    options.recenter = options.recenter || recentred_by_document;
     if (options.frame == 0) options.frame = value.value("frame", std::int64_t{0});
 
     // A relative path starts from the document's folder.
@@ -259,14 +272,13 @@ class Extraction {
     Result<SphereFile> file = read_spheres(path, options);
     if (!file) return fail("/spheres/file", file.error().to_string());
 
-    Scene& scene = loaded_.scene;
-    scene.spheres = std::move(file->spheres);
-    loaded_.frames = file->frames;
-    loaded_.rules = std::move(file->rules);
-    for (const std::string& warning : file->warnings) loaded_.warnings.push_back(path + ": " + warning);
+    // A camera stands where the document's own spheres are; if those are moved from outside, it moves along.
+    keep(std::move(*file), path + ": ", options.recenter && !recentred_by_document);
+
     // The material: where it states a colour, all have that; otherwise those of the file, by element or by type.
     const std::int32_t position =
         value.contains("material") ? material_position(value.at("material"), "/spheres/material") : 0;
+    Scene& scene = loaded_.scene;
     if (position != 0) scene.material_of_sphere.assign(static_cast<std::size_t>(scene.spheres.size()), position);
     const bool states_colour = document_.contains("materials") &&
                                document_.at("materials").at(static_cast<std::size_t>(position)).contains("colour");

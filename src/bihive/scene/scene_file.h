@@ -19,13 +19,15 @@ struct LoadedScene {
   bool has_camera = false;  ///< false: the caller frames the spheres
   bool has_lights = false;
   std::int64_t frames = 1;         ///< frames or models in the sphere file that the document names
-  std::vector<std::string> rules;  ///< what the reader of that file did, a sentence each
+  std::vector<std::string> rules;  ///< what was done to its spheres, a sentence each
+  Vec3d recentred_by;              ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
 };
 
 /// `name` is the file's name for messages and the place that the document's own relative paths start from. The options
-/// apply to a sphere file that the document names, and `radius`, `radius_scale` to inline spheres too. Errors name the
-/// path inside the document (/materials/0/power) and what was expected there.
+/// apply to inline spheres as to a sphere file that the document names, and go before what the document says; where the
+/// options alone recentre, camera, lights and plane move along. Errors name the path inside the document
+/// (/materials/0/power) and what was expected there.
 Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options);
 
 /// True where the bytes look like a scene document (first character after white space is '{').
