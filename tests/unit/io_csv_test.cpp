@@ -29,6 +29,15 @@ TEST(PlainText, TakesThreeColumnsOrFour) {
   EXPECT_NE(three.warnings[0].find("--radius"), std::string::npos);
 }
 
+TEST(PlainText, TakesBlanksAndTabsInAnyMixture) {
+  const SphereFile file = read_text("1 2\t3\n4\t5 \t6\n", "a.txt");
+  ASSERT_EQ(file.spheres.size(), 2);
+  EXPECT_EQ(file.spheres.centre(0), (Vec3d{1, 2, 3}));
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{4, 5, 6}));
+  EXPECT_EQ(number_names(read_text("x\ty\tz\tcolumn 4\n1\t2\t3\t4\n", "a.tsv")),
+            (std::vector<std::string>{"column 4"}));
+}
+
 TEST(PlainText, NamesLineAndColumnOfAFault) {
   EXPECT_EQ(error_of("1 2 3\n4 5 abc\n", "a.txt"), "a.txt:2:5: expected a number for z but found 'abc'");
   EXPECT_EQ(error_of("1 2 3\n4 nan 6\n", "a.txt"), "a.txt:2:3: y is not finite: 'nan'");

@@ -90,7 +90,8 @@ TEST(LammpsDump, NamesTheLineWhereItIsCut) {
             "d:10: the file ends in frame 0: expected 2 atoms (line 4) but found 1");
   EXPECT_EQ(error_of(two.substr(0, two.size() - 8), "d"),
             "d:21: the file ends in frame 1: expected 2 atoms (line 15) but found 1");
-  EXPECT_EQ(error_of(two.substr(0, two.size() - 3), "d"), "d:22: expected 4 columns (id x y z) but found 3");
+  EXPECT_EQ(error_of(two.substr(0, two.size() - 3), "d"),
+            "d:22: expected 4 columns (id x y z) but found 3; the file is cut on this line");
   EXPECT_EQ(error_of(whole.substr(0, whole.find("ITEM: ATOMS")), "d"),
             "d:8: the file ends in frame 0: expected ITEM: ATOMS and one line an atom");
 

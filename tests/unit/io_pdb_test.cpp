@@ -132,7 +132,8 @@ TEST(Pdb, TakesHybrid36Numbers) {
 TEST(Pdb, GuessesTheElementFromTheNameWhereColumnsAreShort) {
   const std::pair<const char*, int> cases[] = {{" CA ", 6}, {"CA  ", 20}, {" N  ", 7}, {"FE  ", 26}, {"HG11", 1},
                                                {"1HB ", 1}, {"HG  ", 80}, {" OXT", 8}, {"ZN  ", 30}, {"C210", 6},
-                                               {"1C4A", 6}, {" Q  ", 0},  {" DT ", 1}, {"O5' ", 8},  {"    ", 0}};
+                                               {"1C4A", 6}, {" Q  ", 0},  {" DT ", 1}, {"O5' ", 8},  {"HB1 ", 1},
+                                               {"OD1 ", 8}, {"QQ  ", 0},  {"    ", 0}};
   for (const auto& [name, number] : cases) {
     Atom atom;
     atom.name = name;

@@ -31,6 +31,7 @@ TEST(Detect, GoesByContentFirst) {
       {"# comment\n1,2,3,4\n", Format::csv},
       {"\xEF\xBB\xBFid;X;Y;Z\n", Format::csv},
       {"\"x\",\"y\",\"z\"\n", Format::csv},
+      {"x\ty\tz\tcolumn 4\n", Format::csv},
       {"\x93NUMPY", Format::npy},
   };
   for (const auto& [text, format] : cases)

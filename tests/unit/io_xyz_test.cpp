@@ -119,7 +119,8 @@ TEST(Xyz, FindsACutInAFrameThatIsNotAskedFor) {
   const std::string first = "1\n\nC 1 2 3\n";
   EXPECT_EQ(error_of(first + "2\n\nC 1 2 3\n", "a.xyz"),
             "a.xyz:6: the file ends in frame 1: line 4 promises 2 spheres, but there are 1");
-  EXPECT_EQ(error_of(first + "2\n\nC 1 2 3\nC 1", "a.xyz"), "a.xyz:7: expected 4 columns (symbol x y z) but found 2");
+  EXPECT_EQ(error_of(first + "2\n\nC 1 2 3\nC 1", "a.xyz"),
+            "a.xyz:7: expected 4 columns (symbol x y z) but found 2; the file is cut on this line");
 }
 
 }  // namespace

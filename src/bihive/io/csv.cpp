@@ -60,10 +60,12 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
   if (!next_data_line(scanner)) return scanner.line_error("there is no line with numbers in it");
   if (frame != 0) return no_such_frame(file, frame, 1);
 
-  // A first line without any number is a header.
+  // A first line without any number is a header. Numbers may have tabs and blanks between them, in any mixture.
+  const std::string first = fields_of(scanner, separator_of(scanner.line(), false)).front();
   std::vector<std::string> fields = fields_of(scanner, separator_of(scanner.line(), true));
-  const bool has_header =
-      std::none_of(fields.begin(), fields.end(), [](const auto& field) { return parse_double(field).has_value(); });
+  const bool has_header = !parse_double(first) && std::none_of(fields.begin(), fields.end(), [](const auto& field) {
+    return parse_double(field).has_value();
+  });
   if (!has_header) {
     scanner.set_comment('#');
     fields = fields_of(scanner, separator_of(scanner.line(), false));

@@ -44,12 +44,13 @@ bool is_table(TextScanner scanner) {
   TextScanner fields(spaced, "");
   fields.next_line();
   int numbers = 0, others = 0;
-  bool has[3] = {};
+  bool has[3] = {}, begins_with_number = false;
   for (std::string_view field; fields.next_field(field);) {
     ++(parse_double(field) ? numbers : others);
+    if (numbers == 1 && others == 0) begins_with_number = true;
     for (int axis = 0; axis < 3; ++axis) has[axis] = has[axis] || lower_case(field) == std::string(1, char('x' + axis));
   }
-  return (numbers >= 3 && others == 0) || (numbers == 0 && has[0] && has[1] && has[2]);
+  return (numbers >= 3 && others == 0) || (!begins_with_number && has[0] && has[1] && has[2]);
 }
 
 std::optional<Format> by_content(std::string_view bytes) {

@@ -26,7 +26,8 @@ bool is_digit(char c) {
 }
 
 // The element from columns 77 and 78, else from the atom's name in columns 13 to 16, whose first two columns hold the
-// symbol flush right. A four-letter name that begins with H is a hydrogen; a digit beside a letter is no part of it.
+// symbol flush right. A four-letter name that begins with H is a hydrogen; a digit beside a letter is no part of it; of
+// two letters that make no element the first counts (names that begin in the wrong column).
 int element_of(std::string_view line) {
   const std::string_view given = columns(line, 77, 78);
   for (const char c : given)
@@ -35,7 +36,8 @@ int element_of(std::string_view line) {
   columns(line, 13, 16).copy(name, 4);
   if ((name[0] == 'H' || name[0] == 'h') && name[3] != ' ') return 1;
   if (name[0] == ' ' || is_digit(name[0])) return atomic_number({&name[1], 1});
-  return atomic_number({name, is_letter(name[1]) ? std::size_t{2} : std::size_t{1}});
+  const int of_two = is_letter(name[1]) ? atomic_number({name, 2}) : 0;
+  return of_two ? of_two : atomic_number({name, 1});
 }
 
 class PdbReader {

@@ -181,7 +181,8 @@ Status SphereTable::check_width(const TextScanner& scanner) const {
 
 Status SphereTable::width_error(const TextScanner& scanner, std::int64_t found) const {
   return scanner.line_error("expected " + std::to_string(columns_.size()) + " columns (" + column_names() +
-                            ") but found " + std::to_string(found));
+                                ") but found " + std::to_string(found),
+                            scanner.at_end() && !scanner.ends_in_newline() ? "the file is cut on this line" : "");
 }
 
 }  // namespace bihive
