@@ -1,6 +1,8 @@
 """bihive scene and bihive info."""
 
 import json
+import os
+import re
 
 import numpy
 from program import ProgramTest, main
@@ -53,6 +55,15 @@ class Scene(ProgramTest):
         for varying in ["build_ms", "seed"]:
             del from_file[varying], built_in[varying]
         self.assertEqual(from_file, built_in)
+
+    def test_the_documents_of_the_documentation_are_scenes(self):
+        with open(os.path.join(os.environ["BIHIVE_SOURCE"], "docs", "scene_format.md"), encoding="utf-8") as file:
+            documents = re.findall(r"```json\n(.*?)```", file.read(), re.DOTALL)
+        self.assertEqual(len(documents), 3)
+        self.write("molecule.pdb", "HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O  \n")
+        for document in documents:
+            self.write("s.json", document)
+            self.succeed("render", "s.json", "--size", "32x24", "-o", "a.png")
 
     def test_an_old_file_is_replaced(self):
         self.write("s.npy", "old")
