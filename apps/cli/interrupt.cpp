@@ -8,7 +8,7 @@
 namespace bihive::cli {
 namespace {
 
-enum Section : int { kOutside, kCancellable, kWriting };
+enum Section : int { kOutside, kCancellable, kWriting, kWritten };
 
 // What a signal handler may touch: lock-free atomics only.
 std::atomic<int> g_section{kOutside};
@@ -29,6 +29,7 @@ void on_signal(int signal) {
   const int section = g_section.load();
   const bool first = g_signal.exchange(signal) == 0;
   if (section == kWriting) return;
+  if (section == kWritten && first) return;
   if (section == kCancellable && first) return g_token.cancel();
   end_at_once(signal);
 }
@@ -70,7 +71,7 @@ WritingSection::WritingSection() {
   if (g_signal.load() != 0) end_at_once(g_signal.load());
 }
 WritingSection::~WritingSection() {
-  g_section.store(kOutside);
+  g_section.store(kWritten);
 }
 
 }  // namespace bihive::cli

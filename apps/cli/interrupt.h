@@ -25,8 +25,9 @@ class CancellableSection {
   static void leave_if_cancelled();
 };
 
-/// While one of these lives, files are being written: a signal waits for that and is then forgotten, for the work is
-/// done. So exit code 130 means that there is no file.
+/// While one of these lives, files are being written: signals are forgotten, for the work is done. Afterwards the first
+/// one is forgotten too (only a stuck output can still take time; a second one ends it). So exit code 130 after one
+/// Ctrl-C means that there is no file.
 class WritingSection {
  public:
   WritingSection();
