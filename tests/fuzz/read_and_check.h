@@ -10,6 +10,7 @@
 
 #include "bihive/io/read_spheres.h"
 #include "bihive/io/readers.h"
+#include "bihive/io/text_scanner.h"
 
 namespace bihive::fuzz {
 
@@ -20,13 +21,14 @@ inline void require(bool condition) {
 inline void check_error(const Error& error) {
   require(!error.message.empty());
   require(error.line >= 0 && error.column >= 0);
-  for (const char c : error.message + error.file + error.hint) require(c >= ' ' && c <= '~');
+  require(printable(error.message) == error.message);
 }
 
 inline void check_attributes(const SphereAttributes& attributes, std::size_t size) {
   const auto fits = [size](const auto& values) { return values.empty() || values.size() == size; };
   require(fits(attributes.element) && fits(attributes.type) && fits(attributes.colour) && fits(attributes.opacity));
-  for (const NamedNumbers& column : attributes.numbers) require(column.values.size() == size);
+  for (const NamedNumbers& column : attributes.numbers)
+    require(column.values.size() == size && printable(column.name) == column.name);
   for (const Vec3f& colour : attributes.colour)
     for (int part = 0; part < 3; ++part) require(colour[part] >= 0 && colour[part] <= 1);
   for (const float opacity : attributes.opacity) require(opacity >= 0 && opacity <= 1);

@@ -134,6 +134,11 @@ TEST(Csv, NamesWhatIsWrongWithAHeader) {
   EXPECT_NE(error_of(wide + "\n1,2,3\n", "a.csv").find("a.csv:1: expected at most 1000 columns"), std::string::npos);
 }
 
+TEST(Csv, MakesNamesPrintable) {
+  const SphereFile file = read_text("x,y,z,\x1b[31mred,Gr\xf6\xdf\x65,\u00c5\n1,2,3,4,5,6\n", "a.csv");
+  EXPECT_EQ(number_names(file), (std::vector<std::string>{"?[31mred", "Gr??e", "\u00c5"}));
+}
+
 TEST(Csv, NamesLineAndColumnOfAFault) {
   EXPECT_EQ(error_of("x,y,z\n1,2,3\n4,5,\n", "a.csv"), "a.csv:3:5: expected a number for z but found ''");
   EXPECT_EQ(error_of("x,y,z\n1,2\n", "a.csv"), "a.csv:2: expected 3 columns (x y z) but found 2");

@@ -127,10 +127,29 @@ TEST(TextScanner, CutsCommentsAndBeginsALineAgain) {
   EXPECT_FALSE(scanner.next_filled_line());
 }
 
+TEST(Printable, KeepsUtf8AndNothingElse) {
+  for (const char* good : {"", "plain ~", "Gr\u00f6\u00dfe", "\u0394\u221e", "\U0001F600", "\uFFFD"})
+    EXPECT_EQ(printable(good), good);
+  EXPECT_EQ(printable("a\nb\x1b[31m\x7f"), "a?b?[31m?");
+  EXPECT_EQ(printable("Gr\xf6\xdf"
+                      "e"),
+            "Gr??e")
+      << "Latin-1";
+  EXPECT_EQ(printable("\xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \xe0\x80\x80"),
+            "?? ??? ?"
+            "?"
+            "?"
+            "? ??"
+            "?")
+      << "overlong forms, surrogates, beyond the last code point";
+  EXPECT_EQ(printable(std::string("\0x", 2)), "?x");
+}
+
 TEST(Quote, KeepsMessagesReadable) {
   EXPECT_EQ(quote("abc"), "'abc'");
   EXPECT_EQ(quote("a\tb\x01"), "'a?b?'");
   EXPECT_EQ(quote("\xff"), "'?'");
+  EXPECT_EQ(quote(std::string(39, 'x') + "\u00e9"), "'" + std::string(39, 'x') + "?...'") << "never half a letter";
   EXPECT_EQ(quote(std::string(100, 'x')), "'" + std::string(40, 'x') + "...'");
 }
 

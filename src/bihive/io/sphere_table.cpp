@@ -66,7 +66,7 @@ SphereTable::SphereTable(const std::vector<TableColumn>& columns) {
   for (const TableColumn& column : columns) {
     if (columns_.size() > kMostColumns) break;
     columns_.emplace_back();
-    columns_.back().name = column.name;
+    columns_.back().name = printable(column.name);
     columns_.back().role = column.role;
   }
 }

@@ -46,6 +46,7 @@ class SphereTable {
   /// More columns are a fault: no real file has them.
   static constexpr std::size_t kMostColumns = 1000;
 
+  /// Names are made printable.
   explicit SphereTable(const std::vector<TableColumn>& columns);
 
   /// What keeps the columns from making spheres (no x, two radii ...), or an empty text.

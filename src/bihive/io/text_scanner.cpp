@@ -11,6 +11,23 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
+// The length of the character that the text begins with, or 0 where that is no UTF-8 [RFC3629].
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  // Neither overlong forms, nor surrogates, nor beyond the last code point.
+  const unsigned char next = byte(1);
+  if ((lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) || (lead == 0xF0 && next < 0x90) ||
+      (lead == 0xF4 && next > 0x8F))
+    return 0;
+  return length;
+}
+
 }  // namespace
 
 TextScanner::TextScanner(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
@@ -134,11 +151,23 @@ Error TextScanner::column_error(std::int64_t column, const std::string& message,
   return {message, file_, line_number_, column, hint};
 }
 
+std::string printable(std::string_view text) {
+  std::string clean;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text.substr(i));
+    const bool control = length == 1 && (text[i] < ' ' || text[i] == 0x7f);
+    if (length == 0 || control)
+      clean += '?';
+    else
+      clean += text.substr(i, length);
+    i += std::max<std::size_t>(length, 1);
+  }
+  return clean;
+}
+
 std::string quote(std::string_view text) {
   constexpr std::size_t kReadable = 40;
-  std::string quoted = "'";
-  for (const char c : text.substr(0, kReadable)) quoted += (c >= ' ' && c <= '~') ? c : '?';
-  return quoted + (text.size() > kReadable ? "...'" : "'");
+  return "'" + printable(text.substr(0, kReadable)) + (text.size() > kReadable ? "...'" : "'");
 }
 
 std::string lower_case(std::string_view text) {

@@ -72,7 +72,10 @@ class TextScanner {
   std::string unquoted_;
 };
 
-/// The text in quotes, cut to a readable length and without control characters: for messages.
+/// The text with a question mark in place of every control character and every byte that is no UTF-8.
+std::string printable(std::string_view text);
+
+/// The printable text in quotes, cut to a readable length: for messages.
 std::string quote(std::string_view text);
 
 /// ASCII lower case.
