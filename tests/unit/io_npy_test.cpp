@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include "bihive/io/npy.h"
@@ -57,6 +58,23 @@ TEST(Npy, ReadsFloatsOfBothSizesOrdersAndEnds) {
     expect_rows(npy_file(header(end + "f4", "(2, 4)", "True"), data_of<float>(kColumns, big)), end + "f4 Fortran");
     expect_rows(npy_file(header(end + "f8", "(2, 4)", "True"), data_of<double>(kColumns, big)), end + "f8 Fortran");
   }
+}
+
+TEST(Npy, ReadsWhatNumPyWrote) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BIHIVE_SOURCE_DIR "/tests/data/io")) {
+    if (entry.path().extension() != ".npy") continue;
+    ++files;
+    const Result<SphereFile> file = read_spheres(entry.path().string(), {});
+    ASSERT_TRUE(file.ok()) << file.error().to_string();
+    ASSERT_EQ(file->spheres.size(), 3) << entry.path();
+    EXPECT_EQ(file->spheres.centre(0), (Vec3d{1, 2, 3})) << entry.path();
+    EXPECT_EQ(file->spheres.centre(1), (Vec3d{-4, 5.25, 6})) << entry.path();
+    EXPECT_EQ(file->spheres.centre(2), (Vec3d{7, 8, -9.5})) << entry.path();
+    EXPECT_EQ(file->spheres.radius(0), 0.5) << entry.path();
+    EXPECT_EQ(file->spheres.radius(2), 0.0) << entry.path();
+  }
+  EXPECT_EQ(files, 11);
 }
 
 TEST(Npy, ReadsEveryWholeNumber) {
