@@ -27,7 +27,7 @@ void check_tree(const SphereSet& spheres, const BuildParameters& parameters, con
   EXPECT_EQ(s.spheres, spheres.size());
   EXPECT_EQ(s.inner_nodes, s.leaves - 1 + s.optimized_nodes);
   EXPECT_LE(s.depth.max, parameters.max_depth);
-  EXPECT_LE(s.depth.max, 1001);
+  EXPECT_LE(s.depth.max, 1000);
   EXPECT_EQ(s.inner_nodes + s.leaves - tree.empty_leaves, static_cast<std::int64_t>(tree.nodes.size()));
   EXPECT_EQ(s.one_sided_nodes, tree.empty_leaves);
   if (s.forced_leaves == 0 && parameters.max_depth == kUnlimited) {

@@ -51,6 +51,8 @@ TEST(CheckCamera, names_what_is_wrong) {
   camera = good;
   camera.eye.x = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(check_camera(camera));
+  camera.eye.x = 1e39;
+  EXPECT_FALSE(check_camera(camera)) << "a ray's origin is binary32";
 }
 
 // Every sphere's silhouette must lie inside the picture, and one must come close to its border.

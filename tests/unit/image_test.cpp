@@ -42,6 +42,18 @@ TEST(Transfer, clamps) {
   }
 }
 
+TEST(Transfer, the_curve_against_long_double) {
+  SplitMix64 random(9);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = random.next_double();
+    const long double curve =
+        x <= 0.0031308 ? 12.92L * x : 1.055L * std::pow(static_cast<long double>(x), 1 / 2.4L) - 0.055L;
+    ASSERT_LT(std::abs(srgb_from_linear(x) - curve), 1e-14L) << x;
+    const long double back = x <= 0.04045 ? x / 12.92L : std::pow((x + 0.055L) / 1.055L, 2.4L);
+    ASSERT_LT(std::abs(linear_from_srgb(x) - back), 1e-14L) << x;
+  }
+}
+
 TEST(Transfer, every_byte_comes_back) {
   for (int byte = 0; byte < 256; ++byte)
     EXPECT_EQ(byte_from_radiance(linear_from_srgb(byte / 255.0), Transfer::srgb), byte);

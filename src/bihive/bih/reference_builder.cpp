@@ -182,7 +182,7 @@ class Builder {
     // Put a one-sided node above the split if the turn before found an empty half. Its empty leaf is only counted.
     std::int64_t position = job.node;
     std::int64_t depth = job.depth;
-    if (empty.exists && depth + 1 < tree_.parameters.max_depth) {
+    if (empty.exists && depth + 1 < std::min(tree_.parameters.max_depth, kDeepest)) {
       const std::int64_t child = add_nodes(1);
       Node& above = node_at(position);
       above.kind = empty.right_is_empty ? NodeKind::one_left : NodeKind::one_right;

@@ -85,7 +85,7 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
   Hit best;
   if (part.empty() || tree.aabb.empty()) return best;
 
-  // A tree is at most 1001 levels deep, and each level leaves at most one child waiting.
+  // A tree is at most 1000 levels deep, and each level leaves at most one child waiting.
   struct Waiting {
     std::int64_t node;
     Interval part;

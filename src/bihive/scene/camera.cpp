@@ -1,6 +1,8 @@
 #include "bihive/scene/camera.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "bihive/math/elementary.h"
 
@@ -12,6 +14,9 @@ Status check_camera(const Camera& camera) {
   };
   if (!is_finite(camera.eye) || !is_finite(camera.look_at) || !is_finite(camera.up))
     return bad("eye, look_at and up must be finite", "");
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  if (std::max({std::abs(camera.eye.x), std::abs(camera.eye.y), std::abs(camera.eye.z)}) > kLargest)
+    return bad("eye must fit single precision (3.4e38)", "");
   if (!(camera.fov_deg > 0 && camera.fov_deg < 180)) return bad("fov must be above 0 and below 180 degrees", "");
   const Vec3d view = camera.look_at - camera.eye;
   if (!(length(view) > 0)) return bad("eye and look_at are the same point", "move one of them");
