@@ -41,6 +41,10 @@ if(BIHIVE_WERROR)
   target_compile_options(bihive_options INTERFACE -Werror)
 endif()
 
+if(BIHIVE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Known to be wrong about instrumented code.
+  target_compile_options(bihive_options INTERFACE -Wno-maybe-uninitialized)
+endif()
 if(BIHIVE_SANITIZE STREQUAL "asan")
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=address,undefined)
