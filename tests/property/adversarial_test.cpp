@@ -50,7 +50,7 @@ class Arena {
 
   /// How far the hit lies outside the sphere's box, in paddings.
   double padding_used(const Ray& ray, const Hit& hit) const {
-    const ScaledRay scaled(ray, spheres_.scale());
+    const ScaledRay scaled(ray, spheres_);
     const Aabb box = spheres_.stored_box(hit.sphere_id);
     long double outside = -HUGE_VALL;
     for (int axis = 0; axis < 3; ++axis) {
@@ -132,7 +132,7 @@ TEST(Adversarial, Silhouettes) {
     const std::int64_t id = static_cast<std::int64_t>(rng.next_below(arena.world().size()));
     return [&arena, id](const Ray& ray) {
       // The distance between line and surface, by the library's own sum; ties of the float grid are broken by the sign.
-      const ScaledRay scaled(ray, arena.spheres().scale());
+      const ScaledRay scaled(ray, arena.spheres());
       const Vec3d oc = arena.spheres().stored_centre(id) - scaled.origin;
       const Vec3d p = oc - dot(oc, scaled.direction) / scaled.direction_squared * scaled.direction;
       const double r = arena.spheres().stored_radius(id);
@@ -154,7 +154,7 @@ TEST(Adversarial, EqualT) {
       if (gap < nearest) nearest = gap, b = id;
     }
     return [&arena, a, b](const Ray& ray) {
-      const ScaledRay scaled(ray, arena.spheres().scale());
+      const ScaledRay scaled(ray, arena.spheres());
       double t[2];
       for (const int k : {0, 1}) {
         const std::int64_t id = k == 0 ? a : b;

@@ -159,8 +159,10 @@ TEST(Traversal, OfEqualSpheresTheSmallestIdIsHit) {
     EXPECT_EQ(closest_hit(tree, spheres, {{0.25f, 0.5f, 5}, {0, 0, -1}}).sphere_id, 0);
     Ray ray{{0, 0, 1}, {0, 0, -1}};
     ray.leaves = 0;
-    EXPECT_EQ(closest_hit(tree, spheres, ray).sphere_id, 1) << "the next of the pile";
-    EXPECT_EQ(closest_hit(tree, spheres, ray).t, 0);
+    EXPECT_EQ(closest_hit(tree, spheres, ray).sphere_id, kNothing) << "the whole pile has the surface that is left";
+    ray.inside = true;
+    EXPECT_EQ(closest_hit(tree, spheres, ray).sphere_id, 0);
+    EXPECT_EQ(closest_hit(tree, spheres, ray).t, 2);
   }
 }
 
@@ -172,7 +174,7 @@ TEST(Observer, CountsWhatIsVisited) {
   std::int64_t tree_tests = 0, all_tests = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Ray ray = rays(i);
-    const ScaledRay scaled(ray, spheres.scale());
+    const ScaledRay scaled(ray, spheres);
     CountingObserver brute, hierarchy, any;
     const Hit truth = test_all_spheres<false>(spheres, scaled, brute);
     EXPECT_EQ(brute.sphere_tests, spheres.size());
@@ -197,7 +199,7 @@ TEST(Observer, SeesEverythingWhereNothingCanBeSpared) {
   Ray ray{{0, 0, 0}, {0.3f, 0.2f, 1}};
   ray.t_max = 1e-3;  // ends before any surface
   CountingObserver counts;
-  EXPECT_FALSE(traverse<false>(tree, spheres, ScaledRay(ray, spheres.scale()), counts).found());
+  EXPECT_FALSE(traverse<false>(tree, spheres, ScaledRay(ray, spheres), counts).found());
   EXPECT_EQ(counts.sphere_tests, spheres.size());
   EXPECT_EQ(counts.node_visits + counts.leaf_visits, static_cast<std::int64_t>(tree.nodes.size()));
 }
@@ -209,7 +211,7 @@ TEST(Observer, CountsTheGapBetweenTwoSpheres) {
   const Tree tree = build_reference_tree(spheres, {1, kUnlimited});
   const auto counts_of = [&](const Ray& ray) {
     CountingObserver counts;
-    traverse<false>(tree, spheres, ScaledRay(ray, spheres.scale()), counts);
+    traverse<false>(tree, spheres, ScaledRay(ray, spheres), counts);
     return counts;
   };
   // Down the gap: the root is entered, its gap passed, no leaf.

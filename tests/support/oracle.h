@@ -86,7 +86,7 @@ class Oracle {
       if (e.id != id) {
         // Nothing else is surely nearer, and no equal sphere with a smaller id could have been meant.
         if (sure_bound(ray, e) < t) return false;
-        if (e.id < id && same_sphere(e.id, id) && ray.leaves != e.id && ray.leaves != id) return false;
+        if (e.id < id && same_sphere(e.id, id)) return false;
         continue;
       }
       const bool is_near = e.near_counts && t >= e.near_lo && t <= e.near_hi;
@@ -140,6 +140,11 @@ class Oracle {
     return w.x[i] == w.x[j] && w.y[i] == w.y[j] && w.z[i] == w.z[j] && w.r[i] == w.r[j];
   }
 
+  /// Does the ray start on the surface of this sphere, or of one equal to it?
+  bool leaves(const Ray& ray, std::int64_t id) const {
+    return ray.leaves >= 0 && ray.leaves < static_cast<std::int64_t>(world_->size()) && same_sphere(ray.leaves, id);
+  }
+
   /// A quick look in binary64 that only drops spheres whose surface the line misses by more than 1e-8 of their
   /// distance, ten million times the bound above. (Products of four binary32 numbers stay inside binary64's range.)
   bool may_meet(const Ray& ray, std::size_t i) const {
@@ -157,7 +162,7 @@ class Oracle {
     const World& w = *world_;
     const std::int64_t id = static_cast<std::int64_t>(i);
     const Real r = w.r[i];
-    if (!(r > 0) || (ray.leaves == id && !ray.inside)) return;
+    if (!(r > 0) || (leaves(ray, id) && !ray.inside)) return;
 
     // Intersect: the area of the parallelogram of oc and d gives the line's distance from the centre.
     const Real x = Real(w.x[i]) - ray.origin.x, y = Real(w.y[i]) - ray.origin.y, z = Real(w.z[i]) - ray.origin.z;
@@ -176,7 +181,7 @@ class Oracle {
     e.id = id;
     e.exists = discriminant >= 0;
     e.surely_exists = discriminant - slack >= 0;
-    e.near_counts = ray.leaves != id;
+    e.near_counts = !leaves(ray, id);
     e.t_error_unit = kU * (L + r) / D;
     e.discriminant_share = discriminant / (r * r);
     const Real half = std::sqrt(std::max(Real(0), discriminant)) / D;

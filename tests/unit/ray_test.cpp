@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/geometry/scaled_ray.h"
+
 namespace bihive {
 namespace {
 
@@ -49,7 +51,7 @@ TEST(Ray, ScalingByAPowerOfTwoIsExact) {
     EXPECT_TRUE(std::isfinite(scaled.direction_squared));
     EXPECT_EQ(scaled.t_min, 0.25);
     EXPECT_EQ(scaled.t_max, 7);
-    EXPECT_EQ(scaled.leaves, 5);
+    EXPECT_EQ(scaled.left_radius, -1);
     EXPECT_TRUE(scaled.inside);
   }
 }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-double hit(const Ray& ray, Vec3d centre, double radius, std::int64_t id = 0) {
-  return sphere_hit(ScaledRay(ray, 1), id, centre, radius);
+double hit(const Ray& ray, Vec3d centre, double radius) {
+  return sphere_hit(ScaledRay(ray, 1), centre, radius);
 }
 
 TEST(Sphere, IsHitAtTheNearRoot) {
@@ -74,18 +74,32 @@ TEST(Sphere, OfRadiusZeroIsNeverHit) {
 
 TEST(Sphere, ThatTheRayLeavesOutwardIsSkipped) {
   Ray ray{{0, 0, 0.5f}, {0, 0, -1}};
-  ray.leaves = 7;
-  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 7), kInf);
-  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 8), 1.5) << "another sphere in the same place is not skipped";
+  const SphereSet spheres =
+      SphereSet::from_world(std::vector<float>{0, 0, 0}, {0, 0, 0}, {0, 0, 0.25f}, {1, 1, 1}).value();
+  ray.leaves = 0;
+  const ScaledRay scaled(ray, spheres);
+  const auto hit_of = [&](std::int64_t id) {
+    return sphere_hit(scaled, spheres.stored_centre(id), spheres.stored_radius(id));
+  };
+  EXPECT_EQ(hit_of(0), kInf);
+  EXPECT_EQ(hit_of(1), kInf) << "an equal sphere has the same surface";
+  EXPECT_EQ(hit_of(2), 1.25) << "another one is met";
 }
 
 TEST(Sphere, ThatTheRayGoesIntoIsMetAtTheFarRootAlone) {
   // The start lies a little outside, as a rounded point of the surface may.
   Ray ray{{0, 0, 1.0001f}, {0, 0, -1}};
-  ray.leaves = 7;
+  const SphereSet spheres =
+      SphereSet::from_world(std::vector<float>{0, 0, 0}, {0, 0, 0}, {0, 0, -0.25f}, {1, 1, 1}).value();
+  ray.leaves = 0;
   ray.inside = true;
-  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 7), double(1.0001f) + 1);
-  EXPECT_EQ(hit(ray, {0, 0, 0}, 1, 8), double(1.0001f) - 1);
+  const ScaledRay scaled(ray, spheres);
+  const auto hit_of = [&](std::int64_t id) {
+    return sphere_hit(scaled, spheres.stored_centre(id), spheres.stored_radius(id));
+  };
+  EXPECT_EQ(hit_of(0), double(1.0001f) + 1);
+  EXPECT_EQ(hit_of(1), double(1.0001f) + 1) << "an equal sphere has the same surface";
+  EXPECT_EQ(hit_of(2), double(1.0001f) + 0.25 - 1) << "another one is met at its near root";
 }
 
 TEST(Sphere, SmallAndFarIsNotLost) {

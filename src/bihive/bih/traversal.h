@@ -15,6 +15,7 @@
 #include "bihive/bih/tree.h"
 #include "bihive/geometry/hit.h"
 #include "bihive/geometry/ray.h"
+#include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/math/interval.h"
@@ -106,7 +107,7 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
       for (std::int64_t i = node.first_sphere(); i < node.first_sphere() + node.sphere_count; ++i) {
         const std::int64_t id = tree.sphere_ids[static_cast<std::size_t>(i)];
         observer.sphere_test();
-        best.keep_nearer(sphere_hit(ray, id, spheres.stored_centre(id), spheres.stored_radius(id)), id);
+        best.keep_nearer(sphere_hit(ray, spheres.stored_centre(id), spheres.stored_radius(id)), id);
         if (kAnyHit && best.found()) return best;
       }
     } else if (node.kind == NodeKind::split) {
@@ -152,14 +153,14 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
 inline Hit closest_hit(const Tree& tree, const SphereSet& spheres, const Ray& ray) {
   if (!is_valid(ray)) return {};
   NoObserver observer;
-  return traverse<false>(tree, spheres, ScaledRay(ray, spheres.scale()), observer);
+  return traverse<false>(tree, spheres, ScaledRay(ray, spheres), observer);
 }
 
 /// Is anything hit? Stops at the first sphere found.
 inline bool occluded(const Tree& tree, const SphereSet& spheres, const Ray& ray) {
   if (!is_valid(ray)) return false;
   NoObserver observer;
-  return traverse<true>(tree, spheres, ScaledRay(ray, spheres.scale()), observer).found();
+  return traverse<true>(tree, spheres, ScaledRay(ray, spheres), observer).found();
 }
 
 }  // namespace bihive

@@ -35,24 +35,4 @@ inline bool is_valid(const Ray& ray) {
   return is_finite(ray.origin) && is_finite(ray.direction) && nonzero && ray.t_min <= ray.t_max;
 }
 
-/// A valid ray on entry to a query: in binary64, in the stored units of one sphere set (world units times 2^k).
-/// The power of two is exact and multiplies origin and direction alike, so t is unchanged.
-struct ScaledRay {
-  Vec3d origin;
-  Vec3d direction;
-  double direction_squared;  ///< direction . direction
-  double t_min, t_max;
-  std::int64_t leaves;
-  bool inside;
-
-  ScaledRay(const Ray& ray, double scale)
-      : origin(to_double(ray.origin) * scale),
-        direction(to_double(ray.direction) * scale),
-        direction_squared(dot(direction, direction)),
-        t_min(ray.t_min),
-        t_max(ray.t_max),
-        leaves(ray.leaves),
-        inside(ray.inside) {}
-};
-
 }  // namespace bihive

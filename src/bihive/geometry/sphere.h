@@ -5,10 +5,9 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
-#include "bihive/geometry/ray.h"
+#include "bihive/geometry/scaled_ray.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
@@ -35,10 +34,10 @@ inline SphereRoots sphere_roots(const ScaledRay& ray, Vec3d centre, double radiu
   return {t_closest - half_chord, t_closest + half_chord};
 }
 
-/// The t at which the ray hits sphere `id`: the nearer root if it lies in the segment, else the farther, else +inf.
+/// The t at which the ray hits the sphere: the nearer root if it lies in the segment, else the farther, else +inf.
 /// Of the sphere that the ray leaves, nothing (going outward) or the farther root only (going inside).
-inline double sphere_hit(const ScaledRay& ray, std::int64_t id, Vec3d centre, double radius) {
-  const bool own = id == ray.leaves;
+inline double sphere_hit(const ScaledRay& ray, Vec3d centre, double radius) {
+  const bool own = ray.leaves(centre, radius);
   constexpr double inf = std::numeric_limits<double>::infinity();
   if (own && !ray.inside) return inf;
   const SphereRoots roots = sphere_roots(ray, centre, radius);

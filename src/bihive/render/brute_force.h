@@ -6,6 +6,7 @@
 #include "bihive/bih/observer.h"
 #include "bihive/geometry/hit.h"
 #include "bihive/geometry/ray.h"
+#include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
 #include "bihive/geometry/sphere_set.h"
 
@@ -17,7 +18,7 @@ Hit test_all_spheres(const SphereSet& spheres, const ScaledRay& ray, Observer& o
   Hit best;
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     observer.sphere_test();
-    best.keep_nearer(sphere_hit(ray, id, spheres.stored_centre(id), spheres.stored_radius(id)), id);
+    best.keep_nearer(sphere_hit(ray, spheres.stored_centre(id), spheres.stored_radius(id)), id);
     if (kAnyHit && best.found()) return best;
   }
   return best;
@@ -26,13 +27,13 @@ Hit test_all_spheres(const SphereSet& spheres, const ScaledRay& ray, Observer& o
 inline Hit closest_hit(const SphereSet& spheres, const Ray& ray) {
   if (!is_valid(ray)) return {};
   NoObserver observer;
-  return test_all_spheres<false>(spheres, ScaledRay(ray, spheres.scale()), observer);
+  return test_all_spheres<false>(spheres, ScaledRay(ray, spheres), observer);
 }
 
 inline bool occluded(const SphereSet& spheres, const Ray& ray) {
   if (!is_valid(ray)) return false;
   NoObserver observer;
-  return test_all_spheres<true>(spheres, ScaledRay(ray, spheres.scale()), observer).found();
+  return test_all_spheres<true>(spheres, ScaledRay(ray, spheres), observer).found();
 }
 
 }  // namespace bihive

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bihive/geometry/scaled_ray.h"
+
 namespace bihive {
 namespace {
 

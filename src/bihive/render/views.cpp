@@ -32,7 +32,7 @@ Vec3d traversal_colour(const Tracer& tracer, const Ray& ray) {
   constexpr double kStep = 0.2;
   if (!is_valid(ray)) return {};
   CountingObserver observer;
-  traverse<false>(*tracer.tree(), tracer.spheres(), ScaledRay(ray, tracer.spheres().scale()), observer);
+  traverse<false>(*tracer.tree(), tracer.spheres(), ScaledRay(ray, tracer.spheres()), observer);
   const auto steps = [](std::int64_t count) { return std::min(1.0, kStep * static_cast<double>(count)); };
   return {0, steps(observer.empty_gaps), steps(observer.node_visits + observer.leaf_visits)};
 }

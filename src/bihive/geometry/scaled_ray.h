@@ -1,0 +1,43 @@
+// A ray on entry to a query: in binary64, in the stored units of one sphere set.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/geometry/ray.h"
+#include "bihive/geometry/sphere_set.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Stored units are world units times a power of two, which is exact and multiplies origin and direction alike, so t is
+/// unchanged. The sphere that the ray leaves is known by its centre and radius, not by its id: spheres that coincide
+/// share one surface, and a ray that starts on it leaves all of them.
+struct ScaledRay {
+  Vec3d origin;
+  Vec3d direction;
+  double direction_squared;  ///< direction . direction
+  double t_min, t_max;
+  bool inside;
+  Vec3d left_centre;        ///< of the sphere that the ray leaves
+  double left_radius = -1;  ///< -1: it leaves none
+
+  /// A valid ray that leaves no sphere, or whose sphere does not matter.
+  ScaledRay(const Ray& ray, double scale)
+      : origin(to_double(ray.origin) * scale),
+        direction(to_double(ray.direction) * scale),
+        direction_squared(dot(direction, direction)),
+        t_min(ray.t_min),
+        t_max(ray.t_max),
+        inside(ray.inside) {}
+
+  /// A valid ray against `spheres`. An id outside the set counts as kNothing.
+  ScaledRay(const Ray& ray, const SphereSet& spheres) : ScaledRay(ray, spheres.scale()) {
+    if (ray.leaves < 0 || ray.leaves >= spheres.size()) return;
+    left_centre = spheres.stored_centre(ray.leaves);
+    left_radius = spheres.stored_radius(ray.leaves);
+  }
+
+  bool leaves(Vec3d centre, double radius) const { return radius == left_radius && centre == left_centre; }
+};
+
+}  // namespace bihive
