@@ -1,0 +1,69 @@
+// An experiment of the thesis: steps that measure or draw, and a section that shows what came out.
+//
+// Each step's result is saved by itself as JSON, so that an interrupted run goes on where it stopped. The section is made from the
+// saved results alone, again and again, also while some are still missing.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bihive/base/cancel.h"
+#include "bihive/image/image.h"
+#include "section.h"
+#include "values.h"
+
+namespace bihive::cli::thesis {
+
+struct Settings {
+  bool quick = false;       ///< everything small, within a minute on two cores
+  int threads = 0;          ///< 0 = all
+  std::uint64_t seed = 1;   ///< of "ours (this seed)"
+};
+
+/// What a step may use. Long work watches `cancel`.
+struct StepContext {
+  const Settings& settings;
+  const Values& values;
+  std::string folder;  ///< of the experiment, exists: pictures go there
+  const CancelToken& cancel;
+};
+
+/// `run` returns whatever the section needs, as JSON. Names are file names ("scenario1-max_prims8"). `weight` is the time it takes
+/// relative to the other steps of the whole run, about in seconds.
+struct Step {
+  std::string name;
+  double weight;
+  std::function<Json(StepContext&)> run;
+};
+
+/// Results of the steps done so far, by name.
+using StepResults = std::map<std::string, Json>;
+
+struct SectionContext {
+  const Settings& settings;
+  const Values& values;
+  const StepResults& results;
+  std::string folder;  ///< of the experiment: charts go there
+};
+
+struct Experiment {
+  std::string id;     ///< "table-4.2": its name on the command line and its folder in thesis/ and in the output
+  std::string title;  ///< "Table 4.2: tree statistics"
+  std::function<std::vector<Step>(const Settings&, const Values&)> steps;
+  /// Must do with whatever results there are; leaves out what is missing.
+  std::function<Section(const SectionContext&)> section;
+};
+
+/// One factory a file; the order is that of the report.
+Experiment figure_4_1();
+Experiment figure_4_2();
+Experiment figure_4_3();
+Experiment table_4_2();
+Experiment figure_4_4();
+Experiment figure_4_5();
+Experiment section_d();
+std::vector<Experiment> all_experiments();
+
+}  // namespace bihive::cli::thesis
