@@ -12,7 +12,7 @@
 #include "bihive/base/cancel.h"
 #include "bihive/image/image.h"
 #include "section.h"
-#include "values.h"
+#include "stated_values.h"
 
 namespace bihive::cli::thesis {
 
