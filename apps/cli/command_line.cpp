@@ -177,6 +177,31 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   add_json_flag(command, options.json);
 }
 
+void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
+  CLI::App& command =
+      add_command(app, "thesis", "Reproduce the thesis's tables and figures", "bihive thesis all --out report",
+                  "bihive thesis table-4.2 figure-4.3 --out report --quick", options, request);
+  command
+      .add_option("EXPERIMENT", options.experiments,
+                  "all (if none is named), figure-4.1, figure-4.2, figure-4.3, table-4.2, figure-4.4,\n"
+                  "figure-4.5, section-d")
+      ->type_name("")
+      ->check(CLI::IsMember(
+          {"all", "figure-4.1", "figure-4.2", "figure-4.3", "table-4.2", "figure-4.4", "figure-4.5", "section-d"}));
+  command
+      .add_option("--out", options.out,
+                  "Folder of report.html, results.json, pictures and charts; a run that was\n"
+                  "interrupted goes on where it stopped")
+      ->type_name("DIR")
+      ->required();
+  command.add_flag("--quick", options.quick, "Everything small: within a minute on two cores");
+  add_value(command, "--seed", options.seed, "S", "Seed of the random scenarios (1)", seed_from);
+  add_integer(command, "--threads", options.threads, 0, kMostThreads,
+              "Threads (0: as many as the machine runs at once)");
+  command.add_option("--values", options.values, "Other stated values: DIR/EXPERIMENT/values.json")->type_name("DIR");
+  add_json_flag(command, options.json);
+}
+
 std::string version_text() {
   const std::string revision = commit().empty() ? "" : " (" + std::string(commit()) + ")";
   return "bihive " + std::string(version()) + revision;
@@ -196,12 +221,14 @@ Request parse_command_line(int argc, const char* const* argv) {
   TraceOptions trace;
   SceneOptions scene;
   InfoOptions info;
+  ThesisOptions thesis;
   Request request = HelpText{"", false};
   add_render(app, render, request);
   add_stats(app, stats, request);
   add_trace(app, trace, request);
   add_scene(app, scene, request);
   add_info(app, info, request);
+  add_thesis(app, thesis, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

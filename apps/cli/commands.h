@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bihive/bih/tree.h"
 #include "bihive/image/transfer.h"
@@ -66,5 +67,16 @@ struct InfoOptions {
   bool json = false;
 };
 void run_info(const InfoOptions& options);
+
+struct ThesisOptions {
+  std::vector<std::string> experiments;  ///< names, or "all"; empty: all
+  std::string out;                       ///< folder
+  bool quick = false;
+  std::uint64_t seed = 1;
+  std::int64_t threads = 0;
+  std::string values;  ///< folder of other stated values; empty: the built-in ones
+  bool json = false;
+};
+void run_thesis(const ThesisOptions& options);
 
 }  // namespace bihive::cli

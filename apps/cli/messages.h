@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/timer.h"
@@ -36,6 +37,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Says from now on what is being done.
+  void rename(std::string what) { what_ = std::move(what); }
   /// `done`: 0 to 1.
   void update(double done);
 

@@ -1,7 +1,7 @@
 // An experiment of the thesis: steps that measure or draw, and a section that shows what came out.
 //
-// Each step's result is saved by itself as JSON, so that an interrupted run goes on where it stopped. The section is made from the
-// saved results alone, again and again, also while some are still missing.
+// Each step's result is saved by itself as JSON, so that an interrupted run goes on where it stopped. The section is
+// made from the saved results alone, again and again, also while some are still missing.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,9 @@
 namespace bihive::cli::thesis {
 
 struct Settings {
-  bool quick = false;       ///< everything small, within a minute on two cores
-  int threads = 0;          ///< 0 = all
-  std::uint64_t seed = 1;   ///< of "ours (this seed)"
+  bool quick = false;      ///< everything small, within a minute on two cores
+  int threads = 0;         ///< 0 = all
+  std::uint64_t seed = 1;  ///< of "ours (this seed)"
 };
 
 /// What a step may use. Long work watches `cancel`.
@@ -30,8 +30,8 @@ struct StepContext {
   const CancelToken& cancel;
 };
 
-/// `run` returns whatever the section needs, as JSON. Names are file names ("scenario1-max_prims8"). `weight` is the time it takes
-/// relative to the other steps of the whole run, about in seconds.
+/// `run` returns whatever the section needs, as JSON. Names are file names ("scenario1-max_prims8"). `weight` is the
+/// time it takes relative to the other steps of the whole run, about in seconds.
 struct Step {
   std::string name;
   double weight;

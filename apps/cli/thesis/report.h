@@ -22,8 +22,10 @@ struct ReportHeader {
   std::string date;                      ///< ISO 8601
 };
 
-/// Pictures are read from `folder` and embedded as data, charts inline. What is missing is said in the section and on top.
-std::string report_html(const ReportHeader& header, const std::vector<ReportSection>& sections, const std::string& folder);
+/// Pictures are read from `folder` and embedded as data, charts inline. What is missing is said in the section and on
+/// top.
+std::string report_html(const ReportHeader& header, const std::vector<ReportSection>& sections,
+                        const std::string& folder);
 
 /// docs/results.schema.json describes it.
 Json results_json(const ReportHeader& header, const std::vector<ReportSection>& sections);

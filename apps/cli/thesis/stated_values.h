@@ -1,4 +1,5 @@
-// The thesis's stated values: thesis/<experiment>/values.json, built into the program. No number of the thesis stands in code.
+// The thesis's stated values: thesis/<experiment>/values.json, built into the program. No number of the thesis stands
+// in code.
 #pragma once
 
 #include <string>
@@ -10,9 +11,10 @@ namespace bihive::cli::thesis {
 
 /// One experiment's values. Document:
 ///   {"experiment": "table-4.2",
-///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "printed": "4,095", "sentence": "Nodes Internal 4,095 ..."}, ...}}
-/// "value" is a number or a list of numbers; "printed" is optional; "sentence" says where in the text it stands, or, with
-/// "chosen": true, why it was chosen where the text is silent.
+///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "printed": "4,095", "sentence": "Nodes Internal
+///    4,095 ..."}, ...}}
+/// "value" is a number or a list of numbers; "printed" is optional; "sentence" says where in the text it stands, or,
+/// with "chosen": true, why it was chosen where the text is silent.
 class Values {
  public:
   /// Fails (failure.h) with file and place if the document is not as above.
@@ -35,7 +37,7 @@ class Values {
   Json document_;
 };
 
-/// The built-in values of an experiment, or those of folder/<experiment>/values.json where a folder is given.
+/// Those of folder/<experiment>/values.json where a folder is given and has that file, else the built-in ones.
 Values load_values(const std::string& experiment, const std::string& folder);
 
 }  // namespace bihive::cli::thesis

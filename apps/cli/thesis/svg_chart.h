@@ -1,4 +1,5 @@
-// Charts as SVG text: grouped bars and lines, with axes, legend and labels, readable in light and dark and without a script.
+// Charts as SVG text: grouped bars and lines, with axes, legend and labels, readable in light and dark and without a
+// script.
 #pragma once
 
 #include <optional>

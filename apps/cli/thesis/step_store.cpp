@@ -1,0 +1,44 @@
+#include "step_store.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "bihive/base/version.h"
+#include "bihive/base/write_file.h"
+#include "failure.h"
+
+namespace bihive::cli::thesis {
+namespace fs = std::filesystem;
+
+std::string StepStore::path(const std::string& experiment, const std::string& step) const {
+  return out_ + "/steps/" + experiment + "/" + step + ".json";
+}
+
+// Everything that a result depends on.
+Json StepStore::key(const Values& values) const {
+  return {{"version", std::string(version())}, {"commit", std::string(commit())}, {"quick", settings_.quick},
+          {"threads", settings_.threads},      {"seed", settings_.seed},          {"values", values.document()}};
+}
+
+std::optional<Json> StepStore::load(const std::string& experiment, const std::string& step,
+                                    const Values& values) const {
+  // A file that is damaged or of another run counts as missing.
+  const Result<std::string> bytes = read_file(path(experiment, step));
+  if (!bytes) return std::nullopt;
+  Json document = Json::parse(*bytes, nullptr, /*allow_exceptions=*/false);
+  if (!document.is_object() || !document.contains("key") || !document.contains("result")) return std::nullopt;
+  if (document["key"] != key(values)) return std::nullopt;
+  return std::move(document["result"]);
+}
+
+void StepStore::save(const std::string& experiment, const std::string& step, const Values& values,
+                     const Json& result) const {
+  const std::string file = path(experiment, step);
+  std::error_code error;
+  fs::create_directories(fs::path(file).parent_path(), error);
+  if (error) fail({"the folder cannot be made: " + error.message(), fs::path(file).parent_path(), 0, 0, ""});
+  const Json document{{"key", key(values)}, {"result", result}};
+  if (const Status status = write_file(file, document.dump(1) + "\n"); !status) fail(status.error());
+}
+
+}  // namespace bihive::cli::thesis

@@ -1,0 +1,28 @@
+// The results of steps, kept as files so that an interrupted run can go on: <out>/steps/<experiment>/<step>.json.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "experiment.h"
+
+namespace bihive::cli::thesis {
+
+class StepStore {
+ public:
+  StepStore(std::string out, const Settings& settings) : out_(std::move(out)), settings_(settings) {}
+
+  /// The result, if it was saved by the same build of the program with the same settings and stated values.
+  std::optional<Json> load(const std::string& experiment, const std::string& step, const Values& values) const;
+  /// Fails if it cannot be written.
+  void save(const std::string& experiment, const std::string& step, const Values& values, const Json& result) const;
+
+ private:
+  std::string path(const std::string& experiment, const std::string& step) const;
+  Json key(const Values& values) const;
+
+  std::string out_;
+  Settings settings_;
+};
+
+}  // namespace bihive::cli::thesis
