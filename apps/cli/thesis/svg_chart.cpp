@@ -1,12 +1,295 @@
 #include "svg_chart.h"
 
-namespace bihive::cli::thesis {
+#include <fmt/format.h>
 
-std::string bar_chart(const ChartData&) {
-  return "";
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "html_text.h"
+
+namespace bihive::cli::thesis {
+namespace {
+
+// Units of the view box: a chart stays readable when a phone squeezes it to 330 pixels.
+constexpr double kWidth = 480;
+constexpr double kPlotHeight = 190;
+constexpr double kLeft = 30;  // of the y axis's numbers
+constexpr double kRight = 10;
+constexpr double kLine = 17;         // from one line of text to the next
+constexpr double kCharacter = 6.6;   // mean width of a character of 12 units
+constexpr double kLegendMark = 20;   // a legend entry's mark with its gap
+constexpr double kEntryGap = 14;     // between two legend entries
+constexpr double kGroupFill = 0.84;  // of a category's room that its bars take
+constexpr int kTicks = 6;            // about as many on the y axis
+constexpr double kMarker = 4.2;      // half the size of a point
+
+// Seven colours that colour-blind people can tell apart [OkabeIto2008]; its black is the text's colour here, which
+// turns with the dark scheme. Lines differ by their points' shape too.
+constexpr const char* kColours[] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7",
+                                    "#56b4e9", "#d55e00", "#f0e442", "currentColor"};
+
+constexpr const char* kStyle =
+    "<style>.bihive-chart{--paper:#fff;--rule:#d5d5d5;color:#1b1b1b;background:var(--paper);"
+    "font:12px system-ui,sans-serif}"
+    ".bihive-chart text{fill:currentColor}.bihive-chart .strong{font-weight:600;font-size:13px}"
+    ".bihive-chart .rule{stroke:var(--rule)}.bihive-chart .axis{stroke:currentColor}"
+    ".bihive-chart .outline{stroke:currentColor;stroke-width:.6}"
+    ".bihive-chart .line{fill:none;stroke-width:2.2;stroke-linejoin:round}"
+    "@media(prefers-color-scheme:dark){.bihive-chart{--paper:#16181c;--rule:#3a3e45;color:#e6e6e6}}</style>";
+
+std::string colour(std::size_t series) {
+  return kColours[series % std::size(kColours)];
 }
-std::string line_chart(const ChartData&) {
-  return "";
+
+// 20000 as "20,000", 0.25 as "0.25", 1234.5 as "1,234" (four digits are enough to compare marks).
+std::string number_text(double value) {
+  const double size = std::fabs(value);
+  if (size >= 1e12) return fmt::format("{:.3e}", value);
+  if (size < 1000) return fmt::format("{:.4g}", value);
+  std::string text = fmt::format("{:.0f}", size);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(static_cast<std::size_t>(at), ",");
+  return value < 0 ? "-" + text : text;
+}
+
+// The y axis: round ticks, the first and last of which are its ends.
+struct Axis {
+  std::vector<double> ticks;
+  bool logarithmic;
+
+  /// 0 at the bottom, 1 at the top.
+  double place(double value) const {
+    const double lo = ticks.front(), hi = ticks.back();
+    if (!logarithmic) return (value - lo) / (hi - lo);
+    return (std::log10(value) - std::log10(lo)) / (std::log10(hi) - std::log10(lo));
+  }
+};
+
+Axis linear_axis(double lo, double hi) {
+  // The step is 1, 2 or 5 times a power of ten.
+  const double rough = (hi - lo) / kTicks;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double step = power * (rough <= power ? 1 : rough <= 2 * power ? 2 : rough <= 5 * power ? 5 : 10);
+  Axis axis{{}, false};
+  const auto first = static_cast<std::int64_t>(std::floor(lo / step + 1e-9));
+  const auto last = static_cast<std::int64_t>(std::ceil(hi / step - 1e-9));
+  for (std::int64_t i = first; i <= last; ++i) axis.ticks.push_back(static_cast<double>(i) * step);
+  return axis;
+}
+
+Axis logarithmic_axis(double lo, double hi) {
+  // Powers of ten, and twice and five times those unless that would crowd the axis.
+  const auto first = static_cast<int>(std::floor(std::log10(lo)));
+  const auto last = static_cast<int>(std::ceil(std::log10(hi)));
+  std::vector<double> all;
+  for (int i = first; i <= last; ++i)
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (factor == 1 || last - first <= 3) all.push_back(factor * std::pow(10.0, i));
+  // From the last tick below (bars need some height) to the first one that is not below the highest value.
+  auto begin = std::lower_bound(all.begin(), all.end(), lo);
+  if (begin != all.begin()) --begin;
+  auto end = std::lower_bound(begin + 1, all.end(), hi * (1 - 1e-9));
+  if (end != all.end()) ++end;
+  return {{begin, end}, true};
+}
+
+Axis axis_of(const ChartData& data) {
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+  for (const Series& series : data.series)
+    for (const std::optional<double>& value : series.values) {
+      if (!value) continue;
+      lo = std::min(lo, *value);
+      hi = std::max(hi, *value);
+    }
+  if (!(lo <= hi)) lo = hi = 1;
+  if (data.logarithmic && lo > 0) return logarithmic_axis(lo, hi);
+  lo = std::min(lo, 0.0);
+  hi = std::max(hi, 0.0);
+  return linear_axis(lo, lo == hi ? lo + 1 : hi);
+}
+
+// A point of a line, by series: disc, square, triangle, diamond, triangle on its tip, cross.
+std::string point(double x, double y, std::size_t series, const std::string& classes, const std::string& title) {
+  const double s = kMarker;
+  std::string shape;
+  switch (series % 6) {
+    case 0:
+      shape = fmt::format("M{0:.1f} {2:.1f}a{1} {1} 0 1 0 {3} 0a{1} {1} 0 1 0 -{3} 0z", x - s, s, y, 2 * s);
+      break;
+    case 1:
+      shape = fmt::format("M{:.1f} {:.1f}h{}v{}h-{}z", x - s, y - s, 2 * s, 2 * s, 2 * s);
+      break;
+    case 2:
+      shape = fmt::format("M{:.1f} {:.1f}l{} {}h-{}z", x, y - s, s, 2 * s, 2 * s);
+      break;
+    case 3:
+      shape = fmt::format("M{:.1f} {:.1f}l{} {}l-{} {}l-{} -{}z", x, y - 1.3 * s, s, 1.3 * s, s, 1.3 * s, s, 1.3 * s);
+      break;
+    case 4:
+      shape = fmt::format("M{:.1f} {:.1f}l{} -{}h-{}z", x, y + s, s, 2 * s, 2 * s);
+      break;
+    default:
+      shape = fmt::format("M{0:.1f} {1:.1f}h{2}v-{2}h{2}v{2}h{2}v{2}h-{2}v{2}h-{2}v-{2}h-{2}z", x - s, y - s / 3,
+                          2 * s / 3);
+  }
+  return fmt::format("<path class=\"{}\" d=\"{}\" fill=\"{}\">{}</path>\n", classes, shape, colour(series), title);
+}
+
+class Chart {
+ public:
+  explicit Chart(const ChartData& data) : data_(data), axis_(axis_of(data)) {
+    // Where things are: title, legend, plot, categories, label of the x axis.
+    double x = 0;
+    top_ = 22 + kLine;
+    for (const Series& series : data_.series) {
+      const double width = kLegendMark + kCharacter * static_cast<double>(series.name.size());
+      if (x > 0 && x + width > kWidth - 20) {
+        x = 0;
+        top_ += kLine;
+      }
+      legend_.push_back({10 + x, top_});
+      x += width + kEntryGap;
+    }
+    top_ += 18;
+    std::size_t widest = 0;
+    for (const double tick : axis_.ticks) widest = std::max(widest, number_text(tick).size());
+    left_ = kLeft + kCharacter * static_cast<double>(widest);
+    std::size_t longest = 0;
+    for (const std::string& category : data_.categories) longest = std::max(longest, category.size());
+    tilted_ = kCharacter * static_cast<double>(longest) > slot() - 6;
+    bottom_ = top_ + kPlotHeight;
+    height_ = bottom_ + (tilted_ ? 8 + kCharacter * 0.5 * static_cast<double>(longest) : kLine) + kLine + 10;
+  }
+
+  std::string bars() const {
+    std::string marks;
+    const double width = kGroupFill * slot() / static_cast<double>(std::max<std::size_t>(1, data_.series.size()));
+    const double base = data_.logarithmic ? bottom_ : y_of(0);
+    for (std::size_t s = 0; s < data_.series.size(); ++s)
+      for (std::size_t c = 0; c < data_.categories.size(); ++c) {
+        const std::optional<double> value = value_of(s, c);
+        if (!value) continue;
+        const double x =
+            kLeft + slot() * (static_cast<double>(c) + 0.5 - kGroupFill / 2) + width * static_cast<double>(s);
+        const double y = y_of(*value);
+        marks += fmt::format(
+            "<rect class=\"mark outline\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+            "fill=\"{}\">{}</rect>\n",
+            x, std::min(y, base), width, std::fabs(base - y), colour(s), title_of(s, c));
+      }
+    return document(marks, /*lines=*/false);
+  }
+
+  std::string lines() const {
+    std::string marks;
+    for (std::size_t s = 0; s < data_.series.size(); ++s) {
+      // The line is interrupted where a value is missing.
+      std::string path, points;
+      bool pen_down = false;
+      for (std::size_t c = 0; c < data_.categories.size(); ++c) {
+        const std::optional<double> value = value_of(s, c);
+        if (value) {
+          const double x = left_ + slot() * (static_cast<double>(c) + 0.5), y = y_of(*value);
+          path += fmt::format("{}{:.1f} {:.1f}", pen_down ? 'L' : 'M', x, y);
+          points += point(x, y, s, "mark outline", title_of(s, c));
+        }
+        pen_down = value.has_value();
+      }
+      if (!path.empty()) marks += fmt::format("<path class=\"line\" stroke=\"{}\" d=\"{}\"/>\n", colour(s), path);
+      marks += points;
+    }
+    return document(marks, /*lines=*/true);
+  }
+
+ private:
+  double slot() const {
+    return (kWidth - left_ - kRight) / static_cast<double>(std::max<std::size_t>(1, data_.categories.size()));
+  }
+  double y_of(double value) const { return bottom_ - kPlotHeight * axis_.place(value); }
+
+  // What the axis cannot show is no mark.
+  std::optional<double> value_of(std::size_t series, std::size_t category) const {
+    const std::vector<std::optional<double>>& values = data_.series[series].values;
+    if (category >= values.size() || !values[category] || !std::isfinite(*values[category])) return std::nullopt;
+    if (axis_.logarithmic && !(*values[category] > 0)) return std::nullopt;
+    return values[category];
+  }
+
+  std::string title_of(std::size_t series, std::size_t category) const {
+    return fmt::format("<title>{}, {}: {}</title>", escape_html(data_.series[series].name),
+                       escape_html(data_.categories[category]), number_text(*value_of(series, category)));
+  }
+
+  std::string text(double x, double y, const std::string& attributes, const std::string& content) const {
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, attributes, escape_html(content));
+  }
+
+  std::string axes() const {
+    std::string out;
+    for (const double tick : axis_.ticks) {
+      const double y = y_of(tick);
+      const bool zero = tick == 0 || (axis_.logarithmic && tick == axis_.ticks.front());
+      out +=
+          fmt::format("<path class=\"{}\" d=\"M{} {:.1f}H{}\"/>\n", zero ? "axis" : "rule", left_, y, kWidth - kRight);
+      out += text(left_ - 5, y + 4, "text-anchor=\"end\"", number_text(tick));
+    }
+    for (std::size_t c = 0; c < data_.categories.size(); ++c) {
+      const double x = left_ + slot() * (static_cast<double>(c) + 0.5), y = bottom_ + kLine;
+      const std::string attributes =
+          tilted_ ? fmt::format("text-anchor=\"end\" transform=\"rotate(-30 {:.1f} {:.1f})\"", x, y)
+                  : "text-anchor=\"middle\"";
+      out += text(x, y, attributes, data_.categories[c]);
+    }
+    const double middle = (top_ + bottom_) / 2;
+    out += text((left_ + kWidth) / 2, height_ - 8, "text-anchor=\"middle\"", data_.x_label);
+    out += text(14, middle, fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 14 {:.1f})\"", middle),
+                data_.y_label);
+    return out;
+  }
+
+  std::string legend(bool lines) const {
+    std::string out;
+    for (std::size_t s = 0; s < data_.series.size(); ++s) {
+      const auto [x, y] = legend_[s];
+      if (lines)
+        out += fmt::format("<path class=\"line\" stroke=\"{}\" d=\"M{:.1f} {:.1f}h14\"/>\n", colour(s), x, y - 4) +
+               point(x + 7, y - 4, s, "outline", "");
+      else
+        out +=
+            fmt::format("<rect class=\"outline\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"10\" fill=\"{}\"/>\n",
+                        x + 1, y - 9, colour(s));
+      out += text(x + kLegendMark, y, "", data_.series[s].name);
+    }
+    return out;
+  }
+
+  std::string document(const std::string& marks, bool lines) const {
+    return fmt::format(
+               "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bihive-chart\" viewBox=\"0 0 {} {:.0f}\" "
+               "role=\"img\" "
+               "aria-label=\"{}\">\n{}\n",
+               kWidth, height_, escape_html(data_.title), kStyle) +
+           text(10, 20, "class=\"strong\"", data_.title) + legend(lines) + axes() + marks + "</svg>\n";
+  }
+
+  const ChartData& data_;
+  Axis axis_;
+  struct Place {
+    double x, y;
+  };
+  std::vector<Place> legend_;
+  double left_ = 0, top_ = 0, bottom_ = 0, height_ = 0;
+  bool tilted_ = false;
+};
+
+}  // namespace
+
+std::string bar_chart(const ChartData& data) {
+  return Chart(data).bars();
+}
+
+std::string line_chart(const ChartData& data) {
+  return Chart(data).lines();
 }
 
 }  // namespace bihive::cli::thesis
