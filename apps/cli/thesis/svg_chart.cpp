@@ -156,7 +156,10 @@ class Chart {
     left_ = kLeft + kCharacter * static_cast<double>(widest);
     std::size_t longest = 0;
     for (const std::string& category : data_.categories) longest = std::max(longest, category.size());
+    // Long names are tilted, and the first one needs room on its left.
     tilted_ = kCharacter * static_cast<double>(longest) > slot() - 6;
+    if (tilted_)
+      left_ = std::max(left_, kCharacter * 0.87 * static_cast<double>(data_.categories.front().size()) - slot() / 2);
     bottom_ = top_ + kPlotHeight;
     height_ = bottom_ + (tilted_ ? 8 + kCharacter * 0.5 * static_cast<double>(longest) : kLine) + kLine + 10;
   }
@@ -170,7 +173,7 @@ class Chart {
         const std::optional<double> value = value_of(s, c);
         if (!value) continue;
         const double x =
-            kLeft + slot() * (static_cast<double>(c) + 0.5 - kGroupFill / 2) + width * static_cast<double>(s);
+            left_ + slot() * (static_cast<double>(c) + 0.5 - kGroupFill / 2) + width * static_cast<double>(s);
         const double y = y_of(*value);
         marks += fmt::format(
             "<rect class=\"mark outline\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
