@@ -1,11 +1,175 @@
-#include "experiment.h"
+// Figure 4.4: how many frames a second brute force and trees of several MAX_PRIMS make.
+//
+// A frame is render() of the shaded view to a film: the same camera rays and the same shading for all, whatever finds
+// the hits.
+#include "figure_4_4.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bihive/render/renderer.h"
+#include "bihive/scene/generators.h"
+#include "failure.h"
 
 namespace bihive::cli::thesis {
+namespace {
+
+// A quick run draws pictures with a quarter of the width and height, and is shorter by more than it loses in
+// repetitions.
+constexpr int kQuickDivisor = 4;
+constexpr int kQuickRepetitions = 7;
+constexpr int kRepetitions = 5;
+// About how long it takes to draw one frame of 256 spheres by brute force in a full run, for the time left.
+constexpr double kSecondsPerSphere = 0.004;
+
+int repetitions_of(const Settings& settings) {
+  return settings.quick ? kQuickRepetitions : kRepetitions;
+}
+
+RenderSettings frame_settings(const Settings& settings, const Values& values, const Scene& scene) {
+  RenderSettings frame = settings_from(scene.picture);
+  const int divisor = settings.quick ? kQuickDivisor : 1;
+  frame.width_px = static_cast<int>(values.integer("width_px")) / divisor;
+  frame.height_px = static_cast<int>(values.integer("height_px")) / divisor;
+  frame.recursion = static_cast<int>(values.integer("recursion"));
+  frame.threads = settings.threads;
+  return frame;
+}
+
+Scene scene_of(const StepContext& context, std::int64_t scenario, std::int64_t spheres) {
+  ScenarioParameters parameters;
+  parameters.count = spheres;
+  parameters.radius = static_cast<float>(context.values.number("radius"));
+  parameters.seed = context.settings.seed;
+  return value_or_fail(scenario_scene(static_cast<Scenario>(scenario), parameters));
+}
+
+// Something that draws frames, under the name that its times are kept by.
+struct Contestant {
+  std::string name;
+  const Scene* scene;
+  Tracer tracer;
+};
+
+// Each draws one frame in turn, so that a slow moment of the machine hits all; the first round warms up and does not
+// count.
+Json frame_times(const std::vector<Contestant>& contestants, const StepContext& context) {
+  const int repetitions = repetitions_of(context.settings);
+  Json times = Json::object();
+  for (int i = -1; i < repetitions; ++i)
+    for (const Contestant& contestant : contestants) {
+      const RenderSettings settings = frame_settings(context.settings, context.values, *contestant.scene);
+      const Result<Rendered> rendered = render(*contestant.scene, contestant.tracer, settings, {}, &context.cancel);
+      if (context.cancel.cancelled()) return {};
+      if (!rendered) fail(rendered.error());
+      if (i >= 0) times[contestant.name].push_back(rendered->render_ms);
+    }
+  const RenderSettings settings = frame_settings(context.settings, context.values, *contestants.front().scene);
+  return {{"width_px", settings.width_px}, {"height_px", settings.height_px}, {"frame_ms", std::move(times)}};
+}
+
+Json measure_configuration(const StepContext& context, const ComparedEngine& engine, std::int64_t scenario,
+                           std::int64_t spheres) {
+  const Scene scene = scene_of(context, scenario, spheres);
+  std::vector<Contestant> contestants;
+  contestants.push_back({"brute", &scene, Tracer(scene.spheres, engine.brute, {})});
+  for (const double max_prims : context.values.numbers("max_prims_list")) {
+    BuildParameters parameters;
+    parameters.max_prims = static_cast<std::int64_t>(max_prims);
+    contestants.push_back(
+        {fmt::format("max_prims{}", max_prims), &scene, Tracer(scene.spheres, engine.tree, parameters)});
+  }
+  return frame_times(contestants, context);
+}
+
+Json measure_independence(const StepContext& context, const ComparedEngine& engine) {
+  Json by_spheres = Json::object();
+  for (const double spheres : context.values.numbers("spheres_list")) {
+    const std::vector<double> scenarios = context.values.numbers("scenarios");
+    std::vector<Scene> scenes;
+    scenes.reserve(scenarios.size());
+    std::vector<Contestant> contestants;
+    for (const double scenario : scenarios) {
+      scenes.push_back(scene_of(context, static_cast<std::int64_t>(scenario), static_cast<std::int64_t>(spheres)));
+      contestants.push_back(
+          {fmt::format("scenario{}", scenario), &scenes.back(), Tracer(scenes.back().spheres, engine.brute, {})});
+    }
+    by_spheres[fmt::format("spheres{}", spheres)] = frame_times(contestants, context);
+    if (context.cancel.cancelled()) return {};
+  }
+  return by_spheres;
+}
+
+std::vector<Step> steps_of(const Settings& settings, const Values& values) {
+  std::vector<Step> steps;
+  const double weight =
+      (repetitions_of(settings) + 1) * kSecondsPerSphere / (settings.quick ? kQuickDivisor * kQuickDivisor : 1);
+  const std::vector<double> scenarios = values.numbers("scenarios"), counts = values.numbers("spheres_list");
+  for (const ComparedEngine& engine : compared_engines()) {
+    double all_spheres = 0;
+    for (const double scenario_number : scenarios)
+      for (const double spheres_number : counts) {
+        const auto scenario = static_cast<std::int64_t>(scenario_number),
+                   spheres = static_cast<std::int64_t>(spheres_number);
+        steps.push_back({configuration_step(engine, scenario, spheres), 1.5 * weight * spheres_number,
+                         [engine, scenario, spheres](StepContext& context) {
+                           return measure_configuration(context, engine, scenario, spheres);
+                         }});
+        all_spheres += spheres_number;
+      }
+    steps.push_back({independence_step(engine), weight * all_spheres,
+                     [engine](StepContext& context) { return measure_independence(context, engine); }});
+  }
+  return steps;
+}
+
+}  // namespace
+
+const std::vector<ComparedEngine>& compared_engines() {
+  static const std::vector<ComparedEngine> kCompared{{"reference", Engine::reference, Engine::brute}};
+  return kCompared;
+}
+
+std::string configuration_step(const ComparedEngine& engine, std::int64_t scenario, std::int64_t spheres) {
+  return fmt::format("{}-scenario{}-spheres{}", engine.name, scenario, spheres);
+}
+
+std::string independence_step(const ComparedEngine& engine) {
+  return engine.name + "-brute_force_by_scenario";
+}
+
+std::size_t ConfigurationFps::best() const {
+  return static_cast<std::size_t>(std::max_element(trees.begin(), trees.end()) - trees.begin());
+}
+
+double ConfigurationFps::gain_percent() const {
+  return 100 * (trees[best()] / brute - 1);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::optional<ConfigurationFps> fps_of(const StepResults& results, const ComparedEngine& engine, std::int64_t scenario,
+                                       std::int64_t spheres) {
+  const auto found = results.find(configuration_step(engine, scenario, spheres));
+  if (found == results.end()) return std::nullopt;
+  ConfigurationFps fps{0, {}};
+  for (const auto& [name, times] : found->second["frame_ms"].items()) {
+    const double value = 1000 / median(times.get<std::vector<double>>());
+    if (name == "brute")
+      fps.brute = value;
+    else
+      fps.trees.push_back(value);
+  }
+  return fps;
+}
 
 Experiment figure_4_4() {
-  return {"figure-4.4", "Figure 4.4: frames per second",
-          [](const Settings&, const Values&) { return std::vector<Step>(); },
-          [](const SectionContext&) { return Section(); }};
+  return {"figure-4.4", "Figure 4.4: frames per second", steps_of, figure_4_4_section};
 }
 
 }  // namespace bihive::cli::thesis

@@ -16,6 +16,12 @@ struct ReportSection {
   const Values* values;                    ///< for the sentences behind the stated values
 };
 
+/// How many cells agree with the thesis, and how many differ.
+struct Verdicts {
+  int agree = 0, differ = 0;
+};
+Verdicts count_verdicts(const Section& section);
+
 struct ReportHeader {
   Settings settings;
   std::string version, commit, machine;  ///< machine: processor and threads

@@ -110,21 +110,6 @@ std::string now() {
   return {text, std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&time))};
 }
 
-struct Verdicts {
-  int agree = 0, differ = 0;
-};
-
-Verdicts count_verdicts(const Section& section) {
-  Verdicts verdicts;
-  for (const Table& table : section.tables)
-    for (const std::vector<Cell>& row : table.rows)
-      for (const Cell& cell : row) {
-        if (cell.verdict == Verdict::agrees) ++verdicts.agree;
-        if (cell.verdict == Verdict::differs) ++verdicts.differ;
-      }
-  return verdicts;
-}
-
 void print_summary(const std::vector<ReportSection>& sections, const std::string& report) {
   for (const ReportSection& section : sections) {
     const Verdicts verdicts = count_verdicts(section.section);

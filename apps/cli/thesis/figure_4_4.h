@@ -1,0 +1,47 @@
+// What the steps of Figure 4.4 measured, as its section reads it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/render/tracer.h"
+#include "experiment.h"
+
+namespace bihive::cli::thesis {
+
+/// An engine with a tree, and the brute force that it is compared with: the same kernel without a tree.
+struct ComparedEngine {
+  std::string name;
+  Engine tree, brute;
+};
+const std::vector<ComparedEngine>& compared_engines();
+
+/// The step that measures one configuration, and the one that measures brute force on all scenarios in turn.
+std::string configuration_step(const ComparedEngine& engine, std::int64_t scenario, std::int64_t spheres);
+std::string independence_step(const ComparedEngine& engine);
+
+/// Frames per second of one configuration, medians over the repetitions.
+struct ConfigurationFps {
+  double brute;
+  std::vector<double> trees;  ///< in the order of max_prims_list
+
+  /// Position of the fastest in `trees`.
+  std::size_t best() const;
+  /// Of the best tree over brute force, in percent.
+  double gain_percent() const;
+};
+
+/// Nothing if the step has not been done.
+std::optional<ConfigurationFps> fps_of(const StepResults& results, const ComparedEngine& engine, std::int64_t scenario,
+                                       std::int64_t spheres);
+
+/// Of a list that is not empty; the upper one of two in the middle.
+double median(std::vector<double> values);
+
+Section figure_4_4_section(const SectionContext& context);
+
+}  // namespace bihive::cli::thesis
