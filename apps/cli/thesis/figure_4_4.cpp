@@ -15,11 +15,10 @@
 namespace bihive::cli::thesis {
 namespace {
 
-// A quick run draws pictures with a quarter of the width and height, and is shorter by more than it loses in
-// repetitions.
+// A quick run draws pictures of a quarter of the width and height.
 constexpr int kQuickDivisor = 4;
-constexpr int kQuickRepetitions = 7;
-constexpr int kRepetitions = 5;
+constexpr int kQuickRepetitions = 15;
+constexpr int kRepetitions = 9;
 // About how long it takes to draw one frame of 256 spheres by brute force in a full run, for the time left.
 constexpr double kSecondsPerSphere = 0.004;
 

@@ -60,6 +60,7 @@ Verdict verdict_of(const std::vector<Cell>& row) {
   return verdict;
 }
 
+// A number, perhaps with a unit or a spread.
 bool looks_like_number(const std::string& text) {
   const std::size_t at = text.find_first_not_of("+-");
   return at != std::string::npos && text[at] >= '0' && text[at] <= '9' && text.size() <= kLongCell;
@@ -69,31 +70,40 @@ std::string class_attribute(const std::string& classes) {
   return classes.empty() ? "" : " class=\"" + classes + "\"";
 }
 
-std::string cell_html(const Cell& cell, bool first) {
-  if (first && cell.verdict == Verdict::none) return "<th scope=\"row\">" + escape_html(cell.text) + "</th>";
+// Numbers stand under each other: a column of nothing else is set flush right.
+bool is_number_column(const Table& table, std::size_t column) {
+  bool found = false;
+  for (const std::vector<Cell>& row : table.rows) {
+    if (column >= row.size() || row[column].text.empty()) continue;
+    if (!looks_like_number(row[column].text)) return false;
+    found = true;
+  }
+  return found;
+}
+
+std::string cell_html(const Cell& cell, bool first, bool number) {
   std::string classes;
   const auto add = [&](const char* name) { classes += (classes.empty() ? "" : " ") + std::string(name); };
   if (cell.verdict != Verdict::none) add(name_of(cell.verdict));
-  if (looks_like_number(cell.text)) add("number");
+  if (number) add("number");
   if (cell.text.size() > kLongCell) add("long");
-  return "<td" + class_attribute(classes) + ">" + escape_html(cell.text) + sign_of(cell.verdict) + "</td>";
+  const std::string content = class_attribute(classes) + ">" + escape_html(cell.text) + sign_of(cell.verdict);
+  return first ? "<th scope=\"row\"" + content + "</th>" : "<td" + content + "</td>";
 }
 
 std::string table_html(const Table& table) {
-  // A column of numbers has its heading above them.
   std::string head;
+  std::vector<bool> numbers;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const bool numbers = c > 0 && !table.rows.empty() &&
-                         std::all_of(table.rows.begin(), table.rows.end(),
-                                     [&](const auto& row) { return c < row.size() && looks_like_number(row[c].text); });
-    head += fmt::format("<th scope=\"col\"{}>{}</th>", class_attribute(numbers ? "number" : ""),
+    numbers.push_back(is_number_column(table, c));
+    head += fmt::format("<th scope=\"col\"{}>{}</th>", class_attribute(numbers[c] ? "number" : ""),
                         escape_html(table.columns[c]));
   }
   std::string rows;
   for (const std::vector<Cell>& row : table.rows) {
     const Verdict verdict = verdict_of(row);
     rows += "<tr" + class_attribute(verdict == Verdict::none ? "" : name_of(verdict)) + ">";
-    for (std::size_t c = 0; c < row.size(); ++c) rows += cell_html(row[c], c == 0);
+    for (std::size_t c = 0; c < row.size(); ++c) rows += cell_html(row[c], c == 0, c < numbers.size() && numbers[c]);
     rows += "</tr>\n";
   }
   // The box scrolls, so it must be reachable by the keyboard.
@@ -163,13 +173,13 @@ std::string section_html(const ReportSection& section, const std::string& folder
     html += fmt::format("<p class=\"missing\">Not done yet ({}): {}</p>\n", steps_text(section.missing_steps.size()),
                         joined(section.missing_steps));
   for (const std::string& paragraph : section.section.paragraphs) html += "<p>" + escape_html(paragraph) + "</p>\n";
-  for (const Table& table : section.section.tables) html += table_html(table);
   if (!section.section.illustrations.empty()) {
     html += "<div class=\"figures\">\n";
     for (const Illustration& illustration : section.section.illustrations)
       html += illustration_html(illustration, folder);
     html += "</div>\n";
   }
+  for (const Table& table : section.section.tables) html += table_html(table);
   if (section.values != nullptr) html += sentences_html(*section.values);
   return html + "</section>\n";
 }

@@ -78,13 +78,15 @@ Axis linear_axis(double lo, double hi) {
 }
 
 Axis logarithmic_axis(double lo, double hi) {
-  // Powers of ten, and twice and five times those unless that would crowd the axis.
+  // Powers of ten, and some of their multiples unless that would crowd the axis.
   const auto first = static_cast<int>(std::floor(std::log10(lo)));
   const auto last = static_cast<int>(std::ceil(std::log10(hi)));
   std::vector<double> all;
+  const std::vector<double> factors = hi < 20 * lo     ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 7}
+                                      : hi < 2000 * lo ? std::vector<double>{1, 2, 5}
+                                                       : std::vector<double>{1};
   for (int i = first; i <= last; ++i)
-    for (const double factor : {1.0, 2.0, 5.0})
-      if (factor == 1 || last - first <= 3) all.push_back(factor * std::pow(10.0, i));
+    for (const double factor : factors) all.push_back(factor * std::pow(10.0, i));
   // From the last tick below (bars need some height) to the first one that is not below the highest value.
   auto begin = std::lower_bound(all.begin(), all.end(), lo);
   if (begin != all.begin()) --begin;
