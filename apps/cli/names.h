@@ -15,9 +15,10 @@ namespace bihive::cli {
 template <class T>
 using Names = std::vector<std::pair<std::string, T>>;
 
-inline const Names<View> kViews{{"shaded", View::shaded},       {"recursion", View::recursion},
-                                {"traversal", View::traversal}, {"normal", View::normal},
-                                {"distance", View::distance},   {"id", View::id}};
+inline const Names<View> kViews{
+    {"shaded", View::shaded}, {"recursion", View::recursion}, {"traversal", View::traversal},
+    {"normal", View::normal}, {"distance", View::distance},   {"id", View::id},
+    {"tree", View::tree}};
 inline const Names<Engine> kEngines{
     {"auto", Engine::automatic}, {"reference", Engine::reference}, {"brute", Engine::brute}};
 inline const Names<Transfer> kTransfers{{"srgb", Transfer::srgb}, {"none", Transfer::none}};

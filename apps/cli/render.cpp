@@ -9,6 +9,7 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
+#include "bihive/render/tree_picture.h"
 #include "commands.h"
 #include "failure.h"
 #include "interrupt.h"
@@ -32,9 +33,12 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   const Scene& scene = input.scene;
   Camera camera = scene.camera;
   camera.fov_deg = options.fov_deg.value_or(camera.fov_deg);
-  if (!input.has_camera || options.view_from)
-    camera = frame_spheres(scene.spheres, options.view_from.value_or(ViewFrom::front), camera.fov_deg,
-                           settings.width_px, settings.height_px);
+  if (!input.has_camera || options.view_from) {
+    const ViewFrom side = options.view_from.value_or(ViewFrom::front);
+    camera = settings.view == View::tree
+                 ? frame_tree(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px)
+                 : frame_spheres(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px);
+  }
   if (!placed) return camera;
 
   // A camera that is placed by hand looks at the middle of the set unless the scene or the user says otherwise.
@@ -67,7 +71,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
                     {"look_at", vector(scene.camera.look_at)},
                     {"up", vector(scene.camera.up)},
                     {"fov_deg", scene.camera.fov_deg}};
-  if (settings.view == View::traversal) {
+  if (settings.view == View::traversal || settings.view == View::tree) {
     const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
     json["max_prims"] = limit(options.tree.max_prims);
     json["max_depth"] = limit(options.tree.max_depth);
@@ -123,8 +127,9 @@ Rendered render_with_progress(const Scene& scene, const Tracer& tracer, const Re
 }  // namespace
 
 void run_render(const RenderOptions& options) {
-  if (options.view == View::traversal && options.engine == Engine::brute)
-    fail_usage("--view traversal shows a tree, and --engine brute has none");
+  const bool of_tree = options.view == View::traversal || options.view == View::tree;
+  if (of_tree && options.engine == Engine::brute)
+    fail_usage("--view " + name_of(kViews, options.view) + " shows a tree, and --engine brute has none");
   if (const Status status = check_writable(options.output); !status) fail(status.error());
 
   // Load the scene and put the user's wishes into it.

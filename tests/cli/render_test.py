@@ -93,7 +93,7 @@ class Render(ProgramTest):
             self.assertEqual(len(pictures), 1, view)
 
     def test_views_and_recursion_differ(self):
-        views = ["shaded", "recursion", "traversal", "normal", "distance", "id"]
+        views = ["shaded", "recursion", "traversal", "normal", "distance", "id", "tree"]
         hashes = {self.render("four-spheres", *SMALL, "--view", view)["picture_hash"] for view in views}
         self.assertEqual(len(hashes), len(views))
         depths = {self.render("four-spheres", "--size", "320x240", "--recursion", str(n))["picture_hash"] for n in range(1, 6)}
@@ -105,6 +105,27 @@ class Render(ProgramTest):
 
         self.assertNotEqual(picture("--max-prims", "1"), picture("--max-prims", "32"))
         self.assertEqual(picture("--max-depth", "1"), picture("--max-prims", "unlimited"))
+
+    def test_the_tree_view_draws_the_tree_of_any_input(self):
+        self.write("a.csv", "x,y,z,r\n0,0,0,1\n9,0,0,1\n0,9,0,1\n0,0,9,1\n")
+        for given in ["scenario3", "four-spheres", "demo", "a.csv"]:
+            for size in ["96x64", "64x96"]:
+                one = self.render(given, "--view", "tree", "--max-prims", "1", "--size", size)
+                self.assertEqual(png_size(self.read("a.png")), tuple(map(int, size.split("x"))))
+                self.assertGreater(len({pixel for row in png_pixels(self.read("a.png")) for pixel in row}), 20)
+                self.assertEqual((one["settings"]["view"], one["settings"]["max_prims"]), ("tree", 1))
+                again = self.render(given, "--view", "tree", "--max-prims", "1", "--size", size, "--threads", "3")
+                self.assertEqual(one["picture_hash"], again["picture_hash"])
+                other = self.render(given, "--view", "tree", "--max-prims", "unlimited", "--size", size)
+                self.assertNotEqual(one["picture_hash"], other["picture_hash"])
+
+    def test_a_gap_is_green_in_the_tree_view(self):
+        # Two spheres far apart: the root's bar, at the top of the right part, is green in its middle.
+        self.write("a.csv", "x,y,z,r\n0,0,0,1\n20,0,0,1\n")
+        self.render("a.csv", "--view", "tree", "--max-prims", "1", "--size", "200x100")
+        rows = png_pixels(self.read("a.png"))
+        red, green, blue = rows[5][152]
+        self.assertGreater(green, 2 * max(red, blue))
 
     def test_background_is_what_is_seen(self):
         def corner(*options):

@@ -6,6 +6,7 @@
 #include "bihive/io/bundled.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/render/renderer.h"
+#include "bihive/render/tree_picture.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/palette.h"
@@ -51,7 +52,8 @@ TEST_P(Scenes, views) {
                                                 {View::traversal, "traversal"},
                                                 {View::normal, "normal"},
                                                 {View::distance, "distance"},
-                                                {View::id, "id"}};
+                                                {View::id, "id"},
+                                                {View::tree, "tree"}};
   for (const auto& [view, name] : views)
     testing::expect_golden(GetParam() + "-view-" + name, picture_of(scene, view, 5, {}, 1));
 }
@@ -74,6 +76,28 @@ TEST(Traversal, figure_4_3) {
   testing::expect_golden("figure-4-3c", draw(1, kUnlimited));
   testing::expect_golden("figure-4-3a", draw(kUnlimited, kUnlimited));
   testing::expect_golden("figure-4-3e", draw(32, kUnlimited));
+}
+
+TEST(Tree, drawn_at_a_readable_size) {
+  // All that a tree can hold: gaps, overlaps, clip nodes, one-sided nodes; above each other, and side by side.
+  const Scene scene = scenario_scene(Scenario::corners, {256, 1, 1}).value();
+  const Tracer tracer(scene.spheres, Engine::reference, {});
+  RenderSettings settings;
+  settings.view = View::tree;
+  settings.width_px = 240;
+  settings.height_px = 360;
+  testing::expect_golden("tree-scenario2",
+                         image_from_film(render(scene, tracer, settings).value().film, View::tree, Transfer::none));
+
+  Result<SphereFile> file = read_spheres_from_memory(bundled_molecule(), "1hpv.pdb", {});
+  Scene molecule;
+  molecule.spheres = std::move(file.value().spheres);
+  molecule.camera = frame_tree(molecule.spheres, ViewFrom::iso, 30, 480, 240);
+  const Tracer molecule_tracer(molecule.spheres, Engine::reference, {});
+  settings.width_px = 480;
+  settings.height_px = 240;
+  testing::expect_golden("tree-molecule", image_from_film(render(molecule, molecule_tracer, settings).value().film,
+                                                          View::tree, Transfer::none));
 }
 
 TEST(Molecule, bundled) {

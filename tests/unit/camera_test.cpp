@@ -31,6 +31,21 @@ TEST(PixelRays, directions_have_length_1) {
     for (int x = 0; x < 64; x += 5) EXPECT_NEAR(length(to_double(rays.at(x, y).direction)), 1, 1e-7);
 }
 
+TEST(PixelPlaces, are_where_the_rays_go) {
+  const Camera camera{{3, 1, 2}, {-4, 5, 6}, {0, 0.2, 1}, 70};
+  const PixelRays rays(camera, 64, 48);
+  const PixelPlaces places(camera, 64, 48);
+  for (double y = 0; y <= 48; y += 3.7)
+    for (double x = 0; x <= 64; x += 4.1) {
+      const Ray ray = rays.at(x, y);
+      const Vec3d seen = places.from_eye(to_double(ray.origin) + 12.5 * to_double(ray.direction));
+      EXPECT_NEAR(places.x_px(seen), x, 1e-4);
+      EXPECT_NEAR(places.y_px(seen), y, 1e-4);
+      EXPECT_GT(seen.z, 0);
+    }
+  EXPECT_LT(places.from_eye(camera.eye + (camera.eye - camera.look_at)).z, 0) << "behind the eye";
+}
+
 TEST(CheckCamera, names_what_is_wrong) {
   const Camera good;
   EXPECT_TRUE(check_camera(good));

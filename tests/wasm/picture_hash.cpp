@@ -32,7 +32,8 @@ constexpr NamedView kViews[] = {{"recursion", View::recursion},
                                 {"traversal", View::traversal},
                                 {"normal", View::normal},
                                 {"distance", View::distance},
-                                {"id", View::id}};
+                                {"id", View::id},
+                                {"tree", View::tree}};
 
 struct NamedEngine {
   const char* name;
@@ -59,8 +60,9 @@ bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted
   bool have_first = false;
   std::uint64_t first = 0;
   for (const auto& [engine_name, engine] : kEngines) {
-    // Brute force has no tree, and so no picture of its traversal.
-    if (wanted.view == View::traversal && engine == Engine::brute) continue;
+    // Brute force has no tree, and so no picture of it or of its traversal.
+    const bool of_tree = wanted.view == View::traversal || wanted.view == View::tree;
+    if (of_tree && engine == Engine::brute) continue;
     const bihive::Tracer tracer(scene.spheres, engine, {});
     for (const int threads : {1, 4}) {
       bihive::RenderSettings settings = wanted;

@@ -12,6 +12,7 @@
 #include "bihive/render/integrator.h"
 #include "bihive/render/sample_pattern.h"
 #include "bihive/render/scene_hit.h"
+#include "bihive/render/tree_picture.h"
 #include "bihive/render/views.h"
 
 namespace bihive {
@@ -140,6 +141,7 @@ class Renderer {
       case View::distance:
         return distance_colour(ray, scene_hit(scene_, tracer_, ray), range_);
       case View::id:
+      case View::tree:  // is not made of samples
         break;
     }
     return id_colour(scene_hit(scene_, tracer_, ray).id);
@@ -178,8 +180,10 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
   BIHIVE_CHECK(settings.recursion >= 1 && settings.recursion <= 16);
   BIHIVE_CHECK_GE(settings.threads, 0);
   if (Status status = check_camera(scene.camera); !status) return status.error();
-  if (settings.view == View::traversal && tracer.tree() == nullptr)
-    return Error{"the traversal view needs a tree, and brute force has none", "", 0, 0, "choose another engine"};
+  const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
+  if (of_tree && tracer.tree() == nullptr)
+    return Error{"this view shows a tree, and brute force has none", "", 0, 0, "choose another engine"};
+  if (settings.view == View::tree) return render_tree_picture(scene, tracer, settings, progress, cancel);
   return Renderer(scene, tracer, settings, progress, cancel).run();
 }
 

@@ -14,9 +14,9 @@
 namespace bihive {
 
 /// shaded: Whitted's pictures. recursion: the deepest generation that hit something. traversal: gaps passed (green) and
-/// nodes entered (blue) by the primary ray. normal, distance, id: of the first hit. All but `shaded` are display
-/// values.
-enum class View { shaded, recursion, traversal, normal, distance, id };
+/// nodes entered (blue) by the primary ray. normal, distance, id: of the first hit. tree: a drawing of the tree itself
+/// (render/tree_picture.h). All but `shaded` are display values.
+enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 
 struct RenderSettings {
   int width_px = 1280;        ///< 1 to 65535
@@ -44,8 +44,8 @@ using ProgressCallback = std::function<void(double done)>;
 /// Settings of a scene's own defaults.
 RenderSettings settings_from(const PictureDefaults& defaults);
 
-/// Settings must be in range (a programmer's error otherwise). The traversal view needs a tracer with a tree: an Error
-/// without one. An Error "cancelled" when the token was set before the picture was done.
+/// Settings must be in range (a programmer's error otherwise). The traversal and tree views need a tracer with a tree: an
+/// Error without one. An Error "cancelled" when the token was set before the picture was done.
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr);
 

@@ -35,4 +35,23 @@ class PixelRays {
   double half_width_, half_height_;
 };
 
+/// The other way round: where points of the world are seen in a picture of width x height pixels.
+class PixelPlaces {
+ public:
+  /// The camera must pass check_camera().
+  PixelPlaces(const Camera& camera, int width_px, int height_px);
+
+  /// Steps to the right and down and the distance along the view, measured from the eye; the steps in pixels at
+  /// distance 1.
+  Vec3d from_eye(Vec3d world) const;
+
+  /// Picture position in pixels, as PixelRays::at() takes it, of a point given from the eye at a distance above 0.
+  double x_px(Vec3d point) const { return half_width_ + point.x / point.z; }
+  double y_px(Vec3d point) const { return half_height_ + point.y / point.z; }
+
+ private:
+  Vec3d eye_, right_, down_, forward_;
+  double half_width_, half_height_;
+};
+
 }  // namespace bihive
