@@ -132,12 +132,12 @@ Result<Scene> scenario_scene(Scenario scenario, const ScenarioParameters& parame
 
 Scene four_spheres_scene() {
   Scene scene = thesis_scene_without_spheres();
-  // Large spheres close together: reflections of reflections reach depth 5 in the gaps between the red ones, and the
-  // transparent one in front shows them once more.
-  const std::vector<float> x{-8, 8, 0, 2};
-  const std::vector<float> y{-10, -10, 4, -9};
-  const std::vector<float> z{-4, -4, -6, 12};
-  const std::vector<float> r{7.5F, 7.5F, 7.5F, 5};
+  // Large spheres close together, as large as the cube allows: reflections of reflections reach depth 5 where the red
+  // ones face each other, and the transparent one in front shows them once more.
+  const std::vector<float> x{-10.5F, 10.5F, 0, 1.5F};
+  const std::vector<float> y{-10, -10, 8.5F, -6};
+  const std::vector<float> z{-5, -5, -7, 11.5F};
+  const std::vector<float> r{9.5F, 9.5F, 10, 8};
   Result<SphereSet> spheres = SphereSet::from_world(x, y, z, r);
   scene.spheres = std::move(spheres.value());
   scene.material_of_sphere = {0, 0, 0, 1};
