@@ -86,10 +86,11 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
   Hit best;
   if (part.empty() || tree.aabb.empty()) return best;
 
-  // A tree is at most 1000 levels deep, and each level leaves at most one child waiting.
+  // A tree is at most 1000 levels deep, and each level leaves at most one child waiting. Without an Interval, which
+  // would be set to 0 a thousand times for each ray.
   struct Waiting {
     std::int64_t node;
-    Interval part;
+    double t_near, t_far;
   };
   std::array<Waiting, 1024> waiting;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before read
   int waiting_count = 0;
@@ -123,7 +124,7 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
       const Interval far_part = left_is_near ? right : left;
       if (!far_part.empty())
         waiting[static_cast<std::size_t>(waiting_count++)] = {left_is_near ? node.right_child() : node.left_child(),
-                                                              far_part};
+                                                              far_part.t_near, far_part.t_far};
     } else {
       // One child: cut at the planes that the node has.
       observer.node_visit();
@@ -142,7 +143,7 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
       if (waiting_count == 0) return best;
       const Waiting& top = waiting[static_cast<std::size_t>(--waiting_count)];
       next = top.node;
-      next_part = top.part;
+      next_part = {top.t_near, top.t_far};
     }
     position = next;
     part = next_part;
