@@ -1,10 +1,241 @@
+// Figure 4.5: the memory of the tree, predicted, as the thesis counts it, and as this program allocates it.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bihive/base/parallel.h"
+#include "bihive/base/write_file.h"
+#include "bihive/bih/memory.h"
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/statistics.h"
+#include "bihive/scene/generators.h"
+#include "compare.h"
 #include "experiment.h"
+#include "failure.h"
+#include "messages.h"
+#include "svg_chart.h"
 
 namespace bihive::cli::thesis {
+namespace {
+
+// The seeds 1, 2, ... behind mean and standard deviation.
+constexpr std::int64_t kSeeds = 100;
+constexpr std::int64_t kQuickSeeds = 20;
+// Two means of the same thing lie within so many standard errors of each other.
+constexpr double kStandardErrors = 4;
+
+std::string step_name(std::int64_t scenario) {
+  return fmt::format("scenario{}", scenario);
+}
+
+double thesis_count(const Values& values, const Tree& tree, std::int64_t spheres) {
+  const TreeStatistics s = tree_statistics(tree);
+  return values.number("node_bytes") * static_cast<double>(s.inner_nodes + s.leaves) +
+         values.number("index_bytes") * static_cast<double>(spheres) + values.number("aabb_bytes");
+}
+
+Json measure_tree(StepContext& context, Scenario scenario, std::int64_t count, std::int64_t max_prims) {
+  // Predict before anything is built.
+  const Values& values = context.values;
+  const BuildParameters build = build_parameters(max_prims, values.integer("max_depth"));
+  const MemoryPrediction predicted = predict_tree_memory(count, build);
+
+  // The tree of this seed.
+  ScenarioParameters parameters{count, static_cast<float>(values.number("radius")), context.settings.seed};
+  const SphereSet spheres = value_or_fail(scenario_spheres(scenario, parameters));
+  const Tree tree = build_reference_tree(spheres, build);
+
+  // Many seeds. The grid of Scenario 1 has none.
+  const std::int64_t wanted = context.settings.quick ? kQuickSeeds : kSeeds;
+  const std::int64_t seeds = scenario == Scenario::grid ? 1 : wanted;
+  std::vector<double> bytes(static_cast<std::size_t>(seeds));
+  parallel_for(context.settings.threads, seeds, [&](std::int64_t i) {
+    if (context.cancel.cancelled()) return;
+    ScenarioParameters seeded = parameters;
+    seeded.seed = static_cast<std::uint64_t>(i + 1);
+    const SphereSet set = *scenario_spheres(scenario, seeded);
+    bytes[static_cast<std::size_t>(i)] = thesis_count(values, build_reference_tree(set, build), count);
+  });
+  const Spread spread = spread_of(bytes);
+  const auto range = [](const MemoryPrediction::Range& of) { return Json{of.low, of.high}; };
+  return {{"spheres", count},
+          {"max_prims", max_prims},
+          {"predicted_thesis_bytes", range(predicted.thesis_bytes)},
+          {"predicted_allocated_bytes", range(predicted.allocated_bytes)},
+          {"thesis_bytes", thesis_count(values, tree, count)},
+          {"allocated_bytes", tree.allocated_bytes()},
+          {"seeds", seeds},
+          {"mean", spread.mean},
+          {"sd", spread.sd}};
+}
+
+Json measure_scenario(StepContext& context, std::int64_t scenario) {
+  Json trees = Json::array();
+  for (const double count : context.values.numbers("spheres_list"))
+    for (const double max_prims : context.values.numbers("max_prims_list")) {
+      if (context.cancel.cancelled()) return {};
+      trees.push_back(measure_tree(context, scenario_of(scenario), static_cast<std::int64_t>(count),
+                                   static_cast<std::int64_t>(max_prims)));
+    }
+  return {{"trees", trees}};
+}
+
+std::vector<Step> figure_4_5_steps(const Settings& settings, const Values& values) {
+  std::vector<Step> steps;
+  for (const double number : values.numbers("scenarios")) {
+    const auto scenario = static_cast<std::int64_t>(number);
+    steps.push_back({step_name(scenario), settings.quick ? 0.5 : 2,
+                     [scenario](StepContext& context) { return measure_scenario(context, scenario); }});
+  }
+  return steps;
+}
+
+std::string range_text(const Json& range) {
+  return grouped(range[0].get<std::int64_t>()) + " to " + grouped(range[1].get<std::int64_t>());
+}
+
+bool inside(const Json& value, const Json& range) {
+  return value >= range[0] && value <= range[1];
+}
+
+// Our values of another implementation, in the place of the lost ones.
+Verdict verdict_of(const Values& values, const std::string& name, const Json& tree) {
+  const double sd = tree["sd"].get<double>(), seeds = tree["seeds"].get<double>();
+  const double error = sd * std::sqrt(1 / seeds + 1 / values.number("ours.seeds"));
+  const double allowed = sd == 0 ? 0 : kStandardErrors * error + print_rounding(values.printed(name));
+  return verdict_if(std::abs(tree["mean"].get<double>() - values.number(name)) <= allowed);
+}
+
+void add_table(const SectionContext& context, std::int64_t scenario, const Json& trees, Section& section) {
+  Table table{fmt::format("Scenario {}: bytes", scenario),
+              {"Spheres", "MAX_PRIMS", "predicted", "as the thesis counts", "mean ± sd over seeds", "expected",
+               "verdict", "allocated, predicted", "really allocated"},
+              {},
+              "Predicted: from the number of spheres and MAX_PRIMS alone, before the build. Expected: the thesis's "
+              "values are lost, and these are ours, by another implementation (in Scenario 1 exact, else means of " +
+                  context.values.printed("ours.seeds") +
+                  " seeds). Agrees: equal in Scenario 1, else the two means lie within four standard errors."};
+  for (const Json& tree : trees) {
+    const std::string name = fmt::format("ours.scenario{}.spheres{}.max_prims{}.bytes", scenario,
+                                         tree["spheres"].dump(), tree["max_prims"].dump());
+    const Verdict verdict = verdict_of(context.values, name, tree);
+    const double mean = tree["mean"].get<double>(), sd = tree["sd"].get<double>();
+    const bool predicted = inside(tree["thesis_bytes"], tree["predicted_thesis_bytes"]) &&
+                           inside(tree["allocated_bytes"], tree["predicted_allocated_bytes"]);
+    table.rows.push_back({{grouped(tree["spheres"].get<std::int64_t>())},
+                          {tree["max_prims"].dump()},
+                          {range_text(tree["predicted_thesis_bytes"]) + (predicted ? "" : " (missed)")},
+                          {grouped(std::llround(tree["thesis_bytes"].get<double>()))},
+                          {sd == 0 ? grouped(std::llround(mean)) : fmt::format("{:.0f} ± {:.0f}", mean, sd)},
+                          {context.values.printed(name)},
+                          {verdict_name(verdict), verdict},
+                          {range_text(tree["predicted_allocated_bytes"])},
+                          {grouped(tree["allocated_bytes"].get<std::int64_t>())}});
+    Json entry{{"name", name}, {"scenario", scenario}};
+    entry.update(tree);
+    entry["expected"] = context.values.number(name);
+    entry["prediction_holds"] = predicted;
+    entry["verdict"] = verdict_name(verdict);
+    section.data["values"].push_back(std::move(entry));
+  }
+  section.tables.push_back(std::move(table));
+}
+
+void add_chart(const SectionContext& context, const std::string& file, const std::string& caption,
+               const ChartData& data, Section& section) {
+  const std::string path = context.folder + "/" + file;
+  if (const Status status = write_file(path, bar_chart(data)); !status) fail(status.error());
+  section.illustrations.push_back({"figure-4.5/" + file, caption});
+}
+
+// As in the thesis: one series a MAX_PRIMS over the numbers of spheres.
+void add_thesis_chart(const SectionContext& context, std::int64_t scenario, const Json& trees, Section& section) {
+  ChartData data{fmt::format("Scenario {}: memory as the thesis counts it", scenario), "spheres", "kB", {}, {}, false};
+  for (const double count : context.values.numbers("spheres_list")) data.categories.push_back(fmt::format("{}", count));
+  for (const double max_prims : context.values.numbers("max_prims_list")) {
+    Series series{fmt::format("MAX_PRIMS {}", max_prims), {}};
+    for (const Json& tree : trees)
+      if (tree["max_prims"] == max_prims) series.values.push_back(tree["thesis_bytes"].get<double>() / 1000);
+    data.series.push_back(std::move(series));
+  }
+  add_chart(context, fmt::format("scenario{}.svg", scenario),
+            fmt::format("Scenario {}: nodes, index array and global box, as the thesis counts them", scenario), data,
+            section);
+}
+
+// The largest number of spheres: what was predicted, and what it takes.
+void add_allocation_chart(const SectionContext& context, std::int64_t scenario, const Json& trees, Section& section) {
+  const double count = context.values.numbers("spheres_list").back();
+  ChartData data{
+      fmt::format("Scenario {}: {} spheres, predicted and really allocated", scenario, count),
+      "MAX_PRIMS",
+      "kB",
+      {},
+      {{"predicted, low", {}}, {"really allocated", {}}, {"predicted, high", {}}, {"as the thesis counts", {}}},
+      false};
+  for (const Json& tree : trees) {
+    if (tree["spheres"] != count) continue;
+    data.categories.push_back(tree["max_prims"].dump());
+    const Json& predicted = tree["predicted_allocated_bytes"];
+    const Json values[] = {predicted[0], tree["allocated_bytes"], predicted[1], tree["thesis_bytes"]};
+    for (std::size_t i = 0; i < data.series.size(); ++i)
+      data.series[i].values.push_back(values[i].get<double>() / 1000);
+  }
+  add_chart(context, fmt::format("scenario{}-allocated.svg", scenario),
+            fmt::format("Scenario {}: the range predicted before the build, what the tree of this seed really "
+                        "allocates, and what the thesis would count",
+                        scenario),
+            data, section);
+}
+
+// How often memory grows, or stays, from one MAX_PRIMS to the next.
+void add_statements(const SectionContext& context, const std::vector<const Json*>& scenarios, Section& section) {
+  std::int64_t rises = 0, steps = 0;
+  for (const Json* trees : scenarios)
+    for (std::size_t i = 1; i < trees->size(); ++i) {
+      const Json &before = (*trees)[i - 1], &after = (*trees)[i];
+      if (before["spheres"] != after["spheres"]) continue;
+      ++steps;
+      rises += after["mean"] >= before["mean"];
+    }
+  Statements statements("What the text says about memory", "Compared with our means over the seeds.");
+  statements.add("rises_with_max_prims",
+                 "A larger MAX_PRIMS makes shallower trees and so needs less memory; exceptions",
+                 context.values.printed("rises_with_max_prims"), fmt::format("{} of {}", rises, steps),
+                 verdict_if(static_cast<double>(rises) == context.values.number("rises_with_max_prims")));
+  section.data["statements"] = statements.data();
+  section.tables.push_back(statements.table());
+}
+
+Section figure_4_5_section(const SectionContext& context) {
+  Section section;
+  const Values& values = context.values;
+  section.paragraphs.push_back(fmt::format(
+      "The thesis counts {} bytes for each inner node and leaf, {} for each sphere's index and {} for the global box; "
+      "sizes are ours, the text gives none, and it breaks off before its results. This program allocates {} bytes for "
+      "each node that it stores (an empty leaf is not) and {} for each sphere. Trees are those of seed {}.",
+      values.printed("node_bytes"), values.printed("index_bytes"), values.printed("aabb_bytes"), sizeof(Node),
+      sizeof(std::int64_t), context.settings.seed));
+  section.data["values"] = Json::array();
+  std::vector<const Json*> done;
+  for (const double number : values.numbers("scenarios")) {
+    const auto scenario = static_cast<std::int64_t>(number);
+    const auto found = context.results.find(step_name(scenario));
+    if (found == context.results.end()) continue;
+    const Json& trees = found->second["trees"];
+    add_table(context, scenario, trees, section);
+    add_thesis_chart(context, scenario, trees, section);
+    add_allocation_chart(context, scenario, trees, section);
+    done.push_back(&trees);
+  }
+  if (done.size() == values.numbers("scenarios").size()) add_statements(context, done, section);
+  return section;
+}
+
+}  // namespace
 
 Experiment figure_4_5() {
-  return {"figure-4.5", "Figure 4.5: memory", [](const Settings&, const Values&) { return std::vector<Step>(); },
-          [](const SectionContext&) { return Section(); }};
+  return {"figure-4.5", "Figure 4.5: memory of the tree", figure_4_5_steps, figure_4_5_section};
 }
 
 }  // namespace bihive::cli::thesis
