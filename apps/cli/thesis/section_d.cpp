@@ -75,7 +75,7 @@ PrimaryRays primary_rays(const StepContext& context, const Tracer& tree) {
     for (int x = 0; x < width; ++x) {
       const Ray ray = pixels.at(x + 0.5, y + 0.5);
       CountingObserver observer;
-      traverse<false>(*tree.tree(), tree.spheres(), ScaledRay(ray, tree.spheres().scale()), observer);
+      traverse<false>(*tree.tree(), tree.spheres(), ScaledRay(ray, tree.spheres()), observer);
       rays.all.push_back(ray);
       if (observer.leaf_visits > 0) rays.box.push_back(ray);
     }
