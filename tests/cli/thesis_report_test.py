@@ -1,0 +1,160 @@
+"""The report of `bihive thesis`: interrupted runs, resumed runs, verdicts, and results.json against its schema."""
+
+import html.parser
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+import jsonschema
+from program import BIHIVE, ProgramTest, main
+
+SOURCE = os.environ["BIHIVE_SOURCE"]
+
+
+class Rows(html.parser.HTMLParser):
+    """Class and text of every row of every table."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.rows = []
+        self.inside = False
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        if tag == "tr":
+            self.rows.append((dict(attributes).get("class", ""), ""))
+            self.inside = True
+
+    def handle_endtag(self, tag):
+        self.inside = self.inside and tag != "tr"
+
+    def handle_data(self, data):
+        if self.inside:
+            self.rows[-1] = (self.rows[-1][0], self.rows[-1][1] + data + " ")
+
+
+class Report(ProgramTest):
+    def report(self, out):
+        return self.read(out + "/report.html").decode()
+
+    def results(self, out):
+        """results.json, which must be as its schema says."""
+        with open(os.path.join(SOURCE, "docs/results.schema.json")) as file:
+            schema = json.load(file)
+        jsonschema.Draft7Validator.check_schema(schema)
+        results = json.loads(self.read(out + "/results.json"))
+        jsonschema.Draft7Validator(schema).validate(results)
+        for experiment in results["experiments"]:
+            for table in experiment["tables"]:
+                for row in table["rows"]:
+                    self.assertEqual(len(row), len(table["columns"]), table["title"])
+            for illustration in experiment["illustrations"]:
+                self.assertTrue(os.path.isfile(self.path(out + "/" + illustration["file"])), illustration)
+        return results
+
+    def step_files(self, out, experiment):
+        """Name of each finished step, with the time of its file."""
+        folder = self.path(out + "/steps/" + experiment)
+        if not os.path.isdir(folder):
+            return {}
+        files = [name for name in os.listdir(folder) if name.endswith(".json")]
+        return {name[: -len(".json")]: os.stat(os.path.join(folder, name)).st_mtime_ns for name in files}
+
+    def test_an_interrupted_run_says_what_is_missing_and_goes_on(self):
+        command = ["thesis", "figure-4.4", "--quick", "--out", "out"]
+        process = subprocess.Popen([BIHIVE, *command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while len(self.step_files("out", "figure-4.4")) < 2:
+            self.assertIsNone(process.poll(), "the run was over too early for this test")
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual((process.communicate(timeout=60), process.returncode), (("", ""), 130))
+
+        # The report shows what is done and names what is not.
+        done = self.step_files("out", "figure-4.4")
+        results = self.results("out")
+        (experiment,) = results["experiments"]
+        missing = experiment["missing_steps"]
+        self.assertFalse(results["complete"])
+        self.assertGreaterEqual(len(missing), 1)
+        self.assertEqual(set(missing) & set(done), set())
+        report = self.report("out")
+        self.assertIn('class="banner"', report)
+        for step in missing:
+            self.assertIn(step, report)
+        self.assertGreaterEqual(len(experiment["tables"]), 1)
+
+        # The same command does what was missing, and nothing else.
+        self.succeed(*command)
+        after = self.step_files("out", "figure-4.4")
+        self.assertEqual(set(after), set(done) | set(missing))
+        self.assertEqual({step: after[step] for step in done}, done)
+        results = self.results("out")
+        self.assertTrue(results["complete"])
+        self.assertEqual(results["experiments"][0]["missing_steps"], [])
+        self.assertNotIn('class="banner"', self.report("out"))
+
+        # And once all is done, nothing.
+        self.succeed(*command)
+        self.assertEqual(self.step_files("out", "figure-4.4"), after)
+
+    def test_a_changed_value_turns_its_row_red(self):
+        experiment, name = "table-4.2", "scenario1.max_prims1.inner_nodes"
+        shutil.copytree(os.path.join(SOURCE, "thesis"), self.path("values"))
+        changed = "values/" + experiment + "/values.json"
+        document = json.loads(self.read(changed))
+        stated = document["values"][name]
+        before = stated.get("printed", str(stated["value"]))
+        stated["value"] += 1
+        stated["printed"] = "4,321,987"
+        self.write(changed, json.dumps(document))
+
+        self.succeed("thesis", experiment, "--quick", "--out", "as_it_is")
+        self.succeed("thesis", experiment, "--quick", "--out", "changed", "--values", "values")
+        rows = [Rows(self.report(out)).rows for out in ("as_it_is", "changed")]
+        green = [row for row in rows[0] if row[0] == "agrees" and before in row[1]]
+        red = [row for row in rows[1] if row[0] == "differs" and "4,321,987" in row[1]]
+        self.assertGreaterEqual(len(green), 1)
+        self.assertEqual(len(red), 1)
+        self.assertEqual([row for row in rows[1] if row[0] == "agrees" and "4,321,987" in row[1]], [])
+        counts = [self.results(out)["experiments"][0] for out in ("as_it_is", "changed")]
+        self.assertGreater(counts[1]["differ"], counts[0]["differ"])
+        self.assertLess(counts[1]["agree"], counts[0]["agree"])
+
+    def test_text_of_the_values_is_text(self):
+        # Sentences come from a file: none of them may become a part of the page.
+        shutil.copytree(os.path.join(SOURCE, "thesis"), self.path("values"))
+        changed = "values/figure-4.4/values.json"
+        document = json.loads(self.read(changed))
+        for value in document["values"].values():
+            value["sentence"] = "<script>alert(1)</script> & \"'"
+        document["values"].update({"scenarios": {"value": [1], "sentence": "one"}, "spheres_list": {"value": [64], "sentence": "one"}})
+        self.write(changed, json.dumps(document))
+        self.succeed("thesis", "figure-4.4", "--quick", "--out", "out", "--values", "values")
+        report = self.report("out")
+        self.assertNotIn("<script", report)
+        self.assertIn("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;&#39;", report)
+        self.results("out")
+
+    def test_the_page_needs_nothing_from_outside(self):
+        self.succeed("thesis", "figure-4.4", "--quick", "--out", "out", "--values", self.small_values())
+        report = self.report("out")
+        for word in ["http://", "https://", "<script", "<link rel=\"stylesheet", "@import", "url("]:
+            outside = report.replace('xmlns="http://www.w3.org/2000/svg"', "")
+            self.assertNotIn(word, outside)
+
+    def small_values(self):
+        """A folder of stated values with one configuration of Figure 4.4."""
+        with open(os.path.join(SOURCE, "thesis/figure-4.4/values.json")) as file:
+            document = json.load(file)
+        document["values"]["scenarios"]["value"] = [2]
+        document["values"]["spheres_list"]["value"] = [64]
+        os.makedirs(self.path("small/figure-4.4"))
+        self.write("small/figure-4.4/values.json", json.dumps(document))
+        return "small"
+
+
+if __name__ == "__main__":
+    main()
