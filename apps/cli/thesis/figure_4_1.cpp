@@ -1,11 +1,216 @@
-#include "experiment.h"
+// Figure 4.1: the three scenarios, and whether the scenes hold what the text says of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "bihive/scene/generators.h"
+#include "compare.h"
+#include "failure.h"
+#include "pictures.h"
 
 namespace bihive::cli::thesis {
+namespace {
+
+const std::string kId = "figure-4.1";
+constexpr int kQuickDivisor = 4;
+
+// Spheres of the regular grid share their x with this many others at least; random ones hardly ever with one.
+constexpr int kRegular = 8;
+// What adding up steps in binary32 may move a grid's last sphere by, as a share of the cube's side.
+constexpr double kRounding = 1e-5;
+
+std::string step_name(double scenario) {
+  return fmt::format("scenario{}", scenario);
+}
+
+// How many spheres lie wholly inside the four sides of the picture.
+std::int64_t spheres_in_view(const Scene& scene, PictureSize size) {
+  const PixelRays rays(scene.camera, size.width_px, size.height_px);
+  const auto direction = [&](int x, int y) { return to_double(rays.at(x, y).direction); };
+  const std::array<Vec3d, 4> corners{direction(0, 0), direction(size.width_px, 0),
+                                     direction(size.width_px, size.height_px), direction(0, size.height_px)};
+  std::int64_t inside = 0;
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+    bool wholly = true;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3d inward = normalized(cross(corners[(i + 1) % 4], corners[i]));
+      wholly = wholly && dot(scene.spheres.centre(id) - scene.camera.eye, inward) >= scene.spheres.radius(id);
+    }
+    inside += wholly ? 1 : 0;
+  }
+  return inside;
+}
+
+// In how many of the cube's corners spheres lie wholly inside a small cube; 0 if any sphere lies elsewhere.
+int occupied_corners(const SphereSet& spheres, const Values& values) {
+  const double low = values.number("cube.low"), high = values.number("cube.high");
+  const double side = values.number("scenario2.cluster_side"), rounding = kRounding * (high - low);
+  std::set<int> corners;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const Vec3d centre = spheres.centre(id);
+    const double radius = spheres.radius(id);
+    int corner = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool upper = centre[axis] > 0.5 * (low + high);
+      corner |= upper ? 1 << axis : 0;
+      const double lo = upper ? high - side : low, hi = upper ? high : low + side;
+      if (centre[axis] - radius < lo - rounding || centre[axis] + radius > hi + rounding) return 0;
+    }
+    corners.insert(corner);
+  }
+  return static_cast<int>(corners.size());
+}
+
+// The share of the spheres that do not stand in rows.
+double clustered_share(const SphereSet& spheres) {
+  std::map<float, int> rows;
+  for (const float x : spheres.x()) ++rows[x];
+  const auto clustered =
+      std::count_if(spheres.x().begin(), spheres.x().end(), [&](float x) { return rows[x] < kRegular; });
+  return static_cast<double>(clustered) / static_cast<double>(spheres.size());
+}
+
+Json material_facts(const Material& material) {
+  return {{"colour", numbers_of(material.colour)}, {"ambient", material.ambient},
+          {"diffuse", material.diffuse},           {"reflective", material.reflective},
+          {"specular", material.specular},         {"power", material.power},
+          {"transmissive", material.transmissive}, {"refraction_index", material.refraction_index}};
+}
+
+Json scene_facts(const Scene& scene) {
+  return {
+      {"camera", {{"eye", numbers_of(scene.camera.eye)}}},
+      {"lights", scene.lights.size()},
+      {"light",
+       {{"position", numbers_of(scene.lights.at(0).position)}, {"colour", numbers_of(scene.lights.at(0).colour)}}},
+      {"plane", {{"point", numbers_of(scene.plane->plane.point)}, {"normal", numbers_of(scene.plane->plane.normal)}}},
+      {"red", material_facts(material_of(scene, 0))},
+      {"transparent", material_facts(material_of(scene, 1))}};
+}
+
+Json draw_scenario(const StepContext& context, std::int64_t number) {
+  // Make the scene, and draw it.
+  const Values& values = context.values;
+  ScenarioParameters parameters;
+  parameters.count = values.integer("spheres");
+  parameters.radius = static_cast<float>(values.number("radius"));
+  parameters.seed = context.settings.seed;
+  const Scene scene = value_or_fail(scenario_scene(scenario_of(number), parameters));
+  const Tracer tracer(scene.spheres, Engine::automatic, {});
+  const PictureSize size = picture_size(context.settings, values, kQuickDivisor);
+  RenderSettings settings = picture_settings(context, scene, size, View::shaded);
+  settings.recursion = static_cast<int>(std::clamp<std::int64_t>(values.integer("recursion"), 1, 16));
+  const std::optional<Image> image = draw(context, scene, tracer, settings);
+  if (!image) return {};
+
+  // Note what the text speaks of.
+  const SphereSet::Bounds bounds = scene.spheres.bounds();
+  Json result{{"picture", write_picture(context, step_name(double(number)) + ".png", *image)},
+              {"spheres", scene.spheres.size()},
+              {"spheres_in_view", spheres_in_view(scene, size)},
+              {"low", std::min({bounds.lo.x, bounds.lo.y, bounds.lo.z})},
+              {"high", std::max({bounds.hi.x, bounds.hi.y, bounds.hi.z})},
+              {"clustered_share", clustered_share(scene.spheres)},
+              {"scene", scene_facts(scene)}};
+  const int corners = occupied_corners(scene.spheres, values);
+  result["clusters"] = corners;
+  return result;
+}
+
+std::vector<Step> steps_of(const Settings& settings, const Values& values) {
+  std::vector<Step> steps;
+  for (const double number : values.numbers("scenarios"))
+    steps.push_back({step_name(number), settings.quick ? 0.5 : 3.0, [number](StepContext& context) {
+                       return draw_scenario(context, static_cast<std::int64_t>(number));
+                     }});
+  return steps;
+}
+
+// Each value of the scene that the text states: equal, digit by digit.
+void add_scene(Statements& statements, const Values& values, const Json& facts) {
+  const auto add = [&](const std::string& name, const std::string& statement, const Json& ours) {
+    if (!values.has(name)) return;
+    const std::vector<double> found =
+        ours.is_array() ? ours.get<std::vector<double>>() : std::vector<double>{ours.get<double>()};
+    const std::string text = found.size() > 1 ? vector_text(found) : fmt::format("{}", found[0]);
+    statements.add(name, statement, values.printed(name), text, verdict_if(values.numbers(name) == found));
+  };
+  add("camera.eye", "Camera", facts.at("camera").at("eye"));
+  add("lights", "Lights", facts.at("lights"));
+  add("light.position", "Light", facts.at("light").at("position"));
+  add("light.colour", "Light's colour", facts.at("light").at("colour"));
+  add("plane.point", "Plane through", facts.at("plane").at("point"));
+  add("plane.normal", "Plane's normal", facts.at("plane").at("normal"));
+  for (const std::string material : {"red", "transparent"})
+    for (const auto& [property, ours] : facts.at(material).items()) {
+      std::string words = property;
+      std::replace(words.begin(), words.end(), '_', ' ');
+      add(material + "." + property, material + ": " + words, ours);
+    }
+}
+
+// What the text says of where the spheres are.
+void add_places(Statements& statements, const Values& values, std::int64_t number, const Json& result) {
+  const double low = values.number("cube.low"), high = values.number("cube.high"), rounding = kRounding * (high - low);
+  const double ours_low = result.at("low").get<double>(), ours_high = result.at("high").get<double>();
+  const std::string name = step_name(double(number)), scenario = fmt::format("Scenario {}: ", number);
+  statements.add(name + ".cube", scenario + "the spheres fill a cube",
+                 fmt::format("[{}, {}]", values.printed("cube.low"), values.printed("cube.high")),
+                 fmt::format("[{:.3f}, {:.3f}]", ours_low, ours_high),
+                 verdict_if(ours_low >= low - rounding && ours_high <= high + rounding &&
+                            (number != 1 || (ours_low <= low + rounding && ours_high >= high - rounding))));
+  const auto count = result.at("spheres").get<std::int64_t>(), seen = result.at("spheres_in_view").get<std::int64_t>();
+  statements.add(name + ".visible", scenario + "all primitives are visible", "all",
+                 fmt::format("{} of {}", seen, count), verdict_if(seen == count));
+  if (number == 2) {
+    const auto clusters = result.at("clusters").get<std::int64_t>();
+    statements.add("scenario2.clusters", scenario + "smaller cubes in the corners, with all spheres",
+                   values.printed("scenario2.clusters"), fmt::format("{}", clusters),
+                   verdict_if(clusters == values.integer("scenario2.clusters")));
+  }
+  if (number == 3) {
+    // Rounded down where the number of spheres is odd.
+    const double share = result.at("clustered_share").get<double>();
+    const double most = values.number("scenario3.clustered_share") * double(count);
+    statements.add("scenario3.clustered_share", scenario + "share of the spheres that are clustered",
+                   values.printed("scenario3.clustered_share"), fmt::format("{:.4g}", share),
+                   verdict_if(std::floor(most) == share * double(count)));
+  }
+}
+
+Section section_of(const SectionContext& context) {
+  Section section;
+  Statements statements("What the text says of the scenes",
+                        "A number agrees if it is the same. The spheres' cube agrees if all lie inside it up to "
+                        "rounding, and if in Scenario 1 they reach its faces.");
+  Json scenarios = Json::object();
+  for (const double number : context.values.numbers("scenarios")) {
+    const auto found = context.results.find(step_name(number));
+    if (found == context.results.end()) continue;
+    const Json& result = found->second;
+    if (statements.empty()) add_scene(statements, context.values, result.at("scene"));
+    add_places(statements, context.values, static_cast<std::int64_t>(number), result);
+    section.illustrations.push_back(illustration_of(
+        kId, result.at("picture"), fmt::format("Scenario {}: {} spheres", number, result.at("spheres").dump())));
+    scenarios[step_name(number)] = result;
+  }
+  section.paragraphs = {
+      "The scenes in which everything is measured: spheres of one size, red and transparent in turn, above a plane. "
+      "They "
+      "are drawn without shadows, which the text does not name, and without a curve to the screen."};
+  if (!statements.empty()) section.tables.push_back(statements.table());
+  section.data = {{"scenarios", std::move(scenarios)}, {"statements", statements.data()}};
+  return section;
+}
+
+}  // namespace
 
 Experiment figure_4_1() {
-  return {"figure-4.1", "Figure 4.1: the three scenarios",
-          [](const Settings&, const Values&) { return std::vector<Step>(); },
-          [](const SectionContext&) { return Section(); }};
+  return {kId, "Figure 4.1: the three scenarios", steps_of, section_of};
 }
 
 }  // namespace bihive::cli::thesis

@@ -1,11 +1,268 @@
-#include "experiment.h"
+// Figure 4.3: six trees over one set of spheres, each as its traversal shows it and as a drawing of the tree itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bihive/bih/statistics.h"
+#include "bihive/image/image_diff.h"
+#include "bihive/scene/generators.h"
+#include "compare.h"
+#include "failure.h"
+#include "pictures.h"
 
 namespace bihive::cli::thesis {
+namespace {
+
+const std::string kId = "figure-4.3";
+constexpr int kQuickDivisor = 4;
+// The drawing of the tree has two parts: twice the size in a quick run.
+constexpr int kQuickTreeDivisor = 2;
+// The pictures that the text calls identical, and those that it describes by MAX_TREE_DEPTH.
+const std::vector<std::string> kLetters{"a", "b", "c", "d", "e", "f"};
+const std::vector<std::pair<std::string, std::string>> kIdentical{{"a", "d"}, {"c", "f"}};
+const std::vector<std::string> kByDepth{"a", "b", "c"};
+
+Scene scene_of(const StepContext& context) {
+  ScenarioParameters parameters;
+  parameters.count = context.values.integer("spheres");
+  parameters.radius = static_cast<float>(context.values.number("radius"));
+  parameters.seed = context.settings.seed;
+  return value_or_fail(scenario_scene(scenario_of(context.values.integer("scenario")), parameters));
+}
+
+// A limit of values.json, where `unlimited` stands for infinity.
+std::int64_t limit_of(const Values& values, const std::string& name) {
+  const std::int64_t limit = values.integer(name);
+  return limit == values.integer("unlimited") ? kUnlimited : std::max<std::int64_t>(1, limit);
+}
+
+BuildParameters parameters_of(const Values& values, const std::string& letter) {
+  return {limit_of(values, letter + ".max_prims"), limit_of(values, letter + ".max_depth")};
+}
+
+Json tree_facts(const Tree& tree) {
+  const TreeStatistics statistics = tree_statistics(tree);
+  return {{"inner_nodes", statistics.inner_nodes},
+          {"leaves", statistics.leaves},
+          {"spheres_per_leaf_min", statistics.spheres_per_leaf.min},
+          {"spheres_per_leaf_max", statistics.spheres_per_leaf.max},
+          {"depth", statistics.depth.max}};
+}
+
+// The smallest value above 0 of a channel: one gap or one visit.
+double smallest_step(const Image& image, std::size_t channel) {
+  int smallest = 0;
+  for (std::size_t i = channel; i < image.rgb.size(); i += 3)
+    if (image.rgb[i] > 0 && (smallest == 0 || image.rgb[i] < smallest)) smallest = image.rgb[i];
+  return smallest / 255.0;
+}
+
+std::optional<Image> draw_traversal(const StepContext& context, const Scene& scene, const Tracer& tracer) {
+  const PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
+  return draw(context, scene, tracer, picture_settings(context, scene, size, View::traversal));
+}
+
+Json draw_tree(const StepContext& context, const std::string& letter) {
+  const Scene scene = scene_of(context);
+  const Tracer tracer(scene.spheres, Engine::reference, parameters_of(context.values, letter));
+  const std::optional<Image> traversal = draw_traversal(context, scene, tracer);
+  const PictureSize size = picture_size(context.settings, context.values, kQuickTreeDivisor);
+  const std::optional<Image> tree = draw(context, scene, tracer, picture_settings(context, scene, size, View::tree));
+  if (!traversal || !tree) return {};
+  return {{"traversal", write_picture(context, letter + "-traversal.png", *traversal)},
+          {"tree_picture", write_picture(context, letter + "-tree.png", *tree)},
+          {"tree", tree_facts(*tracer.tree())},
+          {"green_step", smallest_step(*traversal, 1)},
+          {"blue_step", smallest_step(*traversal, 2)}};
+}
+
+bool same_node(const Node& a, const Node& b) {
+  return a.left_clip == b.left_clip && a.right_clip == b.right_clip && a.kind == b.kind &&
+         a.split_axis == b.split_axis && a.first == b.first && a.sphere_count == b.sphere_count;
+}
+
+// How many entries of two lists are not the same.
+template <class T, class Same>
+std::int64_t differences(const std::vector<T>& a, const std::vector<T>& b, const Same& same) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+    if (i >= a.size() || i >= b.size() || !same(a[i], b[i])) ++count;
+  return count;
+}
+
+// Compares two trees node by node and two pictures pixel by pixel.
+Json compare(const StepContext& context, const std::string& first, const std::string& second) {
+  const Scene scene = scene_of(context);
+  const Tracer one(scene.spheres, Engine::reference, parameters_of(context.values, first));
+  const Tracer other(scene.spheres, Engine::reference, parameters_of(context.values, second));
+  const std::optional<Image> one_image = draw_traversal(context, scene, one);
+  const std::optional<Image> other_image = draw_traversal(context, scene, other);
+  if (!one_image || !other_image) return {};
+  const auto equal = [](std::int64_t a, std::int64_t b) { return a == b; };
+  return {{"nodes", one.tree()->nodes.size()},
+          {"different_nodes", differences(one.tree()->nodes, other.tree()->nodes, same_node)},
+          {"different_places", differences(one.tree()->sphere_ids, other.tree()->sphere_ids, equal)},
+          {"different_pixels", difference_of(*one_image, *other_image).pixels}};
+}
+
+// The trees of (a) to (c) as they would be with the MAX_PRIMS that the text gives for them.
+Json build_as_stated(const StepContext& context) {
+  const Scene scene = scene_of(context);
+  Json trees = Json::object();
+  for (const std::string& letter : kByDepth) {
+    BuildParameters parameters = parameters_of(context.values, letter);
+    parameters.max_prims = limit_of(context.values, "abc.max_prims_stated");
+    trees[letter] = tree_facts(build_reference_tree(scene.spheres, parameters));
+  }
+  return trees;
+}
+
+std::string pair_name(const std::pair<std::string, std::string>& pair) {
+  return pair.first + "_and_" + pair.second;
+}
+
+std::vector<Step> steps_of(const Settings& settings, const Values&) {
+  const double weight = settings.quick ? 0.1 : 0.7;
+  std::vector<Step> steps;
+  for (const std::string& letter : kLetters)
+    steps.push_back({letter, weight, [letter](StepContext& context) { return draw_tree(context, letter); }});
+  for (const auto& pair : kIdentical)
+    steps.push_back(
+        {pair_name(pair), weight, [pair](StepContext& context) { return compare(context, pair.first, pair.second); }});
+  steps.push_back({"abc_as_stated", 0.01, [](StepContext& context) { return build_as_stated(context); }});
+  return steps;
+}
+
+std::string limit_text(const Values& values, const std::string& name) {
+  return limit_of(values, name) == kUnlimited ? "∞" : fmt::format("{}", values.integer(name));
+}
+
+std::string leaf_size_text(const Json& tree) {
+  const auto min = tree.at("spheres_per_leaf_min").get<std::int64_t>();
+  const auto max = tree.at("spheres_per_leaf_max").get<std::int64_t>();
+  return min == max ? fmt::format("{}", min) : fmt::format("{} to {}", min, max);
+}
+
+// What the text says of one tree, or of the same with another MAX_PRIMS.
+void add_stated(Statements& statements, const Values& values, const std::string& letter, const Json& tree,
+                const std::string& row_name, const std::string& words) {
+  const std::pair<const char*, const char*> counts[] = {
+      {"inner_nodes", "inner nodes"}, {"leaves", "leaves"}, {"depth", "levels"}};
+  for (const auto& [key, what] : counts) {
+    const std::string name = fmt::format("{}.{}", letter, key);
+    if (!values.has(name)) continue;
+    const auto ours = tree.at(key).get<std::int64_t>();
+    statements.add(fmt::format("{}.{}", row_name, key), fmt::format("{}: {}", words, what), values.printed(name),
+                   fmt::format("{}", ours), verdict_if(ours == values.integer(name)));
+  }
+  const std::string name = letter + ".spheres_per_leaf";
+  if (!values.has(name)) return;
+  const std::int64_t stated = values.integer(name);
+  statements.add(row_name + ".spheres_per_leaf", words + ": spheres in each leaf", values.printed(name),
+                 leaf_size_text(tree),
+                 verdict_if(tree.at("spheres_per_leaf_min") == stated && tree.at("spheres_per_leaf_max") == stated));
+}
+
+// "(a) = (d)", as trees and as pictures.
+void add_identical(Statements& statements, const Values& values, const std::string& name, const Json& result) {
+  const std::string words = fmt::format("({}) = ({})", name.front(), name.back());
+  const std::int64_t stated = values.integer(name + ".differences");
+  const auto nodes =
+      result.at("different_nodes").get<std::int64_t>() + result.at("different_places").get<std::int64_t>();
+  const auto pixels = result.at("different_pixels").get<std::int64_t>();
+  const std::string thesis = values.printed(name + ".differences");
+  statements.add(name + ".trees", words + " as trees", thesis,
+                 fmt::format("{} of {} nodes and places differ", nodes, result.at("nodes").get<std::int64_t>()),
+                 verdict_if(nodes == stated));
+  statements.add(name + ".pictures", words + " as pictures", thesis, fmt::format("{} pixels differ", pixels),
+                 verdict_if(pixels == stated));
+}
+
+// One step of a colour stands for one gap or visit: in the picture with the most of them.
+void add_colour_steps(Statements& statements, const Values& values, const Json& result) {
+  const auto add = [&](const std::string& name, const std::string& statement, double ours) {
+    // Pictures have 8 bits.
+    statements.add(name, statement, values.printed(name), fmt::format("{:.3g}", ours),
+                   verdict_if(ours > values.number(name) - 0.5 / 255 && ours < values.number(name) + 0.5 / 255));
+  };
+  add("gap.green", "Green of one gap passed", result.at("green_step").get<double>());
+  add("visit.blue", "Blue of one node or leaf entered", result.at("blue_step").get<double>());
+}
+
+Section section_of(const SectionContext& context) {
+  Section section;
+  const Values& values = context.values;
+  const auto result_of = [&](const std::string& step) {
+    const auto found = context.results.find(step);
+    return found == context.results.end() ? nullptr : &found->second;
+  };
+  Statements statements("What the text says of the trees", "A count agrees if it is the same in every leaf.");
+  const std::string stated_limit = values.printed("abc.max_prims_stated");
+  Statements as_stated(fmt::format("(a) to (c) with MAX_PRIMS = {}, as the text says", stated_limit),
+                       "Verdicts as above. Where this differs, the text contradicts itself.");
+  Table trees{
+      "Our trees", {"", "MAX_TREE_DEPTH", "MAX_PRIMS", "Inner nodes", "Leaves", "Spheres a leaf", "Levels"}, {}, ""};
+
+  // Each tree, with its two pictures side by side.
+  section.data = {{"trees", Json::object()}, {"identical", Json::object()}, {"as_stated", Json::object()}};
+  for (const std::string& letter : kLetters) {
+    const Json* result = result_of(letter);
+    if (result == nullptr) continue;
+    const Json& tree = result->at("tree");
+    const std::string limits =
+        fmt::format("MAX_TREE_DEPTH = {}, MAX_PRIMS = {}", limit_text(values, letter + ".max_depth"),
+                    limit_text(values, letter + ".max_prims"));
+    trees.rows.push_back({{fmt::format("({})", letter)},
+                          {limit_text(values, letter + ".max_depth")},
+                          {limit_text(values, letter + ".max_prims")},
+                          {tree.at("inner_nodes").dump()},
+                          {tree.at("leaves").dump()},
+                          {leaf_size_text(tree)},
+                          {tree.at("depth").dump()}});
+    section.illustrations.push_back(
+        illustration_of(kId, result->at("traversal"), fmt::format("({}) {}", letter, limits)));
+    section.illustrations.push_back(
+        illustration_of(kId, result->at("tree_picture"), fmt::format("({}) the tree itself", letter)));
+    add_stated(statements, values, letter, tree, letter, fmt::format("({})", letter));
+    section.data["trees"][letter] = *result;
+  }
+  for (const auto& pair : kIdentical)
+    if (const Json* result = result_of(pair_name(pair))) {
+      add_identical(statements, values, pair_name(pair), *result);
+      section.data["identical"][pair_name(pair)] = *result;
+    }
+  if (const Json* result = result_of(kLetters.back())) add_colour_steps(statements, values, *result);
+  if (const Json* result = result_of("abc_as_stated")) {
+    for (const std::string& letter : kByDepth)
+      add_stated(as_stated, values, letter, result->at(letter), "as_stated." + letter, fmt::format("({})", letter));
+    section.data["as_stated"] = *result;
+  }
+
+  section.paragraphs = {
+      "One set of spheres under six trees. In the first picture of each pair, green counts the gaps between siblings "
+      "that the ray of a pixel passes, and blue the inner nodes and leaves that it enters, with the plane left out. "
+      "The "
+      "second picture is the tree itself: on the left the boxes of its nodes, from white at the root to violet at the "
+      "deepest, with gaps as green slabs; on the right every node as a bar above its spheres, one row a level, with "
+      "the "
+      "gap in an inner node's bar green, in proportion.",
+      fmt::format("The text gives MAX_PRIMS = {} for (a) to (c), with which each would be one leaf: but it says itself "
+                  "that (b) has several and that (c) is the same tree as (f). Here they have {}, {} and {}.",
+                  stated_limit, limit_text(values, "a.max_prims"), limit_text(values, "b.max_prims"),
+                  limit_text(values, "c.max_prims"))};
+  if (!trees.rows.empty()) section.tables.push_back(std::move(trees));
+  for (const Statements* table : {&statements, &as_stated})
+    if (!table->empty()) section.tables.push_back(table->table());
+  section.data["statements"] = statements.data();
+  section.data["statements_as_stated"] = as_stated.data();
+  return section;
+}
+
+}  // namespace
 
 Experiment figure_4_3() {
-  return {"figure-4.3", "Figure 4.3: the tree and its traversal",
-          [](const Settings&, const Values&) { return std::vector<Step>(); },
-          [](const SectionContext&) { return Section(); }};
+  return {kId, "Figure 4.3: the tree and its traversal", steps_of, section_of};
 }
 
 }  // namespace bihive::cli::thesis
