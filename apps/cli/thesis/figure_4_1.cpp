@@ -37,7 +37,7 @@ std::int64_t spheres_in_view(const Scene& scene, PictureSize size) {
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     bool wholly = true;
     for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3d inward = normalized(cross(corners[(i + 1) % 4], corners[i]));
+      const Vec3d inward = normalized(cross(corners[i], corners[(i + 1) % 4]));
       wholly = wholly && dot(scene.spheres.centre(id) - scene.camera.eye, inward) >= scene.spheres.radius(id);
     }
     inside += wholly ? 1 : 0;
@@ -137,7 +137,10 @@ void add_scene(Statements& statements, const Values& values, const Json& facts) 
     const std::vector<double> found =
         ours.is_array() ? ours.get<std::vector<double>>() : std::vector<double>{ours.get<double>()};
     const std::string text = found.size() > 1 ? vector_text(found) : fmt::format("{}", found[0]);
-    statements.add(name, statement, values.printed(name), text, verdict_if(values.numbers(name) == found));
+    const std::string thesis = found.size() > 1 && values.printed(name).front() == '['
+                                   ? vector_text(values.numbers(name))
+                                   : values.printed(name);
+    statements.add(name, statement, thesis, text, verdict_if(values.numbers(name) == found));
   };
   add("camera.eye", "Camera", facts.at("camera").at("eye"));
   add("lights", "Lights", facts.at("lights"));

@@ -179,15 +179,23 @@ void add_identical(Statements& statements, const Values& values, const std::stri
                  verdict_if(pixels == stated));
 }
 
-// One step of a colour stands for one gap or visit: in the picture with the most of them.
-void add_colour_steps(Statements& statements, const Values& values, const Json& result) {
-  const auto add = [&](const std::string& name, const std::string& statement, double ours) {
+// One step of a colour stands for one gap or visit: the smallest step that any of the pictures shows.
+void add_colour_steps(Statements& statements, const SectionContext& context) {
+  const auto add = [&](const std::string& name, const std::string& statement, const char* key) {
+    double smallest = 1;
+    for (const std::string& letter : kLetters) {
+      const auto found = context.results.find(letter);
+      if (found == context.results.end()) return;
+      const double step = found->second.at(key).get<double>();
+      if (step > 0) smallest = std::min(smallest, step);
+    }
     // Pictures have 8 bits.
-    statements.add(name, statement, values.printed(name), fmt::format("{:.3g}", ours),
-                   verdict_if(ours > values.number(name) - 0.5 / 255 && ours < values.number(name) + 0.5 / 255));
+    const double stated = context.values.number(name);
+    statements.add(name, statement, context.values.printed(name), fmt::format("{:.3g}", smallest),
+                   verdict_if(smallest > stated - 0.5 / 255 && smallest < stated + 0.5 / 255));
   };
-  add("gap.green", "Green of one gap passed", result.at("green_step").get<double>());
-  add("visit.blue", "Blue of one node or leaf entered", result.at("blue_step").get<double>());
+  add("gap.green", "Green of one gap passed", "green_step");
+  add("visit.blue", "Blue of one node or leaf entered", "blue_step");
 }
 
 Section section_of(const SectionContext& context) {
@@ -232,7 +240,7 @@ Section section_of(const SectionContext& context) {
       add_identical(statements, values, pair_name(pair), *result);
       section.data["identical"][pair_name(pair)] = *result;
     }
-  if (const Json* result = result_of(kLetters.back())) add_colour_steps(statements, values, *result);
+  add_colour_steps(statements, context);
   if (const Json* result = result_of("abc_as_stated")) {
     for (const std::string& letter : kByDepth)
       add_stated(as_stated, values, letter, result->at(letter), "as_stated." + letter, fmt::format("({})", letter));
