@@ -17,14 +17,11 @@ namespace {
 
 // A quick run draws pictures of a quarter of the width and height.
 constexpr int kQuickDivisor = 4;
-constexpr int kQuickRepetitions = 15;
 constexpr int kRepetitions = 9;
-// About how long it takes to draw one frame of 256 spheres by brute force in a full run, for the time left.
-constexpr double kSecondsPerSphere = 0.004;
-
-int repetitions_of(const Settings& settings) {
-  return settings.quick ? kQuickRepetitions : kRepetitions;
-}
+// What takes less time than this is drawn again and again, so that no moment of the machine decides.
+constexpr double kLeastMs = 15;
+// About how long a frame of a full run takes by brute force, for each of its spheres: for the time left.
+constexpr double kSecondsPerSphere = 0.0035;
 
 RenderSettings frame_settings(const Settings& settings, const Values& values, const Scene& scene) {
   RenderSettings frame = settings_from(scene.picture);
@@ -51,20 +48,30 @@ struct Contestant {
   Tracer tracer;
 };
 
-// Each draws one frame in turn, so that a slow moment of the machine hits all; the first round warms up and does not
-// count.
+// Milliseconds a frame, of as many frames as kLeastMs needs. Nothing if cancelled.
+std::optional<double> frame_ms(const Contestant& contestant, const RenderSettings& settings,
+                               const CancelToken& cancel) {
+  double all_ms = 0;
+  int frames = 0;
+  for (; all_ms < kLeastMs; ++frames) {
+    const Result<Rendered> rendered = render(*contestant.scene, contestant.tracer, settings, {}, &cancel);
+    if (cancel.cancelled()) return std::nullopt;
+    if (!rendered) fail(rendered.error());
+    all_ms += rendered->render_ms;
+  }
+  return all_ms / frames;
+}
+
+// All take turns, so that a slow minute of the machine hits all; the first round warms up and does not count.
 Json frame_times(const std::vector<Contestant>& contestants, const StepContext& context) {
-  const int repetitions = repetitions_of(context.settings);
-  Json times = Json::object();
-  for (int i = -1; i < repetitions; ++i)
-    for (const Contestant& contestant : contestants) {
-      const RenderSettings settings = frame_settings(context.settings, context.values, *contestant.scene);
-      const Result<Rendered> rendered = render(*contestant.scene, contestant.tracer, settings, {}, &context.cancel);
-      if (context.cancel.cancelled()) return {};
-      if (!rendered) fail(rendered.error());
-      if (i >= 0) times[contestant.name].push_back(rendered->render_ms);
-    }
   const RenderSettings settings = frame_settings(context.settings, context.values, *contestants.front().scene);
+  Json times = Json::object();
+  for (int i = -1; i < kRepetitions; ++i)
+    for (const Contestant& contestant : contestants) {
+      const std::optional<double> ms = frame_ms(contestant, settings, context.cancel);
+      if (!ms) return {};
+      if (i >= 0) times[contestant.name].push_back(*ms);
+    }
   return {{"width_px", settings.width_px}, {"height_px", settings.height_px}, {"frame_ms", std::move(times)}};
 }
 
@@ -102,8 +109,7 @@ Json measure_independence(const StepContext& context, const ComparedEngine& engi
 
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   std::vector<Step> steps;
-  const double weight =
-      (repetitions_of(settings) + 1) * kSecondsPerSphere / (settings.quick ? kQuickDivisor * kQuickDivisor : 1);
+  const double weight = (kRepetitions + 1) * kSecondsPerSphere / (settings.quick ? kQuickDivisor * kQuickDivisor : 1);
   const std::vector<double> scenarios = values.numbers("scenarios"), counts = values.numbers("spheres_list");
   for (const ComparedEngine& engine : compared_engines()) {
     double all_spheres = 0;

@@ -382,11 +382,12 @@ Section figure_4_4_section(const SectionContext& context) {
   Section section;
   section.paragraphs.push_back(
       "Each configuration draws the same picture: primary rays only, the same shading, no shadows, so that only the "
-      "search for "
-      "the first hit differs. BF tests every sphere; BIH n is a tree with at most n spheres a leaf. Brute force and "
-      "all trees of a "
-      "configuration draw one frame each in turn, round by round; the first round does not count, and the median of "
-      "the others does.");
+      "search "
+      "for the first hit differs. BF tests every sphere; BIH n is a tree with at most n spheres a leaf. Brute force "
+      "and all "
+      "trees of a configuration take turns, round by round; the first round does not count, and the median of the "
+      "others does. "
+      "A frame has a cost that no tree takes away: making the rays, shading what they hit, writing the picture.");
   for (const auto& [name, result] : context.results)
     if (result.contains("width_px")) {
       section.paragraphs.push_back(fmt::format(
