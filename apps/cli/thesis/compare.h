@@ -8,6 +8,7 @@
 #include "bihive/bih/tree.h"
 #include "bihive/scene/generators.h"
 #include "section.h"
+#include "stated_values.h"
 
 namespace bihive::cli::thesis {
 
@@ -29,6 +30,9 @@ double print_rounding(const std::string& printed);
 /// Within three standard deviations, and no farther than print rounding where there is no deviation. Where ours has
 /// none and what is printed is whole, the numbers must be equal.
 bool inside_three_sd(double stated, const std::string& printed, const Spread& ours);
+
+/// A list of whole numbers. Fails if one is not.
+std::vector<std::int64_t> integers(const Values& values, const std::string& name);
 
 /// MAX_PRIMS and MAX_TREE_DEPTH as values.json has them, 0 for infinity. Fails if negative.
 BuildParameters build_parameters(std::int64_t max_prims, std::int64_t max_depth);

@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -31,6 +34,16 @@ bool is_value(const Json& value) {
   for (const Json& item : value)
     if (!item.is_number()) return false;
   return true;
+}
+
+// The number that "4,095" or "87.51%" is; nothing for words and lists.
+std::optional<double> number_in_print(std::string printed) {
+  printed.erase(std::remove(printed.begin(), printed.end(), ','), printed.end());
+  if (!printed.empty() && printed.back() == '%') printed.pop_back();
+  if (printed.empty()) return std::nullopt;
+  char* end = nullptr;
+  const double number = std::strtod(printed.c_str(), &end);
+  return *end == '\0' ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -81,8 +94,11 @@ std::vector<double> Values::numbers(const std::string& name) const {
 
 std::string Values::printed(const std::string& name) const {
   const Json& found = entry(name);
-  if (found.contains("printed") && found["printed"].is_string()) return found["printed"].get<std::string>();
-  return found["value"].dump();
+  if (!found.contains("printed") || !found["printed"].is_string()) return found["value"].dump();
+  // Where only the value was changed, the printed number is out of date.
+  const std::string printed = found["printed"].get<std::string>();
+  const std::optional<double> number = number_in_print(printed);
+  return number && found["value"] != *number ? found["value"].dump() : printed;
 }
 
 std::string Values::sentence(const std::string& name) const {

@@ -25,7 +25,7 @@ class Values {
   std::int64_t integer(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
   bool has(const std::string& name) const;
-  /// As the thesis prints it: "printed", else the value.
+  /// As the thesis prints it: "printed", else the value; also where "printed" is another number than the value.
   std::string printed(const std::string& name) const;
   std::string sentence(const std::string& name) const;
   const Json& document() const { return document_; }

@@ -5,8 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "compare.h"
 #include "experiment.h"
 
 namespace bihive::cli::thesis {
@@ -42,11 +46,58 @@ inline std::string tree_step(std::int64_t scenario, std::int64_t max_prims) {
 inline std::string tree_value(std::int64_t scenario, std::int64_t max_prims) {
   return fmt::format("scenario{}.max_prims{}", scenario, max_prims);
 }
+inline constexpr const char* kBuildTimesStep = "build_times";
 inline constexpr const char* kLevelsStep = "levels";
 
-/// A step's result: {"rows": {key: number}, "mean": {..}, "sd": {..}, "seeds": n, "empty_leaves_disagree": n,
-/// "nodes": n, "nodes_of_seeds": [..], "build_ms": [..]}. That of the levels: {"levels": [{"max_depth", "min",
-/// "max"}]}.
+/// The result of a tree's step:
+///   {"rows": {key: number}, "nodes": n,   of this seed's tree
+///    "mean": {..}, "sd": {..}, "nodes_of_seeds": [..], "seeds": n, "empty_leaves_disagree": n}
+/// That of the build times: {"scenario1-max_prims1": [..], ..}, each a mean of as many builds as the thesis took; the
+/// first of all columns were taken together, then the second, and so on. That of the levels: {"levels": [{"max_depth",
+/// "min", "max"}]}, spheres per leaf.
 Section table_4_2_section(const SectionContext& context);
+
+/// One of the table's columns with its results.
+struct TreeColumn {
+  std::int64_t scenario, max_prims;
+  const Json* result;
+
+  std::string name() const { return fmt::format("Scenario {}, MAX_PRIMS {}", scenario, max_prims); }
+  double row(const char* key) const { return (*result)["rows"][key].get<double>(); }
+  Spread spread(const char* key) const {
+    return {(*result)["mean"][key].get<double>(), (*result)["sd"][key].get<double>()};
+  }
+};
+
+/// The columns that have results.
+class TreeColumns {
+ public:
+  explicit TreeColumns(const SectionContext& context);
+
+  const std::vector<TreeColumn>& all() const { return columns_; }
+  const TreeColumn* find(std::int64_t scenario, std::int64_t max_prims) const;
+
+  /// The build times of a column in milliseconds; empty if they have not been taken.
+  const std::vector<double>& build_means(std::int64_t scenario, std::int64_t max_prims) const;
+  bool has_build_times() const { return !build_means_.empty(); }
+  bool complete() const { return columns_.size() == scenarios.size() * max_prims.size(); }
+
+  /// By how many percent the nodes of a scenario shrink from the first MAX_PRIMS to the last: of this seed, and over
+  /// the seeds. Nothing if a result is missing.
+  struct Reduction {
+    double ours;
+    Spread spread;
+  };
+  std::optional<Reduction> reduction(std::int64_t scenario) const;
+
+  const std::vector<std::int64_t> scenarios, max_prims;
+
+ private:
+  std::vector<TreeColumn> columns_;
+  std::map<std::string, std::vector<double>> build_means_;
+};
+
+/// What the text says about the table. A statement that speaks of something missing is left out.
+Statements table_4_2_statements(const SectionContext& context, const TreeColumns& columns);
 
 }  // namespace bihive::cli::thesis
