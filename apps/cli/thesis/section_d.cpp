@@ -136,8 +136,7 @@ Table trees_table(const SectionContext& context, const Json& trees, Json& data) 
       const double stated = context.values.number(name);
       const Verdict verdict = verdict_if(range[0] == stated && range[1] == stated);
       const std::string ours = range[0] == range[1] ? range[0].dump() : range[0].dump() + " to " + range[1].dump();
-      const bool first = i == 0;
-      table.rows.push_back({{first ? tree_case.label : ""},
+      table.rows.push_back({{tree_case.label},
                             {kQuantityLabels[i]},
                             {fmt::format("{}", stated)},
                             {ours},

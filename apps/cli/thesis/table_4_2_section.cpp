@@ -78,12 +78,13 @@ class TableSection {
     const Spread spread = column.spread(row.key);
     const Verdict verdict = verdict_if(inside_three_sd(stated, printed, spread));
     // Where the deviation is far below what is printed, it says nothing.
-    const std::string how =
-        spread.sd > print_rounding(printed) ? fmt::format(" ({:+.1f} sd)", (stated - spread.mean) / spread.sd) : "";
+    const bool random = spread.sd > print_rounding(printed);
+    const std::string how = random ? fmt::format("{:+.1f} sd", (stated - spread.mean) / spread.sd)
+                                   : (verdict == Verdict::agrees ? "equal" : "not equal");
     cells.push_back({printed});
     cells.push_back({number_text(ours, row.decimals) + (row.share ? " %" : "")});
     cells.push_back({spread_text(spread, row)});
-    cells.push_back({(verdict == Verdict::agrees ? "yes" : "no") + how, verdict});
+    cells.push_back({how, verdict});
     section_.data["values"].push_back({{"name", name},
                                        {"scenario", column.scenario},
                                        {"max_prims", column.max_prims},
