@@ -142,9 +142,10 @@ class Boxes {
                          double((i & 4) != 0 ? box.hi.z : box.lo.z)};
       seen.corner[i] = places_.from_eye(stored * unit_);
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      seen.faces_eye[static_cast<std::size_t>(2 * axis)] = eye_[axis] < double(box.lo[axis]) * unit_;
-      seen.faces_eye[static_cast<std::size_t>(2 * axis + 1)] = eye_[axis] > double(box.hi[axis]) * unit_;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int i = static_cast<int>(axis);
+      seen.faces_eye[2 * axis] = eye_[i] < double(box.lo[i]) * unit_;
+      seen.faces_eye[2 * axis + 1] = eye_[i] > double(box.hi[i]) * unit_;
     }
     return seen;
   }
