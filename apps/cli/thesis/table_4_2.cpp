@@ -75,6 +75,7 @@ Json tree_result(StepContext& context, std::int64_t scenario, std::int64_t max_p
   const Rows our_rows = rows_of(ours);
   for (std::size_t row = 0; row < kTreeRows.size(); ++row) {
     std::vector<double> sample;
+    sample.reserve(trees.size());
     for (const TreeStatistics& tree : trees) sample.push_back(rows_of(tree)[row]);
     const Spread spread = spread_of(sample);
     rows[kTreeRows[row].key] = our_rows[row];

@@ -36,6 +36,7 @@ class TableStatements {
       reductions.push_back({columns_.reduction(scenario)->spread.mean, scenario});
     std::sort(reductions.rbegin(), reductions.rend());
     std::vector<std::int64_t> order;
+    order.reserve(reductions.size());
     for (const auto& [reduction, scenario] : reductions) order.push_back(scenario);
     const bool all = reductions.back().first > 0;
     statements_.add("reduction_order", "The nodes are reduced in all scenarios; biggest reduction first",
