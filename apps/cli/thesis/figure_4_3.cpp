@@ -201,6 +201,7 @@ void add_colour_steps(Statements& statements, const SectionContext& context) {
 
 Section section_of(const SectionContext& context) {
   Section section;
+  section.pairs = true;
   const Values& values = context.values;
   const auto result_of = [&](const std::string& step) {
     const auto found = context.results.find(step);

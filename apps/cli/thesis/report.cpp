@@ -174,7 +174,7 @@ std::string section_html(const ReportSection& section, const std::string& folder
                         joined(section.missing_steps));
   for (const std::string& paragraph : section.section.paragraphs) html += "<p>" + escape_html(paragraph) + "</p>\n";
   if (!section.section.illustrations.empty()) {
-    html += "<div class=\"figures\">\n";
+    html += section.section.pairs ? "<div class=\"figures pairs\">\n" : "<div class=\"figures\">\n";
     for (const Illustration& illustration : section.section.illustrations)
       html += illustration_html(illustration, folder);
     html += "</div>\n";
@@ -191,9 +191,8 @@ std::string banner_html(const std::vector<ReportSection>& sections) {
       items += fmt::format("<li><a href=\"#{}\">{}</a>: {} missing</li>\n", escape_html(section.id),
                            escape_html(section.title), steps_text(section.missing_steps.size()));
   if (items.empty()) return "";
-  return "<div class=\"banner\" role=\"alert\"><h2>Incomplete: the run was interrupted</h2>\n<p>What is shown is what "
-         "had "
-         "been done by then. The same command goes on where it stopped. Missing:</p>\n<ul>\n" +
+  return "<div class=\"banner\" role=\"alert\"><h2>Incomplete: the run was interrupted</h2>\n<p>What is shown was "
+         "done before. The same command goes on where it stopped. Missing:</p>\n<ul>\n" +
          items + "</ul></div>\n";
 }
 

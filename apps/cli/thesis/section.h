@@ -34,6 +34,7 @@ struct Section {
   std::vector<std::string> paragraphs;  ///< what was done and what is seen, plain text
   std::vector<Table> tables;
   std::vector<Illustration> illustrations;
+  bool pairs = false;          ///< illustrations belong together by twos: they stand side by side where there is room
   Json data = Json::object();  ///< every number of the tables and charts, for machines
 };
 
