@@ -17,9 +17,10 @@ const largestShare = 0.99;
 // The least height of a chart's text that can be read on a phone, in CSS pixels.
 const leastTextHeight = 8;
 
+// No sandbox: it cannot be had by root or in a container. Shared memory is small or missing there too.
 let browser;
 before(async () => {
-  browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox'] });
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox', '--disable-dev-shm-usage'] });
 });
 after(() => browser?.close());
 
