@@ -51,7 +51,7 @@ class Boxes {
         area_(area),
         tree_(tree),
         unit_(world_from_stored),
-        eye_(to_double(to_float(camera.eye))),
+        eye_(camera.eye),
         places_(camera, static_cast<int>(area.width()), static_cast<int>(area.height())),
         deepest_(tree_statistics(tree).depth.max) {
     const Vec3d extent = (to_double(tree.aabb.hi) - to_double(tree.aabb.lo)) * unit_;

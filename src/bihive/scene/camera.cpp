@@ -47,7 +47,7 @@ Ray PixelRays::at(double x_px, double y_px) const {
 }
 
 PixelPlaces::PixelPlaces(const Camera& camera, int width_px, int height_px)
-    : eye_(to_double(to_float(camera.eye))), forward_(normalized(camera.look_at - camera.eye)) {
+    : eye_(to_float(camera.eye)), forward_(normalized(camera.look_at - camera.eye)) {
   const double pixel = 2 * tan_deg(camera.fov_deg / 2) / std::min(width_px, height_px);
   const Vec3d right = normalized(cross(forward_, normalized(camera.up)));
   right_ = right / pixel;
@@ -57,7 +57,7 @@ PixelPlaces::PixelPlaces(const Camera& camera, int width_px, int height_px)
 }
 
 Vec3d PixelPlaces::from_eye(Vec3d world) const {
-  const Vec3d offset = world - eye_;
+  const Vec3d offset = world - to_double(eye_);
   return {dot(offset, right_), dot(offset, down_), dot(offset, forward_)};
 }
 

@@ -50,7 +50,9 @@ class PixelPlaces {
   double y_px(Vec3d point) const { return half_height_ + point.y / point.z; }
 
  private:
-  Vec3d eye_, right_, down_, forward_;
+  // In binary32 as in PixelRays, and kept so: where GCC 12 sees both conversions at once it drops the rounding.
+  Vec3f eye_;
+  Vec3d right_, down_, forward_;
   double half_width_, half_height_;
 };
 
