@@ -114,9 +114,9 @@ class EngineSection {
   }
 
   Table frame_rates() const {
-    Table table{engine_title("Frames per second"), {"scenario", "spheres", "brute force"}, {}, ""};
+    Table table{engine_title("Frames per second"), {"Scenario", "Spheres", "Brute force"}, {}, ""};
     for (std::size_t i = 0; i < max_prims_.size(); ++i) table.columns.push_back(tree_name(i));
-    table.columns.push_back("gain of the best");
+    table.columns.push_back("Gain of the best");
     for (const auto& [configuration, fps] : fps_) {
       std::vector<Cell> row{{fmt::format("Scenario {}", configuration.first)},
                             {std::to_string(configuration.second)},
@@ -148,7 +148,7 @@ class EngineSection {
   }
 
   Table gains() const {
-    Table table{engine_title("Gains over brute force"), {"statement", "thesis", "ours"}, {}, ""};
+    Table table{engine_title("Gains over brute force"), {"Statement", "Thesis", "Ours"}, {}, ""};
     std::map<std::int64_t, double> means;
     for (const std::int64_t scenario : scenarios_) {
       const std::map<std::int64_t, double> gains = gains_of(scenario);
@@ -194,7 +194,7 @@ class EngineSection {
   }
 
   Table winners() const {
-    Table table{engine_title("Which MAX_PRIMS wins where"), {"configuration", "thesis", "ours"}, {}, ""};
+    Table table{engine_title("Which MAX_PRIMS wins where"), {"Configuration", "Thesis", "Ours"}, {}, ""};
     std::map<std::int64_t, int> wins;
     for (const auto& [configuration, fps] : fps_) {
       std::vector<double> sorted = fps.trees;
@@ -221,7 +221,7 @@ class EngineSection {
   }
 
   Table shapes() const {
-    Table table{engine_title("The curve over MAX_PRIMS"), {"statement", "thesis", "ours", "frames per second"}, {}, ""};
+    Table table{engine_title("The curve over MAX_PRIMS"), {"Statement", "Thesis", "Ours", "Frames per second"}, {}, ""};
     for (const auto& [configuration, fps] : fps_) {
       const bool only_rises = configuration.first == values().integer("only_rises.scenario") &&
                               configuration.second == values().integer("only_rises.spheres");
@@ -239,7 +239,7 @@ class EngineSection {
   }
 
   Table extremes() const {
-    Table table{engine_title("The best, the worst, and absolute values"), {"statement", "thesis", "ours"}, {}, ""};
+    Table table{engine_title("The best, the worst, and absolute values"), {"Statement", "Thesis", "Ours"}, {}, ""};
     if (complete()) {
       // The best tree of all, and the slowest of all.
       const auto best = std::max_element(fps_.begin(), fps_.end(), [](const auto& a, const auto& b) {
@@ -291,9 +291,9 @@ class EngineSection {
   }
 
   Table independence(const Json& measured) const {
-    Table table{engine_title("Brute force in the scenarios"), {"spheres"}, {}, ""};
+    Table table{engine_title("Brute force in the scenarios"), {"Spheres"}, {}, ""};
     for (const std::int64_t scenario : scenarios_) table.columns.push_back(fmt::format("Scenario {}", scenario));
-    table.columns.insert(table.columns.end(), {"fastest / slowest", "thesis"});
+    table.columns.insert(table.columns.end(), {"Fastest / slowest", "Thesis"});
     const bool stated = values().number("brute.dependence_on_scenario") != 0;
     for (const std::int64_t spheres : counts_) {
       std::vector<Cell> row{{std::to_string(spheres)}};

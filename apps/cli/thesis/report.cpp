@@ -143,20 +143,14 @@ std::string illustration_html(const Illustration& illustration, const std::strin
 
 // What the thesis says, word for word, and what was chosen where it is silent.
 std::string sentences_html(const Values& values) {
-  std::string rows;
-  for (const auto& [name, entry] : values.document()["values"].items()) {
-    const bool chosen = entry.value("chosen", false);
-    rows +=
-        fmt::format("<tr><th scope=\"row\"><code>{}</code></th><td>{}</td><td>{}</td><td class=\"long\">{}</td></tr>\n",
-                    escape_html(name), escape_html(values.printed(name)), chosen ? "chosen here" : "stated",
-                    escape_html(values.sentence(name)));
-  }
-  if (rows.empty()) return "";
-  return "<details><summary>The sentences behind the stated values</summary>\n<div class=\"scroll\" tabindex=\"0\" "
-         "role=\"region\" aria-label=\"Sentences\"><table>\n<thead><tr><th scope=\"col\">name</th><th "
-         "scope=\"col\">value</th><th scope=\"col\">from</th><th scope=\"col\">sentence, or reason</th></tr></thead>\n"
-         "<tbody>\n" +
-         rows + "</tbody></table></div></details>\n";
+  std::string entries;
+  for (const auto& [name, entry] : values.document()["values"].items())
+    entries += fmt::format("<dt><code>{}</code> <b>{}</b> <span class=\"from\">{}</span></dt><dd>{}</dd>\n",
+                           escape_html(name), escape_html(values.printed(name)),
+                           entry.value("chosen", false) ? "chosen here" : "stated", escape_html(values.sentence(name)));
+  if (entries.empty()) return "";
+  return "<details><summary>The sentences behind the stated values</summary>\n<dl class=\"sentences\">\n" + entries +
+         "</dl></details>\n";
 }
 
 std::string joined(const std::vector<std::string>& names) {
