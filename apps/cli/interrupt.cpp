@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 namespace bihive::cli {
 namespace {
@@ -13,8 +15,18 @@ enum Section : int { kOutside, kCancellable, kWriting, kWritten };
 // What a signal handler may touch: lock-free atomics only.
 std::atomic<int> g_section{kOutside};
 std::atomic<int> g_signal{0};
+std::atomic<std::int64_t> g_first_ms{0};
 CancelToken g_token;
-static_assert(std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
+// A signal so soon after the first is the same request: timeout(1) sends each of its signals twice.
+constexpr std::int64_t kSameRequestMs = 300;
+
+std::int64_t now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
+}
 
 // Ends the program from anywhere; a progress line on a terminal is wiped first.
 [[noreturn]] void end_at_once(int signal) {
@@ -27,10 +39,14 @@ static_assert(std::atomic<int>::is_always_lock_free);
 
 void on_signal(int signal) {
   const int section = g_section.load();
-  const bool first = g_signal.exchange(signal) == 0;
+  const std::int64_t now = now_ms();
+  std::int64_t first_ms = 0;
+  const bool first = g_first_ms.compare_exchange_strong(first_ms, now);
+  const bool same_request = first || now - first_ms < kSameRequestMs;
+  g_signal.store(signal);
   if (section == kWriting) return;
-  if (section == kWritten && first) return;
-  if (section == kCancellable && first) return g_token.cancel();
+  if (section == kWritten && same_request) return;
+  if (section == kCancellable && same_request) return g_token.cancel();
   end_at_once(signal);
 }
 

@@ -11,8 +11,8 @@ namespace bihive::cli {
 /// limit becomes an ordinary error of writing.
 void handle_signals();
 
-/// While one of these lives, the first signal sets token(), so that long work stops by itself; the second ends the
-/// program at once.
+/// While one of these lives, the first signal sets token(), so that long work stops by itself; another, a moment
+/// later, ends the program at once.
 class CancellableSection {
  public:
   CancellableSection();

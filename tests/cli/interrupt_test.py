@@ -57,6 +57,16 @@ class Interrupt(ProgramTest):
         self.assertEqual(self.interrupted(command + files, 0.5), (130, "", ""))
         self.assertEqual(os.listdir(self.folder), ["rays.npy"])
 
+    def test_a_signal_that_comes_twice_is_one_request(self):
+        # The report of what was done is still written; a second signal that counted would have ended that.
+        process = subprocess.Popen([BIHIVE, "thesis", "figure-4.4", "--out", "report"], cwd=self.folder)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 130)
+        self.assertTrue(os.path.exists(self.path("report/report.html")))
+
     def test_a_terminal_shows_progress_and_is_left_clean(self):
         screen, terminal = pty.openpty()
         process = subprocess.Popen(
