@@ -217,7 +217,7 @@ Section section_of(const SectionContext& context) {
   if (coding != context.results.end()) add_coding(section, statements, values, coding->second);
 
   section.paragraphs = {
-      "Three red spheres and a transparent one, placed by us, since the text gives no places: large and close "
+      "Red spheres and a transparent one, placed by us, since the text gives no places: large and close "
       "together, "
       "so that each of the depths is the deepest that some pixel needs. Depth 1 is the primary ray alone; each "
       "reflection and each transmission adds one."};
