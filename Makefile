@@ -9,7 +9,7 @@ demo: ## install what the program needs, build it, render the bundled molecule
 	scripts/setup demo
 	scripts/demo
 
-test: ## install what the tests need, run every test (about 20 minutes on two cores)
+test: ## install what the tests need, run every test (about 25 minutes on two cores)
 	scripts/setup all
 	scripts/test
 
