@@ -55,6 +55,21 @@ class Report(ProgramTest):
                 self.assertTrue(os.path.isfile(self.path(out + "/" + illustration["file"])), illustration)
         return results
 
+    def test_pictures_that_were_removed_are_made_again(self):
+        self.assertEqual(self.run_bihive("thesis", "figure-4.1", "--quick", "--out", "r").returncode, 0)
+        shutil.rmtree(self.path("r/figure-4.1"))
+        self.assertEqual(self.run_bihive("thesis", "figure-4.1", "--quick", "--out", "r").returncode, 0)
+        self.results("r")  # looks for every picture
+        self.assertIn("data:image/png", self.report("r"))
+
+    def test_only_what_is_asked_for_is_run(self):
+        self.assertEqual(self.run_bihive("thesis", "figure-4.1", "--quick", "--out", "r").returncode, 0)
+        os.remove(self.path("r/steps/figure-4.1/scenario2.json"))
+        done = self.run_bihive("thesis", "figure-4.3", "--quick", "--out", "r")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"figure-4\.1 +1 steps missing")
+        self.assertFalse(os.path.exists(self.path("r/steps/figure-4.1/scenario2.json")))
+
     def step_files(self, out, experiment):
         """Name of each finished step, with the time of its file."""
         folder = self.path(out + "/steps/" + experiment)

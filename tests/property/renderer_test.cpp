@@ -111,22 +111,5 @@ TEST(Renderer, the_traversal_view_needs_a_tree) {
   EXPECT_FALSE(render(scene, tracer, small(scene, View::traversal, 1)));
 }
 
-TEST(Renderer, samples_cover_the_pixel_evenly) {
-  // Four samples must fall into four quarters of the pixel; one into its centre. A vertical edge through pixels shows
-  // it.
-  Scene scene = four_spheres_scene();
-  scene.plane.reset();
-  const Tracer tracer(scene.spheres, Engine::reference, {});
-  RenderSettings settings = small(scene, View::shaded, 1);
-  settings.samples_per_pixel = 4;
-  const Result<Rendered> four = render(scene, tracer, settings);
-  settings.samples_per_pixel = 64;
-  const Result<Rendered> many = render(scene, tracer, settings);
-  double difference = 0;
-  for (std::size_t i = 0; i < four->film.radiance.size(); ++i)
-    difference += std::abs(double(four->film.radiance[i].x) - double(many->film.radiance[i].x));
-  EXPECT_LT(difference / static_cast<double>(four->film.radiance.size()), 0.01);
-}
-
 }  // namespace
 }  // namespace bihive

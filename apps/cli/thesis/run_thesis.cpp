@@ -31,6 +31,7 @@ struct Run {
   std::vector<Step> steps;
   StepResults results;
   std::string folder;
+  bool asked = false;  // on the command line; else it is shown as an earlier run left it
 
   bool done(const Step& step) const { return results.count(step.name) != 0; }
 };
@@ -42,21 +43,31 @@ void make_folder(const std::string& folder) {
     fail({"the folder cannot be made: " + (error ? error.message() : "a file is in its place"), folder, 0, 0, ""});
 }
 
+// Pictures are made by steps, and somebody may have removed them since.
+bool has_its_pictures(const Run& run, const Settings& settings, const std::string& out) {
+  if (run.results.empty()) return true;
+  make_folder(run.folder);
+  const Section section = run.experiment.section({settings, run.values, run.results, run.folder});
+  return std::all_of(section.illustrations.begin(), section.illustrations.end(),
+                     [&](const Illustration& picture) { return fs::is_regular_file(out + "/" + picture.file); });
+}
+
 // The experiments asked for, and those of an earlier run into the same folder that still hold.
 std::vector<Run> collect_runs(const ThesisOptions& options, const Settings& settings, const StepStore& store) {
   std::vector<Run> runs;
   for (Experiment& experiment : all_experiments()) {
     Values values = load_values(experiment.id, options.values);
-    Run run{std::move(experiment), std::move(values), {}, {}, ""};
+    Run run{std::move(experiment), std::move(values), {}, {}, "", false};
     run.steps = run.experiment.steps(settings, run.values);
     run.folder = options.out + "/" + run.experiment.id;
     for (const Step& step : run.steps)
       if (std::optional<Json> result = store.load(run.experiment.id, step.name, run.values))
         run.results.emplace(step.name, std::move(*result));
+    if (!has_its_pictures(run, settings, options.out)) run.results.clear();
     const bool all =
         options.experiments.empty() || std::count(options.experiments.begin(), options.experiments.end(), "all") > 0;
-    const bool asked = all || std::count(options.experiments.begin(), options.experiments.end(), run.experiment.id) > 0;
-    if (asked || !run.results.empty()) runs.push_back(std::move(run));
+    run.asked = all || std::count(options.experiments.begin(), options.experiments.end(), run.experiment.id) > 0;
+    if (run.asked || !run.results.empty()) runs.push_back(std::move(run));
   }
   return runs;
 }
@@ -67,9 +78,10 @@ void run_steps(std::vector<Run>& runs, const Settings& settings, const StepStore
   double all = 0;
   for (const Run& run : runs)
     for (const Step& step : run.steps)
-      if (!run.done(step)) all += step.weight;
+      if (run.asked && !run.done(step)) all += step.weight;
   double done = 0;
   for (Run& run : runs) {
+    if (!run.asked) continue;
     make_folder(run.folder);
     for (const Step& step : run.steps) {
       if (run.done(step)) continue;
