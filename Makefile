@@ -16,7 +16,7 @@ test: ## install what the tests need, run every test (about 25 minutes on two co
 check: ## the quick checks for daily work
 	scripts/check
 
-verify: ## the intersection against the long-double oracle, ten million rays a scene (hours)
+verify: ## the intersection against the long-double oracle, ten million rays a scene (over half an hour)
 	scripts/verify
 
 lint: ## formatting, directions of includes, clang-tidy
