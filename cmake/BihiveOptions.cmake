@@ -37,6 +37,9 @@ if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}" MATCHES "-ffast-math|-Ofast|-
   message(FATAL_ERROR "bihive's pictures depend on exact IEEE arithmetic: remove -ffast-math or -Ofast from the flags")
 endif()
 
+# Instruction sets that no machine of the last ten years needs of its own (src/bihive/kernels/target.h).
+target_compile_definitions(bihive_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+
 target_compile_options(bihive_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees overlaps in string concatenations where there are none (GCC bug 105651).

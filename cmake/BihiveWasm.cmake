@@ -4,7 +4,7 @@
 set(BIHIVE_WASM_INCLUDE ${PROJECT_BINARY_DIR}/wasm_include)
 file(MAKE_DIRECTORY ${BIHIVE_WASM_INCLUDE})
 foreach(folder_and_package fmt:libfmt-dev nlohmann:nlohmann-json3-dev valijson:libvalijson-dev gemmi:gemmi-dev
-                           tao:tao-pegtl-dev)
+                           tao:tao-pegtl-dev hwy:libhwy-dev)
   string(REPLACE ":" ";" folder_and_package ${folder_and_package})
   list(GET folder_and_package 0 folder)
   list(GET folder_and_package 1 package)
@@ -20,7 +20,8 @@ target_compile_definitions(bihive_wasm_libraries INTERFACE FMT_HEADER_ONLY)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:bihive_wasm_libraries>)
 
 # Exceptions: the header-only libraries throw, and the library turns that into errors. Threads: through workers.
-add_compile_options(-fexceptions -pthread)
+# SIMD: every browser of the last years has it.
+add_compile_options(-fexceptions -pthread -msimd128)
 add_link_options(-fexceptions -pthread)
 
 # Debian keeps the JavaScript modules that em++ needs for linking here.

@@ -1,0 +1,15 @@
+// What every file with vector code does before its first call.
+#pragma once
+
+namespace bihive {
+
+/// Takes the wish of BIHIVE_TARGET, or the best target, into use.
+bool choose_first_target();
+
+/// Cheap after the first call; call it before HWY_DYNAMIC_DISPATCH.
+inline void ensure_target() {
+  static const bool chosen = choose_first_target();
+  (void)chosen;
+}
+
+}  // namespace bihive

@@ -1,0 +1,127 @@
+// Many rays and their hits as structures of arrays: what the kernels read and write.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bihive/geometry/hit.h"
+#include "bihive/geometry/ray.h"
+
+namespace bihive {
+
+/// A view of `count` rays that somebody else keeps. Meaning and ranges as in geometry/ray.h; world units.
+/// Null: t_min is 0, t_max +inf, leaves kNothing, inside false for every ray.
+struct RaySpan {
+  std::int64_t count = 0;
+  const float* origin[3] = {};
+  const float* direction[3] = {};
+  const double* t_min = nullptr;
+  const double* t_max = nullptr;
+  const std::int64_t* leaves = nullptr;
+  const std::uint8_t* inside = nullptr;  ///< 0 or 1
+
+  Ray at(std::int64_t i) const {
+    Ray ray;
+    ray.origin = {origin[0][i], origin[1][i], origin[2][i]};
+    ray.direction = {direction[0][i], direction[1][i], direction[2][i]};
+    if (t_min != nullptr) ray.t_min = t_min[i];
+    if (t_max != nullptr) ray.t_max = t_max[i];
+    if (leaves != nullptr) ray.leaves = leaves[i];
+    if (inside != nullptr) ray.inside = inside[i] != 0;
+    return ray;
+  }
+
+  /// Rays first to first + n - 1.
+  RaySpan part(std::int64_t first, std::int64_t n) const {
+    RaySpan span = *this;
+    span.count = n;
+    for (int axis = 0; axis < 3; ++axis) {
+      span.origin[axis] += first;
+      span.direction[axis] += first;
+    }
+    if (t_min != nullptr) span.t_min += first;
+    if (t_max != nullptr) span.t_max += first;
+    if (leaves != nullptr) span.leaves += first;
+    if (inside != nullptr) span.inside += first;
+    return span;
+  }
+};
+
+/// A view of hits to be written: Hit as two arrays.
+struct HitSpan {
+  double* t = nullptr;
+  std::int64_t* sphere_id = nullptr;
+
+  HitSpan part(std::int64_t first) const { return {t + first, sphere_id + first}; }
+};
+
+/// Rays that it keeps itself. The optional arrays are empty (defaults for all) or have an entry a ray.
+struct RayBatch {
+  std::vector<float> origin[3];
+  std::vector<float> direction[3];
+  std::vector<double> t_min, t_max;
+  std::vector<std::int64_t> leaves;
+  std::vector<std::uint8_t> inside;
+
+  std::int64_t size() const { return static_cast<std::int64_t>(origin[0].size()); }
+
+  /// Origins and directions only; contents undefined until written.
+  void resize(std::int64_t n) {
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis].resize(static_cast<std::size_t>(n));
+      direction[axis].resize(static_cast<std::size_t>(n));
+    }
+  }
+  void clear() {
+    resize(0);
+    t_min.clear();
+    t_max.clear();
+    leaves.clear();
+    inside.clear();
+  }
+
+  /// Adds one ray with all that it says. Not to be mixed with resize().
+  void push_back(const Ray& ray) {
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis].push_back(ray.origin[axis]);
+      direction[axis].push_back(ray.direction[axis]);
+    }
+    t_min.push_back(ray.t_min);
+    t_max.push_back(ray.t_max);
+    leaves.push_back(ray.leaves);
+    inside.push_back(ray.inside ? 1 : 0);
+  }
+
+  RaySpan span() const {
+    RaySpan view;
+    view.count = size();
+    for (int axis = 0; axis < 3; ++axis) {
+      view.origin[axis] = origin[axis].data();
+      view.direction[axis] = direction[axis].data();
+    }
+    if (!t_min.empty()) view.t_min = t_min.data();
+    if (!t_max.empty()) view.t_max = t_max.data();
+    if (!leaves.empty()) view.leaves = leaves.data();
+    if (!inside.empty()) view.inside = inside.data();
+    return view;
+  }
+};
+
+/// Hits that it keeps itself.
+struct HitBatch {
+  std::vector<double> t;
+  std::vector<std::int64_t> sphere_id;
+
+  void resize(std::int64_t n) {
+    t.resize(static_cast<std::size_t>(n));
+    sphere_id.resize(static_cast<std::size_t>(n));
+  }
+  std::int64_t size() const { return static_cast<std::int64_t>(t.size()); }
+  Hit at(std::int64_t i) const {
+    return {t[static_cast<std::size_t>(i)], sphere_id[static_cast<std::size_t>(i)]};
+  }
+  HitSpan span() { return {t.data(), sphere_id.data()}; }
+};
+
+}  // namespace bihive
