@@ -1,17 +1,15 @@
 #include "bihive/kernels/queries.h"
 
-#include "bihive/kernels/scalar_traversal.h"
+#include "bihive/kernels/single.h"
 
 namespace bihive {
 
 Hit closest_hit(const WideTree& tree, const Ray& ray) {
-  if (!is_valid(ray)) return {};
-  return traverse_scalar<false>(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves));
+  return kernels::closest_hit_single(tree, ray);
 }
 
 bool occluded(const WideTree& tree, const Ray& ray) {
-  if (!is_valid(ray)) return false;
-  return traverse_scalar<true>(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves)).found();
+  return kernels::occluded_single(tree, ray);
 }
 
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder /*order*/, const HitSpan& hits) {

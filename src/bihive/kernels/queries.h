@@ -1,9 +1,9 @@
 // Rays against the wide tree: one at a time, or many at once.
 //
 // All forms give the bits of the scalar reference (bih/traversal.h) on every instruction set. They may be called from
-// any number of threads at a time on one tree; each call works on its own thread, in memory that the thread keeps (a few
-// MiB). An invalid ray (geometry/ray.h) hits nothing. The tree must not be null-sized memory of somebody else's: hold
-// the std::shared_ptr that the builder gave for as long as a call runs.
+// any number of threads at a time on one tree; each call works on its own thread, in memory that the thread keeps (a
+// few MiB). An invalid ray (geometry/ray.h) hits nothing. The tree must not be null-sized memory of somebody else's:
+// hold the std::shared_ptr that the builder gave for as long as a call runs.
 //
 // Which to use: the form for many rays is two to ten times faster a ray. Give it as many rays at a time as there are,
 // best 4096 to 65536 (fewer leave the vectors idle; more are cut into tiles of this size inside).
@@ -19,8 +19,8 @@
 namespace bihive {
 
 /// What the caller knows of neighbouring rays. It changes the speed, never an answer.
-/// blocks: each 64 neighbours, counted from the first, are close in origin and direction, as 8 x 8 pixels of a camera or
-/// their shadow rays are. any: nothing is known; mirrored, transmitted, random rays.
+/// blocks: each 64 neighbours, counted from the first, are close in origin and direction, as 8 x 8 pixels of a camera
+/// or their shadow rays are. any: nothing is known; mirrored, transmitted, random rays.
 enum class RayOrder { blocks, any };
 
 /// The closest hit of each ray: t and id of ray i to hits.t[i] and hits.sphere_id[i]. Costs 5 to 50 ns a ray.

@@ -118,9 +118,7 @@ struct HitBatch {
     sphere_id.resize(static_cast<std::size_t>(n));
   }
   std::int64_t size() const { return static_cast<std::int64_t>(t.size()); }
-  Hit at(std::int64_t i) const {
-    return {t[static_cast<std::size_t>(i)], sphere_id[static_cast<std::size_t>(i)]};
-  }
+  Hit at(std::int64_t i) const { return {t[static_cast<std::size_t>(i)], sphere_id[static_cast<std::size_t>(i)]}; }
   HitSpan span() { return {t.data(), sphere_id.data()}; }
 };
 

@@ -1,5 +1,5 @@
-// The wide tree walked in binary64, one ray and one box at a time: for rays that binary32 cannot hold, such as those that
-// start more than 2^20 times the scene's extent away.
+// The wide tree walked in binary64, one ray and one box at a time: for rays that binary32 cannot hold, such as those
+// that start more than 2^20 times the scene's extent away.
 #pragma once
 
 #include <algorithm>

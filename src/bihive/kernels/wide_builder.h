@@ -17,8 +17,8 @@ struct WideParameters {
   std::int64_t max_depth = 0;  ///< levels at most, leaves counted as one: 1 is a single leaf
 };
 
-/// A tree depends on the spheres and the parameters only, not on the number of threads, the instruction set, or what was
-/// built before.
+/// A tree depends on the spheres and the parameters only, not on the number of threads, the instruction set, or what
+/// was built before.
 ///
 /// A tree that build() returned is never written to again while anybody holds it; building into a tree that is being
 /// traced cannot happen. When the last holder lets go of it, its memory goes back to the builder, and the next build
@@ -43,8 +43,8 @@ class WideBuilder {
   std::shared_ptr<State> state_;
 };
 
-/// Bytes of a tree of that many spheres and of its making, as a range: `low` full leaves and a palette, `high` scattered
-/// spheres of many radii.
+/// Bytes of a tree of that many spheres and of its making, as a range: `low` full leaves and a palette, `high`
+/// scattered spheres of many radii.
 struct WideMemoryPrediction {
   std::int64_t low_bytes = 0, high_bytes = 0;  ///< WideTree::used_bytes()
   std::int64_t peak_bytes = 0;                 ///< tree and working memory while building, at most

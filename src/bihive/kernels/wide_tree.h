@@ -19,9 +19,12 @@ namespace bihive {
 /// Children of a node, spheres of a full leaf, and the padding after the last sphere.
 constexpr int kWidth = 16;
 
-/// Up to sixteen children, which own neighbouring ranges of spheres: child i those from begin[i] to before begin[i + 1],
-/// counted from first_sphere. Inner children are neighbours too: the one at slot i is
-/// nodes[first_node + number of inner children before slot i].
+/// Wide levels at most; past a depth of 64 splits the builder halves by count.
+constexpr int kMostLevels = 64;
+
+/// Up to sixteen children, which own neighbouring ranges of spheres: child i those from begin[i] to before begin[i +
+/// 1], counted from first_sphere. Inner children are neighbours too: the one at slot i is nodes[first_node + number of
+/// inner children before slot i].
 struct alignas(64) WideNode {
   float lo[3][kWidth];  ///< boxes of the children, axis by axis; +inf in slots without a child
   float hi[3][kWidth];  ///< -inf in slots without a child
@@ -46,8 +49,8 @@ struct alignas(64) WideNode {
 static_assert(sizeof(WideNode) == 512);
 
 /// Spheres in leaf order, structure of arrays, each array padded by kWidth entries that are never hit (radius 0, far
-/// away). Two layouts: with a palette (at most 32 distinct radii and 2^27 spheres) `word` is radius class << 27 | id and
-/// `r` is null: 16 bytes a sphere; otherwise `word` is the id and `r` holds the radius: 20 bytes.
+/// away). Two layouts: with a palette (at most 32 distinct radii and 2^27 spheres) `word` is radius class << 27 | id
+/// and `r` is null: 16 bytes a sphere; otherwise `word` is the id and `r` holds the radius: 20 bytes.
 struct WideSpheres {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -76,13 +79,13 @@ struct RepeatedSphere {
 /// Immutable while anybody traces it: made by WideBuilder (kernels/wide_builder.h) and handed out as
 /// std::shared_ptr<const WideTree>. An empty set has no nodes. Otherwise nodes[0] is the root, even of a single sphere.
 struct WideTree {
-  Aabb aabb;                  ///< of all spheres
-  double scale = 1;           ///< stored = world * scale, a power of two
-  std::int64_t size = 0;      ///< spheres
+  Aabb aabb;              ///< of all spheres
+  double scale = 1;       ///< stored = world * scale, a power of two
+  std::int64_t size = 0;  ///< spheres
   std::int64_t node_count = 0;
   const WideNode* nodes = nullptr;
   WideSpheres spheres;
-  int levels = 0;             ///< of wide nodes from the root to the deepest, leaves not counted; 0 if empty
+  int levels = 0;  ///< of wide nodes from the root to the deepest, leaves not counted; 0 if empty
   std::int64_t largest_leaf = 0;
   std::vector<RepeatedSphere> repeated;  ///< ascending ids; empty unless spheres coincide
 
