@@ -1,0 +1,148 @@
+// The wide tree is right for any spheres and parameters, and memory goes round.
+#include "bihive/kernels/wide_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bihive/kernels/wide_validate.h"
+#include "support/hostile_sets.h"
+
+namespace bihive {
+namespace {
+
+using TreePointer = std::shared_ptr<const WideTree>;
+
+TreePointer built(WideBuilder& builder, const SphereSet& spheres, const WideParameters& parameters = {},
+                  int threads = 0) {
+  Result<TreePointer> tree = builder.build(spheres, parameters, threads);
+  EXPECT_TRUE(tree.ok());
+  return *tree;
+}
+
+// Everything that tracing reads, byte by byte.
+std::string bytes_of(const WideTree& tree) {
+  std::string bytes;
+  const auto add = [&](const void* data, std::size_t size) {
+    if (data != nullptr) bytes.append(static_cast<const char*>(data), size);
+  };
+  add(tree.nodes, static_cast<std::size_t>(tree.node_count) * sizeof(WideNode));
+  const std::size_t an_array = tree.size > 0 ? static_cast<std::size_t>(tree.size + kWidth) * 4 : 0;
+  for (const float* array : {tree.spheres.x, tree.spheres.y, tree.spheres.z, tree.spheres.r}) add(array, an_array);
+  add(tree.spheres.word, an_array);
+  add(tree.spheres.palette.data(), sizeof(tree.spheres.palette));
+  add(tree.repeated.data(), tree.repeated.size() * sizeof(RepeatedSphere));
+  return bytes;
+}
+
+std::vector<test::World> all_worlds() {
+  std::vector<test::World> worlds = test::degenerate_worlds();
+  for (test::World& world : test::hostile_worlds(4096, 3000)) worlds.push_back(std::move(world));
+  for (const int n : {1, 2, 15, 16, 17, 255, 256, 257, 5000})
+    worlds.push_back(test::random_world(std::to_string(n) + " random", 7, n, 10, 0.5, 0.5));
+  return worlds;
+}
+
+TEST(WideBuilder, BuildsRightTrees) {
+  WideBuilder builder;
+  for (const test::World& world : all_worlds()) {
+    const SphereSet spheres = test::sphere_set(world);
+    for (const WideParameters parameters : {WideParameters{}, {1, 0}, {5, 0}, {1000, 0}, {0, 1}, {0, 2}, {4, 3}}) {
+      const TreePointer tree = built(builder, spheres, parameters);
+      const Status status = validate_wide_tree(*tree, spheres);
+      EXPECT_TRUE(status.ok()) << world.name << ": " << (status.ok() ? "" : status.error().to_string());
+      if (parameters.max_depth > 0 && !spheres.empty()) {
+        EXPECT_LE(tree->levels, std::max<std::int64_t>(1, parameters.max_depth - 1)) << world.name;
+      } else if (parameters.max_prims > 0) {
+        EXPECT_LE(tree->largest_leaf, parameters.max_prims) << world.name;
+      } else {
+        EXPECT_LE(tree->largest_leaf, kWidth) << world.name;
+      }
+      if (parameters.max_depth == 1) {
+        EXPECT_EQ(tree->largest_leaf, spheres.size()) << world.name;
+      }
+    }
+  }
+}
+
+TEST(WideBuilder, RadiiFromAPaletteOrPlain) {
+  for (const int radii : {1, 31, 40}) {
+    test::World world;
+    for (int i = 0; i < 400; ++i) world.add(i % 20, i / 20, i % 7, i % radii * 0.01 + 0.01);
+    world.add(3, 3, 3, 0);
+    const SphereSet spheres = test::sphere_set(world);
+    WideBuilder builder;
+    const TreePointer tree = built(builder, spheres);
+    EXPECT_EQ(tree->spheres.has_palette, radii <= 31);
+    EXPECT_EQ(tree->spheres.palette_size, radii <= 31 ? radii : 0);
+    const Status status = validate_wide_tree(*tree, spheres);
+    EXPECT_TRUE(status.ok()) << status.error().to_string();
+  }
+}
+
+TEST(WideBuilder, KnowsSpheresThatAreEqual) {
+  test::World world = test::random_world("some", 5, 1000, 10, 0.5, 0.5);
+  for (const int i : {3, 500, 3, 900}) world.add(world.x[i], world.y[i], world.z[i], world.r[i]);
+  world.add(world.x[7], world.y[7], world.z[7], 0.25);
+  world.add(0.0, 1, 2, 0.25);
+  world.add(-0.0, 1, 2, 0.25);
+  WideBuilder builder;
+  const TreePointer tree = built(builder, test::sphere_set(world));
+  std::vector<std::uint32_t> ids;
+  for (const RepeatedSphere& sphere : tree->repeated) ids.push_back(sphere.id);
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{3, 500, 900, 1000, 1001, 1002, 1003, 1005, 1006}));
+}
+
+TEST(WideBuilder, TheSameTreeWhateverWasBuiltBefore) {
+  const SphereSet spheres = test::sphere_set(test::random_world("random", 9, 3000, 10, 0.1, 0.6));
+  const SphereSet others = test::sphere_set(test::coincident_world(10, 800, 5));
+  WideBuilder fresh, used;
+  const TreePointer expected = built(fresh, spheres);
+  built(used, others);
+  EXPECT_EQ(bytes_of(*built(used, spheres)), bytes_of(*expected));
+}
+
+TEST(WideBuilder, ADroppedTreesMemoryIsUsedAgain) {
+  const SphereSet spheres = test::sphere_set(test::random_world("random", 9, 3000, 10, 0.1, 0.6));
+  WideBuilder builder;
+  TreePointer tree = built(builder, spheres);
+  const void* const nodes = tree->nodes;
+  const void* const x = tree->spheres.x;
+  tree.reset();
+  tree = built(builder, spheres);
+  EXPECT_EQ(tree->nodes, nodes);
+  EXPECT_EQ(tree->spheres.x, x);
+}
+
+TEST(WideBuilder, AHeldTreeStaysAsItIs) {
+  const SphereSet spheres = test::sphere_set(test::random_world("random", 9, 3000, 10, 0.1, 0.6));
+  const SphereSet others = test::sphere_set(test::random_world("others", 10, 3000, 10, 0.1, 0.6));
+  TreePointer held;
+  {
+    WideBuilder builder;
+    held = built(builder, spheres);
+    const std::string before = bytes_of(*held);
+    for (int i = 0; i < 3; ++i) {
+      const TreePointer other = built(builder, others);
+      EXPECT_NE(other->nodes, held->nodes);
+      EXPECT_NE(other->spheres.x, held->spheres.x);
+    }
+    EXPECT_EQ(bytes_of(*held), before);
+  }
+  // It outlives its builder.
+  EXPECT_TRUE(validate_wide_tree(*held, spheres).ok());
+}
+
+TEST(WideBuilder, NoSpheresNoNodes) {
+  WideBuilder builder;
+  const TreePointer tree = built(builder, SphereSet());
+  EXPECT_EQ(tree->node_count, 0);
+  EXPECT_EQ(tree->size, 0);
+  EXPECT_EQ(tree->levels, 0);
+}
+
+}  // namespace
+}  // namespace bihive
