@@ -1,0 +1,50 @@
+// bihive-bench: times the wide engine on one input, beside Embree if asked.
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "bench_scene.h"
+#include "bihive/kernels/target.h"
+#include "failure.h"
+#include "measure.h"
+#include "messages.h"
+#include "options.h"
+#include "report.h"
+
+namespace bihive::bench {
+namespace {
+
+int run(int argc, const char* const* argv) {
+  try {
+    const ParsedOptions parsed = parse_options(argc, argv);
+    if (parsed.text) {
+      cli::print(*parsed.text);
+      cli::finish_output();
+      return cli::kSuccess;
+    }
+    const BenchOptions& options = parsed.options;
+    Status status = options.target.empty() ? check_target_environment() : use_target(options.target);
+    if (!status) cli::fail_usage(status.error().message, status.error().hint);
+    const BenchScene scene = load_bench_scene(options);
+    const Measured measured = measure(scene, options);
+    cli::print(options.json ? json_report(measured, options) : text_report(measured, options));
+    cli::finish_output();
+    return cli::kSuccess;
+  } catch (const cli::Failure& failure) {
+    cli::say_error(failure.error.to_string());
+    return failure.code;
+  } catch (const std::bad_alloc&) {
+    cli::say_error("not enough memory");
+  } catch (const std::exception& error) {
+    cli::say_error(error.what());
+  }
+  return cli::kBadInput;
+}
+
+}  // namespace
+}  // namespace bihive::bench
+
+int main(int argc, char** argv) {
+  return bihive::bench::run(argc, argv);
+}

@@ -1,0 +1,242 @@
+#include "measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include "bihive/base/parallel.h"
+#include "bihive/base/timer.h"
+#include "bihive/kernels/target.h"
+#include "bihive/kernels/wide_builder.h"
+#include "failure.h"
+#include "memory.h"
+#include "peers/embree.h"
+
+namespace bihive::bench {
+namespace {
+
+// A timing shorter than this repeats its work.
+constexpr double kShortestTimingMs = 20;
+// Builds are repeated until they have taken this long, but at least kFewestBuilds times.
+constexpr double kBuildBudgetMs = 6000;
+constexpr std::int64_t kFewestBuilds = 3;
+// Of the modes of the peer, those that come this close to the fastest on a sample are measured in full.
+constexpr double kCloseToBest = 1.1;
+constexpr std::int64_t kSampleRays = 131072;
+constexpr std::size_t kMostModes = 2;
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+// Builds
+
+struct Built {
+  std::shared_ptr<const WideTree> tree;
+  BuildResult result;
+};
+
+std::shared_ptr<const WideTree> build(WideBuilder& builder, const SphereSet& spheres, int threads) {
+  auto tree = builder.build(spheres, {}, threads);
+  if (!tree) cli::fail(tree.error());
+  return std::move(*tree);
+}
+
+Built measure_builds(const BenchScene& bench, const BenchOptions& options, Embree* peer) {
+  const SphereSet& spheres = bench.scene.spheres;
+  const auto threads = static_cast<int>(options.threads);
+
+  // The first build of the process, for its memory.
+  Built built;
+  forget_peak();
+  const std::int64_t before = resident_bytes();
+  WideBuilder builder;
+  built.tree = build(builder, spheres, threads);
+  built.result.peak_bytes = std::max<std::int64_t>(0, peak_bytes() - before);
+  built.result.levels = built.tree->levels;
+  built.result.nodes = built.tree->node_count;
+  const auto n = static_cast<double>(spheres.size());
+  built.result.bytes_per_sphere = static_cast<double>(built.tree->used_bytes()) / n;
+  if (peer != nullptr) peer->build_fresh_ms();
+
+  // In turn: from nothing, and again in memory that was kept.
+  std::vector<double> fresh, again, peer_fresh, peer_again;
+  const Timer total;
+  for (std::int64_t rep = 0; options.build && rep < std::max(options.reps, kFewestBuilds); ++rep) {
+    if (rep >= kFewestBuilds && total.elapsed_ms() > kBuildBudgetMs) break;
+    {
+      const Timer timer;
+      WideBuilder once;
+      const auto tree = build(once, spheres, threads);
+      fresh.push_back(timer.elapsed_ms());
+    }
+    if (peer != nullptr) peer_fresh.push_back(peer->build_fresh_ms());
+    {
+      built.tree.reset();
+      const Timer timer;
+      built.tree = build(builder, spheres, threads);
+      again.push_back(timer.elapsed_ms());
+    }
+    if (peer != nullptr) peer_again.push_back(peer->rebuild_ms());
+  }
+  if (options.build) built.result.ours = {median(fresh), median(again)};
+  if (peer != nullptr) {
+    if (options.build) built.result.peer = {median(peer_fresh), median(peer_again)};
+    built.result.peer_bytes_per_sphere = static_cast<double>(peer->bytes()) / n;
+  }
+  return built;
+}
+
+// Rays
+
+// Traces all rays once, in tiles over the threads.
+double trace_ours_ms(const WideTree& tree, const RaySet& set, const BenchOptions& options, Answers& answers) {
+  const RaySpan rays = set.rays.span();
+  const std::int64_t tiles = (rays.count + options.tile - 1) / options.tile;
+  const Timer timer;
+  parallel_for(static_cast<int>(options.threads), tiles, [&](std::int64_t tile) {
+    const std::int64_t first = tile * options.tile;
+    const RaySpan part = rays.part(first, std::min(options.tile, rays.count - first));
+    if (set.facts.any_hit) {
+      occluded(tree, part, set.facts.order, answers.hidden.data() + first);
+    } else {
+      closest_hits(tree, part, set.facts.order, answers.hits.span().part(first));
+    }
+  });
+  return timer.elapsed_ms();
+}
+
+std::vector<std::int64_t> all_chunks(const EmbreeRays& rays) {
+  std::vector<std::int64_t> chunks(static_cast<std::size_t>(rays.chunk_count()));
+  for (std::size_t i = 0; i < chunks.size(); ++i) chunks[i] = static_cast<std::int64_t>(i);
+  return chunks;
+}
+
+// Some chunks, spread over all, of about kSampleRays in sum.
+std::vector<std::int64_t> sample_of(const std::vector<std::int64_t>& chunks) {
+  const std::size_t step = std::max<std::size_t>(1, chunks.size() * EmbreeRays::kChunk / kSampleRays);
+  std::vector<std::int64_t> sample;
+  for (std::size_t i = step / 2; i < chunks.size(); i += step) sample.push_back(chunks[i]);
+  return sample;
+}
+
+// One mode of the peer that is measured in full.
+struct Contender {
+  EmbreeMode mode;
+  std::shared_ptr<EmbreeRays> rays;
+  std::vector<double> ms;
+};
+
+// Every mode on a sample; the best, and those that come close.
+std::vector<Contender> best_modes(const Embree& peer, const RaySet& set) {
+  std::vector<std::pair<double, EmbreeMode>> tried;
+  for (const int width : {1, 4, 8, 16}) {
+    const std::unique_ptr<EmbreeRays> rays = peer.prepare(set, width);
+    const std::vector<std::int64_t> sample = sample_of(all_chunks(*rays));
+    for (const bool coherent : {false, true}) {
+      double best = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < 3; ++i) best = std::min(best, peer.trace_ms(*rays, coherent, sample));
+      tried.push_back({best, {width, coherent}});
+    }
+  }
+  std::sort(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Contender> contenders;
+  std::map<int, std::shared_ptr<EmbreeRays>> prepared;
+  for (const auto& [ms, mode] : tried) {
+    if (ms > tried.front().first * kCloseToBest || contenders.size() == kMostModes) break;
+    std::shared_ptr<EmbreeRays>& rays = prepared[mode.width];
+    if (!rays) rays = peer.prepare(set, mode.width);
+    contenders.push_back({mode, rays, {}});
+  }
+  return contenders;
+}
+
+// How often to repeat work that takes so long once.
+std::int64_t passes_for(double ms) {
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kShortestTimingMs / std::max(ms, 1e-3))));
+}
+
+template <class Work>
+double mean_ms(std::int64_t passes, Work work) {
+  double sum = 0;
+  for (std::int64_t i = 0; i < passes; ++i) sum += work();
+  return sum / static_cast<double>(passes);
+}
+
+KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const RaySet& set, const BenchOptions& options,
+                        const Embree* peer) {
+  KindResult result;
+  result.facts = set.facts;
+  result.rays = set.rays.size();
+  if (result.rays == 0) return result;
+
+  // A first pass of each warms up, and says how often a timing must repeat it.
+  Answers answers;
+  if (set.facts.any_hit) {
+    answers.hidden.resize(static_cast<std::size_t>(result.rays));
+  } else {
+    answers.hits.resize(result.rays);
+  }
+  const auto ours = [&] { return trace_ours_ms(tree, set, options, answers); };
+  const std::int64_t passes = passes_for(ours());
+  std::vector<Contender> contenders;
+  std::vector<std::int64_t> chunks;
+  std::int64_t peer_passes = 1;
+  if (peer != nullptr) {
+    contenders = best_modes(*peer, set);
+    chunks = all_chunks(*contenders[0].rays);
+    peer_passes = passes_for(peer->trace_ms(*contenders[0].rays, contenders[0].mode.coherent, chunks));
+  }
+
+  // In turn.
+  std::vector<double> times;
+  for (std::int64_t rep = 0; rep < options.reps; ++rep) {
+    times.push_back(mean_ms(passes, ours));
+    for (Contender& contender : contenders)
+      contender.ms.push_back(mean_ms(
+          peer_passes, [&] { return peer->trace_ms(*contender.rays, contender.mode.coherent, chunks); }));
+  }
+  result.ms = median(times);
+  if (contenders.empty()) {
+    result.verdict = judge_alone(bench.scene.spheres, set, answers);
+    return result;
+  }
+
+  // The best of the peer counts; its answers are compared.
+  const auto best = std::min_element(contenders.begin(), contenders.end(), [](const auto& a, const auto& b) {
+    return median(a.ms) < median(b.ms);
+  });
+  result.peer_ms = median(best->ms);
+  result.peer_mode = best->mode.name();
+  result.verdict = judge(bench.scene.spheres, tree, set, answers, best->rays->answers(),
+                         [&](const Ray& ray) { return peer->closest(ray); });
+  return result;
+}
+
+}  // namespace
+
+Measured measure(const BenchScene& bench, const BenchOptions& options) {
+  Measured measured;
+  measured.spheres = bench.scene.spheres.size();
+  measured.description = bench.description;
+  measured.target = active_target();
+  std::unique_ptr<Embree> peer;
+  if (options.embree) {
+    auto started = Embree::start(bench.scene.spheres, static_cast<int>(options.threads), options.target);
+    if (!started) throw cli::Failure{cli::kEnvironment, started.error()};
+    peer = std::move(*started);
+    measured.peer_version = Embree::version();
+  }
+  const Built built = measure_builds(bench, options, peer.get());
+  measured.build = built.result;
+  if (options.kinds.empty()) return measured;
+  for (const RaySet& set : make_ray_sets(bench, *built.tree, options))
+    measured.kinds.push_back(measure_kind(bench, *built.tree, set, options, peer.get()));
+  return measured;
+}
+
+}  // namespace bihive::bench

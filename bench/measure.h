@@ -1,0 +1,49 @@
+// Everything that is timed: ours and the peer's in turn, medians.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench_scene.h"
+#include "judge.h"
+#include "options.h"
+
+namespace bihive::bench {
+
+/// Of builds. `fresh` starts without any memory of an earlier one, `again` has it.
+struct BuildTimes {
+  double fresh_ms = 0, again_ms = 0;
+  double best_ms() const { return again_ms < fresh_ms ? again_ms : fresh_ms; }
+};
+
+struct BuildResult {
+  BuildTimes ours, peer;
+  double bytes_per_sphere = 0, peer_bytes_per_sphere = 0;
+  std::int64_t peak_bytes = 0;  ///< by which the first build made the process grow, at its peak
+  std::int64_t levels = 0, nodes = 0;
+};
+
+struct KindResult {
+  KindFacts facts;
+  std::int64_t rays = 0;
+  double ms = 0, peer_ms = 0;  ///< of all rays once
+  std::string peer_mode;
+  Verdict verdict;
+
+  double mray_per_s() const { return static_cast<double>(rays) / ms / 1000; }
+  double peer_mray_per_s() const { return static_cast<double>(rays) / peer_ms / 1000; }
+};
+
+struct Measured {
+  std::int64_t spheres = 0;
+  std::string description, target, peer_version;
+  BuildResult build;
+  std::vector<KindResult> kinds;
+};
+
+/// Fails with kBadInput where the tree cannot be built, with kEnvironment where the peer cannot start.
+Measured measure(const BenchScene& bench, const BenchOptions& options);
+
+}  // namespace bihive::bench

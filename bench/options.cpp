@@ -1,0 +1,114 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "bihive/bih/tree.h"
+#include "failure.h"
+#include "values.h"
+
+namespace bihive::bench {
+namespace {
+
+constexpr double kLargestFloat = 3.4028234663852886e38;
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  bihive-bench scenario1 --peer embree --threads 2\n"
+    "  bihive-bench molecule.pdb --peer embree --only build,primary,shadow --target avx2 --json";
+
+// An option with one value of its own syntax: `parse` makes a Result of the text.
+template <class Target, class Parse>
+void add_value(CLI::App& app, const std::string& name, Target& target, const std::string& type, const std::string& help,
+               Parse parse) {
+  const auto take = [&target, name, parse](const std::string& text) {
+    auto value = parse(text);
+    if (!value) throw CLI::ValidationError(name, value.error().message);
+    target = *value;
+  };
+  app.add_option_function<std::string>(name, take, help)->type_name(type);
+}
+
+template <class Target>
+void add_integer(CLI::App& app, const std::string& name, Target& target, std::int64_t min, std::int64_t max,
+                 const std::string& help) {
+  add_value(app, name, target, "N", help,
+            [min, max](const std::string& text) { return cli::integer_from(text, min, max); });
+}
+
+template <class Target>
+void add_number(CLI::App& app, const std::string& name, Target& target, const std::string& help) {
+  add_value(app, name, target, "R", help,
+            [](const std::string& text) { return cli::number_from(text, 0, kLargestFloat); });
+}
+
+std::vector<std::string> words_of_only() {
+  std::vector<std::string> words;
+  for (const KindFacts& facts : kKinds) words.emplace_back(facts.name);
+  words.emplace_back("build");
+  return words;
+}
+
+void add_input(CLI::App& app, BenchOptions& options) {
+  cli::InputOptions& input = options.input;
+  app.add_option("INPUT", input.input,
+                 "A file or a built-in name as in bihive, or a scene of the benchmark:\n"
+                 "s1, s2, s3, mol, u1e5, mol5, c1e6, u1e6, u1e7 (uN: N = 1e3 to 1e8 uniform spheres)")
+      ->type_name("")
+      ->required();
+  app.add_option("--molecule", options.molecule, "Scenes mol and mol5: the molecule (bundled: PDB entry 1HPV)")
+      ->type_name("FILE");
+  add_integer(app, "--count", input.count, 1, kUnlimited, "Scenarios: how many spheres (4096)");
+  add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", cli::seed_from);
+  add_number(app, "--radius", input.radius, "Radius of every sphere (scenarios: 1)");
+  add_number(app, "--radius-scale", input.radius_scale, "Files: multiply every radius");
+  app.add_flag("--recenter", input.recenter, "Files: move the middle of the set to the origin");
+  add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  CLI::App app("bihive-bench: how fast rays are answered and trees are built", "bihive-bench");
+  app.footer(kExamples);
+  app.get_formatter()->column_width(26);
+
+  ParsedOptions parsed;
+  BenchOptions& options = parsed.options;
+  std::string peer;
+  std::vector<std::string> only;
+  add_input(app, options);
+  app.add_option("--peer", peer, "Measure another ray tracer beside, in turn: embree")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"embree"}));
+  add_integer(app, "--threads", options.threads, 1, 4096, "Threads (1)");
+  app.add_option("--only", only, "These alone, with commas: build, and kinds of rays (all)")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->check(CLI::IsMember(words_of_only()));
+  add_integer(app, "--reps", options.reps, 1, 1000, "Repetitions, of which the median counts (7)");
+  add_integer(app, "--rays", options.rays, 64, std::int64_t{1} << 26, "Primary and random rays, about (1048576)");
+  add_integer(app, "--tile", options.tile, 64, 65536, "Rays that a thread takes at a time (16384)");
+  app.add_option("--target", options.target, "Instruction set of both: avx512, avx2, sse4, scalar (the best)")
+      ->type_name("NAME");
+  app.add_flag("--json", options.json, "Print one JSON object instead of text");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success&) {
+    parsed.text = app.help();
+    return parsed;
+  } catch (const CLI::ParseError& error) {
+    cli::fail_usage(error.what(), "see bihive-bench --help");
+  }
+
+  options.embree = peer == "embree";
+  const auto asked = [&](std::string_view name) {
+    return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
+  };
+  for (const KindFacts& facts : kKinds)
+    if (asked(facts.name)) options.kinds.push_back(facts.kind);
+  options.build = asked("build");
+  return parsed;
+}
+
+}  // namespace bihive::bench

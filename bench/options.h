@@ -1,0 +1,35 @@
+// The command line of bihive-bench.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "input.h"
+#include "kinds.h"
+
+namespace bihive::bench {
+
+struct BenchOptions {
+  cli::InputOptions input;  ///< input.input may also be a bench scene's name (bench_scene.h)
+  std::string molecule;     ///< file of the scenes mol and mol5; empty: the bundled molecule
+  bool embree = false;      ///< measure Embree beside us
+  std::int64_t threads = 1;
+  std::vector<Kind> kinds;  ///< in the order of kKinds
+  bool build = true;
+  std::int64_t reps = 7;
+  std::int64_t rays = 1024 * 1024;  ///< primary and random rays; the others follow from these
+  std::int64_t tile = 16384;        ///< rays that a thread takes at a time
+  std::string target;               ///< empty: the best
+  bool json = false;
+};
+
+/// Fails with kBadUsage on what cannot be understood. A text to be printed instead (help) comes back as a string.
+struct ParsedOptions {
+  BenchOptions options;
+  std::optional<std::string> text;
+};
+ParsedOptions parse_options(int argc, const char* const* argv);
+
+}  // namespace bihive::bench

@@ -1,0 +1,129 @@
+#include "report.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "bihive/base/version.h"
+#include "messages.h"
+
+namespace bihive::bench {
+namespace {
+
+using nlohmann::ordered_json;
+
+// The processor's name, as the system gives it.
+std::string machine() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(cpuinfo, line)) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+ordered_json positive(double value) {
+  return value > 0 ? ordered_json(value) : ordered_json();
+}
+
+ordered_json quotient(double value, double by) {
+  return value > 0 && by > 0 ? ordered_json(value / by) : ordered_json();
+}
+
+}  // namespace
+
+std::string json_report(const Measured& measured, const BenchOptions& options) {
+  const BuildResult& build = measured.build;
+  ordered_json json;
+  json["input"] = measured.description;
+  json["spheres"] = measured.spheres;
+  json["threads"] = options.threads;
+  json["target"] = measured.target;
+  json["commit"] = commit();
+  json["machine"] = machine();
+  json["reps"] = options.reps;
+  json["tile"] = options.tile;
+  json["build_ms"] = positive(build.ours.again_ms);
+  json["build_fresh_ms"] = positive(build.ours.fresh_ms);
+  json["build_peak_bytes"] = build.peak_bytes;
+  json["bytes_per_sphere"] = build.bytes_per_sphere;
+  json["levels"] = build.levels;
+  json["nodes"] = build.nodes;
+
+  ordered_json rates = ordered_json::object(), peer_rates = rates, ratios = rates, rays = rates, modes = rates;
+  std::int64_t wrong = 0, peer_wrong = 0, differ = 0;
+  ratios["build"] = quotient(build.peer.best_ms(), build.ours.again_ms);
+  ratios["build_fresh"] = quotient(build.peer.fresh_ms, build.ours.fresh_ms);
+  ratios["bytes"] = quotient(build.peer_bytes_per_sphere, build.bytes_per_sphere);
+  for (const KindResult& kind : measured.kinds) {
+    const std::string name(kind.facts.name);
+    rays[name] = kind.rays;
+    rates[name] = kind.ms > 0 ? ordered_json(kind.mray_per_s()) : ordered_json();
+    peer_rates[name] = kind.peer_ms > 0 ? ordered_json(kind.peer_mray_per_s()) : ordered_json();
+    modes[name] = kind.peer_mode;
+    ratios[name] = quotient(kind.peer_ms, kind.ms);
+    wrong += kind.verdict.ours_wrong;
+    peer_wrong += kind.verdict.peer_wrong;
+    differ += kind.verdict.differ;
+  }
+  json["rays"] = rays;
+  json["mray_per_s"] = rates;
+  if (options.embree) {
+    json["peer"] = {{"name", "embree"},
+                    {"version", measured.peer_version},
+                    {"build_ms", positive(build.peer.best_ms())},
+                    {"build_fresh_ms", positive(build.peer.fresh_ms)},
+                    {"bytes_per_sphere", build.peer_bytes_per_sphere},
+                    {"mray_per_s", peer_rates},
+                    {"mode", modes}};
+    json["ratio"] = ratios;
+    json["differ"] = differ;
+    json["peer_wrong"] = peer_wrong;
+  } else {
+    json["peer"] = nullptr;
+    json["ratio"] = nullptr;
+  }
+  json["mismatches"] = wrong;
+  return json.dump(2) + "\n";
+}
+
+std::string text_report(const Measured& measured, const BenchOptions& options) {
+  const BuildResult& build = measured.build;
+  const bool peer = options.embree;
+  std::string text = fmt::format("{}: {} spheres, {} thread{}, {}\n", measured.description,
+                                 cli::grouped(measured.spheres), options.threads, options.threads == 1 ? "" : "s",
+                                 measured.target);
+  text += fmt::format("{:<16}{:>10}{:>14}", "", "rays", "bihive");
+  if (peer) text += fmt::format("{:>14}{:>9}   {}", "Embree " + measured.peer_version, "ratio", "its mode");
+  text += "\n";
+  const auto row = [&](const std::string& name, const std::string& rays, double ours, double theirs, double ratio,
+                       const std::string& unit, const std::string& mode) {
+    text += fmt::format("{:<16}{:>10}{:>14}", name, rays, fmt::format("{:.4g} {}", ours, unit));
+    if (peer) text += fmt::format("{:>14}{:>8.2f}x   {}", fmt::format("{:.4g} {}", theirs, unit), ratio, mode);
+    text += "\n";
+  };
+  if (options.build) {
+    row("build again", "", build.ours.again_ms, build.peer.again_ms, build.peer.again_ms / build.ours.again_ms, "ms",
+        "");
+    row("build fresh", "", build.ours.fresh_ms, build.peer.fresh_ms, build.peer.fresh_ms / build.ours.fresh_ms, "ms",
+        "");
+  }
+  row("memory", "", build.bytes_per_sphere, build.peer_bytes_per_sphere,
+      build.peer_bytes_per_sphere / build.bytes_per_sphere, "B", "a sphere");
+  std::int64_t wrong = 0, peer_wrong = 0;
+  for (const KindResult& kind : measured.kinds) {
+    const std::string rays = cli::grouped(kind.rays);
+    if (kind.rays == 0) continue;
+    row(std::string(kind.facts.name), rays, kind.mray_per_s(), kind.peer_mray_per_s(), kind.peer_ms / kind.ms, "M/s",
+        kind.peer_mode);
+    wrong += kind.verdict.ours_wrong;
+    peer_wrong += kind.verdict.peer_wrong;
+  }
+  text += fmt::format("wrong answers: {}", wrong);
+  if (peer) text += fmt::format(", Embree's {}", peer_wrong);
+  return text + "\n";
+}
+
+}  // namespace bihive::bench
