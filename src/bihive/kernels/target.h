@@ -18,6 +18,15 @@ std::string active_target();
 /// best. Error: not among available_targets().
 Status use_target(const std::string& name);
 
+/// What the active target's code says of itself: Highway's name of the target that it was compiled for ("AVX3", "AVX2",
+/// "SSE4", "NEON", "WASM", "EMU128", "SCALAR") and how many numbers of binary32 it works on at once. Proves which code
+/// runs.
+struct CompiledTarget {
+  std::string name;
+  int float_lanes = 0;
+};
+CompiledTarget compiled_target();
+
 /// An error if BIHIVE_TARGET names a target that this machine cannot run; the library then uses the best one.
 Status check_target_environment();
 
