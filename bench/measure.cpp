@@ -13,6 +13,7 @@
 #include "failure.h"
 #include "memory.h"
 #include "peers/embree.h"
+#include "tiles.h"
 
 namespace bihive::bench {
 namespace {
@@ -22,9 +23,14 @@ constexpr double kShortestTimingMs = 20;
 // Builds are repeated until they have taken this long, but at least kFewestBuilds times.
 constexpr double kBuildBudgetMs = 6000;
 constexpr std::int64_t kFewestBuilds = 3;
-// Of the modes of the peer, those that come this close to the fastest on a sample are measured in full.
+// A timing longer than this takes some tiles of the rays only: at least kFewestTiles, the same for ours and the peer.
+constexpr double kLongestTimingMs = 200;
+constexpr std::int64_t kFewestTiles = 16;
+// Of the modes of the peer, those that come this close to the fastest on a sample are measured in full. One that is
+// slower than kHopeless times the best so far at its first try gets no other.
 constexpr double kCloseToBest = 1.1;
-constexpr std::int64_t kSampleRays = 131072;
+constexpr double kHopeless = 1.5;
+constexpr int kTries = 3;
 constexpr std::size_t kMostModes = 2;
 
 double median(std::vector<double> values) {
@@ -93,35 +99,20 @@ Built measure_builds(const BenchScene& bench, const BenchOptions& options, Embre
 
 // Rays
 
-// Traces all rays once, in tiles over the threads.
-double trace_ours_ms(const WideTree& tree, const RaySet& set, const BenchOptions& options, Answers& answers) {
+// Traces the tiles once, spread over the threads.
+double trace_ours_ms(const WideTree& tree, const RaySet& set, int threads, const Tiles& tiles, Answers& answers) {
   const RaySpan rays = set.rays.span();
-  const std::int64_t tiles = (rays.count + options.tile - 1) / options.tile;
   const Timer timer;
-  parallel_for(static_cast<int>(options.threads), tiles, [&](std::int64_t tile) {
-    const std::int64_t first = tile * options.tile;
-    const RaySpan part = rays.part(first, std::min(options.tile, rays.count - first));
+  parallel_for(threads, tiles.count(), [&](std::int64_t i) {
+    const Tiles::Range tile = tiles.range(i);
+    const RaySpan part = rays.part(tile.begin, tile.end - tile.begin);
     if (set.facts.any_hit) {
-      occluded(tree, part, set.facts.order, answers.hidden.data() + first);
+      occluded(tree, part, set.facts.order, answers.hidden.data() + tile.begin);
     } else {
-      closest_hits(tree, part, set.facts.order, answers.hits.span().part(first));
+      closest_hits(tree, part, set.facts.order, answers.hits.span().part(tile.begin));
     }
   });
   return timer.elapsed_ms();
-}
-
-std::vector<std::int64_t> all_chunks(const EmbreeRays& rays) {
-  std::vector<std::int64_t> chunks(static_cast<std::size_t>(rays.chunk_count()));
-  for (std::size_t i = 0; i < chunks.size(); ++i) chunks[i] = static_cast<std::int64_t>(i);
-  return chunks;
-}
-
-// Some chunks, spread over all, of about kSampleRays in sum.
-std::vector<std::int64_t> sample_of(const std::vector<std::int64_t>& chunks) {
-  const std::size_t step = std::max<std::size_t>(1, chunks.size() * EmbreeRays::kChunk / kSampleRays);
-  std::vector<std::int64_t> sample;
-  for (std::size_t i = step / 2; i < chunks.size(); i += step) sample.push_back(chunks[i]);
-  return sample;
 }
 
 // One mode of the peer that is measured in full.
@@ -131,23 +122,25 @@ struct Contender {
   std::vector<double> ms;
 };
 
-// Every mode on a sample; the best, and those that come close.
-std::vector<Contender> best_modes(const Embree& peer, const RaySet& set) {
+// Every mode on a sample of the rays; the best, and what comes close to it.
+std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const Tiles& sample) {
   std::vector<std::pair<double, EmbreeMode>> tried;
-  for (const int width : {1, 4, 8, 16}) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const int width : {16, 8, 4, 1}) {
     const std::unique_ptr<EmbreeRays> rays = peer.prepare(set, width);
-    const std::vector<std::int64_t> sample = sample_of(all_chunks(*rays));
     for (const bool coherent : {false, true}) {
-      double best = std::numeric_limits<double>::infinity();
-      for (int i = 0; i < 3; ++i) best = std::min(best, peer.trace_ms(*rays, coherent, sample));
-      tried.push_back({best, {width, coherent}});
+      double ms = peer.trace_ms(*rays, coherent, sample);
+      for (int i = 1; i < kTries && ms < best * kHopeless; ++i)
+        ms = std::min(ms, peer.trace_ms(*rays, coherent, sample));
+      best = std::min(best, ms);
+      tried.push_back({ms, {width, coherent}});
     }
   }
   std::sort(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Contender> contenders;
   std::map<int, std::shared_ptr<EmbreeRays>> prepared;
   for (const auto& [ms, mode] : tried) {
-    if (ms > tried.front().first * kCloseToBest || contenders.size() == kMostModes) break;
+    if (ms > best * kCloseToBest || contenders.size() == kMostModes) break;
     std::shared_ptr<EmbreeRays>& rays = prepared[mode.width];
     if (!rays) rays = peer.prepare(set, mode.width);
     contenders.push_back({mode, rays, {}});
@@ -181,24 +174,33 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   } else {
     answers.hits.resize(result.rays);
   }
-  const auto ours = [&] { return trace_ours_ms(tree, set, options, answers); };
-  const std::int64_t passes = passes_for(ours());
+  const auto threads = static_cast<int>(options.threads);
+  const Tiles all = Tiles::all(result.rays, options.tile);
+  double longest = trace_ours_ms(tree, set, threads, all, answers);
   std::vector<Contender> contenders;
-  std::vector<std::int64_t> chunks;
-  std::int64_t peer_passes = 1;
   if (peer != nullptr) {
-    contenders = best_modes(*peer, set);
-    chunks = all_chunks(*contenders[0].rays);
-    peer_passes = passes_for(peer->trace_ms(*contenders[0].rays, contenders[0].mode.coherent, chunks));
+    contenders = best_modes(*peer, set, Tiles(result.rays, options.tile, std::max<std::int64_t>(1, all.count() / 8)));
+    for (const Contender& contender : contenders)
+      longest = std::max(longest, peer->trace_ms(*contender.rays, contender.mode.coherent, all));
   }
+  const std::int64_t step = std::clamp<std::int64_t>(std::llround(longest / kLongestTimingMs), 1,
+                                                     std::max<std::int64_t>(1, all.count() / kFewestTiles));
+  const Tiles timed(result.rays, options.tile, step);
+  const double share = static_cast<double>(timed.rays()) / static_cast<double>(result.rays);
+  const auto ours = [&] { return trace_ours_ms(tree, set, threads, timed, answers) / share; };
+  const std::int64_t passes = passes_for(ours() * share);
+  std::int64_t peer_passes = 1;
+  const auto theirs = [&](const Contender& contender) {
+    return peer->trace_ms(*contender.rays, contender.mode.coherent, timed) / share;
+  };
+  if (peer != nullptr) peer_passes = passes_for(theirs(contenders[0]) * share);
 
   // In turn.
   std::vector<double> times;
   for (std::int64_t rep = 0; rep < options.reps; ++rep) {
     times.push_back(mean_ms(passes, ours));
     for (Contender& contender : contenders)
-      contender.ms.push_back(mean_ms(
-          peer_passes, [&] { return peer->trace_ms(*contender.rays, contender.mode.coherent, chunks); }));
+      contender.ms.push_back(mean_ms(peer_passes, [&] { return theirs(contender); }));
   }
   result.ms = median(times);
   if (contenders.empty()) {

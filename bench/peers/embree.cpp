@@ -15,7 +15,7 @@ namespace {
 // Embree has no notion of the sphere that a ray leaves: its rays start a little later, this much of the radius.
 constexpr double kStartOfRadius = 1e-3;
 
-// Lets go of what was asked for with a pointer to the counter.
+// Embree calls it before it takes memory, and after it has given some back.
 bool count_bytes(void* counter, ssize_t bytes, bool /*post*/) {
   static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes);
   return true;
@@ -108,7 +108,7 @@ std::int64_t Embree::closest(const Ray& ray) const {
     return started;
   }()};
   const std::unique_ptr<EmbreeRays> rays = make_embree_rays(one, {0}, /*any_hit=*/false, 1);
-  rays->trace_ms(scene_, /*coherent=*/false, 1, {0});
+  rays->trace_ms(scene_, /*coherent=*/false, 1, Tiles::all(1, 1));
   return rays->answers()[0];
 }
 

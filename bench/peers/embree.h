@@ -12,6 +12,7 @@
 #include "bihive/base/result.h"
 #include "bihive/geometry/sphere_set.h"
 #include "ray_sets.h"
+#include "tiles.h"
 
 namespace bihive::bench {
 
@@ -27,14 +28,11 @@ struct EmbreeMode {
 class EmbreeRays {
  public:
   virtual ~EmbreeRays() = default;
-  /// Answers every ray of the given chunks of kChunk rays, and returns the milliseconds that it took. What a traced ray
-  /// has lost (its end, its hit) is put back first, within the time.
-  virtual double trace_ms(RTCScene scene, bool coherent, int threads, const std::vector<std::int64_t>& chunks) = 0;
+  /// Answers every ray of the given tiles, and returns the milliseconds that it took. What a traced ray has lost (its
+  /// end, its hit) is put back first, within the time.
+  virtual double trace_ms(RTCScene scene, bool coherent, int threads, const Tiles& tiles) = 0;
   /// Ids of closest hits (kNothing: none), or 1 and 0 for any hit, in the order of the ray set.
   virtual std::vector<std::int64_t> answers() const = 0;
-  virtual std::int64_t chunk_count() const = 0;
-
-  static constexpr std::int64_t kChunk = 8192;
 };
 
 class Embree {
@@ -55,8 +53,8 @@ class Embree {
   std::int64_t bytes() const { return scene_bytes_ + 16 * sphere_count_; }
 
   std::unique_ptr<EmbreeRays> prepare(const RaySet& set, int width) const;
-  double trace_ms(EmbreeRays& rays, bool coherent, const std::vector<std::int64_t>& chunks) const {
-    return rays.trace_ms(scene_, coherent, threads_, chunks);
+  double trace_ms(EmbreeRays& rays, bool coherent, const Tiles& tiles) const {
+    return rays.trace_ms(scene_, coherent, threads_, tiles);
   }
   /// The sphere that Embree names for one ray: what hides it. kNothing: none.
   std::int64_t closest(const Ray& ray) const;

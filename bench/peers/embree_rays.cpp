@@ -100,14 +100,11 @@ class PackedRays : public EmbreeRays {
     }
   }
 
-  std::int64_t chunk_count() const override {
-    return (static_cast<std::int64_t>(packets_.size()) + kPacketsOfChunk - 1) / kPacketsOfChunk;
-  }
-
-  double trace_ms(RTCScene scene, bool coherent, int threads, const std::vector<std::int64_t>& chunks) override {
+  double trace_ms(RTCScene scene, bool coherent, int threads, const Tiles& tiles) override {
     const Timer timer;
-    parallel_for(threads, static_cast<std::int64_t>(chunks.size()), [&](std::int64_t i) {
-      trace_chunk(scene, coherent, chunks[static_cast<std::size_t>(i)]);
+    parallel_for(threads, tiles.count(), [&](std::int64_t i) {
+      const Tiles::Range rays = tiles.range(i);
+      trace(scene, coherent, rays.begin / width, (rays.end + width - 1) / width);
     });
     return timer.elapsed_ms();
   }
@@ -130,8 +127,6 @@ class PackedRays : public EmbreeRays {
   }
 
  private:
-  static constexpr std::int64_t kPacketsOfChunk = kChunk / width;
-
   static auto& ray_of(Packet& packet) {
     if constexpr (any_hit) {
       return packet;
@@ -140,7 +135,7 @@ class PackedRays : public EmbreeRays {
     }
   }
 
-  void trace_chunk(RTCScene scene, bool coherent, std::int64_t chunk) {
+  void trace(RTCScene scene, bool coherent, std::int64_t first_packet, std::int64_t end_packet) {
     const FlushToZero flush;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -148,9 +143,7 @@ class PackedRays : public EmbreeRays {
     alignas(64) int valid[16];
     std::fill(std::begin(valid), std::end(valid), -1);
     const auto rays = static_cast<std::int64_t>(order_.size());
-    const auto packets = static_cast<std::int64_t>(packets_.size());
-    const std::int64_t first = chunk * kPacketsOfChunk;
-    for (std::int64_t p = first; p < std::min(first + kPacketsOfChunk, packets); ++p) {
+    for (std::int64_t p = first_packet; p < end_packet; ++p) {
       Packet& packet = packets_[static_cast<std::size_t>(p)];
       for (std::int64_t l = 0; l < width; ++l) {
         lane(ray_of(packet).tfar, l) = ends_[static_cast<std::size_t>(p * width + l)];
