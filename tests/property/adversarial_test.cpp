@@ -1,9 +1,12 @@
 // Hill climbing, in units in the last place, towards the rays on which two answers could differ: silhouettes, equal t,
 // and hits that lie farther outside their box than any other. On every ray of the way, the tree must give brute force's
 // bits, and both an answer that the oracle accepts.
+//
+// BIHIVE_LONG=N in the environment climbs from N times as many starts (scripts/verify).
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -15,14 +18,22 @@
 #include "support/edge_rays.h"
 #include "support/hostile_sets.h"
 #include "support/oracle.h"
+#include "support/wide_under_test.h"
 
 namespace bihive {
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int kWideShare = 8;  // of the rays, one in so many goes to the wide engine as well
+#else
+constexpr int kWideShare = 1;
+#endif
+
 /// A world with its trees, and how much of the padding any hit has used.
 class Arena {
  public:
-  explicit Arena(const test::World& world) : world_(world), spheres_(test::sphere_set(world)), oracle_(world_) {
+  explicit Arena(const test::World& world)
+      : world_(world), spheres_(test::sphere_set(world)), oracle_(world_), wide_(world_) {
     for (const std::int64_t max_prims : {1, 8})
       trees_.push_back(build_reference_tree(spheres_, {max_prims, kUnlimited}));
   }
@@ -46,6 +57,13 @@ class Arena {
     ASSERT_TRUE(oracle_.accepts(ray, oracle_.encounters(ray), truth.t, truth.sphere_id))
         << truth.t << " of " << truth.sphere_id << ": " << test::text_of(ray);
     if (truth.found()) most_padding_used_ = std::max(most_padding_used_, padding_used(ray, truth));
+    if (rays_ % kWideShare == 0) for_wide_.push_back(ray);
+  }
+
+  /// Gives the wide engine the rays that were checked since the last call.
+  void check_wide() {
+    wide_.check(for_wide_);
+    for_wide_.clear();
   }
 
   /// How far the hit lies outside the sphere's box, in paddings.
@@ -65,6 +83,8 @@ class Arena {
   SphereSet spheres_;
   test::Oracle oracle_;
   std::vector<Tree> trees_;
+  test::WideUnderTest wide_;
+  std::vector<Ray> for_wide_;
   double most_padding_used_ = -HUGE_VAL;
   int rays_ = 0;
 };
@@ -112,15 +132,18 @@ std::vector<test::World> arenas() {
 /// From many starts in every arena; the objective may depend on the arena and on a number.
 void climb_everywhere(
     const std::function<std::function<double(const Ray&)>(const Arena&, const Ray&, SplitMix64&)>& goal) {
+  const char* const number = std::getenv("BIHIVE_LONG");
+  const std::uint64_t long_runs = number == nullptr ? 1 : std::strtoull(number, nullptr, 10);
   for (const test::World& world : arenas()) {
     SCOPED_TRACE(world.name);
     Arena arena(world);
     const test::RayMaker rays(arena.world(), 68);
-    for (std::uint64_t start = 0; start < 40 && !testing::Test::HasFatalFailure(); ++start) {
+    for (std::uint64_t start = 0; start < 40 * long_runs && !testing::Test::HasFatalFailure(); ++start) {
       SplitMix64 rng(start);
       const Ray ray = rays(start);
       climb(arena, ray, 400, start, goal(arena, ray, rng));
     }
+    if (!testing::Test::HasFatalFailure()) arena.check_wide();
     testing::Test::RecordProperty("most padding used, " + world.name, std::to_string(arena.most_padding_used()));
     EXPECT_GT(arena.rays(), 400) << "the search hardly moved";
     EXPECT_LT(arena.most_padding_used(), 0.6) << "the padding is derived with a margin";
