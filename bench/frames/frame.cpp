@@ -1,0 +1,60 @@
+#include "frames/frame.h"
+
+#include <algorithm>
+
+#include "bihive/base/timer.h"
+
+namespace bihive::bench {
+namespace {
+
+RenderSettings settings_of(int width_px, int height_px, int recursion, bool shadows, int threads) {
+  RenderSettings settings;
+  settings.width_px = width_px;
+  settings.height_px = height_px;
+  settings.samples_per_pixel = 1;
+  settings.recursion = recursion;
+  settings.shadows = shadows;
+  settings.threads = threads;
+  return settings;
+}
+
+}  // namespace
+
+RenderSettings whole_picture(int threads) {
+  return settings_of(1024, 1024, 5, true, threads);
+}
+
+RenderSettings thesis_frame(int threads) {
+  return settings_of(1136, 640, 1, false, threads);
+}
+
+double FrameTimes::render_ms() const {
+  std::vector<double> values;
+  for (const FrameMs& frame : times) values.push_back(frame.render);
+  return median(values);
+}
+
+double FrameTimes::all_ms() const {
+  std::vector<double> values;
+  for (const FrameMs& frame : times) values.push_back(frame.all());
+  return median(values);
+}
+
+void add_frame(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, FrameTimes& times) {
+  const Timer render_timer;
+  const Rendered rendered = render(scene, tracer, settings).value();
+  const double render_ms = render_timer.elapsed_ms();
+  const Timer byte_timer;
+  const Image image = image_from_film(rendered.film, settings.view, scene.picture.transfer);
+  times.times.push_back({render_ms, byte_timer.elapsed_ms()});
+  times.rays = rendered.rays;
+  times.hash = picture_hash(image);
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+}  // namespace bihive::bench

@@ -1,0 +1,40 @@
+// Whole pictures: what is drawn, and how long it takes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bihive/render/renderer.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive::bench {
+
+/// 1024 x 1024 pixels, shadows, recursion 5.
+RenderSettings whole_picture(int threads);
+/// As the thesis measured frames: 1136 x 640 pixels, primary rays, no shadows.
+RenderSettings thesis_frame(int threads);
+
+/// Milliseconds of one picture: to linear radiance, and on to bytes.
+struct FrameMs {
+  double render = 0, to_bytes = 0;
+  double all() const { return render + to_bytes; }
+};
+
+/// The picture's times in the order in which they were taken, its rays, and its hash.
+struct FrameTimes {
+  std::vector<FrameMs> times;
+  RenderCounts rays;
+  std::uint64_t hash = 0;
+
+  /// Medians.
+  double render_ms() const;
+  double all_ms() const;
+};
+
+/// Draws the picture once more.
+void add_frame(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, FrameTimes& times);
+
+double median(std::vector<double> values);
+
+}  // namespace bihive::bench

@@ -1,0 +1,162 @@
+// bihive-frames: how long whole pictures take, for docs/performance.md. Prints one JSON object.
+//   bihive-frames pictures THREADS REPETITIONS FOLDER   s1 s2 s3 at 1024 x 1024, depth 5, shadows; Tachyon in turn
+//   bihive-frames thesis THREADS REPETITIONS            the thesis's nine configurations of Figure 4.4
+//   bihive-frames rebuild THREADS REPETITIONS           spheres that move: a new tree for every frame
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "bihive/base/timer.h"
+#include "bihive/base/version.h"
+#include "bihive/base/write_file.h"
+#include "bihive/image/png.h"
+#include "bihive/kernels/target.h"
+#include "bihive/kernels/wide_builder.h"
+#include "bihive/math/rng.h"
+#include "bihive/scene/generators.h"
+#include "failure.h"
+#include "frames/frame.h"
+#include "messages.h"
+#include "peers/tachyon.h"
+#include "synthetic.h"
+
+namespace bihive::bench {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Wish {
+  int threads, repetitions;
+  std::string folder;
+};
+
+ordered_json described(const Wish& wish) {
+  return {{"threads", wish.threads},
+          {"repetitions", wish.repetitions},
+          {"target", active_target()},
+          {"commit", commit()}};
+}
+
+ordered_json counts(const RenderCounts& rays) {
+  return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"reflected", rays.reflected}};
+}
+
+// Whole pictures, in turn with Tachyon's. Each draws one first that does not count; ours and its are left in the folder.
+ordered_json pictures(const Wish& wish) {
+  ordered_json json = described(wish);
+  for (const char* name : {"s1", "s2", "s3"}) {
+    const Scene scene = *synthetic_scene(name);
+    const RenderSettings settings = whole_picture(wish.threads);
+    const Tachyon tachyon = cli::value_or_fail(Tachyon::start(scene, settings, wish.folder + "/" + name + ".dat"));
+    cli::value_or_fail(tachyon.render_ms(wish.folder + "/" + name + "_tachyon.png"));
+    const Tracer tracer(scene.spheres, Engine::automatic, {});
+    FrameTimes ours, warm;
+    std::vector<double> theirs;
+    add_frame(scene, tracer, settings, warm);
+    for (int i = 0; i < wish.repetitions; ++i) {
+      add_frame(scene, tracer, settings, ours);
+      theirs.push_back(cli::value_or_fail(tachyon.render_ms()));
+    }
+    const Image image =
+        image_from_film(render(scene, tracer, settings).value().film, settings.view, scene.picture.transfer);
+    const std::string png = cli::value_or_fail(encode_png(image, {}));
+    if (const Status status = write_file(wish.folder + "/" + name + "_bihive.png", png); !status)
+      cli::fail(status.error());
+    json["scenes"][name] = {{"spheres", scene.spheres.size()}, {"rays", counts(ours.rays)},
+                            {"build_ms", tracer.build_ms()},   {"render_ms", ours.render_ms()},
+                            {"all_ms", ours.all_ms()},         {"tachyon_ms", median(theirs)},
+                            {"ratio", median(theirs) / ours.all_ms()}};
+  }
+  return json;
+}
+
+ordered_json thesis(const Wish& wish) {
+  ordered_json json = described(wish);
+  for (const int scenario : {1, 2, 3})
+    for (const int count : {64, 128, 256}) {
+      ScenarioParameters parameters;
+      parameters.count = count;
+      const Scene scene = scenario_scene(static_cast<Scenario>(scenario), parameters).value();
+      const Tracer tracer(scene.spheres, Engine::automatic, {});
+      FrameTimes times, warm;
+      for (int i = 0; i < 5; ++i) add_frame(scene, tracer, thesis_frame(wish.threads), warm);
+      for (int i = 0; i < wish.repetitions; ++i) add_frame(scene, tracer, thesis_frame(wish.threads), times);
+      json["configurations"].push_back({{"scenario", scenario},
+                                        {"spheres", count},
+                                        {"render_ms", times.render_ms()},
+                                        {"fps", 1000 / times.render_ms()},
+                                        {"fps_with_bytes", 1000 / times.all_ms()}});
+    }
+  return json;
+}
+
+// Every sphere moves by its own small step in each frame; the builder takes back the memory of the tree before.
+ordered_json rebuild(const Wish& wish) {
+  ordered_json json = described(wish);
+  for (const char* name : {"s1", "u1e5", "u1e6"}) {
+    const SphereSet start = synthetic_scene(name)->spheres;
+    std::vector<float> x(static_cast<std::size_t>(start.size())), y(x), z(x), r(x);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Vec3f centre = to_float(start.centre(static_cast<std::int64_t>(i)));
+      x[i] = centre.x;
+      y[i] = centre.y;
+      z[i] = centre.z;
+      r[i] = static_cast<float>(start.radius(static_cast<std::int64_t>(i)));
+    }
+    SplitMix64 random(1);
+    WideBuilder builder;
+    std::vector<double> set_ms, build_ms;
+    double first_ms = 0;
+    std::int64_t held_bytes = 0;
+    for (int frame = 0; frame <= wish.repetitions; ++frame) {
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] += 0.1F * (random.next_float() - 0.5F) * r[i];
+        y[i] += 0.1F * (random.next_float() - 0.5F) * r[i];
+        z[i] += 0.1F * (random.next_float() - 0.5F) * r[i];
+      }
+      const Timer set_timer;
+      const SphereSet moved = SphereSet::from_world(x, y, z, r).value();
+      const double ms = set_timer.elapsed_ms();
+      const Timer build_timer;
+      const auto tree = cli::value_or_fail(builder.build(moved, {}, wish.threads));
+      if (frame == 0) {
+        first_ms = build_timer.elapsed_ms();
+        continue;
+      }
+      set_ms.push_back(ms);
+      build_ms.push_back(build_timer.elapsed_ms());
+      held_bytes = tree->allocated_bytes() + builder.scratch_bytes();
+    }
+    json["scenes"][name] = {{"spheres", start.size()},       {"first_build_ms", first_ms},
+                            {"set_ms", median(set_ms)},      {"build_ms", median(build_ms)},
+                            {"held_bytes", held_bytes},      {"builds_per_s", 1000 / median(build_ms)}};
+  }
+  return json;
+}
+
+int run(int argc, const char* const* argv) {
+  const std::string what = argc > 1 ? argv[1] : "";
+  const Wish wish{argc > 2 ? std::atoi(argv[2]) : 0, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : ""};
+  const bool known = (what == "pictures" && argc == 5) || ((what == "thesis" || what == "rebuild") && argc == 4);
+  if (!known || wish.threads < 1 || wish.repetitions < 1) {
+    cli::say_error("usage: bihive-frames pictures THREADS REPETITIONS FOLDER | thesis|rebuild THREADS REPETITIONS");
+    return cli::kBadUsage;
+  }
+  try {
+    const ordered_json json = what == "pictures" ? pictures(wish) : what == "thesis" ? thesis(wish) : rebuild(wish);
+    cli::print(json.dump(2) + "\n");
+    cli::finish_output();
+    return cli::kSuccess;
+  } catch (const cli::Failure& failure) {
+    cli::say_error(failure.error.to_string());
+    return failure.code;
+  }
+}
+
+}  // namespace
+}  // namespace bihive::bench
+
+int main(int argc, char** argv) {
+  return bihive::bench::run(argc, argv);
+}
