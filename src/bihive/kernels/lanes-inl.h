@@ -30,12 +30,39 @@ HWY_INLINE std::uint32_t mask_bits(Mask mask) {
   return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
 }
 
+/// Entry classes[i] of the palette in lane i.
+template <class Words>
+HWY_INLINE auto look_up_radii(const WideSpheres& spheres, Words classes) {
+  const FloatTag d;
+  if (spheres.palette_size == 1) return hn::Set(d, spheres.palette[0]);
+  if constexpr (kFloatLanes >= 8) {
+    const auto low = hn::TableLookupLanes(hn::Load(d, spheres.palette.data()),
+                                          hn::IndicesFromVec(d, hn::And(classes, hn::Set(WordTag(), kFloatLanes - 1))));
+    if (spheres.palette_size <= kFloatLanes) return low;
+    if constexpr (kFloatLanes == 16) {
+      const auto high =
+          hn::TableLookupLanes(hn::Load(d, spheres.palette.data() + 16),
+                               hn::IndicesFromVec(d, hn::And(classes, hn::Set(WordTag(), kFloatLanes - 1))));
+      return hn::IfThenElse(hn::RebindMask(d, hn::Gt(classes, hn::Set(WordTag(), 15))), high, low);
+    }
+  }
+  return hn::GatherIndex(d, spheres.palette.data(), hn::BitCast(hn::RebindToSigned<WordTag>(), classes));
+}
+
 /// The radii of kFloatLanes spheres from `slot` on.
 HWY_INLINE auto load_radii(const WideSpheres& spheres, std::int64_t slot) {
   const FloatTag d;
   if (!spheres.has_palette) return hn::LoadU(d, spheres.r + slot);
-  const auto classes = hn::ShiftRight<WideSpheres::kIdBits>(hn::LoadU(WordTag(), spheres.word + slot));
-  return hn::GatherIndex(d, spheres.palette.data(), hn::BitCast(hn::RebindToSigned<WordTag>(), classes));
+  if (spheres.palette_size == 1) return hn::Set(d, spheres.palette[0]);
+  return look_up_radii(spheres, hn::ShiftRight<WideSpheres::kIdBits>(hn::LoadU(WordTag(), spheres.word + slot)));
+}
+
+/// kFloatLanes words with `Compress`ed lanes in front, all of them stored: what follows the last one is overwritten.
+/// Returns how many there are. (Storing the compressed lanes alone takes many times longer on some machines.)
+template <class D, class V, class M>
+HWY_INLINE std::size_t store_compressed(D d, V values, M mask, hn::TFromD<D>* to) {
+  hn::StoreU(hn::Compress(values, mask), d, to);
+  return hn::CountTrue(d, mask);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -19,6 +19,8 @@ class LeftSphere {
     if (found != tree.repeated.end() && found->id == leaves) repeated_ = &*found;
   }
 
+  bool is_repeated() const { return repeated_ != nullptr; }
+
   bool is(const WideTree& tree, std::int64_t slot) const {
     if (tree.spheres.id(slot) == id_) return true;
     return repeated_ != nullptr && tree.spheres.x[slot] == repeated_->x && tree.spheres.y[slot] == repeated_->y &&

@@ -1,5 +1,6 @@
 #include "bihive/kernels/queries.h"
 
+#include "bihive/kernels/lists.h"
 #include "bihive/kernels/single.h"
 
 namespace bihive {
@@ -13,15 +14,11 @@ bool occluded(const WideTree& tree, const Ray& ray) {
 }
 
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder /*order*/, const HitSpan& hits) {
-  for (std::int64_t i = 0; i < rays.count; ++i) {
-    const Hit hit = closest_hit(tree, rays.at(i));
-    hits.t[i] = hit.t;
-    hits.sphere_id[i] = hit.sphere_id;
-  }
+  kernels::closest_hits_lists(tree, rays, hits);
 }
 
 void occluded(const WideTree& tree, const RaySpan& rays, RayOrder /*order*/, std::uint8_t* hidden) {
-  for (std::int64_t i = 0; i < rays.count; ++i) hidden[i] = occluded(tree, rays.at(i)) ? 1 : 0;
+  kernels::occluded_lists(tree, rays, hidden);
 }
 
 }  // namespace bihive

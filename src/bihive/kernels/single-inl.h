@@ -75,6 +75,25 @@ HWY_INLINE std::uint32_t hit_boxes(const WideNode& node, const SingleRay& ray, f
   return bits;
 }
 
+/// Lets the children in `bits` wait, the nearest on top.
+HWY_INLINE void push_children(const WideNode& node, std::uint32_t bits, const float s_near[kWidth], Waiting* waiting,
+                              int& count) {
+  const int bottom = count;
+  for (; bits != 0; bits &= bits - 1) {
+    const int slot = __builtin_ctz(bits);
+    int place = count++;
+    while (place > bottom && waiting[place - 1].s_near < s_near[slot]) {
+      waiting[place] = waiting[place - 1];
+      --place;
+    }
+    if (node.is_leaf(slot))
+      waiting[place] = {static_cast<std::uint32_t>(node.sphere_begin(slot)),
+                        static_cast<std::uint32_t>(node.sphere_count(slot)), s_near[slot]};
+    else
+      waiting[place] = {static_cast<std::uint32_t>(node.child_node(slot)), 0, s_near[slot]};
+  }
+}
+
 }  // namespace single
 
 /// Calls candidate(slot) for every sphere of a leaf that the ray may hit before s_best, which candidate may lower.
@@ -153,22 +172,8 @@ HWY_INLINE Hit trace_single(const WideTree& tree, const ScaledRay& exact_ray, co
       continue;
     }
 
-    // Let the children that the ray may enter wait, the nearest on top.
     const WideNode& node = tree.nodes[top.node];
-    const int bottom = waiting_count;
-    for (std::uint32_t bits = single::hit_boxes(node, ray, s_near); bits != 0; bits &= bits - 1) {
-      const int slot = __builtin_ctz(bits);
-      int place = waiting_count++;
-      while (place > bottom && waiting[place - 1].s_near < s_near[slot]) {
-        waiting[place] = waiting[place - 1];
-        --place;
-      }
-      if (node.is_leaf(slot))
-        waiting[place] = {static_cast<std::uint32_t>(node.sphere_begin(slot)),
-                          static_cast<std::uint32_t>(node.sphere_count(slot)), s_near[slot]};
-      else
-        waiting[place] = {static_cast<std::uint32_t>(node.child_node(slot)), 0, s_near[slot]};
-    }
+    single::push_children(node, single::hit_boxes(node, ray, s_near), s_near, waiting, waiting_count);
   }
   return best;
 }

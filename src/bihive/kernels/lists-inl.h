@@ -1,0 +1,523 @@
+// A tile of rays walks the wide tree as lists: at each node every listed ray tests the sixteen boxes, and each child gets
+// the list of the rays that enter it, near to far. What a single ray loses to branches that nobody can foresee, a list
+// does without branches.
+
+#if defined(BIHIVE_KERNELS_LISTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_KERNELS_LISTS_INL_H_
+#undef BIHIVE_KERNELS_LISTS_INL_H_
+#else
+#define BIHIVE_KERNELS_LISTS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "bihive/kernels/exact-inl.h"
+#include "bihive/kernels/filter.h"
+#include "bihive/kernels/lanes-inl.h"
+#include "bihive/kernels/list_tile.h"
+#include "bihive/kernels/ray_setup-inl.h"
+#include "bihive/kernels/scalar_traversal.h"
+#include "bihive/kernels/single-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using kernels::CandidateQueue;
+using kernels::kNoSlot;
+using kernels::ListTile;
+
+/// The walk of one tile of at most kTileRays rays. With kAnyHit `hidden` is written, else `hits`.
+template <bool kAnyHit>
+class ListWalk {
+ public:
+  ListWalk(const WideTree& tree, const RaySpan& rays, ListTile& tile, const HitSpan& hits, std::uint8_t* hidden)
+      : tree_(tree), rays_(rays), tile_(tile), hits_(hits), hidden_(hidden), bounds_(farthest_origin()) {}
+
+  void run() {
+    if (tree_.node_count == 0) return clear_answers();
+    set_up();
+    for (int octant = 0; octant < 8; ++octant)
+      if (octant_count_[octant] > 0) walk_octant(octant);
+    test_leaf_pairs();
+    finish_candidates();
+    if constexpr (!kAnyHit) confirm_winners();
+    settle_rivals();
+    answer_far_rays();
+  }
+
+ private:
+  // Lists of fewer rays are walked ray by ray, and leaves with fewer wait for each other.
+  static constexpr std::uint32_t kShortList = 4;
+  static constexpr std::uint32_t kShortLeafList = 16;
+
+  // ---- Making rays ready ----
+
+  // The largest coordinate of a local origin in the tile.
+  float farthest_origin() const {
+    const FloatTag d;
+    auto largest = hn::Zero(d);
+    const std::int64_t whole = rays_.count / kFloatLanes * kFloatLanes;
+    float rest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::int64_t i = 0; i < whole; i += kFloatLanes)
+        largest = hn::Max(largest, hn::Abs(hn::LoadU(d, rays_.origin[axis] + i)));
+      for (std::int64_t i = whole; i < rays_.count; ++i) rest = std::max(rest, std::abs(rays_.origin[axis][i]));
+    }
+    const double farthest = double(std::max(rest, hn::GetLane(hn::MaxOfLanes(d, largest)))) * tree_.scale;
+    if (farthest <= kFarOrigin) return static_cast<float>(farthest) * 1.000001F;
+
+    // Some rays are far, or not valid: look at what becomes of them.
+    float moved = 0;
+    LocalRays local;
+    for (std::int64_t i = 0; i < rays_.count; i += 16) {
+      load_rays(i, local);
+      moved = std::max(moved, local.farthest_origin);
+    }
+    return moved;
+  }
+
+  void load_rays(std::int64_t first, LocalRays& local) const {
+    const std::int64_t left = rays_.count - first;
+    if (left >= 16)
+      set_up_16(rays_, first, tree_.scale, local);
+    else
+      set_up_tail(rays_, first, static_cast<int>(left), tree_.scale, local);
+  }
+
+  void set_up() {
+    LocalRays local;
+    tile_.rival_count = 0;
+    tile_.pair_count = 0;
+    tile_.queue.count = 0;
+    const FloatTag d;
+    const auto nothing = hn::Set(WordTag(), kNoSlot);
+    for (std::int64_t first = 0; first < rays_.count; first += 16) {
+      const int count = static_cast<int>(std::min<std::int64_t>(16, rays_.count - first));
+      load_rays(first, local);
+      FilterRay* to[16];
+      for (int i = 0; i < 16; ++i) to[i] = &tile_.rays[first + i];
+      write_filter_rays(local, bounds_.box_pad, to, count);
+      std::uint32_t signs[3] = {};
+      for (int lane = 0; lane < 16; lane += kFloatLanes) {
+        hn::Store(hn::Load(d, local.s_max + lane), d, tile_.s_best + first + lane);
+        hn::Store(hn::Add(hn::Load(d, local.s_min + lane), hn::Set(d, bounds_.width)), d,
+                  tile_.sure_min + first + lane);
+        hn::Store(nothing, WordTag(), tile_.winner + first + lane);
+        hn::Store(nothing, WordTag(), tile_.left_id + first + lane);
+        for (int axis = 0; axis < 3; ++axis)
+          signs[axis] |= mask_bits(hn::Lt(hn::Load(d, local.direction[axis] + lane), hn::Zero(d))) << lane;
+      }
+
+      // Hand the rays to the lists of their octants.
+      for (int i = 0; i < count; ++i) {
+        if ((local.dead >> i & 1) != 0) continue;
+        const std::uint32_t octant =
+            (signs[0] >> i & 1) | (signs[1] >> i & 1) << 1 | (signs[2] >> i & 1) << 2;
+        tile_.by_octant[octant][octant_count_[octant]++] = static_cast<std::uint32_t>(first + i);
+      }
+      for (std::uint32_t far = local.far; far != 0; far &= far - 1)
+        tile_.far_rays[far_count_++] = static_cast<std::uint32_t>(first + __builtin_ctz(far));
+    }
+    if (rays_.leaves != nullptr) set_up_left();
+    clear_answers();
+  }
+
+  // Which sphere does each ray leave? Of rays that leave one of several equal spheres nothing counts as sure.
+  void set_up_left() {
+    leaves_some_ = true;
+    for (std::int64_t i = 0; i < rays_.count; ++i) {
+      if (rays_.leaves[i] < 0 || rays_.leaves[i] >= std::int64_t{kNoSlot}) continue;
+      tile_.left_id[i] = static_cast<std::uint32_t>(rays_.leaves[i]);
+      if (HWY_UNLIKELY(LeftSphere(tree_, rays_.leaves[i]).is_repeated()))
+        tile_.sure_min[i] = std::numeric_limits<float>::infinity();
+    }
+  }
+
+  void clear_answers() {
+    if constexpr (kAnyHit) {
+      std::fill_n(hidden_, rays_.count, std::uint8_t{0});
+    } else {
+      std::fill_n(hits_.t, rays_.count, std::numeric_limits<double>::infinity());
+      std::fill_n(hits_.sphere_id, rays_.count, kNothing);
+    }
+  }
+
+  // ---- Walking ----
+
+  void walk_octant(int octant) {
+    for (int axis = 0; axis < 3; ++axis) negative_[axis] = (octant >> axis & 1) != 0;
+    backwards_ = octant >= 4;
+    order_ = octant >= 4 ? 7 - octant : octant;
+    tile_.arena.reserve(kArenaBytes);
+    walk(0, tile_.by_octant[octant], octant_count_[octant], 0);
+  }
+
+  // The working memory of a node with a list of `count` rays, one after the other in the arena.
+  struct NodeMemory {
+    std::uint16_t* masks;
+    float* s_near;          // sixteen a ray
+    std::uint32_t* places;  // of the list
+    std::uint32_t* list;    // of a child
+    static std::size_t bytes(std::uint32_t count) {
+      const std::size_t padded = (count + 31) / 16 * 16;
+      return padded * (2 + 64 + 4 + 4) + 64;
+    }
+    NodeMemory(char* at, std::uint32_t count) {
+      const std::size_t padded = (count + 31) / 16 * 16;
+      s_near = reinterpret_cast<float*>(at);
+      places = reinterpret_cast<std::uint32_t*>(at + padded * 64);
+      list = places + padded;
+      masks = reinterpret_cast<std::uint16_t*>(list + padded);
+    }
+  };
+  static constexpr std::size_t kArenaBytes = std::size_t{kernels::kTileRays} * 80 * 8;
+
+  // `list` may be read up to 16 entries beyond its end.
+  void walk(std::int64_t node_number, const std::uint32_t* list, std::uint32_t count, std::size_t arena_used) {
+    const std::size_t bytes = (NodeMemory::bytes(count) + 63) / 64 * 64;
+    if (count < kShortList || arena_used + bytes > kArenaBytes) {
+      for (std::uint32_t i = 0; i < count; ++i) walk_alone(node_number, list[i]);
+      return;
+    }
+    const WideNode& node = tree_.nodes[node_number];
+    const NodeMemory memory(static_cast<char*>(tile_.arena.data()) + arena_used, count);
+    const std::uint32_t any = test_boxes(node, list, count, memory);
+
+    // Child after child, near to far: list the rays that still want to enter it.
+    const std::uint64_t order = node.order[order_];
+    const int children = node.child_count;
+    for (int k = 0; k < children; ++k) {
+      const int place = backwards_ ? children - 1 - k : k;
+      const int slot = static_cast<int>(order >> (4 * place) & 15);
+      if ((any >> slot & 1) == 0) continue;
+      const std::uint32_t entering = list_child(slot, list, count, memory);
+      if (entering == 0) continue;
+      if (!node.is_leaf(slot))
+        walk(node.child_node(slot), memory.list, entering, arena_used + bytes);
+      else
+        enter_leaf(node.sphere_begin(slot), node.sphere_count(slot), memory.list, entering);
+    }
+  }
+
+  // Every listed ray against sixteen boxes: a mask and the distances of entry each. Returns the union of the masks.
+  std::uint32_t test_boxes(const WideNode& node, const std::uint32_t* list, std::uint32_t count,
+                           const NodeMemory& memory) const {
+    const FloatTag d;
+    std::uint32_t any = 0;
+    const float* near[3];
+    const float* far[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      near[axis] = negative_[axis] ? node.hi[axis] : node.lo[axis];
+      far[axis] = negative_[axis] ? node.lo[axis] : node.hi[axis];
+    }
+    for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
+      const auto near_x = hn::Load(d, near[0] + lane);
+      const auto near_y = hn::Load(d, near[1] + lane);
+      const auto near_z = hn::Load(d, near[2] + lane);
+      const auto far_x = hn::Load(d, far[0] + lane);
+      const auto far_y = hn::Load(d, far[1] + lane);
+      const auto far_z = hn::Load(d, far[2] + lane);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const FilterRay& ray = tile_.rays[list[i]];
+        const auto ix = hn::Set(d, ray.inverse[0]);
+        const auto iy = hn::Set(d, ray.inverse[1]);
+        const auto iz = hn::Set(d, ray.inverse[2]);
+        const auto in_x = hn::MulAdd(near_x, ix, hn::Set(d, ray.near_offset[0]));
+        const auto in_y = hn::MulAdd(near_y, iy, hn::Set(d, ray.near_offset[1]));
+        const auto in_z = hn::MulAdd(near_z, iz, hn::Set(d, ray.near_offset[2]));
+        const auto out_x = hn::MulAdd(far_x, ix, hn::Set(d, ray.far_offset[0]));
+        const auto out_y = hn::MulAdd(far_y, iy, hn::Set(d, ray.far_offset[1]));
+        const auto out_z = hn::MulAdd(far_z, iz, hn::Set(d, ray.far_offset[2]));
+        const auto s_in = hn::Max(hn::Max(in_x, in_y), hn::Max(in_z, hn::Set(d, ray.s_min)));
+        const auto s_out = hn::Min(hn::Min(out_x, out_y), hn::Min(out_z, hn::Set(d, tile_.s_best[list[i]])));
+        hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
+        const std::uint32_t bits = mask_bits(hn::Le(s_in, s_out)) << lane;
+        memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
+        any |= bits;
+      }
+    }
+    return any;
+  }
+
+  // The rays of the list that enter a child before their best hit, to memory.list.
+  std::uint32_t list_child(int slot, const std::uint32_t* list, std::uint32_t count, const NodeMemory& memory) const {
+    const WordTag d;
+    const hn::Rebind<std::uint16_t, WordTag> half;
+    const auto bit = hn::Set(d, 1u << slot);
+    auto places = hn::Iota(d, 0);
+    std::size_t found = 0;
+    // Masks past the end are stale: blank them.
+    for (std::uint32_t i = count; i % kFloatLanes != 0; ++i) memory.masks[i] = 0;
+    for (std::uint32_t i = 0; i < count; i += kFloatLanes) {
+      const auto masks = hn::PromoteTo(d, hn::LoadU(half, memory.masks + i));
+      found += store_compressed(d, places, hn::TestBit(masks, bit), memory.places + found);
+      places = hn::Add(places, hn::Set(d, static_cast<std::uint32_t>(kFloatLanes)));
+    }
+    std::uint32_t kept = 0;
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::uint32_t place = memory.places[k];
+      const std::uint32_t ray = list[place];
+      memory.list[kept] = ray;
+      kept += memory.s_near[std::size_t{place} * kWidth + static_cast<std::size_t>(slot)] <= tile_.s_best[ray] ? 1 : 0;
+    }
+    return kept;
+  }
+
+  // One ray from a node on, its nearest child first.
+  void walk_alone(std::int64_t node_number, std::uint32_t ray) {
+    SingleRay single_ray;
+    single_ray.local = tile_.rays[ray];
+    single::Waiting waiting[kMostLevels * kWidth];  // NOLINT: written before read
+    int waiting_count = 0;
+    waiting[waiting_count++] = {static_cast<std::uint32_t>(node_number), 0, single_ray.local.s_min};
+    alignas(64) float s_near[kWidth];
+    while (waiting_count > 0) {
+      const single::Waiting top = waiting[--waiting_count];
+      if (top.s_near > tile_.s_best[ray]) continue;
+      if (top.count != 0) {
+        for (std::uint32_t first = 0; first < top.count; first += kWidth)
+          test_leaf(top.node + first, std::min<std::uint32_t>(top.count - first, kWidth), &ray, 1);
+        finish_candidates();
+        continue;
+      }
+      single_ray.s_best = tile_.s_best[ray];
+      const WideNode& node = tree_.nodes[top.node];
+      single::push_children(node, single::hit_boxes(node, single_ray, s_near), s_near, waiting, waiting_count);
+    }
+  }
+
+  // ---- Leaves ----
+
+  void enter_leaf(std::int64_t begin, std::int64_t spheres, const std::uint32_t* list, std::uint32_t count) {
+    for (std::int64_t first = 0; first < spheres; first += kWidth) {
+      const auto slot = static_cast<std::uint32_t>(begin + first);
+      const auto some = static_cast<std::uint32_t>(std::min<std::int64_t>(spheres - first, kWidth));
+      if (count >= kShortLeafList) {
+        test_leaf(slot, some, list, count);
+        continue;
+      }
+      for (std::uint32_t i = 0; i < count; ++i) tile_.pairs[tile_.pair_count++] = {list[i], slot, some};
+      if (tile_.pair_count >= kernels::kMostLeafPairs - static_cast<int>(kShortLeafList)) test_leaf_pairs();
+    }
+  }
+
+  void test_leaf_pairs() {
+    for (int i = 0; i < tile_.pair_count; ++i) {
+      const kernels::LeafPair pair = tile_.pairs[i];
+      test_leaf(pair.first, pair.count, &pair.ray, 1);
+    }
+    tile_.pair_count = 0;
+    finish_candidates();
+  }
+
+  // The first look: up to sixteen spheres, kept in registers, against a list of rays.
+  void test_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list, std::uint32_t count) {
+    const FloatTag d;
+    for (std::uint32_t lane = 0; lane < spheres; lane += kFloatLanes) {
+      const auto x = hn::LoadU(d, tree_.spheres.x + slot + lane);
+      const auto y = hn::LoadU(d, tree_.spheres.y + slot + lane);
+      const auto z = hn::LoadU(d, tree_.spheres.z + slot + lane);
+      const auto r = hn::Add(load_radii(tree_.spheres, slot + lane), hn::Set(d, bounds_.e));
+      // Lanes past the leaf can never pass.
+      const auto r_squared =
+          hn::IfThenElse(hn::FirstN(d, spheres - lane), hn::Mul(r, r), hn::Set(d, -1.0F));
+      const auto slots = hn::Iota(WordTag(), slot + lane);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const FilterRay& ray = tile_.rays[list[i]];
+        const auto nx = hn::Set(d, ray.direction[0]);
+        const auto ny = hn::Set(d, ray.direction[1]);
+        const auto nz = hn::Set(d, ray.direction[2]);
+        const auto cx = hn::Sub(x, hn::Set(d, ray.origin[0]));
+        const auto cy = hn::Sub(y, hn::Set(d, ray.origin[1]));
+        const auto cz = hn::Sub(z, hn::Set(d, ray.origin[2]));
+        const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
+        const auto px = hn::NegMulAdd(b, nx, cx);
+        const auto py = hn::NegMulAdd(b, ny, cy);
+        const auto pz = hn::NegMulAdd(b, nz, cz);
+        const auto dp = hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)));
+        const auto passes = hn::Ge(dp, hn::Zero(d));
+        if (HWY_LIKELY(hn::AllFalse(d, passes))) continue;
+
+        CandidateQueue& queue = tile_.queue;
+        hn::StoreU(hn::Compress(b, passes), d, queue.b + queue.count);
+        hn::StoreU(hn::Compress(dp, passes), d, queue.dp + queue.count);
+        hn::StoreU(hn::Compress(r_squared, passes), d, queue.r_squared + queue.count);
+        hn::StoreU(hn::Compress(slots, hn::RebindMask(WordTag(), passes)), WordTag(), queue.slot + queue.count);
+        hn::StoreU(hn::Set(WordTag(), list[i]), WordTag(), queue.ray + queue.count);
+        queue.count += static_cast<int>(hn::CountTrue(d, passes));
+        if (queue.count >= kernels::kQueue) finish_candidates();
+      }
+    }
+  }
+
+  // The second look, many candidates at a time: is the near root surely in the segment and surely the nearest so far?
+  void finish_candidates() {
+    CandidateQueue& queue = tile_.queue;
+    const FloatTag d;
+    const WordTag words;
+    const hn::RebindToSigned<WordTag> ints;
+    const auto e = hn::Set(d, bounds_.e);
+    for (int first = 0; first < queue.count; first += kFloatLanes) {
+      const auto b = hn::Load(d, queue.b + first);
+      const auto dp = hn::Load(d, queue.dp + first);
+      const auto r_squared = hn::Load(d, queue.r_squared + first);
+      const auto ray = hn::BitCast(ints, hn::Load(words, queue.ray + first));
+      const auto exists = hn::FirstN(d, static_cast<std::size_t>(std::min(queue.count - first, kFloatLanes)));
+      const auto index = hn::IfThenElseZero(hn::RebindMask(ints, exists), ray);
+      const auto chord = hn::Sqrt(dp);
+      const auto lower = hn::Sub(hn::Sub(b, e), chord);
+      const auto upper = hn::Add(hn::Add(b, e), chord);
+      const auto s_best = hn::GatherIndex(d, tile_.s_best, index);
+      const auto sure_min = hn::GatherIndex(d, tile_.sure_min, index);
+      const auto s_min = hn::GatherIndex(d, &tile_.rays[0].s_min, hn::ShiftLeft<4>(index));
+      auto keep = hn::And(exists, hn::And(hn::Le(lower, s_best), hn::Ge(upper, s_min)));
+      auto own = hn::MaskFromVec(hn::Zero(d));
+      if (leaves_some_) {
+        const auto slot = hn::BitCast(ints, hn::Load(words, queue.slot + first));
+        const auto safe_slot = hn::IfThenElseZero(hn::RebindMask(ints, exists), slot);
+        const auto id = hn::And(gather_words(tree_.spheres.word, safe_slot), hn::Set(words, tree_.spheres.id_mask()));
+        const auto left = gather_words(tile_.left_id, index);
+        own = hn::RebindMask(d, hn::Eq(id, left));
+      }
+      const auto dp_sure =
+          hn::MulAdd(hn::Set(d, 0.04F), r_squared, hn::Mul(hn::Set(d, 4 * bounds_.e), hn::Sqrt(hn::Abs(r_squared))));
+      const auto sure = hn::AndNot(own, hn::And(hn::Ge(dp, dp_sure), hn::Ge(lower, sure_min)));
+      std::uint32_t bits = mask_bits(keep);
+      if (bits == 0) continue;
+      const std::uint32_t sure_bits = mask_bits(sure);
+      const std::uint32_t own_bits = mask_bits(own);
+      alignas(64) float lowers[kFloatLanes];
+      hn::Store(lower, d, lowers);
+      for (; bits != 0; bits &= bits - 1) {
+        const int k = __builtin_ctz(bits);
+        accept(queue.ray[first + k], queue.slot[first + k], lowers[k], (sure_bits >> k & 1) != 0,
+               (own_bits >> k & 1) != 0);
+      }
+    }
+    queue.count = 0;
+    if (tile_.rival_count > kernels::kMostRivals - kernels::kQueue - 32) settle_rivals();
+  }
+
+  template <class Index>
+  static HWY_INLINE auto gather_words(const std::uint32_t* from, Index index) {
+    return hn::BitCast(WordTag(), hn::GatherIndex(hn::RebindToSigned<WordTag>(),
+                                                  reinterpret_cast<const std::int32_t*>(from), index));
+  }
+
+  HWY_INLINE void accept(std::uint32_t ray, std::uint32_t slot, float lower, bool sure, bool own) {
+    float& s_best = tile_.s_best[ray];
+    if (lower > s_best) return;
+    if (sure && lower < s_best - 2 * bounds_.width) {
+      if constexpr (kAnyHit) {
+        hide(ray);
+      } else {
+        tile_.winner[ray] = slot;
+        s_best = lower + bounds_.width;
+      }
+      return;
+    }
+    // Going outward a ray never meets the sphere that it leaves.
+    if (own && (rays_.inside == nullptr || rays_.inside[ray] == 0)) return;
+    tile_.rivals[tile_.rival_count++] = {ray, slot};
+  }
+
+  void hide(std::uint32_t ray) {
+    hidden_[ray] = 1;
+    tile_.s_best[ray] = -std::numeric_limits<float>::infinity();
+  }
+
+  // ---- Binary64 decides ----
+
+  void confirm_winners() {
+    double t[kExactPairs];
+    Pair pairs[kExactPairs];
+    int count = 0;
+    const auto flush = [&] {
+      exact_hits(tree_, rays_, pairs, count, t);
+      for (int k = 0; k < count; ++k) keep_nearer(pairs[k], t[k]);
+      count = 0;
+    };
+    for (std::int64_t i = 0; i < rays_.count; ++i) {
+      if (tile_.winner[i] == kNoSlot) continue;
+      pairs[count++] = {static_cast<std::uint32_t>(i), tile_.winner[i]};
+      if (count == kExactPairs) flush();
+    }
+    if (count > 0) flush();
+  }
+
+  void settle_rivals() {
+    double t[kExactPairs];
+    Pair pairs[kExactPairs];
+    for (int first = 0; first < tile_.rival_count; first += kExactPairs) {
+      const int count = std::min(kExactPairs, tile_.rival_count - first);
+      for (int k = 0; k < count; ++k) pairs[k] = {tile_.rivals[first + k].ray, tile_.rivals[first + k].slot};
+      exact_hits(tree_, rays_, pairs, count, t);
+      for (int k = 0; k < count; ++k) {
+        if (t[k] == std::numeric_limits<double>::infinity()) continue;
+        if constexpr (kAnyHit) {
+          hide(pairs[k].ray);
+        } else {
+          keep_nearer(pairs[k], t[k]);
+          float& s_best = tile_.s_best[pairs[k].ray];
+          s_best = std::min(s_best, upper_distance(pairs[k].ray, t[k]));
+        }
+      }
+    }
+    tile_.rival_count = 0;
+  }
+
+  void keep_nearer(const Pair& pair, double t) {
+    Hit best{hits_.t[pair.ray], hits_.sphere_id[pair.ray]};
+    best.keep_nearer(t, tree_.spheres.id(pair.slot));
+    hits_.t[pair.ray] = best.t;
+    hits_.sphere_id[pair.ray] = best.sphere_id;
+  }
+
+  // A t of a ray as a distance along its local ray, rounded up.
+  float upper_distance(std::uint32_t ray, double t) const {
+    SingleRay single_ray;
+    if (!set_up_single(ScaledRay(rays_.at(ray), tree_.scale), single_ray)) return kFarthestEnd;
+    return single_ray.upper(t);
+  }
+
+  void answer_far_rays() {
+    for (std::uint32_t k = 0; k < far_count_; ++k) {
+      const std::uint32_t i = tile_.far_rays[k];
+      const Ray ray = rays_.at(i);
+      const Hit hit = traverse_scalar<kAnyHit>(tree_, ScaledRay(ray, tree_.scale), LeftSphere(tree_, ray.leaves));
+      if constexpr (kAnyHit) {
+        hidden_[i] = hit.found() ? 1 : 0;
+      } else {
+        hits_.t[i] = hit.t;
+        hits_.sphere_id[i] = hit.sphere_id;
+      }
+    }
+  }
+
+  const WideTree& tree_;
+  const RaySpan& rays_;
+  ListTile& tile_;
+  HitSpan hits_;
+  std::uint8_t* hidden_;
+  FilterBounds bounds_;
+  std::uint32_t octant_count_[8] = {};
+  std::uint32_t far_count_ = 0;
+  bool leaves_some_ = false;
+  bool negative_[3] = {};
+  bool backwards_ = false;
+  int order_ = 0;
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_KERNELS_LISTS_INL_H_
