@@ -65,6 +65,49 @@ HWY_INLINE void gather(const WideTree& tree, const RaySpan& rays, const Pair& pa
 
 }  // namespace exact
 
+/// Lanes of rays and spheres in binary64.
+template <class D>
+struct ExactLanes {
+  hn::Vec<D> origin[3], direction[3], centre[3], radius, t_min, t_max;
+  hn::Mask<D> own, inside;  // the ray leaves this sphere; into it
+};
+
+/// sphere_hit() lane by lane: t, or +inf.
+template <class D>
+HWY_INLINE hn::Vec<D> sphere_hit_lanes(D d, const ExactLanes<D>& lanes) {
+  const auto dot3 = [](auto ax, auto ay, auto az, auto bx, auto by, auto bz)
+                        HWY_ATTR { return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz)); };
+  const auto dx = lanes.direction[0];
+  const auto dy = lanes.direction[1];
+  const auto dz = lanes.direction[2];
+  const auto direction_squared = dot3(dx, dy, dz, dx, dy, dz);
+
+  // Find the point of the line that is closest to the centre, and the vector from it to the centre.
+  const auto cx = hn::Sub(lanes.centre[0], lanes.origin[0]);
+  const auto cy = hn::Sub(lanes.centre[1], lanes.origin[1]);
+  const auto cz = hn::Sub(lanes.centre[2], lanes.origin[2]);
+  const auto t_closest = hn::Div(dot3(cx, cy, cz, dx, dy, dz), direction_squared);
+  const auto px = hn::Sub(cx, hn::Mul(t_closest, dx));
+  const auto py = hn::Sub(cy, hn::Mul(t_closest, dy));
+  const auto pz = hn::Sub(cz, hn::Mul(t_closest, dz));
+
+  // Pythagoras gives half of the chord.
+  const auto r = lanes.radius;
+  const auto discriminant = hn::Sub(hn::Mul(r, r), dot3(px, py, pz, px, py, pz));
+  const auto meets = hn::And(hn::Ge(discriminant, hn::Zero(d)), hn::Gt(r, hn::Zero(d)));
+  const auto half_chord = hn::Sqrt(hn::Div(discriminant, direction_squared));
+  const auto t_near = hn::Sub(t_closest, half_chord);
+  const auto t_far = hn::Add(t_closest, half_chord);
+
+  // The nearer root in the segment, else the farther; of the sphere that the ray leaves the farther or none.
+  const auto take_near =
+      hn::And(hn::AndNot(lanes.own, meets), hn::And(hn::Ge(t_near, lanes.t_min), hn::Le(t_near, lanes.t_max)));
+  const auto take_far = hn::And(hn::AndNot(hn::AndNot(lanes.inside, lanes.own), meets),
+                                hn::And(hn::Ge(t_far, lanes.t_min), hn::Le(t_far, lanes.t_max)));
+  const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
+  return hn::IfThenElse(take_near, t_near, hn::IfThenElse(take_far, t_far, infinity));
+}
+
 /// sphere_hit() of up to eight pairs of valid rays and spheres: t or +inf to `t`.
 HWY_INLINE void exact_hits(const WideTree& tree, const RaySpan& rays, const Pair* pairs, int count,
                            double t[kExactPairs]) {
@@ -75,44 +118,20 @@ HWY_INLINE void exact_hits(const WideTree& tree, const RaySpan& rays, const Pair
   using Tag = hn::CappedTag<double, kExactPairs>;
   const Tag d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
-  const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
   const auto half = hn::Set(d, 0.5);
-  for (int k = 0; k < kExactPairs; k += kLanes) {
-    if (k >= count) break;
-    const auto load = [&](const double* from) HWY_ATTR { return hn::Load(d, from + k); };
-    const auto dot3 = [](auto ax, auto ay, auto az, auto bx, auto by, auto bz)
-                          HWY_ATTR { return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz)); };
-    const auto dx = load(g.direction[0]);
-    const auto dy = load(g.direction[1]);
-    const auto dz = load(g.direction[2]);
-    const auto direction_squared = dot3(dx, dy, dz, dx, dy, dz);
-
-    // Find the point of the line that is closest to the centre, and the vector from it to the centre.
-    const auto cx = hn::Sub(load(g.centre[0]), load(g.origin[0]));
-    const auto cy = hn::Sub(load(g.centre[1]), load(g.origin[1]));
-    const auto cz = hn::Sub(load(g.centre[2]), load(g.origin[2]));
-    const auto t_closest = hn::Div(dot3(cx, cy, cz, dx, dy, dz), direction_squared);
-    const auto px = hn::Sub(cx, hn::Mul(t_closest, dx));
-    const auto py = hn::Sub(cy, hn::Mul(t_closest, dy));
-    const auto pz = hn::Sub(cz, hn::Mul(t_closest, dz));
-
-    // Pythagoras gives half of the chord.
-    const auto r = load(g.radius);
-    const auto discriminant = hn::Sub(hn::Mul(r, r), dot3(px, py, pz, px, py, pz));
-    const auto meets = hn::And(hn::Ge(discriminant, hn::Zero(d)), hn::Gt(r, hn::Zero(d)));
-    const auto half_chord = hn::Sqrt(hn::Div(discriminant, direction_squared));
-    const auto t_near = hn::Sub(t_closest, half_chord);
-    const auto t_far = hn::Add(t_closest, half_chord);
-
-    // The nearer root in the segment, else the farther; of the sphere that the ray leaves the farther or none.
-    const auto t_min = load(g.t_min);
-    const auto t_max = load(g.t_max);
-    const auto own = hn::Gt(load(g.own), half);
-    const auto inside = hn::Gt(load(g.inside), half);
-    const auto take_near = hn::And(hn::AndNot(own, meets), hn::And(hn::Ge(t_near, t_min), hn::Le(t_near, t_max)));
-    const auto take_far =
-        hn::And(hn::AndNot(hn::AndNot(inside, own), meets), hn::And(hn::Ge(t_far, t_min), hn::Le(t_far, t_max)));
-    hn::StoreU(hn::IfThenElse(take_near, t_near, hn::IfThenElse(take_far, t_far, infinity)), d, t + k);
+  for (int k = 0; k < count; k += kLanes) {
+    ExactLanes<Tag> lanes;
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes.origin[axis] = hn::Load(d, g.origin[axis] + k);
+      lanes.direction[axis] = hn::Load(d, g.direction[axis] + k);
+      lanes.centre[axis] = hn::Load(d, g.centre[axis] + k);
+    }
+    lanes.radius = hn::Load(d, g.radius + k);
+    lanes.t_min = hn::Load(d, g.t_min + k);
+    lanes.t_max = hn::Load(d, g.t_max + k);
+    lanes.own = hn::Gt(hn::Load(d, g.own + k), half);
+    lanes.inside = hn::Gt(hn::Load(d, g.inside + k), half);
+    hn::StoreU(sphere_hit_lanes(d, lanes), d, t + k);
   }
 }
 

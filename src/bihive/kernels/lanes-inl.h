@@ -30,6 +30,13 @@ HWY_INLINE std::uint32_t mask_bits(Mask mask) {
   return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
 }
 
+/// first, first + 1, ... (Highway's own Iota writes lane after lane and waits for them.)
+HWY_INLINE auto iota_words(std::uint32_t first) {
+  alignas(64) static constexpr std::uint32_t kCount[kWidth] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const WordTag d;
+  return hn::Add(hn::Load(d, kCount), hn::Set(d, first));
+}
+
 /// Entry classes[i] of the palette in lane i.
 template <class Words>
 HWY_INLINE auto look_up_radii(const WideSpheres& spheres, Words classes) {

@@ -12,7 +12,7 @@
 
 namespace bihive::kernels {
 
-constexpr int kTileRays = 8192;
+constexpr int kTileRays = 16384;
 constexpr int kMostRivals = 4096;
 constexpr int kQueue = 64;
 constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
@@ -42,11 +42,12 @@ struct LeafPair {
 constexpr int kMostLeafPairs = 64;
 
 struct ListTile {
-  alignas(64) FilterRay rays[kTileRays];
+  alignas(64) FilterRay rays[kTileRays + 4];
   alignas(64) float s_best[kTileRays + 16];
   alignas(64) std::uint32_t winner[kTileRays + 16];
   alignas(64) float sure_min[kTileRays + 16];         // near roots from here on lie surely in the segment
   alignas(64) std::uint32_t left_id[kTileRays + 16];  // kNoSlot: the ray leaves none
+  alignas(64) std::uint32_t inward[kTileRays + 16];   // 1: into that sphere; only if the caller says so of some ray
   alignas(64) std::uint32_t by_octant[8][kTileRays + 16];
   std::uint32_t far_rays[kTileRays];  // for the scalar traversal
   Rival rivals[kMostRivals + 16];

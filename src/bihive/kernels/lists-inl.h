@@ -1,6 +1,6 @@
-// A tile of rays walks the wide tree as lists: at each node every listed ray tests the sixteen boxes, and each child gets
-// the list of the rays that enter it, near to far. What a single ray loses to branches that nobody can foresee, a list
-// does without branches.
+// A tile of rays walks the wide tree as lists: at each node every listed ray tests the sixteen boxes, and each child
+// gets the list of the rays that enter it, near to far. What a single ray loses to branches that nobody can foresee, a
+// list does without branches.
 
 #if defined(BIHIVE_KERNELS_LISTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_KERNELS_LISTS_INL_H_
@@ -101,9 +101,7 @@ class ListWalk {
     for (std::int64_t first = 0; first < rays_.count; first += 16) {
       const int count = static_cast<int>(std::min<std::int64_t>(16, rays_.count - first));
       load_rays(first, local);
-      FilterRay* to[16];
-      for (int i = 0; i < 16; ++i) to[i] = &tile_.rays[first + i];
-      write_filter_rays(local, bounds_.box_pad, to, count);
+      write_filter_rays(local, bounds_.box_pad, tile_.rays + first, count);
       std::uint32_t signs[3] = {};
       for (int lane = 0; lane < 16; lane += kFloatLanes) {
         hn::Store(hn::Load(d, local.s_max + lane), d, tile_.s_best + first + lane);
@@ -118,8 +116,7 @@ class ListWalk {
       // Hand the rays to the lists of their octants.
       for (int i = 0; i < count; ++i) {
         if ((local.dead >> i & 1) != 0) continue;
-        const std::uint32_t octant =
-            (signs[0] >> i & 1) | (signs[1] >> i & 1) << 1 | (signs[2] >> i & 1) << 2;
+        const std::uint32_t octant = (signs[0] >> i & 1) | (signs[1] >> i & 1) << 1 | (signs[2] >> i & 1) << 2;
         tile_.by_octant[octant][octant_count_[octant]++] = static_cast<std::uint32_t>(first + i);
       }
       for (std::uint32_t far = local.far; far != 0; far &= far - 1)
@@ -135,7 +132,8 @@ class ListWalk {
     for (std::int64_t i = 0; i < rays_.count; ++i) {
       if (rays_.leaves[i] < 0 || rays_.leaves[i] >= std::int64_t{kNoSlot}) continue;
       tile_.left_id[i] = static_cast<std::uint32_t>(rays_.leaves[i]);
-      if (HWY_UNLIKELY(LeftSphere(tree_, rays_.leaves[i]).is_repeated()))
+      if (rays_.inside != nullptr) tile_.inward[i] = rays_.inside[i];
+      if (HWY_UNLIKELY(!tree_.repeated.empty() && LeftSphere(tree_, rays_.leaves[i]).is_repeated()))
         tile_.sure_min[i] = std::numeric_limits<float>::infinity();
     }
   }
@@ -251,7 +249,7 @@ class ListWalk {
     const WordTag d;
     const hn::Rebind<std::uint16_t, WordTag> half;
     const auto bit = hn::Set(d, 1u << slot);
-    auto places = hn::Iota(d, 0);
+    auto places = iota_words(0);
     std::size_t found = 0;
     // Masks past the end are stale: blank them.
     for (std::uint32_t i = count; i % kFloatLanes != 0; ++i) memory.masks[i] = 0;
@@ -326,9 +324,8 @@ class ListWalk {
       const auto z = hn::LoadU(d, tree_.spheres.z + slot + lane);
       const auto r = hn::Add(load_radii(tree_.spheres, slot + lane), hn::Set(d, bounds_.e));
       // Lanes past the leaf can never pass.
-      const auto r_squared =
-          hn::IfThenElse(hn::FirstN(d, spheres - lane), hn::Mul(r, r), hn::Set(d, -1.0F));
-      const auto slots = hn::Iota(WordTag(), slot + lane);
+      const auto r_squared = hn::IfThenElse(hn::FirstN(d, spheres - lane), hn::Mul(r, r), hn::Set(d, -1.0F));
+      const auto slots = iota_words(slot + lane);
       for (std::uint32_t i = 0; i < count; ++i) {
         const FilterRay& ray = tile_.rays[list[i]];
         const auto nx = hn::Set(d, ray.direction[0]);
@@ -342,9 +339,8 @@ class ListWalk {
         const auto py = hn::NegMulAdd(b, ny, cy);
         const auto pz = hn::NegMulAdd(b, nz, cz);
         const auto dp = hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)));
+        // Without a branch: whether some sphere passes cannot be foreseen.
         const auto passes = hn::Ge(dp, hn::Zero(d));
-        if (HWY_LIKELY(hn::AllFalse(d, passes))) continue;
-
         CandidateQueue& queue = tile_.queue;
         hn::StoreU(hn::Compress(b, passes), d, queue.b + queue.count);
         hn::StoreU(hn::Compress(dp, passes), d, queue.dp + queue.count);
@@ -379,26 +375,34 @@ class ListWalk {
       const auto s_min = hn::GatherIndex(d, &tile_.rays[0].s_min, hn::ShiftLeft<4>(index));
       auto keep = hn::And(exists, hn::And(hn::Le(lower, s_best), hn::Ge(upper, s_min)));
       auto own = hn::MaskFromVec(hn::Zero(d));
+      auto inward = own;
       if (leaves_some_) {
         const auto slot = hn::BitCast(ints, hn::Load(words, queue.slot + first));
         const auto safe_slot = hn::IfThenElseZero(hn::RebindMask(ints, exists), slot);
         const auto id = hn::And(gather_words(tree_.spheres.word, safe_slot), hn::Set(words, tree_.spheres.id_mask()));
-        const auto left = gather_words(tile_.left_id, index);
-        own = hn::RebindMask(d, hn::Eq(id, left));
+        own = hn::And(exists, hn::RebindMask(d, hn::Eq(id, gather_words(tile_.left_id, index))));
+        if (rays_.inside != nullptr)
+          inward = hn::And(own, hn::RebindMask(d, hn::Ne(gather_words(tile_.inward, index), hn::Zero(words))));
+        // Going outward a ray never meets the sphere that it leaves.
+        keep = hn::AndNot(hn::AndNot(inward, own), keep);
       }
       const auto dp_sure =
           hn::MulAdd(hn::Set(d, 0.04F), r_squared, hn::Mul(hn::Set(d, 4 * bounds_.e), hn::Sqrt(hn::Abs(r_squared))));
-      const auto sure = hn::AndNot(own, hn::And(hn::Ge(dp, dp_sure), hn::Ge(lower, sure_min)));
+      // Where the near root surely lies before the segment, or is where the ray starts, the far root counts.
+      const auto clear = hn::Ge(dp, dp_sure);
+      const auto width = hn::Set(d, bounds_.width);
+      const auto far_root = hn::And(clear, hn::Or(inward, hn::Lt(hn::Add(lower, width), s_min)));
+      const auto start = hn::IfThenElse(far_root, hn::Sub(upper, width), lower);
+      keep = hn::And(keep, hn::Le(start, s_best));
+      const auto sure = hn::And(hn::And(clear, hn::Ge(start, sure_min)), hn::Or(far_root, hn::Not(inward)));
       std::uint32_t bits = mask_bits(keep);
       if (bits == 0) continue;
       const std::uint32_t sure_bits = mask_bits(sure);
-      const std::uint32_t own_bits = mask_bits(own);
-      alignas(64) float lowers[kFloatLanes];
-      hn::Store(lower, d, lowers);
+      alignas(64) float starts[kFloatLanes];
+      hn::Store(start, d, starts);
       for (; bits != 0; bits &= bits - 1) {
         const int k = __builtin_ctz(bits);
-        accept(queue.ray[first + k], queue.slot[first + k], lowers[k], (sure_bits >> k & 1) != 0,
-               (own_bits >> k & 1) != 0);
+        accept(queue.ray[first + k], queue.slot[first + k], starts[k], (sure_bits >> k & 1) != 0);
       }
     }
     queue.count = 0;
@@ -407,24 +411,23 @@ class ListWalk {
 
   template <class Index>
   static HWY_INLINE auto gather_words(const std::uint32_t* from, Index index) {
-    return hn::BitCast(WordTag(), hn::GatherIndex(hn::RebindToSigned<WordTag>(),
-                                                  reinterpret_cast<const std::int32_t*>(from), index));
+    return hn::BitCast(
+        WordTag(), hn::GatherIndex(hn::RebindToSigned<WordTag>(), reinterpret_cast<const std::int32_t*>(from), index));
   }
 
-  HWY_INLINE void accept(std::uint32_t ray, std::uint32_t slot, float lower, bool sure, bool own) {
+  // A candidate whose root lies at `start` or beyond it; if it is sure, by less than W.
+  HWY_INLINE void accept(std::uint32_t ray, std::uint32_t slot, float start, bool sure) {
     float& s_best = tile_.s_best[ray];
-    if (lower > s_best) return;
-    if (sure && lower < s_best - 2 * bounds_.width) {
+    if (start > s_best) return;
+    if (sure && start < s_best - 2 * bounds_.width) {
       if constexpr (kAnyHit) {
         hide(ray);
       } else {
         tile_.winner[ray] = slot;
-        s_best = lower + bounds_.width;
+        s_best = start + bounds_.width;
       }
       return;
     }
-    // Going outward a ray never meets the sphere that it leaves.
-    if (own && (rays_.inside == nullptr || rays_.inside[ray] == 0)) return;
     tile_.rivals[tile_.rival_count++] = {ray, slot};
   }
 
@@ -435,21 +438,60 @@ class ListWalk {
 
   // ---- Binary64 decides ----
 
+  // The winners' t, neighbouring rays at a time. Rivals that were settled before may already be there.
   void confirm_winners() {
-    double t[kExactPairs];
-    Pair pairs[kExactPairs];
-    int count = 0;
-    const auto flush = [&] {
-      exact_hits(tree_, rays_, pairs, count, t);
-      for (int k = 0; k < count; ++k) keep_nearer(pairs[k], t[k]);
-      count = 0;
-    };
-    for (std::int64_t i = 0; i < rays_.count; ++i) {
-      if (tile_.winner[i] == kNoSlot) continue;
-      pairs[count++] = {static_cast<std::uint32_t>(i), tile_.winner[i]};
-      if (count == kExactPairs) flush();
+    using Tag = hn::CappedTag<double, 8>;
+    const Tag d;
+    const hn::Rebind<float, Tag> h;
+    const hn::Rebind<std::uint32_t, Tag> words;
+    const hn::Rebind<std::int32_t, Tag> ints;
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+    const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
+    const std::int64_t whole = rays_.count / kLanes * kLanes;
+    const WideSpheres& spheres = tree_.spheres;
+    for (std::int64_t i = 0; i < whole; i += kLanes) {
+      const auto winner = hn::LoadU(words, tile_.winner + i);
+      const auto none = hn::Eq(winner, hn::Set(words, kNoSlot));
+      if (hn::AllTrue(words, none)) continue;
+      const auto slot = hn::BitCast(ints, hn::AndNot(hn::VecFromMask(words, none), winner));
+      const auto word =
+          hn::BitCast(words, hn::GatherIndex(ints, reinterpret_cast<const std::int32_t*>(spheres.word), slot));
+      const auto id = hn::And(word, hn::Set(words, spheres.id_mask()));
+      ExactLanes<Tag> lanes;
+      const auto scale = hn::Set(d, tree_.scale);
+      const float* const centres[3] = {spheres.x, spheres.y, spheres.z};
+      for (int axis = 0; axis < 3; ++axis) {
+        lanes.origin[axis] = hn::Mul(hn::PromoteTo(d, hn::LoadU(h, rays_.origin[axis] + i)), scale);
+        lanes.direction[axis] = hn::Mul(hn::PromoteTo(d, hn::LoadU(h, rays_.direction[axis] + i)), scale);
+        lanes.centre[axis] = hn::PromoteTo(d, hn::GatherIndex(h, centres[axis], slot));
+      }
+      const auto radius_place =
+          spheres.has_palette ? hn::BitCast(ints, hn::ShiftRight<WideSpheres::kIdBits>(word)) : slot;
+      const float* const radii = spheres.has_palette ? spheres.palette.data() : spheres.r;
+      lanes.radius = hn::PromoteTo(d, hn::GatherIndex(h, radii, radius_place));
+      lanes.t_min = rays_.t_min != nullptr ? hn::LoadU(d, rays_.t_min + i) : hn::Zero(d);
+      lanes.t_max = rays_.t_max != nullptr ? hn::LoadU(d, rays_.t_max + i) : infinity;
+      // A winner that the ray leaves is one that it goes into.
+      const auto left = hn::PromoteTo(hn::Rebind<std::int64_t, Tag>(),
+                                      hn::BitCast(ints, hn::Xor(id, hn::LoadU(words, tile_.left_id + i))));
+      lanes.own = hn::RebindMask(d, hn::Eq(left, hn::Zero(hn::Rebind<std::int64_t, Tag>())));
+      lanes.inside = lanes.own;
+      const auto t = sphere_hit_lanes(d, lanes);
+
+      alignas(64) double exact[kLanes];
+      alignas(64) std::uint32_t ids[kLanes];
+      hn::Store(t, d, exact);
+      hn::Store(id, words, ids);
+      for (int k = 0; k < kLanes; ++k)
+        if (tile_.winner[i + k] != kNoSlot) keep_nearer(i + k, exact[k], ids[k]);
     }
-    if (count > 0) flush();
+    double t[kExactPairs];
+    for (std::int64_t i = whole; i < rays_.count; ++i) {
+      if (tile_.winner[i] == kNoSlot) continue;
+      const Pair pair{static_cast<std::uint32_t>(i), tile_.winner[i]};
+      exact_hits(tree_, rays_, &pair, 1, t);
+      keep_nearer(i, t[0], spheres.id(pair.slot));
+    }
   }
 
   void settle_rivals() {
@@ -464,7 +506,7 @@ class ListWalk {
         if constexpr (kAnyHit) {
           hide(pairs[k].ray);
         } else {
-          keep_nearer(pairs[k], t[k]);
+          keep_nearer(pairs[k].ray, t[k], tree_.spheres.id(pairs[k].slot));
           float& s_best = tile_.s_best[pairs[k].ray];
           s_best = std::min(s_best, upper_distance(pairs[k].ray, t[k]));
         }
@@ -473,11 +515,11 @@ class ListWalk {
     tile_.rival_count = 0;
   }
 
-  void keep_nearer(const Pair& pair, double t) {
-    Hit best{hits_.t[pair.ray], hits_.sphere_id[pair.ray]};
-    best.keep_nearer(t, tree_.spheres.id(pair.slot));
-    hits_.t[pair.ray] = best.t;
-    hits_.sphere_id[pair.ray] = best.sphere_id;
+  HWY_INLINE void keep_nearer(std::int64_t ray, double t, std::int64_t id) {
+    Hit best{hits_.t[ray], hits_.sphere_id[ray]};
+    best.keep_nearer(t, id);
+    hits_.t[ray] = best.t;
+    hits_.sphere_id[ray] = best.sphere_id;
   }
 
   // A t of a ray as a distance along its local ray, rounded up.

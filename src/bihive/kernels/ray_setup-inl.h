@@ -169,9 +169,10 @@ HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, 
   set_up_16(few, 0, scale, out);
 }
 
-/// Adds what box tests need and writes ray i of the sixteen to *to[i]. Directions within 1e-18 of an axis's plane are
-/// moved off it: over the 16 units to anything in the set that is less than any padding.
-HWY_INLINE void write_filter_rays(const LocalRays& rays, float box_pad, FilterRay* const to[16], int count) {
+/// Adds what box tests need and writes `count` of the sixteen rays, rounded up to a multiple of four, to to[0], to[1],
+/// ... Directions within 1e-18 of an axis's plane are moved off it: over the 16 units to anything in the set that is
+/// less than any padding.
+HWY_INLINE void write_filter_rays(const LocalRays& rays, float box_pad, FilterRay* to, int count) {
   using Tag = hn::CappedTag<float, 16>;
   const Tag d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
@@ -190,17 +191,38 @@ HWY_INLINE void write_filter_rays(const LocalRays& rays, float box_pad, FilterRa
       hn::Store(hn::Neg(hn::Add(start, pad)), d, near_offset[axis] + lane);
       hn::Store(hn::Sub(pad, start), d, far_offset[axis] + lane);
     }
-  for (int i = 0; i < count; ++i) {
-    FilterRay& ray = *to[i];
-    for (int axis = 0; axis < 3; ++axis) {
-      ray.origin[axis] = rays.origin[axis][i];
-      ray.direction[axis] = rays.direction[axis][i];
-      ray.inverse[axis] = inverse[axis][i];
-      ray.near_offset[axis] = near_offset[axis][i];
-      ray.far_offset[axis] = far_offset[axis][i];
+  // Sixteen components of four rays at a time, from arrays to structures.
+  const float* const components[16] = {rays.origin[0],    rays.origin[1],    rays.origin[2], rays.direction[0],
+                                       rays.direction[1], rays.direction[2], inverse[0],     inverse[1],
+                                       inverse[2],        near_offset[0],    near_offset[1], near_offset[2],
+                                       far_offset[0],     far_offset[1],     far_offset[2],  rays.s_min};
+  static_assert(sizeof(FilterRay) == sizeof(float) * 16);
+#if HWY_TARGET == HWY_SCALAR
+  for (int i = 0; i < count; ++i)
+    for (int k = 0; k < 16; ++k) reinterpret_cast<float*>(to + i)[k] = components[k][i];
+#else
+  const hn::Full128<float> quad;
+  const hn::Full128<double> two;
+  const auto as_two = [&](auto v) HWY_ATTR { return hn::BitCast(two, v); };
+  for (int i = 0; i < count; i += 4)
+    for (int k = 0; k < 16; k += 4) {
+      const auto a = hn::Load(quad, components[k] + i);
+      const auto b = hn::Load(quad, components[k + 1] + i);
+      const auto c = hn::Load(quad, components[k + 2] + i);
+      const auto e = hn::Load(quad, components[k + 3] + i);
+      const auto ab_low = as_two(hn::InterleaveLower(quad, a, b));
+      const auto ab_high = as_two(hn::InterleaveUpper(quad, a, b));
+      const auto ce_low = as_two(hn::InterleaveLower(quad, c, e));
+      const auto ce_high = as_two(hn::InterleaveUpper(quad, c, e));
+      const auto store = [&](int ray, auto v) HWY_ATTR {
+        hn::Store(hn::BitCast(quad, v), quad, reinterpret_cast<float*>(to + i + ray) + k);
+      };
+      store(0, hn::InterleaveLower(two, ab_low, ce_low));
+      store(1, hn::InterleaveUpper(two, ab_low, ce_low));
+      store(2, hn::InterleaveLower(two, ab_high, ce_high));
+      store(3, hn::InterleaveUpper(two, ab_high, ce_high));
     }
-    ray.s_min = rays.s_min[i];
-  }
+#endif
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
