@@ -1,4 +1,4 @@
-// parallel_for: every index once, whatever the number of threads.
+// parallel_for: every index once, whatever the number of threads. parallel_tasks: every task.
 #include "bihive/base/parallel.h"
 
 #include <gtest/gtest.h>
@@ -50,6 +50,39 @@ TEST(Parallel, SeveralThreadsMayCallAtOnce) {
   parallel_for(2, 100, [&](std::int64_t) { ++sum; });
   other.join();
   EXPECT_EQ(sum, 200);
+}
+
+// Adds two tasks a level; counts the tasks.
+void add_tree(TaskList& list, int levels, std::atomic<int>& tasks) {
+  ++tasks;
+  for (int k = 0; levels > 0 && k < 2; ++k)
+    list.add([&list, &tasks, levels] { add_tree(list, levels - 1, tasks); });
+}
+
+TEST(Parallel, EveryTaskThatATaskAdds) {
+  for (const int threads : {0, 1, 2, 5}) {
+    std::atomic<int> tasks{0};
+    parallel_tasks(threads, [&](TaskList& list) { add_tree(list, 9, tasks); });
+    EXPECT_EQ(tasks, 1023) << threads;
+    parallel_tasks(threads, [](TaskList&) {});
+  }
+}
+
+TEST(Parallel, NeverMoreTasksAtOnceThanThreads) {
+  for (const int threads : {1, 2, 3}) {
+    std::atomic<int> inside{0}, most{0};
+    parallel_tasks(threads, [&](TaskList& list) {
+      for (int k = 0; k < 50; ++k)
+        list.add([&] {
+          const int now = ++inside;
+          for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) continue;
+          std::this_thread::yield();
+          --inside;
+        });
+    });
+    EXPECT_GE(most, 1);
+    EXPECT_LE(most, threads);
+  }
 }
 
 TEST(Parallel, TheMachineHasThreads) {

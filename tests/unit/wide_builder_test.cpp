@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/kernels/target.h"
 #include "bihive/kernels/wide_validate.h"
 #include "support/hostile_sets.h"
 
@@ -94,6 +95,32 @@ TEST(WideBuilder, KnowsSpheresThatAreEqual) {
   std::vector<std::uint32_t> ids;
   for (const RepeatedSphere& sphere : tree->repeated) ids.push_back(sphere.id);
   EXPECT_EQ(ids, (std::vector<std::uint32_t>{3, 500, 900, 1000, 1001, 1002, 1003, 1005, 1006}));
+}
+
+TEST(WideBuilder, TheSameTreeForEveryNumberOfThreadsAndEveryTarget) {
+  std::vector<test::World> worlds = all_worlds();
+  worlds.push_back(test::random_world("large", 11, 200000, 10, 0.01, 0.01));
+  for (int i = 0; i < 1000; ++i) worlds.back().add(worlds.back().x[i], worlds.back().y[i], worlds.back().z[i], 0.01);
+  worlds.push_back(test::random_world("large, many radii", 12, 160000, 10, 0.001, 0.1));
+  worlds.push_back(test::exponential_world("large, one corner", 120, 7, 0.25));
+  for (int i = 0; i < 160000; ++i) worlds.back().add(1e-3 * (i % 401), 1e-3 * (i % 409), 1e-3 * (i % 419), 1e-4);
+  for (const test::World& world : worlds) {
+    const SphereSet spheres = test::sphere_set(world);
+    WideBuilder builder;
+    const TreePointer expected = built(builder, spheres, {}, 1);
+    if (spheres.size() > 100000) {
+      const Status status = validate_wide_tree(*expected, spheres);
+      EXPECT_TRUE(status.ok()) << world.name << ": " << (status.ok() ? "" : status.error().to_string());
+    }
+    const std::string bytes = bytes_of(*expected);
+    for (const int threads : {2, 4})
+      EXPECT_TRUE(bytes_of(*built(builder, spheres, {}, threads)) == bytes) << world.name;
+    for (const std::string& target : available_targets()) {
+      ASSERT_TRUE(use_target(target).ok());
+      EXPECT_TRUE(bytes_of(*built(builder, spheres)) == bytes) << world.name << " on " << target;
+    }
+    ASSERT_TRUE(use_target("").ok());
+  }
 }
 
 TEST(WideBuilder, TheSameTreeWhateverWasBuiltBefore) {

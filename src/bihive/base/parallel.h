@@ -14,4 +14,19 @@ int hardware_threads();
 /// The body must not throw.
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body);
 
+/// Where a running task leaves further tasks.
+class TaskList {
+ public:
+  /// Runs `task` now or later, on this thread or another. Any thread that runs a task of this list may call it.
+  virtual void add(std::function<void()> task) = 0;
+
+ protected:
+  ~TaskList() = default;
+};
+
+/// Runs `first` and every task that it and they add, on at most `threads` threads (0 = hardware_threads()), in any
+/// order, and returns when all are done. With one thread each task runs where it is added. The rules of parallel_for
+/// hold.
+void parallel_tasks(int threads, const std::function<void(TaskList&)>& first);
+
 }  // namespace bihive

@@ -1,7 +1,10 @@
-// parallel_for on std::thread, for builds where oneTBB cannot be used.
+// parallel_for and parallel_tasks on std::thread, for builds where oneTBB cannot be used.
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/parallel.h"
@@ -13,6 +16,61 @@ constexpr bool kHasThreads = false;
 #else
 constexpr bool kHasThreads = true;
 #endif
+
+namespace {
+
+// Tasks that run where they are added.
+class Inline final : public TaskList {
+ public:
+  void add(std::function<void()> task) override { task(); }
+};
+
+// Tasks that wait for a thread; the latest is taken first.
+class Waiting final : public TaskList {
+ public:
+  void add(std::function<void()> task) override {
+    {
+      const std::lock_guard lock(mutex_);
+      tasks_.push_back(std::move(task));
+    }
+    changed_.notify_one();
+  }
+
+  // Runs tasks until none waits and none runs that could add one.
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return !tasks_.empty() || running_ == 0; });
+      if (tasks_.empty()) break;
+      const std::function<void()> task = std::move(tasks_.back());
+      tasks_.pop_back();
+      ++running_;
+      lock.unlock();
+      task();
+      lock.lock();
+      --running_;
+    }
+    lock.unlock();
+    changed_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::function<void()>> tasks_;
+  int running_ = 0;
+};
+
+// Calls work() on that many threads, this one among them.
+template <class Work>
+void on_threads(std::int64_t threads, const Work& work) {
+  std::vector<std::thread> helpers;
+  for (std::int64_t k = 1; k < threads; ++k) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+}
+
+}  // namespace
 
 int hardware_threads() {
   return kHasThreads ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : 1;
@@ -29,11 +87,19 @@ void parallel_for(int threads, std::int64_t count, const std::function<void(std:
   const auto work = [&] {
     for (std::int64_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) body(i);
   };
-  std::vector<std::thread> helpers;
-  const std::int64_t helper_count = std::min<std::int64_t>(threads, count) - 1;
-  for (std::int64_t k = 0; k < helper_count; ++k) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
+  on_threads(std::min<std::int64_t>(threads, count), work);
+}
+
+void parallel_tasks(int threads, const std::function<void(TaskList&)>& first) {
+  if (threads == 0) threads = hardware_threads();
+  if (!kHasThreads || threads == 1) {
+    Inline list;
+    first(list);
+    return;
+  }
+  Waiting list;
+  list.add([&] { first(list); });
+  on_threads(threads, [&] { list.work(); });
 }
 
 }  // namespace bihive

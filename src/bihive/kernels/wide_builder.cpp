@@ -1,233 +1,297 @@
 #include "bihive/kernels/wide_builder.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <mutex>
 #include <new>
-#include <numeric>
 #include <utility>
 #include <vector>
 
-#include "bihive/kernels/binary_tree.h"
+#include "bihive/base/parallel.h"
+#include "bihive/kernels/dispatch.h"
 #include "bihive/kernels/wide_collapse.h"
+#include "bihive/kernels/wide_split.h"
 
 namespace bihive {
 namespace {
 
-// Splits on a way from the root at most, before ranges are halved by count: a guard against hostile sets.
-constexpr int kDeepestMidpoint = 48;
-
 // Padding after the last sphere: outside of everything, and never hit.
 constexpr float kFarAway = 0x1p30F;
 
-class Splitter {
- public:
-  Splitter(const SphereSet& spheres, std::int64_t full_leaf) : spheres_(spheres), full_leaf_(full_leaf) {}
+// Larger sets are first sorted into the cells of a grid.
+constexpr std::int64_t kGridSpheres = 150000;
 
-  void split_all(std::vector<std::uint32_t>& ids, std::vector<BinaryNode>& nodes) {
-    nodes.resize(1);
-    split(ids, nodes, 0, 0, static_cast<std::uint32_t>(ids.size()), 0);
+// The input is read in chunks of this size, or larger ones so that there are at most kMostChunks.
+constexpr std::int64_t kChunkSpheres = 32768;
+constexpr std::int64_t kMostChunks = 256;
+
+struct Chunks {
+  std::int64_t count, size, total;
+
+  explicit Chunks(std::int64_t spheres) : total(spheres) {
+    size = std::max(kChunkSpheres, (spheres + kMostChunks - 1) / kMostChunks);
+    count = (spheres + size - 1) / size;
   }
-
- private:
-  float coordinate(std::uint32_t id, int axis) const {
-    return (axis == 0 ? spheres_.x() : axis == 1 ? spheres_.y() : spheres_.z())[id];
-  }
-
-  void split(std::vector<std::uint32_t>& ids, std::vector<BinaryNode>& nodes, std::uint32_t at, std::uint32_t first,
-             std::uint32_t count, int depth) {
-    nodes[at].first = first;
-    nodes[at].count = count;
-    Aabb box, centres;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      const Vec3f c{coordinate(ids[i], 0), coordinate(ids[i], 1), coordinate(ids[i], 2)};
-      box.add(spheres_.stored_box(ids[i]));
-      centres.add({c, c});
-    }
-    nodes[at].box = box;
-    if (count <= full_leaf_) return;
-
-    // Part the spheres at the middle of the longest side of their centres' box.
-    const Vec3f side = centres.hi - centres.lo;
-    const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
-    std::uint32_t middle = first + count / 2;
-    if (side[axis] > 0) {
-      float plane = 0.5F * (centres.lo[axis] + centres.hi[axis]);
-      if (depth >= kDeepestMidpoint) {
-        std::nth_element(ids.begin() + first, ids.begin() + middle, ids.begin() + first + count,
-                         [&](std::uint32_t a, std::uint32_t b) {
-                           return std::pair(coordinate(a, axis), a) < std::pair(coordinate(b, axis), b);
-                         });
-        plane = coordinate(ids[middle], axis);
-      }
-      // Spheres on the plane go right, or left if nothing else is there.
-      const bool some_below = centres.lo[axis] < plane;
-      middle = static_cast<std::uint32_t>(std::stable_partition(ids.begin() + first, ids.begin() + first + count,
-                                                                [&](std::uint32_t id) {
-                                                                  const float c = coordinate(id, axis);
-                                                                  return some_below ? c < plane : c <= plane;
-                                                                }) -
-                                          ids.begin());
-    }
-    const auto child = static_cast<std::uint32_t>(nodes.size());
-    nodes.resize(nodes.size() + 2);
-    nodes[at].child = child;
-    nodes[at].axis = static_cast<std::uint32_t>(axis);
-    split(ids, nodes, child, first, middle - first, depth + 1);
-    split(ids, nodes, child + 1, middle, first + count - middle, depth + 1);
-  }
-
-  const SphereSet& spheres_;
-  std::int64_t full_leaf_;
+  std::int64_t begin(std::int64_t chunk) const { return chunk * size; }
+  std::int64_t end(std::int64_t chunk) const { return std::min(total, (chunk + 1) * size); }
 };
 
-// The distinct radii, at most `most`; empty if there are more.
-std::vector<float> distinct_radii(const SphereSet& spheres, std::size_t most) {
-  std::vector<float> radii;
-  for (const float r : spheres.r()) {
-    if (r == 0 || std::find(radii.begin(), radii.end(), r) != radii.end()) continue;
-    if (radii.size() == most) return {};
-    radii.push_back(r);
-  }
-  if (radii.empty()) radii.push_back(0);
-  return radii;
-}
-
-// Takes room for the spheres in one block, and points the arrays into it.
-void place_spheres(std::int64_t count, WideTree& tree) {
-  const auto padded = static_cast<std::size_t>(count + kWidth);
+// Arrays in a block: four with a palette, else five, each on a cache line's border.
+SphereArrays place_arrays(std::int64_t spheres, bool has_palette, AlignedBuffer& memory) {
+  const auto padded = static_cast<std::size_t>(spheres + kWidth);
   const std::size_t an_array = (padded * sizeof(float) + 63) / 64 * 64;
-  const int arrays = tree.spheres.has_palette ? 4 : 5;
-  tree.sphere_memory.reserve(an_array * static_cast<std::size_t>(arrays));
-  auto* const bytes = static_cast<std::byte*>(tree.sphere_memory.data());
-  tree.spheres.x = reinterpret_cast<float*>(bytes);
-  tree.spheres.y = reinterpret_cast<float*>(bytes + an_array);
-  tree.spheres.z = reinterpret_cast<float*>(bytes + 2 * an_array);
-  tree.spheres.word = reinterpret_cast<std::uint32_t*>(bytes + 3 * an_array);
-  tree.spheres.r = tree.spheres.has_palette ? nullptr : reinterpret_cast<float*>(bytes + 4 * an_array);
+  memory.reserve(an_array * (has_palette ? 4 : 5));
+  auto* const bytes = static_cast<std::byte*>(memory.data());
+  SphereArrays arrays;
+  arrays.x = reinterpret_cast<float*>(bytes);
+  arrays.y = reinterpret_cast<float*>(bytes + an_array);
+  arrays.z = reinterpret_cast<float*>(bytes + 2 * an_array);
+  arrays.word = reinterpret_cast<std::uint32_t*>(bytes + 3 * an_array);
+  if (!has_palette) arrays.r = reinterpret_cast<float*>(bytes + 4 * an_array);
+  return arrays;
 }
 
-void fill_spheres(const SphereSet& set, const std::vector<std::uint32_t>& ids, const std::vector<float>& radii,
-                  WideTree& tree) {
-  WideSpheres& spheres = tree.spheres;
-  spheres.has_palette = !radii.empty() && set.size() <= std::int64_t{WideSpheres::kIdMask};
-  spheres.palette_size = 0;
-  spheres.palette.fill(0);
-  if (spheres.has_palette) {
-    spheres.palette_size = static_cast<int>(radii.size());
-    std::copy(radii.begin(), radii.end(), spheres.palette.begin());
-  }
-  place_spheres(set.size(), tree);
-  auto* const x = const_cast<float*>(spheres.x);
-  auto* const y = const_cast<float*>(spheres.y);
-  auto* const z = const_cast<float*>(spheres.z);
-  auto* const r = const_cast<float*>(spheres.r);
-  auto* const word = const_cast<std::uint32_t*>(spheres.word);
-  for (std::size_t i = 0; i < ids.size() + kWidth; ++i) {
-    const bool padding = i >= ids.size();
-    const std::uint32_t id = padding ? 0 : ids[i];
-    x[i] = padding ? kFarAway : set.x()[id];
-    y[i] = padding ? kFarAway : set.y()[id];
-    z[i] = padding ? kFarAway : set.z()[id];
-    const float radius = padding ? 0 : set.r()[id];
-    if (!spheres.has_palette) {
-      r[i] = radius;
-      word[i] = padding ? ~std::uint32_t{0} : id;
-      continue;
-    }
-    std::uint32_t radius_class = 31;
-    if (radius > 0)
-      radius_class = static_cast<std::uint32_t>(std::find(radii.begin(), radii.end(), radius) - radii.begin());
-    word[i] = radius_class << WideSpheres::kIdBits | (padding ? WideSpheres::kIdMask : id);
+void pad(const SphereArrays& arrays, std::int64_t spheres) {
+  for (std::int64_t i = spheres; i < spheres + kWidth; ++i) {
+    arrays.x[i] = arrays.y[i] = arrays.z[i] = kFarAway;
+    arrays.word[i] = ~std::uint32_t{0};  // class 31, radius 0
+    if (arrays.r != nullptr) arrays.r[i] = 0;
   }
 }
 
-// Spheres that have an equal.
-std::vector<RepeatedSphere> find_repeated(const SphereSet& set, std::vector<std::uint32_t>& ids) {
-  const auto key = [&](std::uint32_t id) { return std::tuple(set.x()[id], set.y()[id], set.z()[id], set.r()[id]); };
-  std::sort(ids.begin(), ids.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto ka = key(a), kb = key(b);
-    return ka != kb ? ka < kb : a < b;
-  });
-  std::vector<RepeatedSphere> repeated;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const bool as_before = i > 0 && key(ids[i - 1]) == key(ids[i]);
-    const bool as_after = i + 1 < ids.size() && key(ids[i + 1]) == key(ids[i]);
-    const std::uint32_t id = ids[i];
-    if (as_before || as_after) repeated.push_back({id, set.x()[id], set.y()[id], set.z()[id], set.r()[id]});
-  }
-  std::sort(repeated.begin(), repeated.end(),
-            [](const RepeatedSphere& a, const RepeatedSphere& b) { return a.id < b.id; });
-  return repeated;
+// The nodes above those that tasks finished get their boxes.
+void close_box(BinaryNode& node) {
+  if (node.is_leaf() || node.count <= kTaskSpheres) return;
+  close_box(node.children[0]);
+  close_box(node.children[1]);
+  node.box = node.children[0].box;
+  node.box.add(node.children[1].box);
 }
 
 }  // namespace
 
-// What outlives a build: a tree that nobody holds any more, whose memory the next one takes.
+// Working memory, and what outlives a build: a tree that nobody holds any more, whose memory the next one takes.
 struct WideBuilder::State {
   std::mutex mutex;
   std::unique_ptr<WideTree> spare;
+
+  AlignedBuffer sphere_memory;
+  NodeArena arena;
+  Collapse collapse;
+  std::vector<std::uint16_t> cells;
+  std::vector<std::uint32_t> cell_counts;
 
   std::unique_ptr<WideTree> take_spare() {
     const std::lock_guard lock(mutex);
     if (spare != nullptr) return std::move(spare);
     return std::make_unique<WideTree>();
   }
-
   void give_back(std::unique_ptr<WideTree> tree) {
     const std::lock_guard lock(mutex);
     if (spare == nullptr || spare->allocated_bytes() < tree->allocated_bytes()) std::swap(spare, tree);
   }
+
+  InputSummary summarize(const SphereSet& spheres, const Chunks& chunks, int threads) const;
+  void split(const SphereSet& spheres, const InputSummary& summary, SplitContext& context, BinaryNode& root,
+             int threads);
+  void sort_into_cells(const SphereSet& spheres, const CellGrid& grid, SplitContext& context, int threads,
+                       std::vector<std::int64_t>& begins);
+  void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
 };
+
+InputSummary WideBuilder::State::summarize(const SphereSet& spheres, const Chunks& chunks, int threads) const {
+  std::vector<InputSummary> summaries(static_cast<std::size_t>(chunks.count));
+  parallel_for(threads, chunks.count, [&](std::int64_t i) {
+    summaries[static_cast<std::size_t>(i)] = kernels::summarize(spheres, chunks.begin(i), chunks.end(i));
+  });
+  InputSummary all = summaries[0];
+  for (std::size_t i = 1; i < summaries.size(); ++i) all.add(summaries[i]);
+  return all;
+}
+
+// Puts the spheres into the scratch arrays cell by cell, in each cell by id. begins[c] is the first place of cell c.
+void WideBuilder::State::sort_into_cells(const SphereSet& spheres, const CellGrid& grid, SplitContext& context,
+                                         int threads, std::vector<std::int64_t>& begins) {
+  const Chunks chunks(spheres.size());
+  cells.resize(static_cast<std::size_t>(spheres.size()));
+  cell_counts.assign(static_cast<std::size_t>(chunks.count * CellGrid::kCells), 0);
+  const auto counts_of = [&](std::int64_t chunk) { return cell_counts.data() + chunk * CellGrid::kCells; };
+  parallel_for(threads, chunks.count, [&](std::int64_t i) {
+    kernels::find_cells(spheres, chunks.begin(i), chunks.end(i), grid, cells.data() + chunks.begin(i), counts_of(i));
+  });
+
+  // Turn counts into the first place of each cell and chunk.
+  begins.assign(CellGrid::kCells + 1, 0);
+  std::uint32_t next = 0;
+  for (int cell = 0; cell < CellGrid::kCells; ++cell) {
+    begins[static_cast<std::size_t>(cell)] = next;
+    for (std::int64_t i = 0; i < chunks.count; ++i) {
+      const std::uint32_t here = counts_of(i)[cell];
+      counts_of(i)[cell] = next;
+      next += here;
+    }
+  }
+  begins[CellGrid::kCells] = next;
+  parallel_for(threads, chunks.count, [&](std::int64_t i) {
+    kernels::scatter_spheres(spheres, chunks.begin(i), chunks.end(i), cells.data() + chunks.begin(i), counts_of(i),
+                             context);
+  });
+}
+
+void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& summary, SplitContext& context,
+                               BinaryNode& root, int threads) {
+  const std::int64_t count = spheres.size();
+  if (count <= std::max(kGridSpheres, context.full_leaf)) {
+    // Take the spheres as they come.
+    const Chunks chunks(count);
+    parallel_for(threads, chunks.count,
+                 [&](std::int64_t i) { kernels::load_spheres(spheres, chunks.begin(i), chunks.end(i), context); });
+    SplitRange range;
+    range.node = &root;
+    range.centres = summary.centres;
+    range.count = count;
+    parallel_tasks(threads, [&](TaskList& list) { kernels::split_range(context, range, list); });
+  } else {
+    // Sort them into cells. The bits of a cell's number are the splits of the top of the tree.
+    const CellGrid grid(summary.centres);
+    std::vector<std::int64_t> begins;
+    sort_into_cells(spheres, grid, context, threads, begins);
+    NodeSource source(arena);
+    struct CellRange {
+      BinaryNode* node;
+      int first, last, halving, depth;  // cells first to last - 1; the halving that comes next
+    };
+    std::vector<CellRange> waiting{{&root, 0, CellGrid::kCells, 0, 0}};
+    std::vector<SplitRange> ranges;
+    while (!waiting.empty()) {
+      CellRange cells_here = waiting.back();
+      waiting.pop_back();
+      const auto begin_of = [&](int cell) { return begins[static_cast<std::size_t>(cell)]; };
+      const std::int64_t first = begin_of(cells_here.first);
+      const std::int64_t here = begin_of(cells_here.last) - first;
+
+      // Go down past halves without spheres.
+      int middle = 0;
+      bool parted = false;
+      while (!parted && cells_here.halving < CellGrid::kBits && here > std::max(kTaskSpheres, context.full_leaf)) {
+        middle = (cells_here.first + cells_here.last) / 2;
+        const std::int64_t left = begin_of(middle) - first;
+        parted = left > 0 && left < here;
+        if (left == 0) cells_here.first = middle;
+        if (left == here) cells_here.last = middle;
+        ++cells_here.halving;
+      }
+      if (!parted) {
+        SplitRange range;
+        range.node = cells_here.node;
+        range.first = first;
+        range.count = here;
+        range.depth = cells_here.depth;
+        ranges.push_back(range);
+        continue;
+      }
+      BinaryNode& node = *cells_here.node;
+      node.count = static_cast<std::uint32_t>(here);
+      node.axis = static_cast<std::uint32_t>(grid.axis[cells_here.halving - 1]);
+      node.children = source.pair();
+      waiting.push_back({node.children, cells_here.first, middle, cells_here.halving, cells_here.depth + 1});
+      waiting.push_back({node.children + 1, middle, cells_here.last, cells_here.halving, cells_here.depth + 1});
+    }
+    parallel_tasks(threads, [&](TaskList& list) {
+      for (const SplitRange& range : ranges)
+        list.add([&context, &list, range] {
+          SplitRange bounded = range;
+          bounded.centres = kernels::bound_centres(context, range);
+          kernels::split_range(context, bounded, list);
+        });
+    });
+  }
+  if (context.out_of_memory) throw std::bad_alloc();
+  close_box(root);
+}
+
+void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                               WideTree& tree) {
+  const std::int64_t count = spheres.size();
+  tree.scale = spheres.scale();
+  tree.size = count;
+  tree.aabb = {};
+  tree.node_count = 0;
+  tree.nodes = nullptr;
+  tree.levels = 0;
+  tree.largest_leaf = 0;
+  tree.repeated.clear();
+  tree.spheres = {};
+  if (count == 0) return;
+
+  // Look at the spheres, and make room for them.
+  const InputSummary summary = summarize(spheres, Chunks(count), threads);
+  const bool has_palette = !summary.palette.overflow && count <= std::int64_t{WideSpheres::kIdMask};
+  SplitContext context;
+  context.scratch = place_arrays(count, has_palette, sphere_memory);
+  context.final = place_arrays(count, has_palette, tree.sphere_memory);
+  context.largest_radius = summary.largest_radius;
+  context.arena = &arena;
+  CollapseParameters shape;
+  if (parameters.max_prims > 0) shape.full_leaf = parameters.max_prims;
+  if (parameters.max_depth > 0)
+    shape.most_levels = static_cast<int>(std::clamp<std::int64_t>(parameters.max_depth - 1, 1, kMostLevels));
+  if (parameters.max_depth == 1) shape.full_leaf = count;
+  context.full_leaf = shape.full_leaf;
+  if (has_palette) std::copy(summary.palette.radius, summary.palette.radius + 32, context.palette);
+  pad(context.scratch, count);
+  pad(context.final, count);
+
+  // Split in two, then collapse.
+  arena.clear();
+  BinaryNode root;
+  split(spheres, summary, context, root, threads);
+  collapse.run(root, shape, threads);
+
+  // Keep the result.
+  const auto node_bytes = static_cast<std::size_t>(collapse.node_count()) * sizeof(WideNode);
+  tree.node_memory.reserve(node_bytes);
+  auto* const nodes = static_cast<WideNode*>(tree.node_memory.data());
+  collapse.copy_to(nodes, threads);
+  tree.aabb = root.box;
+  tree.node_count = collapse.node_count();
+  tree.nodes = nodes;
+  tree.levels = collapse.levels();
+  tree.largest_leaf = collapse.largest_leaf();
+  tree.repeated = std::move(context.repeated);
+  std::sort(tree.repeated.begin(), tree.repeated.end(),
+            [](const RepeatedSphere& a, const RepeatedSphere& b) { return a.id < b.id; });
+  WideSpheres& result = tree.spheres;
+  result.x = context.final.x;
+  result.y = context.final.y;
+  result.z = context.final.z;
+  result.r = context.final.r;
+  result.word = context.final.word;
+  result.has_palette = has_palette;
+  result.palette_size = has_palette ? summary.palette.size : 0;
+  std::copy(context.palette, context.palette + 32, result.palette.begin());
+}
 
 WideBuilder::WideBuilder() : state_(std::make_shared<State>()) {}
 WideBuilder::~WideBuilder() = default;
 
 std::int64_t WideBuilder::scratch_bytes() const {
-  return 0;
+  const State& state = *state_;
+  return static_cast<std::int64_t>(state.sphere_memory.capacity() + state.cells.capacity() * sizeof(std::uint16_t) +
+                                   state.cell_counts.capacity() * sizeof(std::uint32_t)) +
+         state.arena.allocated_bytes() + state.collapse.allocated_bytes();
 }
 
 Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& spheres, const WideParameters& parameters,
-                                                           int /*threads*/) {
+                                                           int threads) {
+  ensure_target();
   const std::int64_t count = spheres.size();
   if (count > std::int64_t{std::numeric_limits<std::uint32_t>::max()})
     return Error{"a wide tree holds at most 4294967295 spheres, and there are " + std::to_string(count), "", 0, 0, ""};
   try {
     std::unique_ptr<WideTree> tree = state_->take_spare();
-    tree->scale = spheres.scale();
-    tree->size = count;
-    tree->aabb = {};
-    tree->node_count = 0;
-    tree->nodes = nullptr;
-    tree->levels = 0;
-    tree->largest_leaf = 0;
-    tree->repeated.clear();
-    tree->spheres = {};
-    if (count > 0) {
-      // Split in two, then collapse.
-      const std::int64_t full_leaf = parameters.max_prims > 0 ? parameters.max_prims : kWidth;
-      const int most_levels = parameters.max_depth > 0
-                                  ? static_cast<int>(std::clamp<std::int64_t>(parameters.max_depth - 1, 1, kMostLevels))
-                                  : kMostLevels;
-      std::vector<std::uint32_t> ids(static_cast<std::size_t>(count));
-      std::iota(ids.begin(), ids.end(), 0u);
-      std::vector<BinaryNode> binary;
-      Splitter(spheres, parameters.max_depth == 1 ? count : full_leaf).split_all(ids, binary);
-      tree->aabb = binary[0].box;
-      std::vector<WideNode> wide;
-      const WideShape shape = collapse(binary, most_levels, full_leaf, wide);
-      tree->levels = shape.levels;
-      tree->largest_leaf = shape.largest_leaf;
+    state_->build(spheres, parameters, threads, *tree);
 
-      // Keep the result.
-      tree->node_count = static_cast<std::int64_t>(wide.size());
-      tree->node_memory.reserve(wide.size() * sizeof(WideNode));
-      std::memcpy(tree->node_memory.data(), wide.data(), wide.size() * sizeof(WideNode));
-      tree->nodes = static_cast<const WideNode*>(tree->node_memory.data());
-      fill_spheres(spheres, ids, distinct_radii(spheres, 31), *tree);
-      tree->repeated = find_repeated(spheres, ids);
-    }
     // Its memory comes back when the last holder lets go.
     const auto recycle = [keep = std::weak_ptr<State>(state_)](const WideTree* done) {
       std::unique_ptr<WideTree> owned(const_cast<WideTree*>(done));
@@ -236,7 +300,7 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
     return std::shared_ptr<const WideTree>(tree.release(), recycle);
   } catch (const std::bad_alloc&) {
     return Error{"not enough memory for the tree of " + std::to_string(count) + " spheres", "", 0, 0,
-                 "it takes about 40 bytes a sphere while it is made"};
+                 "it takes about 60 bytes a sphere while it is made"};
   }
 }
 

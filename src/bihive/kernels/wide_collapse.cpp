@@ -1,7 +1,11 @@
 #include "bihive/kernels/wide_collapse.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
+#include <new>
+
+#include "bihive/base/parallel.h"
 
 namespace bihive {
 namespace {
@@ -11,18 +15,15 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 // From this level on the child with most spheres is split, not the largest, so that levels stay few on any set.
 constexpr int kLevelsByArea = 24;
 
-// A wide node to be made.
-struct Job {
-  std::int64_t wide;     // its number
-  std::uint32_t binary;  // number of the binary node that it stands for
-  int level;             // 1 for the root
-};
+// Subtrees of at most this many spheres are one part.
+constexpr std::int64_t kPartSpheres = 65536;
 
 // The children of a wide node from left to right, and the splits between them: axis[i] is where the two sides that meet
 // between children i and i + 1 were parted, and depth[i] how many splits lie above that one.
 struct Children {
   int count = 0;
-  std::uint32_t binary[kWidth];
+  const BinaryNode* binary[kWidth];
+  float size[kWidth];  // below 0: not to be split
   int depth_of_child[kWidth];
   std::uint32_t axis[kWidth];
   int depth[kWidth];
@@ -35,36 +36,36 @@ std::int64_t target_count(std::int64_t n, std::int64_t full_leaf) {
   return target;
 }
 
-Children choose_children(const std::vector<BinaryNode>& nodes, const Job& job, std::int64_t target) {
+Children choose_children(const BinaryNode& root, int level, std::int64_t target) {
+  const auto size = [&](const BinaryNode& node) {
+    if (node.is_leaf() || node.count <= target) return -1.0F;
+    return level < kLevelsByArea ? half_area(node.box) : static_cast<float>(node.count);
+  };
   Children children;
   children.count = 1;
-  children.binary[0] = job.binary;
+  children.binary[0] = &root;
+  children.size[0] = root.is_leaf() ? -1.0F : 0.0F;
   children.depth_of_child[0] = 0;
   while (children.count < kWidth) {
     // Split the largest child that holds more than the target.
-    int best = -1;
-    float best_size = -1;
-    for (int i = 0; i < children.count; ++i) {
-      const BinaryNode& node = nodes[children.binary[i]];
-      if (node.is_leaf() || (node.count <= target && children.count > 1)) continue;
-      const float size = job.level < kLevelsByArea ? node.half_area() : static_cast<float>(node.count);
-      if (size > best_size) {
-        best = i;
-        best_size = size;
-      }
-    }
-    if (best < 0) break;
-    const BinaryNode& node = nodes[children.binary[best]];
+    int best = 0;
+    for (int i = 1; i < children.count; ++i)
+      if (children.size[i] > children.size[best]) best = i;
+    if (children.size[best] < 0) break;
+    const BinaryNode& node = *children.binary[best];
     const int depth = children.depth_of_child[best];
     for (int i = children.count; i > best + 1; --i) {
       children.binary[i] = children.binary[i - 1];
+      children.size[i] = children.size[i - 1];
       children.depth_of_child[i] = children.depth_of_child[i - 1];
       children.axis[i - 1] = children.axis[i - 2];
       children.depth[i - 1] = children.depth[i - 2];
     }
-    children.binary[best] = node.child;
-    children.binary[best + 1] = node.child + 1;
-    children.depth_of_child[best] = children.depth_of_child[best + 1] = depth + 1;
+    for (int side = 0; side < 2; ++side) {
+      children.binary[best + side] = node.children + side;
+      children.size[best + side] = size(node.children[side]);
+      children.depth_of_child[best + side] = depth + 1;
+    }
     children.axis[best] = node.axis;
     children.depth[best] = depth;
     ++children.count;
@@ -87,25 +88,10 @@ void add_in_order(const Children& children, int octant, int first, int last, std
   if (!right_first) add_in_order(children, octant, top + 1, last, order, place);
 }
 
-void fill_node(const std::vector<BinaryNode>& nodes, const Children& children, std::uint32_t binary, bool last_level,
-               WideNode& wide) {
-  const BinaryNode& parent = nodes[binary];
-  wide = {};
-  wide.first_sphere = parent.first;
-  wide.child_count = static_cast<std::uint16_t>(children.count);
-  for (int i = 0; i < kWidth; ++i) {
-    const bool used = i < children.count;
-    const BinaryNode& child = nodes[children.binary[used ? i : 0]];
-    for (int axis = 0; axis < 3; ++axis) {
-      wide.lo[axis][i] = used ? child.box.lo[axis] : kInf;
-      wide.hi[axis][i] = used ? child.box.hi[axis] : -kInf;
-    }
-    wide.begin[i] = used ? child.first - parent.first : parent.count;
-    if (used && (child.is_leaf() || last_level)) wide.leaf_mask = static_cast<std::uint16_t>(wide.leaf_mask | 1u << i);
-  }
-  wide.begin[kWidth] = parent.count;
+void fill_orders(const Children& children, WideNode& wide) {
   for (int octant = 0; octant < 4; ++octant) {
     int place = 0;
+    wide.order[octant] = 0;
     add_in_order(children, octant, 0, children.count - 1, wide.order[octant], place);
     for (; place < kWidth; ++place) wide.order[octant] |= static_cast<std::uint64_t>(place) << (4 * place);
   }
@@ -113,38 +99,132 @@ void fill_node(const std::vector<BinaryNode>& nodes, const Children& children, s
 
 }  // namespace
 
-WideShape collapse(const std::vector<BinaryNode>& nodes, int most_levels, std::int64_t full_leaf,
-                   std::vector<WideNode>& wide) {
-  WideShape shape;
-  std::vector<Job> jobs{{0, 0, 1}};
-  wide.resize(1);
-  while (!jobs.empty()) {
-    const Job job = jobs.back();
-    jobs.pop_back();
-    shape.levels = std::max(shape.levels, job.level);
+WideNode Collapse::make_node(const Job& job, Part& part, std::vector<Job>& jobs) const {
+  // Where levels are few, do not wait for targets to be met.
+  const bool last_level = job.level >= parameters_.most_levels;
+  const std::int64_t target = parameters_.most_levels < kMostLevels
+                                  ? parameters_.full_leaf
+                                  : target_count(job.binary->count, parameters_.full_leaf);
+  const Children children = choose_children(*job.binary, job.level, target);
 
-    // Where levels are few, do not wait for targets to be met.
-    const bool last_level = job.level >= most_levels;
-    const std::int64_t target =
-        most_levels < kMostLevels ? full_leaf : target_count(nodes[job.binary].count, full_leaf);
-    const Children children = choose_children(nodes, job, target);
-
-    // Place the inner children side by side, and come back to them from left to right.
-    const auto first_node = static_cast<std::int64_t>(wide.size());
-    WideNode node;
-    fill_node(nodes, children, job.binary, last_level, node);
-    node.first_node = first_node;
-    wide[static_cast<std::size_t>(job.wide)] = node;
-    const int inner = node.child_count - __builtin_popcount(node.leaf_mask);
-    wide.resize(wide.size() + static_cast<std::size_t>(inner));
-    for (int i = children.count - 1; i >= 0; --i) {
-      if (node.is_leaf(i))
-        shape.largest_leaf = std::max(shape.largest_leaf, node.sphere_count(i));
-      else
-        jobs.push_back({node.child_node(i), children.binary[i], job.level + 1});
+  // Boxes and ranges.
+  WideNode wide;
+  std::memset(&wide, 0, sizeof wide);
+  wide.first_sphere = job.first;
+  wide.child_count = static_cast<std::uint16_t>(children.count);
+  std::uint32_t begin = 0;
+  for (int i = 0; i < children.count; ++i) {
+    const BinaryNode& child = *children.binary[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      wide.lo[axis][i] = child.box.lo[axis];
+      wide.hi[axis][i] = child.box.hi[axis];
+    }
+    wide.begin[i] = begin;
+    begin += child.count;
+    if (child.is_leaf() || last_level) {
+      wide.leaf_mask = static_cast<std::uint16_t>(wide.leaf_mask | 1u << i);
+      part.largest_leaf = std::max(part.largest_leaf, std::int64_t{child.count});
     }
   }
-  return shape;
+  for (int i = children.count; i < kWidth; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      wide.lo[axis][i] = kInf;
+      wide.hi[axis][i] = -kInf;
+    }
+    wide.begin[i] = begin;
+  }
+  wide.begin[kWidth] = begin;
+  fill_orders(children, wide);
+
+  // Place the inner children side by side, and come to them from left to right.
+  part.levels = std::max(part.levels, job.level);
+  wide.first_node = static_cast<std::int64_t>(part.nodes.size());
+  const int inner = children.count - __builtin_popcount(wide.leaf_mask);
+  part.nodes.resize(part.nodes.size() + static_cast<std::size_t>(inner));
+  for (int i = children.count - 1; i >= 0; --i)
+    if (!wide.is_leaf(i)) jobs.push_back({wide.child_node(i), children.binary[i], wide.sphere_begin(i), job.level + 1});
+  return wide;
+}
+
+void Collapse::make_part(Part& part) const {
+  part.nodes.clear();
+  part.jobs.clear();
+  part.largest_leaf = 0;
+  part.levels = 0;
+  part.root_node = make_node(part.root, part, part.jobs);
+  while (!part.jobs.empty()) {
+    const Job job = part.jobs.back();
+    part.jobs.pop_back();
+    const WideNode node = make_node(job, part, part.jobs);
+    part.nodes[static_cast<std::size_t>(job.place)] = node;
+  }
+}
+
+void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads) {
+  parameters_ = parameters;
+
+  // Make the top here; every subtree that is small enough becomes a part.
+  part_count_ = 0;
+  top_.nodes.clear();
+  top_.nodes.resize(1);
+  top_.largest_leaf = 0;
+  top_.levels = 0;
+  top_.jobs.assign(1, {0, &root, 0, 1});
+  while (!top_.jobs.empty()) {
+    const Job job = top_.jobs.back();
+    top_.jobs.pop_back();
+    if (job.binary->count <= kPartSpheres) {
+      if (part_count_ == parts_.size()) parts_.emplace_back();
+      parts_[part_count_++].root = job;
+      continue;
+    }
+    const WideNode node = make_node(job, top_, top_.jobs);
+    top_.nodes[static_cast<std::size_t>(job.place)] = node;
+  }
+  parallel_for(threads, static_cast<std::int64_t>(part_count_), [this](std::int64_t i) {
+    Part& part = parts_[static_cast<std::size_t>(i)];
+    try {
+      part.out_of_memory = false;
+      make_part(part);
+    } catch (const std::bad_alloc&) {
+      part.out_of_memory = true;
+    }
+  });
+
+  // Put the parts one after the other.
+  node_count_ = static_cast<std::int64_t>(top_.nodes.size());
+  largest_leaf_ = top_.largest_leaf;
+  levels_ = top_.levels;
+  for (std::size_t i = 0; i < part_count_; ++i) {
+    Part& part = parts_[i];
+    if (part.out_of_memory) throw std::bad_alloc();
+    part.base = node_count_;
+    node_count_ += static_cast<std::int64_t>(part.nodes.size());
+    largest_leaf_ = std::max(largest_leaf_, part.largest_leaf);
+    levels_ = std::max(levels_, part.levels);
+  }
+}
+
+void Collapse::copy_to(WideNode* to, int threads) const {
+  std::memcpy(to, top_.nodes.data(), top_.nodes.size() * sizeof(WideNode));
+  parallel_for(threads, static_cast<std::int64_t>(part_count_), [this, to](std::int64_t i) {
+    const Part& part = parts_[static_cast<std::size_t>(i)];
+    WideNode& root = to[part.root.place];
+    root = part.root_node;
+    root.first_node += part.base;
+    for (std::size_t k = 0; k < part.nodes.size(); ++k) {
+      WideNode& node = to[part.base + static_cast<std::int64_t>(k)];
+      node = part.nodes[k];
+      node.first_node += part.base;
+    }
+  });
+}
+
+std::int64_t Collapse::allocated_bytes() const {
+  std::size_t bytes = top_.nodes.capacity() * sizeof(WideNode) + parts_.capacity() * sizeof(Part);
+  for (const Part& part : parts_)
+    bytes += part.nodes.capacity() * sizeof(WideNode) + part.jobs.capacity() * sizeof(Job);
+  return static_cast<std::int64_t>(bytes);
 }
 
 }  // namespace bihive

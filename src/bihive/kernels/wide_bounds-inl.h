@@ -1,0 +1,196 @@
+// Vector loops over a range of spheres: bounds, counts, partition.
+
+#if defined(BIHIVE_KERNELS_WIDE_BOUNDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_KERNELS_WIDE_BOUNDS_INL_H_
+#undef BIHIVE_KERNELS_WIDE_BOUNDS_INL_H_
+#else
+#define BIHIVE_KERNELS_WIDE_BOUNDS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "bihive/kernels/lanes-inl.h"
+#include "bihive/kernels/wide_split.h"
+#include "bihive/math/aabb.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::Vec<FloatTag>;
+using Words = hn::Vec<WordTag>;
+using Mask = hn::Mask<FloatTag>;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Calls step(offset, valid) for each vector of a range: `valid` is true for all lanes but those after its end.
+/// Loads from arrays must use load(), which does not touch what lies behind the end.
+template <class Step>
+HWY_INLINE void for_lanes(std::int64_t count, const Step& step) {
+  const FloatTag d;
+  const Mask all = hn::FirstN(d, kFloatLanes);
+  std::int64_t i = 0;
+  for (; i + kFloatLanes <= count; i += kFloatLanes) step(i, all, std::true_type());
+  if (i < count) step(i, hn::FirstN(d, static_cast<std::size_t>(count - i)), std::false_type());
+}
+
+template <class Tag, class T, class Whole>
+HWY_INLINE hn::Vec<Tag> load(Tag d, const T* from, Mask valid, Whole whole) {
+  if (whole) return hn::LoadU(d, from);
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+  return hn::MaskedLoad(hn::RebindMask(d, valid), d, from);
+#else
+  // A masked load would read what lies behind the end.
+  HWY_ALIGN T lanes[kFloatLanes] = {};
+  const std::size_t n = hn::CountTrue(FloatTag(), valid);
+  for (std::size_t i = 0; i < n; ++i) lanes[i] = from[i];
+  return hn::Load(d, lanes);
+#endif
+}
+
+/// Stores the first n lanes; what lies behind them, up to `room`, may be overwritten.
+template <class Tag, class T>
+HWY_INLINE void store_first(Tag d, hn::Vec<Tag> v, std::int64_t n, std::int64_t room, T* to) {
+  if (room >= kFloatLanes) return hn::StoreU(v, d, to);
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+  hn::BlendedStore(v, hn::FirstN(d, static_cast<std::size_t>(n)), d, to);
+#else
+  // A blended store would write back what another thread may be changing.
+  HWY_ALIGN T lanes[kFloatLanes];
+  hn::Store(v, d, lanes);
+  for (std::int64_t i = 0; i < n; ++i) to[i] = lanes[i];
+#endif
+}
+
+/// A box that grows, a vector of boxes at first.
+struct GrowingBox {
+  Floats lo[3], hi[3];
+
+  HWY_INLINE GrowingBox() {
+    const FloatTag d;
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = hn::Set(d, kInfinity);
+      hi[axis] = hn::Set(d, -kInfinity);
+    }
+  }
+  HWY_INLINE void add(int axis, Floats low, Floats high) {
+    lo[axis] = hn::Min(lo[axis], low);
+    hi[axis] = hn::Max(hi[axis], high);
+  }
+  HWY_INLINE void add_where(Mask mask, int axis, Floats low, Floats high) {
+    const FloatTag d;
+    lo[axis] = hn::IfThenElse(mask, hn::Min(lo[axis], low), lo[axis]);
+    hi[axis] = hn::IfThenElse(mask, hn::Max(hi[axis], high), hi[axis]);
+    (void)d;
+  }
+  /// Adding 0 makes +0 of -0, so that the order of minima cannot show.
+  HWY_INLINE Aabb box() const {
+    const FloatTag d;
+    Aabb result;
+    for (int axis = 0; axis < 3; ++axis) {
+      result.lo[axis] = hn::GetLane(hn::MinOfLanes(d, lo[axis])) + 0.0F;
+      result.hi[axis] = hn::GetLane(hn::MaxOfLanes(d, hi[axis])) + 0.0F;
+    }
+    return result;
+  }
+};
+
+/// The box of the centres first to first + count - 1.
+HWY_INLINE Aabb centre_box(const SphereArrays& spheres, std::int64_t first, std::int64_t count) {
+  const FloatTag d;
+  GrowingBox box;
+  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Floats c = load(d, spheres.axis(axis) + first + i, valid, whole);
+      if (whole)
+        box.add(axis, c, c);
+      else
+        box.add_where(valid, axis, c, c);
+    }
+  });
+  return box.box();
+}
+
+/// The boxes of the centres below a plane, and of the others.
+HWY_INLINE void split_boxes(const SphereArrays& spheres, std::int64_t first, std::int64_t count, int axis, float plane,
+                            Aabb& left, Aabb& right) {
+  const FloatTag d;
+  const Floats planes = hn::Set(d, plane);
+  GrowingBox below, above;
+  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
+    const Mask is_below = hn::Lt(load(d, spheres.axis(axis) + first + i, valid, whole), planes);
+    const Mask left_lanes = hn::And(is_below, valid);
+    const Mask right_lanes = hn::AndNot(is_below, valid);
+    for (int k = 0; k < 3; ++k) {
+      const Floats c = load(d, spheres.axis(k) + first + i, valid, whole);
+      below.add_where(left_lanes, k, c, c);
+      above.add_where(right_lanes, k, c, c);
+    }
+  });
+  left = below.box();
+  right = above.box();
+}
+
+/// How many numbers are below a plane.
+HWY_INLINE std::int64_t count_below(const float* numbers, std::int64_t count, float plane) {
+  const FloatTag d;
+  const Floats planes = hn::Set(d, plane);
+  std::size_t below = 0;
+  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
+    below += hn::CountTrue(d, hn::And(hn::Lt(load(d, numbers + i, valid, whole), planes), valid));
+  });
+  return static_cast<std::int64_t>(below);
+}
+
+/// Moves spheres below the plane to the front of the same range of `to`, the others behind them, each in the order in
+/// which they are. `left_count` are below.
+template <bool kPlainRadii>
+HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std::int64_t first, std::int64_t count,
+                          int axis, float plane, std::int64_t left_count) {
+  const FloatTag d;
+  const WordTag dw;
+  const Floats planes = hn::Set(d, plane);
+  const Words lane_numbers = hn::Iota(dw, 0);
+  std::int64_t left = first;
+  std::int64_t right = first + left_count;
+  const std::int64_t left_end = right;
+  const std::int64_t right_end = first + count;
+  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
+    const Mask is_below = hn::Lt(load(d, from.axis(axis) + first + i, valid, whole), planes);
+    const Mask goes_left = hn::And(is_below, valid);
+    const Mask goes_right = hn::AndNot(is_below, valid);
+    const auto left_lanes = static_cast<std::int64_t>(hn::CountTrue(d, goes_left));
+    const auto right_lanes = static_cast<std::int64_t>(hn::CountTrue(d, goes_right));
+    const auto to_left = hn::IndicesFromVec(dw, hn::Compress(lane_numbers, hn::RebindMask(dw, goes_left)));
+    const auto to_right = hn::IndicesFromVec(dw, hn::Compress(lane_numbers, hn::RebindMask(dw, goes_right)));
+    const auto move = [&](const std::uint32_t* source, std::uint32_t* target) HWY_ATTR {
+      const Words v = load(dw, source + first + i, valid, whole);
+      store_first(dw, hn::TableLookupLanes(v, to_left), left_lanes, left_end - left, target + left);
+      store_first(dw, hn::TableLookupLanes(v, to_right), right_lanes, right_end - right, target + right);
+    };
+    const auto move_floats = [&](const float* source, float* target) HWY_ATTR {
+      const Words v = hn::BitCast(dw, load(d, source + first + i, valid, whole));
+      store_first(d, hn::BitCast(d, hn::TableLookupLanes(v, to_left)), left_lanes, left_end - left, target + left);
+      store_first(d, hn::BitCast(d, hn::TableLookupLanes(v, to_right)), right_lanes, right_end - right, target + right);
+    };
+    move_floats(from.x, to.x);
+    move_floats(from.y, to.y);
+    move_floats(from.z, to.z);
+    move(from.word, to.word);
+    if (kPlainRadii) move_floats(from.r, to.r);
+    left += left_lanes;
+    right += right_lanes;
+  });
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_KERNELS_WIDE_BOUNDS_INL_H_

@@ -1,0 +1,277 @@
+// A range of spheres becomes a binary tree: where to split, and the leaves.
+
+#if defined(BIHIVE_KERNELS_WIDE_SPLIT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_KERNELS_WIDE_SPLIT_INL_H_
+#undef BIHIVE_KERNELS_WIDE_SPLIT_INL_H_
+#else
+#define BIHIVE_KERNELS_WIDE_SPLIT_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+#include "bihive/kernels/wide_bounds-inl.h"
+#include "bihive/kernels/wide_repeated.h"
+#include "bihive/kernels/wide_split.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// From this depth on ranges are halved by count: a guard against hostile sets.
+constexpr int kDeepestMidpoint = 48;
+
+// Ranges up to this size choose between the midpoint and a plane that leaves full leaves.
+constexpr std::int64_t kChoosingSpheres = 4096;
+constexpr float kMidpointBias = 1.1F;
+
+// Rounds of the search for a plane: first by interpolation, then by halving what is between in ulps.
+constexpr int kInterpolations = 6;
+
+/// A plane and the number of centres below it.
+struct Plane {
+  float at;
+  std::int64_t below;
+};
+
+inline std::int32_t ordered_bits(float v) {
+  std::int32_t bits;
+  std::memcpy(&bits, &v, sizeof bits);
+  return bits >= 0 ? bits : std::numeric_limits<std::int32_t>::min() - bits;
+}
+inline float from_ordered_bits(std::int32_t bits) {
+  if (bits < 0) bits = std::numeric_limits<std::int32_t>::min() - bits;
+  float v;
+  std::memcpy(&v, &bits, sizeof v);
+  return v;
+}
+
+/// A plane with `wanted` of the numbers below it, or as near to that as equal numbers allow; at least one on each side.
+/// The numbers lie in [lo, hi], lo < hi, and both occur.
+HWY_INLINE Plane plane_by_count(const float* numbers, std::int64_t count, std::int64_t wanted, float lo, float hi) {
+  // `low` has too few below it, `high` too many; hi's own number is asked for only if nothing better is found.
+  Plane low{lo, 0}, high{hi, count};
+  for (int round = 0;; ++round) {
+    const std::int32_t low_bits = ordered_bits(low.at), high_bits = ordered_bits(high.at);
+    const std::int64_t between = std::int64_t{high_bits} - low_bits;
+    if (between <= 1) break;
+    float at = from_ordered_bits(static_cast<std::int32_t>(low_bits + between / 2));
+    if (round < kInterpolations) {
+      const float share = static_cast<float>(wanted - low.below) / static_cast<float>(high.below - low.below);
+      const float guess = low.at + (high.at - low.at) * share;
+      if (guess > low.at && guess < high.at) at = guess;
+    }
+    const std::int64_t below = count_below(numbers, count, at);
+    if (below == wanted) return {at, below};
+    (below < wanted ? low : high) = {at, below};
+  }
+  if (high.at == hi) high.below = count_below(numbers, count, hi);
+  const bool low_is_nearer = wanted - low.below < std::abs(high.below - wanted);
+  return low.below > 0 && low_is_nearer ? low : high;
+}
+
+/// Half of the spheres, in whole subtrees of full leaves.
+HWY_INLINE std::int64_t half_in_full_leaves(std::int64_t count, std::int64_t full_leaf) {
+  std::int64_t unit = full_leaf;
+  while (unit * kWidth <= count / 2) unit *= kWidth;
+  return std::max(unit, (count / 2 + unit / 2) / unit * unit);
+}
+
+template <bool kPlainRadii>
+class Splitter {
+ public:
+  Splitter(SplitContext& context, TaskList& list) : context_(context), list_(list), source_(*context.arena) {}
+
+  void split(const SplitRange& range) {
+    BinaryNode& node = *range.node;
+    node.count = static_cast<std::uint32_t>(range.count);
+    node.axis = 0;
+    node.children = nullptr;
+    if (range.count <= context_.full_leaf) return finish_leaf(range);
+
+    // Find the longest side of the centres' box.
+    const Vec3f side = range.centres.hi - range.centres.lo;
+    const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+    SplitRange left = range, right = range;
+    left.depth = right.depth = range.depth + 1;
+    if (side[axis] > 0) {
+      part(range, axis, left, right);
+    } else {
+      left.coincident = right.coincident = true;
+      if (!range.coincident) note_repeated(range);
+      left.count = half_in_full_leaves(range.count, context_.full_leaf);
+    }
+
+    // Go on with both sides, or leave one to whoever has time.
+    right.first = range.first + left.count;
+    right.count = range.count - left.count;
+    node.axis = static_cast<std::uint32_t>(axis);
+    node.children = source_.pair();
+    left.node = node.children;
+    right.node = node.children + 1;
+    if (left.count > kTaskSpheres && right.count > kTaskSpheres) {
+      list_.add([&context = context_, right, &list = list_] { run(context, right, list); });
+      split(left);
+    } else {
+      split(left);
+      split(right);
+    }
+    if (range.count > kTaskSpheres) return;
+    node.box = left.node->box;
+    node.box.add(right.node->box);
+  }
+
+  static void run(SplitContext& context, const SplitRange& range, TaskList& list) {
+    if (context.out_of_memory) return;
+    try {
+      Splitter splitter(context, list);
+      splitter.split(range);
+      if (splitter.repeated_.empty()) return;
+      const std::lock_guard lock(context.mutex);
+      context.repeated.insert(context.repeated.end(), splitter.repeated_.begin(), splitter.repeated_.end());
+    } catch (const std::bad_alloc&) {
+      context.out_of_memory = true;
+    }
+  }
+
+ private:
+  const SphereArrays& arrays(bool in_final) const { return in_final ? context_.final : context_.scratch; }
+
+  // The surface around spheres with these centres.
+  float area(const Aabb& centres) const {
+    const float r = context_.largest_radius;
+    return half_area({centres.lo - Vec3f{r, r, r}, centres.hi + Vec3f{r, r, r}});
+  }
+  float cost(const Aabb& left, std::int64_t left_count, const Aabb& right, std::int64_t right_count) const {
+    const std::int64_t full = context_.full_leaf;
+    const auto left_leaves = static_cast<float>((left_count + full - 1) / full);
+    const auto right_leaves = static_cast<float>((right_count + full - 1) / full);
+    return area(left) * left_leaves + area(right) * right_leaves;
+  }
+
+  // Parts the spheres at a plane; says what is left and right of it.
+  void part(const SplitRange& range, int axis, SplitRange& left, SplitRange& right) {
+    const SphereArrays& from = arrays(range.in_final);
+    const float* const numbers = from.axis(axis) + range.first;
+    const float lo = range.centres.lo[axis], hi = range.centres.hi[axis];
+    const std::int64_t full = context_.full_leaf;
+    const std::int64_t wanted = half_in_full_leaves(range.count, full);
+    bool boxes_known = false;
+    Plane plane{};
+    if (range.depth < kDeepestMidpoint) {
+      // Halve the box. Where no number is between its sides, hi itself parts the spheres.
+      plane.at = lo + (hi - lo) * 0.5F;
+      if (!(plane.at > lo)) plane.at = hi;
+      plane.below = count_below(numbers, range.count, plane.at);
+      const std::int64_t above = range.count - plane.below;
+      const bool two_leaves = plane.below <= full && above <= full;
+      if (range.count <= kChoosingSpheres && plane.below != wanted && !two_leaves) {
+        // Compare with full leaves.
+        const Plane other = plane_by_count(numbers, range.count, wanted, lo, hi);
+        if (other.below != plane.below) {
+          Aabb other_left, other_right;
+          split_boxes(from, range.first, range.count, axis, plane.at, left.centres, right.centres);
+          split_boxes(from, range.first, range.count, axis, other.at, other_left, other_right);
+          boxes_known = true;
+          if (cost(left.centres, plane.below, right.centres, above) >
+              kMidpointBias * cost(other_left, other.below, other_right, range.count - other.below)) {
+            plane = other;
+            left.centres = other_left;
+            right.centres = other_right;
+          }
+        }
+      }
+    } else {
+      plane = plane_by_count(numbers, range.count, wanted, lo, hi);
+    }
+    const SphereArrays& to = arrays(!range.in_final);
+    partition<kPlainRadii>(from, to, range.first, range.count, axis, plane.at, plane.below);
+    left.count = plane.below;
+    left.in_final = right.in_final = !range.in_final;
+    if (boxes_known) return;
+    left.centres = centre_box(to, range.first, left.count);
+    right.centres = centre_box(to, range.first + left.count, range.count - left.count);
+  }
+
+  HWY_INLINE Floats radii(const SphereArrays& from, std::int64_t i, Mask valid, bool whole, Words words) const {
+    const FloatTag d;
+    if (kPlainRadii) return load(d, from.r + i, valid, whole);
+    const auto classes = hn::ShiftRight<WideSpheres::kIdBits>(words);
+    return hn::GatherIndex(d, context_.palette, hn::BitCast(hn::RebindToSigned<WordTag>(), classes));
+  }
+
+  // Puts the spheres of a leaf into their place, and finds their box and equal spheres.
+  void finish_leaf(const SplitRange& range) {
+    const FloatTag d;
+    const WordTag dw;
+    const SphereArrays& from = arrays(range.in_final);
+    const SphereArrays& to = context_.final;
+    HWY_ALIGN std::uint32_t hashes[kWidth];
+    const bool is_small = range.count <= kWidth;
+    GrowingBox box;
+    for_lanes(range.count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
+      const std::int64_t at = range.first + i;
+      const std::int64_t left = range.count - i;
+      const Words words = load(dw, from.word + at, valid, whole);
+      const Floats r = radii(from, at, valid, whole, words);
+      Words hash = hn::Zero(dw);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Floats c = load(d, from.axis(axis) + at, valid, whole);
+        if (whole)
+          box.add(axis, hn::Sub(c, r), hn::Add(c, r));
+        else
+          box.add_where(valid, axis, hn::Sub(c, r), hn::Add(c, r));
+        if (!range.in_final) store_first(d, c, std::min<std::int64_t>(left, kFloatLanes), left, to.axis(axis) + at);
+        constexpr std::uint32_t kOdd[3] = {0x9E3779B1U, 0x85EBCA77U, 0xC2B2AE3DU};
+        hash = hn::Add(hash, hn::Mul(hn::BitCast(dw, hn::Add(c, hn::Zero(d))), hn::Set(dw, kOdd[axis])));
+      }
+      if (is_small) hn::Store(hash, dw, hashes + i);
+      if (range.in_final) return;
+      store_first(dw, words, std::min<std::int64_t>(left, kFloatLanes), left, to.word + at);
+      if (kPlainRadii) store_first(d, r, std::min<std::int64_t>(left, kFloatLanes), left, to.r + at);
+    });
+    range.node->box = box.box();
+    if (range.coincident || (is_small && all_differ(hashes, range.count))) return;
+    SplitRange in_place = range;
+    in_place.in_final = true;
+    note_repeated(in_place);
+  }
+
+  // Are the first `count` hashes different from each other?
+  static HWY_INLINE bool all_differ(const std::uint32_t* hashes, std::int64_t count) {
+    const WordTag dw;
+    bool differ = true;
+    for (int first = 0; first < count; first += kFloatLanes) {
+      const Words mine = hn::Load(dw, hashes + first);
+      Words equal = hn::Zero(dw);
+      for (std::int64_t k = 0; k < count; ++k)
+        equal = hn::Sub(equal, hn::VecFromMask(dw, hn::Eq(mine, hn::Set(dw, hashes[k]))));
+      const auto several =
+          hn::And(hn::Gt(equal, hn::Set(dw, 1)), hn::FirstN(dw, static_cast<std::size_t>(count - first)));
+      differ = differ && hn::AllFalse(dw, several);
+    }
+    return differ;
+  }
+
+  void note_repeated(const SplitRange& range) {
+    find_repeated(arrays(range.in_final), context_.palette, range.first, range.count, repeated_);
+  }
+
+  SplitContext& context_;
+  TaskList& list_;
+  NodeSource source_;
+  std::vector<RepeatedSphere> repeated_;
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_KERNELS_WIDE_SPLIT_INL_H_
