@@ -81,9 +81,12 @@ void add_tree_options(CLI::App& app, BuildParameters& tree) {
   add_value(app, "--max-depth", tree.max_depth, "N|unlimited", "Most levels of the tree (unlimited)", limit_from);
 }
 
-void add_engine_options(CLI::App& app, Engine& engine, BuildParameters& tree, std::int64_t& threads) {
+void add_engine_options(CLI::App& app, Engine& engine, TreeParameters& tree, std::int64_t& threads) {
   add_choice(app, "--engine", engine, kEngines, "What answers the rays (auto); all give the same bits");
-  add_tree_options(app, tree);
+  add_value(app, "--max-prims", tree.max_prims, "N|unlimited",
+            "Most spheres of a leaf (the engine's choice; reference: 8)", limit_from);
+  add_value(app, "--max-depth", tree.max_depth, "N|unlimited",
+            "Most levels of the tree (the engine's choice; reference: unlimited)", limit_from);
   add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
 }
 

@@ -25,7 +25,7 @@ struct RenderOptions {
   std::optional<std::int64_t> recursion, samples;
   View view = View::shaded;
   Engine engine = Engine::automatic;
-  BuildParameters tree;
+  TreeParameters tree;
   std::int64_t threads = 0;  ///< 0 = all that the machine runs at once
   std::optional<bool> shadows;
   std::optional<Transfer> transfer;
@@ -50,7 +50,7 @@ struct TraceOptions {
   bool any = false;
   bool plane = false;
   Engine engine = Engine::automatic;
-  BuildParameters tree;
+  TreeParameters tree;
   std::int64_t threads = 0;
 };
 void run_trace(const TraceOptions& options);

@@ -129,4 +129,12 @@ void check_tree_memory(const SphereSet& spheres, const BuildParameters& paramete
                "the tree of " + grouped(spheres.size()) + " spheres");
 }
 
+void check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters) {
+  if (engine == Engine::brute) return;
+  if (engine == Engine::reference) return check_tree_memory(spheres, parameters.for_reference());
+  constexpr double kLeastBytesASphere = 16;
+  check_memory(kLeastBytesASphere * static_cast<double>(spheres.size()),
+               "the tree of " + grouped(spheres.size()) + " spheres");
+}
+
 }  // namespace bihive::cli

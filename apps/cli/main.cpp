@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "bihive/kernels/target.h"
 #include "command_line.h"
 #include "failure.h"
 #include "interrupt.h"
@@ -35,6 +36,7 @@ struct Run {
 int run(int argc, const char* const* argv) {
   try {
     handle_signals();
+    if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
     const int code = std::visit(Run{}, parse_command_line(argc, argv));
     finish_output();
     return code;

@@ -20,7 +20,7 @@ inline const Names<View> kViews{
     {"normal", View::normal}, {"distance", View::distance},   {"id", View::id},
     {"tree", View::tree}};
 inline const Names<Engine> kEngines{
-    {"auto", Engine::automatic}, {"reference", Engine::reference}, {"brute", Engine::brute}};
+    {"auto", Engine::automatic}, {"wide", Engine::wide}, {"reference", Engine::reference}, {"brute", Engine::brute}};
 inline const Names<Transfer> kTransfers{{"srgb", Transfer::srgb}, {"none", Transfer::none}};
 inline const Names<ViewFrom> kSides{{"front", ViewFrom::front}, {"back", ViewFrom::back}, {"left", ViewFrom::left},
                                     {"right", ViewFrom::right}, {"top", ViewFrom::top},   {"bottom", ViewFrom::bottom},

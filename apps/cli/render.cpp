@@ -55,6 +55,20 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   return camera;
 }
 
+bool shows_reference_tree(View view) {
+  return view == View::traversal || view == View::tree;
+}
+
+// What to build: the pictures of the tree are of the reference tree, whatever is fastest.
+Engine choose_engine(const RenderOptions& options) {
+  if (!shows_reference_tree(options.view) || options.engine == Engine::reference) return options.engine;
+  if (options.engine == Engine::automatic) return Engine::reference;
+  const std::string view = "--view " + name_of(kViews, options.view);
+  if (options.engine == Engine::brute) fail_usage(view + " shows a tree, and --engine brute has none");
+  fail_usage(view + " shows the reference tree, and --engine wide has another one",
+             "leave --engine out, or choose --engine reference");
+}
+
 // Everything that decides the picture, for its text chunk. Not threads and engine: they do not.
 ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene) {
   const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
@@ -71,10 +85,11 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
                     {"look_at", vector(scene.camera.look_at)},
                     {"up", vector(scene.camera.up)},
                     {"fov_deg", scene.camera.fov_deg}};
-  if (settings.view == View::traversal || settings.view == View::tree) {
+  if (shows_reference_tree(settings.view)) {
     const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
-    json["max_prims"] = limit(options.tree.max_prims);
-    json["max_depth"] = limit(options.tree.max_depth);
+    const BuildParameters tree = options.tree.for_reference();
+    json["max_prims"] = limit(tree.max_prims);
+    json["max_depth"] = limit(tree.max_depth);
   }
   const InputOptions& input = options.input;
   json["spheres"] = scene.spheres.size();
@@ -127,9 +142,7 @@ Rendered render_with_progress(const Scene& scene, const Tracer& tracer, const Re
 }  // namespace
 
 void run_render(const RenderOptions& options) {
-  const bool of_tree = options.view == View::traversal || options.view == View::tree;
-  if (of_tree && options.engine == Engine::brute)
-    fail_usage("--view " + name_of(kViews, options.view) + " shows a tree, and --engine brute has none");
+  const Engine engine = choose_engine(options);
   if (const Status status = check_writable(options.output); !status) fail(status.error());
 
   // Load the scene and put the user's wishes into it.
@@ -149,10 +162,10 @@ void run_render(const RenderOptions& options) {
   if (!input.has_lights) scene.lights = {light_behind(scene.camera)};
   const double pixels = double(settings.width_px) * double(settings.height_px);
   check_memory(pixels * (sizeof(Vec3f) + 2 * 3), "so large a picture");
-  if (options.engine != Engine::brute) check_tree_memory(scene.spheres, options.tree);
+  check_tree_memory(scene.spheres, engine, options.tree);
 
   // Build, render, write.
-  const Tracer tracer(scene.spheres, options.engine, options.tree);
+  const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, engine, options.tree, settings.threads));
   const Rendered rendered = render_with_progress(scene, tracer, settings);
   const Image image = image_from_film(rendered.film, settings.view, scene.picture.transfer);
   const ordered_json described = settings_json(options, settings, scene);

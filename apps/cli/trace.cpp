@@ -23,7 +23,7 @@
 namespace bihive::cli {
 namespace {
 
-constexpr std::int64_t kRaysPerChunk = 4096;
+constexpr std::int64_t kRaysPerChunk = 16384;
 
 // Rays as the file has them: origin, direction, and if there are 8 columns t_min and t_max.
 class RayFile {
@@ -68,17 +68,35 @@ struct Answers {
   std::int64_t hits = 0;
 };
 
-// One ray's answer: t and id as the files hold them.
-Hit answer(const Tracer& tracer, const Plane* plane, bool any, const Ray& ray) {
-  const double plane_t = plane != nullptr ? plane_hit(ray, *plane) : std::numeric_limits<double>::infinity();
-  const bool on_plane = plane_t < std::numeric_limits<double>::infinity();
+// The answers to rays first to first + count - 1, as the files hold them. Returns how many are no rays.
+std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const RayFile& file, std::int64_t first,
+                    std::int64_t count, const HitSpan& hits) {
+  RayBatch rays;
+  for (std::int64_t i = 0; i < count; ++i) rays.push_back(file.ray(first + i));
   if (any) {
-    if (on_plane || tracer.occluded(ray)) return {0, 0};
-    return {};
+    std::vector<std::uint8_t> hidden(static_cast<std::size_t>(count));
+    tracer.occluded(rays.span(), RayOrder::any, hidden.data());
+    for (std::int64_t i = 0; i < count; ++i)
+      if (hidden[static_cast<std::size_t>(i)] != 0) hits.t[i] = 0, hits.sphere_id[i] = 0;
+  } else {
+    tracer.closest_hits(rays.span(), RayOrder::any, hits);
   }
-  // A sphere at the same t goes first.
-  const Hit hit = tracer.closest_hit(ray);
-  return on_plane && plane_t < hit.t ? Hit{plane_t, kPlane} : hit;
+
+  // The plane is hit where it is nearer; a sphere at the same t goes first.
+  std::int64_t bad_rays = 0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const Ray ray = rays.span().at(i);
+    if (!is_valid(ray)) {
+      ++bad_rays;
+      continue;
+    }
+    if (plane == nullptr) continue;
+    const double plane_t = plane_hit(ray, *plane);
+    if (!(plane_t < hits.t[i])) continue;
+    hits.t[i] = any ? 0 : plane_t;
+    hits.sphere_id[i] = any ? 0 : kPlane;
+  }
+  return bad_rays;
 }
 
 Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, const TraceOptions& options) {
@@ -95,17 +113,10 @@ Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, con
   std::atomic_flag reporting = ATOMIC_FLAG_INIT;
   parallel_for(static_cast<int>(options.threads), chunks, [&](std::int64_t chunk) {
     if (CancellableSection::token().cancelled()) return;
-    const std::int64_t end = std::min(rays.size(), (chunk + 1) * kRaysPerChunk);
-    for (std::int64_t i = chunk * kRaysPerChunk; i < end; ++i) {
-      const Ray ray = rays.ray(i);
-      if (!is_valid(ray)) {
-        ++bad_rays[static_cast<std::size_t>(chunk)];
-        continue;
-      }
-      const Hit hit = answer(tracer, plane, options.any, ray);
-      answers.t[static_cast<std::size_t>(i)] = hit.t;
-      answers.id[static_cast<std::size_t>(i)] = hit.sphere_id;
-    }
+    const std::int64_t first = chunk * kRaysPerChunk;
+    const std::int64_t count = std::min(rays.size() - first, kRaysPerChunk);
+    bad_rays[static_cast<std::size_t>(chunk)] = answer(tracer, plane, options.any, rays, first, count,
+                                                       HitSpan{answers.t.data(), answers.id.data()}.part(first));
     const std::int64_t done = ++chunks_done;
     if (reporting.test_and_set()) return;
     progress.update(static_cast<double>(done) / static_cast<double>(chunks));
@@ -126,8 +137,9 @@ void run_trace(const TraceOptions& options) {
 
   const RayFile rays(options.rays);
   const Input input = load_input(options.input);
-  if (options.engine != Engine::brute) check_tree_memory(input.scene.spheres, options.tree);
-  const Tracer tracer(input.scene.spheres, options.engine, options.tree);
+  check_tree_memory(input.scene.spheres, options.engine, options.tree);
+  const Tracer tracer = value_or_fail(
+      Tracer::build(input.scene.spheres, options.engine, options.tree, static_cast<int>(options.threads)));
   const Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
 
   const Timer timer;

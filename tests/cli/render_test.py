@@ -51,7 +51,7 @@ class Render(ProgramTest):
     def test_json_says_what_was_done(self):
         said = self.render("scenario2", *SMALL, "--count", "64", "--seed", "9")
         self.assertEqual((said["output"], said["scene"], said["seed"]), ("a.png", "scenario2", 9))
-        self.assertEqual((said["size"], said["view"], said["engine"]), ("48x32", "shaded", "reference"))
+        self.assertEqual((said["size"], said["view"], said["engine"]), ("48x32", "shaded", "wide"))
         self.assertEqual(said["spheres"], 64)
         self.assertEqual(said["rays"]["primary"], 48 * 32)
         self.assertEqual(said["rays"]["shadow"], 0)
@@ -84,6 +84,8 @@ class Render(ProgramTest):
             for options in [
                 [],
                 ["--engine", "brute"],
+                ["--engine", "wide", "--max-prims", "3"],
+                ["--engine", "reference", "--max-prims", "1"],
                 ["--engine", "reference", "--threads", "1"],
                 ["--threads", "7", "--max-prims", "1"],
                 ["--max-depth", "3", "--max-prims", "unlimited"],

@@ -25,9 +25,10 @@ class Figure44(ProgramTest):
         (experiment,) = results["experiments"]
         return experiment
 
-    def rows(self, experiment, title):
+    def rows(self, experiment, title, engine="reference"):
         """First cell -> the other cells of a row."""
-        (table,) = [table for table in experiment["tables"] if table["title"].startswith(title)]
+        of_engine = [table for table in experiment["tables"] if table["title"].endswith(f"(engine {engine})")]
+        (table,) = [table for table in of_engine if table["title"].startswith(title)]
         return {row[0]["text"]: row[1:] for row in table["rows"]}
 
     def test_it_says_what_was_measured(self):
@@ -77,6 +78,12 @@ class Figure44(ProgramTest):
             best = [min(each) for each in times.values()]
             self.assertEqual(cells[2]["text"], f"{max(best) / min(best):.3f}")
             self.assertEqual(cells[2]["verdict"], "agrees" if max(best) <= 1.1 * min(best) else "differs")
+
+        # The wide engine has its own numbers of the same form.
+        wide = experiment["data"]["wide"]
+        self.assertEqual(wide.keys(), measured.keys())
+        self.assertEqual(len(wide["configurations"]), len(fps))
+        self.assertEqual(self.rows(experiment, "Frames", "wide").keys(), self.rows(experiment, "Frames").keys())
 
         # Bars: brute force and each tree for each count. Lines: each tree for each count.
         for scenario in SCENARIOS:

@@ -97,6 +97,8 @@ class Trace(ProgramTest):
             [],
             ["--engine", "reference", "--threads", "1"],
             ["--engine", "brute", "--threads", "2"],
+            ["--engine", "wide", "--max-prims", "100"],
+            ["--engine", "reference", "--max-depth", "4"],
             ["--threads", "5", "--max-prims", "1"],
             ["--max-depth", "4"],
         ]:

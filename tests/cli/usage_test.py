@@ -1,5 +1,6 @@
 """Help, version, and every way to call the program wrongly."""
 
+import os
 import re
 import shlex
 
@@ -115,7 +116,15 @@ class WrongUsage(ProgramTest):
         self.render("--view-from", "top", "--up", "0,0,1")
         for view in ["traversal", "tree"]:
             self.assertIn("tree", self.render("--view", view, "--engine", "brute"))
+            self.assertIn("reference tree", self.render("--view", view, "--engine", "wide"))
         self.assertIn("same file", self.fail_usage("trace", "demo", "--rays", "r", "--t", "a.npy", "--id", "a.npy"))
+
+    def test_a_wish_for_an_instruction_set_that_is_not_there(self):
+        wish = {**os.environ, "BIHIVE_TARGET": "abacus"}
+        done = self.run_bihive("info", "demo", env=wish)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("BIHIVE_TARGET", done.stderr)
+        self.assertIn("abacus", done.stderr)
 
     def test_cameras_that_see_nothing(self):
         self.render("--eye", "1,2,3", "--look-at", "1,2,3")

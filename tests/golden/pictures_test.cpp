@@ -19,7 +19,7 @@ constexpr int kWidth = 96;
 constexpr int kHeight = 72;
 
 Image picture_of(const Scene& scene, View view, int recursion, const BuildParameters& parameters, int samples) {
-  const Tracer tracer(scene.spheres, Engine::reference, parameters);
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference, parameters).value();
   RenderSettings settings = settings_from(scene.picture);
   settings.width_px = kWidth;
   settings.height_px = kHeight;
@@ -81,7 +81,7 @@ TEST(Traversal, figure_4_3) {
 TEST(Tree, drawn_at_a_readable_size) {
   // All that a tree can hold: gaps, overlaps, clip nodes, one-sided nodes; above each other, and side by side.
   const Scene scene = scenario_scene(Scenario::corners, {256, 1, 1}).value();
-  const Tracer tracer(scene.spheres, Engine::reference, {});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   RenderSettings settings;
   settings.view = View::tree;
   settings.width_px = 240;
@@ -93,7 +93,7 @@ TEST(Tree, drawn_at_a_readable_size) {
   Scene molecule;
   molecule.spheres = std::move(file.value().spheres);
   molecule.camera = frame_tree(molecule.spheres, ViewFrom::iso, 30, 480, 240);
-  const Tracer molecule_tracer(molecule.spheres, Engine::reference, {});
+  const Tracer molecule_tracer = Tracer::build(molecule.spheres, Engine::reference).value();
   settings.width_px = 480;
   settings.height_px = 240;
   testing::expect_golden("tree-molecule", image_from_film(render(molecule, molecule_tracer, settings).value().film,

@@ -9,6 +9,7 @@
 int main() {
   const auto file = bihive::read_spheres_from_memory(bihive::bundled_molecule(), "1hpv.pdb", {});
   if (!file) return 1;
-  const bihive::Tracer tracer(file->spheres, bihive::Engine::automatic, {});
+  const auto tracer = bihive::Tracer::build(file->spheres, bihive::Engine::automatic);
+  if (!tracer) return 1;
   std::cout << "bihive " << bihive::version() << ": " << file->spheres.size() << " atoms\n";
 }

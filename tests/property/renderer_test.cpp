@@ -37,7 +37,7 @@ class EveryScene : public ::testing::TestWithParam<int> {
 
 TEST_P(EveryScene, threads_do_not_show) {
   const Scene drawn = scene();
-  const Tracer tracer(drawn.spheres, Engine::reference, {});
+  const Tracer tracer = Tracer::build(drawn.spheres, Engine::reference).value();
   for (const View view : {View::shaded, View::recursion, View::traversal, View::normal, View::distance, View::id}) {
     const Result<Rendered> one = render(drawn, tracer, small(drawn, view, 1));
     for (const int threads : {2, 7}) {
@@ -54,11 +54,11 @@ TEST_P(EveryScene, brute_force_and_every_tree_agree) {
   for (const bool shadows : {false, true}) {
     drawn.picture.shadows = shadows;
     for (const View view : {View::shaded, View::recursion, View::normal, View::distance, View::id}) {
-      const Tracer brute(drawn.spheres, Engine::brute, {});
+      const Tracer brute = Tracer::build(drawn.spheres, Engine::brute).value();
       const Result<Rendered> expected = render(drawn, brute, small(drawn, view, 2));
       for (const BuildParameters parameters :
            {BuildParameters{1, kUnlimited}, {8, kUnlimited}, {1, 3}, {kUnlimited, kUnlimited}}) {
-        const Tracer tracer(drawn.spheres, Engine::reference, parameters);
+        const Tracer tracer = Tracer::build(drawn.spheres, Engine::reference, parameters).value();
         expect_same_bits(expected->film, render(drawn, tracer, small(drawn, view, 2))->film);
       }
     }
@@ -79,7 +79,7 @@ TEST(Renderer, a_picture_in_other_units_is_the_same_picture) {
     scene.material_of_sphere = {0, 0, 0, 1};
     scene.camera.eye = scene.camera.eye * unit;
     scene.lights[0].position = scene.lights[0].position * unit;
-    const Tracer tracer(scene.spheres, Engine::reference, {});
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
     return render(scene, tracer, small(scene, View::shaded, 1)).value().film;
   };
   const Film expected = draw(1);
@@ -89,7 +89,7 @@ TEST(Renderer, a_picture_in_other_units_is_the_same_picture) {
 
 TEST(Renderer, progress_ends_at_1_and_cancelling_stops) {
   const Scene scene = four_spheres_scene();
-  const Tracer tracer(scene.spheres, Engine::reference, {});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   double last = 0;
   const auto watch = [&](double done) { last = std::max(last, done); };
   ASSERT_TRUE(render(scene, tracer, small(scene, View::distance, 1), watch));
@@ -107,7 +107,7 @@ TEST(Renderer, progress_ends_at_1_and_cancelling_stops) {
 
 TEST(Renderer, the_traversal_view_needs_a_tree) {
   const Scene scene = four_spheres_scene();
-  const Tracer tracer(scene.spheres, Engine::brute, {});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::brute).value();
   EXPECT_FALSE(render(scene, tracer, small(scene, View::traversal, 1)));
 }
 

@@ -100,7 +100,10 @@ class LibraryUnderTest : public EngineUnderTest {
     return true;
   }
   std::optional<Answers> trace(const std::string& engine, bool any) override {
-    const Tracer tracer(spheres_, engine == "brute" ? Engine::brute : Engine::reference, BuildParameters{});
+    const Engine asked = engine == "brute"       ? Engine::brute
+                         : engine == "reference" ? Engine::reference
+                                                 : Engine::automatic;
+    const Tracer tracer = Tracer::build(spheres_, asked, {}, threads_).value();
     Answers answers{std::vector<double>(rays_->size(), std::numeric_limits<double>::infinity()),
                     std::vector<std::int64_t>(rays_->size(), -1)};
     constexpr std::size_t kBlock = 1024;

@@ -33,7 +33,7 @@ Ray ray_at(Vec3f origin, Vec3f direction) {
 }
 
 Vec3d radiance(const Scene& scene, const Ray& ray, int recursion, bool shadows) {
-  const Tracer tracer(scene.spheres, Engine::reference, {});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   Integrator integrator(scene, tracer, recursion, shadows);
   return integrator.radiance(ray);
 }
@@ -89,7 +89,7 @@ TEST(Shading, clear_glass_needs_three_generations) {
 
 TEST(Shading, refraction_follows_snell) {
   const Scene scene = one_sphere(material(0, 0, 0, 0, 1, 1.5));
-  const Tracer tracer(scene.spheres, Engine::reference, {});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   const Ray ray = ray_at({0.6F, 0, 5}, {0, 0, -1});
   const Surface surface = surface_at(scene, ray, scene_hit(scene, tracer, ray));
   EXPECT_FALSE(surface.from_inside);
@@ -116,7 +116,7 @@ TEST(Shading, refraction_follows_snell) {
 TEST(Shading, total_reflection_on_entering_goes_along_the_mirror_direction) {
   // Index 0.5: beyond 30 degrees nothing enters.
   const Scene scene = one_sphere(material(0, 0, 0, 0, 1, 0.5));
-  const Tracer tracer(scene.spheres, Engine::reference, {});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   const Ray ray = ray_at({0.8F, 0, 5}, {0, 0, -1});
   const Surface surface = surface_at(scene, ray, scene_hit(scene, tracer, ray));
   const Ray transmitted = transmitted_ray(surface);

@@ -7,6 +7,7 @@
 
 #include "bihive/base/timer.h"
 #include "bihive/bih/child_boxes.h"
+#include "bihive/bih/reference_builder.h"
 #include "bihive/render/tree_colours.h"
 #include "bihive/scene/generators.h"
 
@@ -53,7 +54,7 @@ int pixels_of(Canvas& canvas, Vec3d colour) {
 }
 
 Film film_of(const Scene& scene, const BuildParameters& parameters, int width, int height, int threads = 0) {
-  const Tracer tracer(scene.spheres, Engine::reference, parameters);
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference, parameters).value();
   RenderSettings settings;
   settings.width_px = width;
   settings.height_px = height;
@@ -245,7 +246,7 @@ TEST(TreePicture, odd_places_of_the_camera_and_odd_sets) {
 
 TEST(TreePicture, needs_a_tree) {
   const Scene scene = scene_of(set_of({{0, 0, 0, 1}}));
-  const Tracer tracer(scene.spheres, Engine::brute, {});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::brute).value();
   RenderSettings settings;
   settings.view = View::tree;
   EXPECT_FALSE(render(scene, tracer, settings));
@@ -254,7 +255,7 @@ TEST(TreePicture, needs_a_tree) {
 TEST(TreePicture, a_million_spheres_in_time_and_the_same_for_any_number_of_threads) {
   Scene scene = scene_of(scenario_spheres(Scenario::mixed, {1000000, 0.05F, 1}).value());
   scene.camera = frame_tree(scene.spheres, ViewFrom::iso, 30, 640, 360);
-  const Tracer tracer(scene.spheres, Engine::reference, {1, kUnlimited});
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference, {1, kUnlimited}).value();
   RenderSettings settings;
   settings.width_px = 640;
   settings.height_px = 360;

@@ -39,7 +39,7 @@ struct NamedEngine {
   const char* name;
   Engine engine;
 };
-constexpr NamedEngine kEngines[] = {{"reference", Engine::reference}, {"brute", Engine::brute}};
+constexpr NamedEngine kEngines[] = {{"auto", Engine::automatic}, {"reference", Engine::reference}};
 
 // The bundled molecule as the program shows it: coloured by element, framed, white background, with shadows.
 bihive::Result<bihive::Scene> molecule_scene() {
@@ -60,10 +60,15 @@ bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted
   bool have_first = false;
   std::uint64_t first = 0;
   for (const auto& [engine_name, engine] : kEngines) {
-    // Brute force has no tree, and so no picture of it or of its traversal.
+    // The pictures of the tree and of its traversal are of the reference tree.
     const bool of_tree = wanted.view == View::traversal || wanted.view == View::tree;
-    if (of_tree && engine == Engine::brute) continue;
-    const bihive::Tracer tracer(scene.spheres, engine, {});
+    if (of_tree && engine != Engine::reference) continue;
+    const auto built = bihive::Tracer::build(scene.spheres, engine);
+    if (!built) {
+      std::fprintf(stderr, "%s: %s\n", scene.name.c_str(), built.error().to_string().c_str());
+      return false;
+    }
+    const bihive::Tracer& tracer = *built;
     for (const int threads : {1, 4}) {
       bihive::RenderSettings settings = wanted;
       settings.threads = threads;

@@ -100,7 +100,7 @@ Json draw_scenario(const StepContext& context, std::int64_t number) {
   parameters.radius = static_cast<float>(values.number("radius"));
   parameters.seed = context.settings.seed;
   const Scene scene = value_or_fail(scenario_scene(scenario_of(number), parameters));
-  const Tracer tracer(scene.spheres, Engine::automatic, {});
+  const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
   const PictureSize size = picture_size(context.settings, values, kQuickDivisor);
   RenderSettings settings = picture_settings(context, scene, size, View::shaded);
   settings.recursion = static_cast<int>(std::clamp<std::int64_t>(values.integer("recursion"), 1, 16));

@@ -68,7 +68,7 @@ Json sphere_facts(const Image& image, const std::vector<std::size_t>& pixels) {
 
 Json draw_depth(const StepContext& context, double depth) {
   const Scene scene = four_spheres_scene();
-  const Tracer tracer(scene.spheres, Engine::automatic, {});
+  const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
   const PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
   RenderSettings settings = picture_settings(context, scene, size, View::shaded);
   settings.recursion = depth_of(depth);
@@ -89,7 +89,7 @@ Json draw_depth(const StepContext& context, double depth) {
 
 Json draw_coding(const StepContext& context) {
   const Scene scene = four_spheres_scene();
-  const Tracer tracer(scene.spheres, Engine::automatic, {});
+  const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
   const PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
   RenderSettings settings = picture_settings(context, scene, size, View::recursion);
   settings.recursion = depth_of(context.values.number("coding.depth"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
 #include "bihive/image/image_diff.h"
 #include "bihive/scene/generators.h"
@@ -65,7 +66,8 @@ std::optional<Image> draw_traversal(const StepContext& context, const Scene& sce
 
 Json draw_tree(const StepContext& context, const std::string& letter) {
   const Scene scene = scene_of(context);
-  const Tracer tracer(scene.spheres, Engine::reference, parameters_of(context.values, letter));
+  const Tracer tracer =
+      value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, letter)));
   const std::optional<Image> traversal = draw_traversal(context, scene, tracer);
   const PictureSize size = picture_size(context.settings, context.values, kQuickTreeDivisor);
   const std::optional<Image> tree = draw(context, scene, tracer, picture_settings(context, scene, size, View::tree));
@@ -94,8 +96,10 @@ std::int64_t differences(const std::vector<T>& a, const std::vector<T>& b, const
 // Compares two trees node by node and two pictures pixel by pixel.
 Json compare(const StepContext& context, const std::string& first, const std::string& second) {
   const Scene scene = scene_of(context);
-  const Tracer one(scene.spheres, Engine::reference, parameters_of(context.values, first));
-  const Tracer other(scene.spheres, Engine::reference, parameters_of(context.values, second));
+  const Tracer one =
+      value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, first)));
+  const Tracer other =
+      value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, second)));
   const std::optional<Image> one_image = draw_traversal(context, scene, one);
   const std::optional<Image> other_image = draw_traversal(context, scene, other);
   if (!one_image || !other_image) return {};

@@ -79,12 +79,13 @@ Json measure_configuration(const StepContext& context, const ComparedEngine& eng
                            std::int64_t spheres) {
   const Scene scene = scene_of(context, scenario, spheres);
   std::vector<Contestant> contestants;
-  contestants.push_back({"brute", &scene, Tracer(scene.spheres, engine.brute, {})});
+  contestants.push_back(
+      {"brute", &scene, value_or_fail(Tracer::build(scene.spheres, engine.brute, engine.brute_parameters))});
   for (const double max_prims : context.values.numbers("max_prims_list")) {
     BuildParameters parameters;
     parameters.max_prims = static_cast<std::int64_t>(max_prims);
-    contestants.push_back(
-        {fmt::format("max_prims{}", max_prims), &scene, Tracer(scene.spheres, engine.tree, parameters)});
+    contestants.push_back({fmt::format("max_prims{}", max_prims), &scene,
+                           value_or_fail(Tracer::build(scene.spheres, engine.tree, parameters))});
   }
   return frame_times(contestants, context);
 }
@@ -99,7 +100,8 @@ Json measure_independence(const StepContext& context, const ComparedEngine& engi
     for (const double scenario : scenarios) {
       scenes.push_back(scene_of(context, static_cast<std::int64_t>(scenario), static_cast<std::int64_t>(spheres)));
       contestants.push_back(
-          {fmt::format("scenario{}", scenario), &scenes.back(), Tracer(scenes.back().spheres, engine.brute, {})});
+          {fmt::format("scenario{}", scenario), &scenes.back(),
+           value_or_fail(Tracer::build(scenes.back().spheres, engine.brute, engine.brute_parameters))});
     }
     by_spheres[fmt::format("spheres{}", spheres)] = frame_times(contestants, context);
     if (context.cancel.cancelled()) return {};
@@ -132,7 +134,8 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
 }  // namespace
 
 const std::vector<ComparedEngine>& compared_engines() {
-  static const std::vector<ComparedEngine> kCompared{{"reference", Engine::reference, Engine::brute}};
+  static const std::vector<ComparedEngine> kCompared{{"reference", Engine::reference, Engine::brute, {}},
+                                                     {"wide", Engine::wide, Engine::wide, {std::nullopt, 1}}};
   return kCompared;
 }
 

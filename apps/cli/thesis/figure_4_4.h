@@ -13,10 +13,12 @@
 
 namespace bihive::cli::thesis {
 
-/// An engine with a tree, and the brute force that it is compared with: the same kernel without a tree.
+/// An engine with a tree, and the brute force that it is compared with: the same kernel without a tree, or where it has
+/// none with one leaf.
 struct ComparedEngine {
   std::string name;
   Engine tree, brute;
+  TreeParameters brute_parameters;
 };
 const std::vector<ComparedEngine>& compared_engines();
 

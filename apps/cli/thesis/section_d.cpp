@@ -116,8 +116,8 @@ Json time_rays(StepContext& context, const Tracer& tree, const Tracer& brute, co
 
 Json time_one_leaf(StepContext& context) {
   const SphereSet spheres = spheres_of(context.values, context.settings.seed);
-  const Tracer tree(spheres, Engine::reference, parameters_of(context.values, kOneLeaf));
-  const Tracer brute(spheres, Engine::brute, {});
+  const Tracer tree = value_or_fail(Tracer::build(spheres, Engine::reference, parameters_of(context.values, kOneLeaf)));
+  const Tracer brute = value_or_fail(Tracer::build(spheres, Engine::brute));
   const PrimaryRays rays = primary_rays(context, tree);
   return {{"all", time_rays(context, tree, brute, rays.all)}, {"box", time_rays(context, tree, brute, rays.box)}};
 }

@@ -182,7 +182,8 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
   if (Status status = check_camera(scene.camera); !status) return status.error();
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   if (of_tree && tracer.tree() == nullptr)
-    return Error{"this view shows a tree, and brute force has none", "", 0, 0, "choose another engine"};
+    return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
+                 "choose the reference engine"};
   if (settings.view == View::tree) return render_tree_picture(scene, tracer, settings, progress, cancel);
   return Renderer(scene, tracer, settings, progress, cancel).run();
 }

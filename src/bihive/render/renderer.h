@@ -44,8 +44,8 @@ using ProgressCallback = std::function<void(double done)>;
 /// Settings of a scene's own defaults.
 RenderSettings settings_from(const PictureDefaults& defaults);
 
-/// Settings must be in range (a programmer's error otherwise). The traversal and tree views need a tracer with a tree:
-/// an Error without one. An Error "cancelled" when the token was set before the picture was done.
+/// Settings must be in range (a programmer's error otherwise). The traversal and tree views need a tracer of the
+/// reference engine: an Error without one. An Error "cancelled" when the token was set before the picture was done.
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr);
 

@@ -1,25 +1,126 @@
 #include "bihive/render/tracer.h"
 
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "bihive/base/check.h"
 #include "bihive/base/timer.h"
+#include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
+#include "bihive/kernels/wide_builder.h"
 #include "bihive/render/brute_force.h"
 
 namespace bihive {
+namespace {
 
-Tracer::Tracer(const SphereSet& spheres, Engine engine, const BuildParameters& parameters)
-    : spheres_(&spheres), engine_(engine == Engine::automatic ? Engine::reference : engine) {
-  if (engine_ == Engine::brute) return;
+// The side of a block of neighbouring pixels, as RayOrder::blocks wants them.
+constexpr int kBlockPx = 8;
+
+// 0 is the wide builder's own choice. No leaf can hold more than all spheres, and no tree has more levels than spheres.
+WideParameters for_wide(const TreeParameters& parameters, std::int64_t spheres) {
+  const auto bounded = [&](std::optional<std::int64_t> value) {
+    return value ? std::clamp<std::int64_t>(*value, 1, std::max<std::int64_t>(spheres, 1)) : 0;
+  };
+  WideParameters wide;
+  wide.max_prims = bounded(parameters.max_prims);
+  if (parameters.max_depth && *parameters.max_depth != kUnlimited) wide.max_depth = bounded(parameters.max_depth);
+  return wide;
+}
+
+}  // namespace
+
+BuildParameters TreeParameters::for_reference() const {
+  BuildParameters both;
+  both.max_prims = max_prims.value_or(both.max_prims);
+  both.max_depth = max_depth.value_or(both.max_depth);
+  return both;
+}
+
+Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters, int threads) {
+  Tracer tracer(spheres, engine == Engine::automatic ? Engine::wide : engine);
   const Timer timer;
-  tree_ = build_reference_tree(spheres, parameters);
-  build_ms_ = timer.elapsed_ms();
+  if (tracer.engine_ == Engine::wide) {
+    Result<std::shared_ptr<const WideTree>> tree =
+        WideBuilder().build(spheres, for_wide(parameters, spheres.size()), threads);
+    if (!tree) return tree.error();
+    tracer.wide_tree_ = std::move(*tree);
+  }
+  if (tracer.engine_ == Engine::reference) {
+    try {
+      tracer.tree_ = std::make_shared<const Tree>(build_reference_tree(spheres, parameters.for_reference()));
+    } catch (const std::bad_alloc&) {
+      return Error{"not enough memory for the reference tree of " + std::to_string(spheres.size()) + " spheres", "", 0,
+                   0, ""};
+    }
+  }
+  if (tracer.engine_ != Engine::brute) tracer.build_ms_ = timer.elapsed_ms();
+  return tracer;
+}
+
+Tracer::Tracer(const SphereSet& spheres, std::shared_ptr<const WideTree> tree) : Tracer(spheres, Engine::wide) {
+  BIHIVE_CHECK(tree != nullptr);
+  BIHIVE_CHECK_EQ(tree->size, spheres.size());
+  wide_tree_ = std::move(tree);
+}
+
+Tracer::Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree) : Tracer(spheres, Engine::reference) {
+  BIHIVE_CHECK(tree != nullptr);
+  tree_ = std::move(tree);
 }
 
 Hit Tracer::closest_hit(const Ray& ray) const {
+  if (wide_tree_) return bihive::closest_hit(*wide_tree_, ray);
   return tree_ ? bihive::closest_hit(*tree_, *spheres_, ray) : bihive::closest_hit(*spheres_, ray);
 }
 
 bool Tracer::occluded(const Ray& ray) const {
+  if (wide_tree_) return bihive::occluded(*wide_tree_, ray);
   return tree_ ? bihive::occluded(*tree_, *spheres_, ray) : bihive::occluded(*spheres_, ray);
+}
+
+void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
+  if (wide_tree_) return bihive::closest_hits(*wide_tree_, rays, order, hits);
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    const Hit hit = closest_hit(rays.at(i));
+    hits.t[i] = hit.t;
+    hits.sphere_id[i] = hit.sphere_id;
+  }
+}
+
+void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+  if (wide_tree_) return bihive::occluded(*wide_tree_, rays, order, hidden);
+  for (std::int64_t i = 0; i < rays.count; ++i) hidden[i] = occluded(rays.at(i)) ? 1 : 0;
+}
+
+void Tracer::closest_hits(const PixelRays& pixels, const Tile& tile, const HitSpan& hits) const {
+  // Trace a band of blocks at a time, and put its hits where their pixels are.
+  const std::int64_t width = tile.x1 - tile.x0;
+  RayBatch rays;
+  HitBatch band;
+  std::vector<std::int64_t> pixel_of_ray;
+  for (int y0 = tile.y0; y0 < tile.y1; y0 += kBlockPx) {
+    const int y1 = std::min(y0 + kBlockPx, tile.y1);
+    rays.resize(width * (y1 - y0));
+    pixel_of_ray.clear();
+    for (int x0 = tile.x0; x0 < tile.x1; x0 += kBlockPx)
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < std::min(x0 + kBlockPx, tile.x1); ++x) {
+          const Ray ray = pixels.at(x + 0.5, y + 0.5);
+          const std::size_t i = pixel_of_ray.size();
+          for (int axis = 0; axis < 3; ++axis) {
+            rays.origin[axis][i] = ray.origin[axis];
+            rays.direction[axis][i] = ray.direction[axis];
+          }
+          pixel_of_ray.push_back((y - tile.y0) * width + (x - tile.x0));
+        }
+    band.resize(rays.size());
+    closest_hits(rays.span(), RayOrder::blocks, band.span());
+    for (std::size_t i = 0; i < pixel_of_ray.size(); ++i) {
+      hits.t[pixel_of_ray[i]] = band.t[i];
+      hits.sphere_id[pixel_of_ray[i]] = band.sphere_id[i];
+    }
+  }
 }
 
 }  // namespace bihive

@@ -2,41 +2,80 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "bihive/base/result.h"
-#include "bihive/bih/reference_builder.h"
 #include "bihive/bih/tree.h"
 #include "bihive/geometry/hit.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/kernels/queries.h"
+#include "bihive/kernels/wide_tree.h"
+#include "bihive/render/film.h"
+#include "bihive/scene/camera.h"
 
 namespace bihive {
 
-/// automatic: the fastest engine that there is; reference: scalar traversal of the reference tree; brute: every sphere.
-/// All give the same bits.
-enum class Engine { automatic, reference, brute };
+/// automatic: the fastest engine that there is, which is wide; wide: vector kernels on the wide tree
+/// (kernels/queries.h); reference: scalar traversal of the reference tree; brute: every sphere. All give the same bits.
+enum class Engine { automatic, wide, reference, brute };
+
+/// What the caller says of a tree, >= 1 or kUnlimited. Unset: the engine chooses; the reference builder then takes
+/// leaves of at most 8 spheres and any depth.
+struct TreeParameters {
+  std::optional<std::int64_t> max_prims, max_depth;
+
+  TreeParameters() = default;
+  TreeParameters(std::optional<std::int64_t> prims, std::optional<std::int64_t> depth)
+      : max_prims(prims), max_depth(depth) {}
+  TreeParameters(const BuildParameters& both)  // NOLINT(google-explicit-constructor)
+      : max_prims(both.max_prims), max_depth(both.max_depth) {}
+
+  /// With the reference builder's own choice where nothing is said.
+  BuildParameters for_reference() const;
+};
 
 /// Holds the structure that an engine needs, and refers to the spheres, which must outlive it. Queries are const and
-/// may be made from any number of threads. An invalid ray (geometry/ray.h) hits nothing.
+/// may be made from any number of threads. An invalid ray (geometry/ray.h) hits nothing. Copies share the structure.
 class Tracer {
  public:
-  /// Builds what the engine needs. Parameters must be >= 1.
-  Tracer(const SphereSet& spheres, Engine engine, const BuildParameters& parameters);
+  /// Builds what the engine needs, on that many threads (0: all). Errors: more spheres than the engine can number, or
+  /// not enough memory for its tree.
+  static Result<Tracer> build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters = {},
+                              int threads = 0);
 
+  /// A tracer on a tree that somebody built of these very spheres: frame after frame with one WideBuilder
+  /// (kernels/wide_builder.h), or once for several tracers.
+  Tracer(const SphereSet& spheres, std::shared_ptr<const WideTree> tree);
+  Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree);
+
+  /// One ray: the nearest hit, and whether there is any.
   Hit closest_hit(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
 
+  /// Many rays at a time: much the faster with the wide engine (kernels/queries.h says when). Hit i belongs to ray i.
+  void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
+  void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
+
+  /// What a camera sees through the centres of a tile's pixels, row by row: hit i is that of pixel (x0 + i % width, y0
+  /// + i / width). The tile must lie inside the picture that `pixels` was made for.
+  void closest_hits(const PixelRays& pixels, const Tile& tile, const HitSpan& hits) const;
+
   Engine engine() const { return engine_; }  ///< never `automatic`
   const SphereSet& spheres() const { return *spheres_; }
-  const Tree* tree() const { return tree_ ? &*tree_ : nullptr; }  ///< null for brute
-  double build_ms() const { return build_ms_; }
+  const Tree* tree() const { return tree_.get(); }                ///< null unless the engine is `reference`
+  const WideTree* wide_tree() const { return wide_tree_.get(); }  ///< null unless the engine is `wide`
+  double build_ms() const { return build_ms_; }                   ///< 0 for a tree that was built elsewhere
 
  private:
+  Tracer(const SphereSet& spheres, Engine engine) : spheres_(&spheres), engine_(engine) {}
+
   const SphereSet* spheres_;
   Engine engine_;
-  std::optional<Tree> tree_;
+  std::shared_ptr<const Tree> tree_;
+  std::shared_ptr<const WideTree> wide_tree_;
   double build_ms_ = 0;
 };
 
