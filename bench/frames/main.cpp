@@ -50,7 +50,7 @@ ordered_json pictures(const Wish& wish) {
     const RenderSettings settings = whole_picture(wish.threads);
     const Tachyon tachyon = cli::value_or_fail(Tachyon::start(scene, settings, wish.folder + "/" + name + ".dat"));
     cli::value_or_fail(tachyon.render_ms(wish.folder + "/" + name + "_tachyon.png"));
-    const Tracer tracer(scene.spheres, Engine::automatic, {});
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
     FrameTimes ours, warm;
     std::vector<double> theirs;
     add_frame(scene, tracer, settings, warm);
@@ -78,7 +78,7 @@ ordered_json thesis(const Wish& wish) {
       ScenarioParameters parameters;
       parameters.count = count;
       const Scene scene = scenario_scene(static_cast<Scenario>(scenario), parameters).value();
-      const Tracer tracer(scene.spheres, Engine::automatic, {});
+      const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
       FrameTimes times, warm;
       for (int i = 0; i < 5; ++i) add_frame(scene, tracer, thesis_frame(wish.threads), warm);
       for (int i = 0; i < wish.repetitions; ++i) add_frame(scene, tracer, thesis_frame(wish.threads), times);

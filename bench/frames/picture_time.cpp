@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   const char* separator = "{";
   for (const char* name : {"s1", "s2", "s3"}) {
     const Scene scene = *bench::synthetic_scene(name);
-    const Tracer tracer(scene.spheres, Engine::automatic, {});
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
     bench::FrameTimes times, warm;
     bench::add_frame(scene, tracer, bench::whole_picture(threads), warm);
     for (int i = 0; i < repetitions; ++i) bench::add_frame(scene, tracer, bench::whole_picture(threads), times);

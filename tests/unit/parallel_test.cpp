@@ -55,8 +55,7 @@ TEST(Parallel, SeveralThreadsMayCallAtOnce) {
 // Adds two tasks a level; counts the tasks.
 void add_tree(TaskList& list, int levels, std::atomic<int>& tasks) {
   ++tasks;
-  for (int k = 0; levels > 0 && k < 2; ++k)
-    list.add([&list, &tasks, levels] { add_tree(list, levels - 1, tasks); });
+  for (int k = 0; levels > 0 && k < 2; ++k) list.add([&list, &tasks, levels] { add_tree(list, levels - 1, tasks); });
 }
 
 TEST(Parallel, EveryTaskThatATaskAdds) {
