@@ -182,7 +182,8 @@ HWY_INLINE void write_filter_rays(const LocalRays& rays, float box_pad, FilterRa
   const auto smallest = hn::Set(d, 1e-18F);
   for (int axis = 0; axis < 3; ++axis)
     for (int lane = 0; lane < 16; lane += kLanes) {
-      const auto n = hn::Load(d, rays.direction[axis] + lane);
+      // -0 becomes +0: a sign is what comparison with 0 says.
+      const auto n = hn::Add(hn::Load(d, rays.direction[axis] + lane), hn::Zero(d));
       const auto clamped = hn::CopySign(hn::Max(hn::Abs(n), smallest), n);
       const auto inv = hn::Div(hn::Set(d, 1.0F), clamped);
       const auto start = hn::Mul(hn::Load(d, rays.origin[axis] + lane), inv);
