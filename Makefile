@@ -1,6 +1,6 @@
 # Shortcuts: each job is a script in scripts/.
 
-.PHONY: help demo test check verify lint format clean
+.PHONY: help demo test check bench verify lint format clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -15,6 +15,10 @@ test: ## install what the tests need, run every test (about 25 minutes on two co
 
 check: ## the quick checks for daily work
 	scripts/check
+
+bench: ## measure everything of docs/performance.md, beside Embree and Tachyon (MINUTES minutes on two cores)
+	scripts/setup bench
+	scripts/bench
 
 verify: ## the intersection against the long-double oracle, ten million rays a scene (over half an hour)
 	scripts/verify

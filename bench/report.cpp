@@ -86,7 +86,7 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
     json["ratio"] = nullptr;
   }
   json["mismatches"] = wrong;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string text_report(const Measured& measured, const BenchOptions& options) {

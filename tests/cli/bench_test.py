@@ -1,0 +1,105 @@
+"""bihive-bench: what its JSON holds, that both ray tracers agree, and how it fails."""
+
+import os
+import subprocess
+
+from program import ProgramTest, main
+
+BENCH = os.environ["BIHIVE_BENCH"]
+KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3"]
+QUICK = ["--rays", "4096", "--reps", "1"]
+
+
+class BenchTest(ProgramTest):
+    def run_bihive(self, *arguments, **options):
+        options.setdefault("cwd", self.folder)
+        options.setdefault("stdout", subprocess.PIPE)
+        return subprocess.run([BENCH, *arguments], stderr=subprocess.PIPE, text=True, timeout=300, **options)
+
+    def test_json_has_the_published_keys_and_no_mismatch(self):
+        report = self.succeed_json("scenario2", "--peer", "embree", "--threads", "2", *QUICK)
+        keys = "spheres threads target commit build_ms bytes_per_sphere mray_per_s peer ratio mismatches"
+        self.assertLessEqual(set(keys.split()), set(report))
+        self.assertEqual((report["spheres"], report["threads"]), (4096, 2))
+        self.assertIn(report["target"], ["avx512", "avx2", "sse4", "neon", "scalar"])
+        self.assertEqual(report["mismatches"], 0)
+        self.assertEqual(report["peer"]["name"], "embree")
+        self.assertRegex(report["peer"]["version"], r"^3\.")
+        self.assertEqual(list(report["mray_per_s"]), KINDS)
+        self.assertEqual(list(report["peer"]["mray_per_s"]), KINDS)
+        self.assertLessEqual({"build", "bytes", *KINDS}, set(report["ratio"]))
+        self.assertEqual(report["rays"]["primary"], 4096)
+        for kind in KINDS:
+            ours, peers = report["mray_per_s"][kind], report["peer"]["mray_per_s"][kind]
+            self.assertGreater(ours, 0, kind)
+            self.assertAlmostEqual(report["ratio"][kind], ours / peers, places=6, msg=kind)
+        self.assertAlmostEqual(
+            report["ratio"]["bytes"], report["peer"]["bytes_per_sphere"] / report["bytes_per_sphere"], places=6
+        )
+        self.assertGreaterEqual(report["bytes_per_sphere"], 16)
+
+    def test_every_kind_of_input_agrees_with_the_peer(self):
+        # Two crossing spheres in a file, the four spheres, a molecule: framed by the program itself.
+        self.write("two.xyz", "2\n\nC 0 0 0\nC 0.5 0.2 0\n")
+        for name in ["two.xyz", "four-spheres", "demo", "s3", "mol"]:
+            report = self.succeed_json(name, "--peer", "embree", *QUICK)
+            self.assertEqual(report["mismatches"], 0, name)
+            self.assertGreater(report["rays"]["primary"], 0, name)
+
+    def test_only_what_is_asked_for(self):
+        report = self.succeed_json("s1", "--only", "random,build", *QUICK)
+        self.assertEqual(list(report["mray_per_s"]), ["random"])
+        self.assertGreater(report["build_ms"], 0)
+        self.assertIsNone(report["peer"])
+        self.assertIsNone(report["ratio"])
+        report = self.succeed_json("s1", "--only", "mirror3", *QUICK)
+        self.assertEqual(list(report["mray_per_s"]), ["mirror3"])
+        self.assertIsNone(report["build_ms"])
+
+    def test_a_kind_without_rays_is_null(self):
+        # A single sphere: nothing that is mirrored meets anything.
+        self.write("one.xyz", "1\n\nC 0 0 0\n")
+        report = self.succeed_json("one.xyz", "--peer", "embree", *QUICK)
+        self.assertGreater(report["mray_per_s"]["mirror1"], 0)
+        self.assertIsNone(report["mray_per_s"]["mirror2"])
+        self.assertIsNone(report["ratio"]["mirror2"])
+        self.assertEqual(report["rays"]["mirror2"], 0)
+
+    def test_a_target_may_be_forced(self):
+        report = self.succeed_json("s2", "--target", "sse4", "--peer", "embree", "--only", "primary", *QUICK)
+        self.assertEqual((report["target"], report["mismatches"]), ("sse4", 0))
+
+    def test_text_has_a_line_a_kind(self):
+        lines = self.succeed("s1", "--peer", "embree", *QUICK).splitlines()
+        self.assertIn("4,096 spheres", lines[0])
+        names = [line.split()[0] for line in lines]
+        self.assertEqual([name for name in names if name in KINDS], KINDS)
+        self.assertRegex(lines[-1], r"^wrong answers: 0, Embree's \d+$")
+
+    def test_bad_input(self):
+        self.assertIn("missing.pdb", self.fail_input("missing.pdb"))
+        self.write("broken.csv", "x,y,z\n1,2,three\n")
+        self.assertIn("broken.csv:2", self.fail_input("broken.csv", "--json"))
+        self.assertIn("nowhere.pdb", self.fail_input("mol", "--molecule", "nowhere.pdb"))
+
+    def test_bad_usage(self):
+        for arguments in [
+            [],
+            ["s1", "--peer", "povray"],
+            ["s1", "--only", "primary,secondary"],
+            ["s1", "--threads", "0"],
+            ["s1", "--reps", "none"],
+            ["s1", "--target", "avx1024"],
+            ["s1", "s2"],
+            ["demo", "--count", "3"],
+        ]:
+            self.fail_usage(*arguments)
+
+    def test_help(self):
+        text = self.succeed("--help")
+        for word in ["--peer", "--threads", "--only", "--reps", "--json", "u1e7", "Examples"]:
+            self.assertIn(word, text)
+
+
+if __name__ == "__main__":
+    main()
