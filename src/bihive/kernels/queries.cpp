@@ -1,5 +1,6 @@
 #include "bihive/kernels/queries.h"
 
+#include "bihive/kernels/beam.h"
 #include "bihive/kernels/lists.h"
 #include "bihive/kernels/single.h"
 
@@ -13,12 +14,20 @@ bool occluded(const WideTree& tree, const Ray& ray) {
   return kernels::occluded_single(tree, ray);
 }
 
-void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder /*order*/, const HitSpan& hits) {
-  kernels::closest_hits_lists(tree, rays, hits);
+void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
+  if (order == RayOrder::blocks) {
+    kernels::closest_hits_beams(tree, rays, hits);
+  } else {
+    kernels::closest_hits_lists(tree, rays, hits);
+  }
 }
 
-void occluded(const WideTree& tree, const RaySpan& rays, RayOrder /*order*/, std::uint8_t* hidden) {
-  kernels::occluded_lists(tree, rays, hidden);
+void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) {
+  if (order == RayOrder::blocks) {
+    kernels::occluded_beams(tree, rays, hidden);
+  } else {
+    kernels::occluded_lists(tree, rays, hidden);
+  }
 }
 
 }  // namespace bihive

@@ -1,0 +1,227 @@
+// The closest hits of a block of 64 neighbouring rays: its frustum against sixteen boxes or spheres at a time, and the
+// spheres that lie in it against all rays.
+
+#if defined(BIHIVE_KERNELS_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_KERNELS_BEAM_INL_H_
+#undef BIHIVE_KERNELS_BEAM_INL_H_
+#else
+#define BIHIVE_KERNELS_BEAM_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "bihive/kernels/beam_rays-inl.h"
+#include "bihive/kernels/frustum-inl.h"
+#include "bihive/kernels/lanes-inl.h"
+#include "bihive/kernels/rivals-inl.h"
+#include "bihive/kernels/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+namespace beam {
+
+// A child that waits, with the least w at which a ray may enter it.
+struct Waiting {
+  std::uint32_t node;   // number of a wide node, or of its first sphere
+  std::uint32_t count;  // spheres; 0: a node
+  float w_near;
+};
+
+// One sphere, ready to meet the rays.
+struct Candidate {
+  std::uint32_t slot;
+  std::uint32_t id;
+  float centre[3];
+  float padded;  // r + e
+  float padded_squared;
+};
+
+// How rays lie to a sphere, in units of distance along them.
+struct Meeting {
+  hn::VFromD<FloatTag> b, dp;
+};
+
+template <bool kCommonOrigin>
+HWY_INLINE Meeting meet(const BeamRays& rays, const Candidate& sphere, int lane) {
+  const FloatTag d;
+  auto cx = hn::Set(d, sphere.centre[0]);
+  auto cy = hn::Set(d, sphere.centre[1]);
+  auto cz = hn::Set(d, sphere.centre[2]);
+  if (!kCommonOrigin) {
+    cx = hn::Sub(cx, hn::Load(d, rays.origin[0] + lane));
+    cy = hn::Sub(cy, hn::Load(d, rays.origin[1] + lane));
+    cz = hn::Sub(cz, hn::Load(d, rays.origin[2] + lane));
+  }
+  const auto nx = hn::Load(d, rays.direction[0] + lane);
+  const auto ny = hn::Load(d, rays.direction[1] + lane);
+  const auto nz = hn::Load(d, rays.direction[2] + lane);
+  const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
+  const auto px = hn::NegMulAdd(b, nx, cx);
+  const auto py = hn::NegMulAdd(b, ny, cy);
+  const auto pz = hn::NegMulAdd(b, nz, cz);
+  const auto pp = hn::MulAdd(pz, pz, hn::MulAdd(py, py, hn::Mul(px, px)));
+  return {b, hn::Sub(hn::Set(d, sphere.padded_squared), pp)};
+}
+
+// All rays against one sphere. True if a winner changed.
+template <bool kCommonOrigin, bool kLeaves>
+HWY_INLINE bool meet_sphere(BeamRays& rays, std::int64_t first_ray, const Candidate& sphere, Rivals& rivals) {
+  const FloatTag d;
+  const auto zero = hn::Zero(d);
+  const auto e = hn::Set(d, rays.e);
+  const auto sure_above = hn::Set(d, kSureShare * rays.e * sphere.padded);
+  const auto spread = hn::Set(d, kWidthShare * rays.e * sphere.padded);
+  const auto slot = hn::Set(WordTag(), sphere.slot);
+  std::uint32_t won = 0;
+  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+    const Meeting m = meet<kCommonOrigin>(rays, sphere, lane);
+    auto near_enough = hn::Ge(m.dp, zero);
+    if (kLeaves) {
+      const auto own = hn::Eq(hn::Load(WordTag(), rays.leaves + lane), hn::Set(WordTag(), sphere.id));
+      near_enough = hn::AndNot(hn::RebindMask(d, own), near_enough);
+    }
+    if (hn::AllFalse(d, near_enough)) continue;
+
+    // Bounds of the roots.
+    const auto chord = hn::Sqrt(hn::Max(m.dp, zero));
+    const auto lower = hn::Sub(hn::Sub(m.b, e), chord);
+    const auto far_upper = hn::Add(hn::Add(m.b, e), chord);
+    const auto best = hn::Load(d, rays.s_best + lane);
+    const auto candidate = hn::And(near_enough, hn::And(hn::Le(lower, best), hn::Ge(far_upper, zero)));
+    const auto width = hn::MulAdd(spread, hn::ApproximateReciprocalSqrt(m.dp), hn::Add(e, e));
+    const auto upper = hn::Add(lower, width);
+    const auto sure_end = hn::Load(d, rays.s_sure + lane);
+    const auto winner =
+        hn::And(hn::And(candidate, hn::Gt(m.dp, sure_above)), hn::And(hn::Gt(lower, zero), hn::Lt(upper, sure_end)));
+    hn::Store(hn::IfThenElse(winner, upper, best), d, rays.s_best + lane);
+    hn::Store(hn::IfThenElse(winner, lower, sure_end), d, rays.s_sure + lane);
+    const auto slots = hn::Load(WordTag(), rays.slot + lane);
+    hn::Store(hn::IfThenElse(hn::RebindMask(WordTag(), winner), slot, slots), WordTag(), rays.slot + lane);
+    won |= mask_bits(winner);
+    for (std::uint32_t bits = mask_bits(hn::AndNot(winner, candidate)); bits != 0; bits &= bits - 1) {
+      const int ray = lane + __builtin_ctz(bits);
+      if (ray < rays.count) rivals.add(first_ray + ray, sphere.slot);
+    }
+  }
+  return won != 0;
+}
+
+// Radii of all, where there is only one; otherwise loaded.
+HWY_INLINE hn::VFromD<FloatTag> radii_at(const WideSpheres& spheres, std::int64_t slot) {
+  if (spheres.has_palette && spheres.palette_size == 1) return hn::Set(FloatTag(), spheres.palette[0]);
+  return load_radii(spheres, slot);
+}
+
+}  // namespace beam
+
+/// One block, set up in `rays`, whose hits are written.
+template <bool kCommonOrigin, bool kLeaves>
+HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frustum& frustum, const RaySpan& span,
+                                     std::int64_t first_ray, const HitSpan& hits, Rivals& rivals) {
+  const FloatTag d;
+  const auto e = hn::Set(d, rays.e);
+  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
+    hn::Store(hn::Set(WordTag(), kNoSlot), WordTag(), rays.slot + lane);
+  bool flushed = false;
+
+  const auto come_nearer = [&]() HWY_ATTR {
+    const auto sign = hn::Set(d, rays.sign);
+    auto end = hn::Set(d, -1e30F);
+    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+      const auto o = hn::Load(d, rays.origin[rays.major] + lane);
+      const auto n = hn::Load(d, rays.direction[rays.major] + lane);
+      end = hn::Max(end, hn::Mul(sign, hn::MulAdd(n, hn::Load(d, rays.s_best + lane), o)));
+    }
+    frustum.w_end = std::min(frustum.w_end, frustum::largest(end) + rays.pad);
+  };
+
+  const auto meet_leaf = [&](std::int64_t begin, std::int64_t count) HWY_ATTR {
+    bool won = false;
+    for (std::int64_t first = 0; first < count; first += kFloatLanes) {
+      const std::int64_t slot = begin + first;
+      const hn::VFromD<FloatTag> centre[3] = {hn::LoadU(d, tree.spheres.x + slot), hn::LoadU(d, tree.spheres.y + slot),
+                                              hn::LoadU(d, tree.spheres.z + slot)};
+      const auto padded = hn::Add(beam::radii_at(tree.spheres, slot), e);
+      std::uint32_t bits = spheres_in(frustum, centre, padded);
+      if (count - first < kFloatLanes) bits &= (1U << (count - first)) - 1;
+      if (bits == 0) continue;
+      alignas(64) float centres[3][kFloatLanes];
+      alignas(64) float radii[kFloatLanes];
+      for (int axis = 0; axis < 3; ++axis) {
+        auto c = centre[axis];
+        if (kCommonOrigin) c = hn::Sub(c, hn::Set(d, rays.origin[axis][0]));
+        hn::Store(c, d, centres[axis]);
+      }
+      hn::Store(padded, d, radii);
+      for (; bits != 0; bits &= bits - 1) {
+        const int k = __builtin_ctz(bits);
+        const beam::Candidate sphere{static_cast<std::uint32_t>(slot + k),
+                                     kLeaves ? static_cast<std::uint32_t>(tree.spheres.id(slot + k)) : 0,
+                                     {centres[0][k], centres[1][k], centres[2][k]},
+                                     radii[k],
+                                     radii[k] * radii[k]};
+        if (HWY_UNLIKELY(rivals.full())) {
+          if (!flushed) write_misses(hits, first_ray, rays.count);
+          flushed = true;
+          rivals.flush();
+        }
+        won |= beam::meet_sphere<kCommonOrigin, kLeaves>(rays, first_ray, sphere, rivals);
+      }
+    }
+    if (won) come_nearer();
+  };
+
+  // Each level leaves at most fifteen children waiting.
+  beam::Waiting waiting[kMostLevels * kWidth];
+  int waiting_count = 0;
+  waiting[waiting_count++] = {0, 0, frustum.w_begin};
+  alignas(64) float w_near[kWidth];
+  while (waiting_count > 0) {
+    const beam::Waiting top = waiting[--waiting_count];
+    if (top.w_near > frustum.w_end) continue;
+    if (top.count != 0) {
+      meet_leaf(top.node, top.count);
+      continue;
+    }
+
+    // Let the children that rays may enter wait, the nearest on top.
+    const WideNode& node = tree.nodes[top.node];
+    const std::uint32_t bits = boxes_in(node, frustum, w_near);
+    if (bits == 0) continue;
+    std::uint64_t order = 0;
+    for (std::uint32_t places = near_to_far(node, frustum.octant, bits, order); places != 0;) {
+      const int place = 31 - __builtin_clz(places);
+      places ^= 1U << place;
+      const int slot = static_cast<int>(order >> (4 * place) & 15);
+      if (node.is_leaf(slot))
+        waiting[waiting_count++] = {static_cast<std::uint32_t>(node.sphere_begin(slot)),
+                                    static_cast<std::uint32_t>(node.sphere_count(slot)), w_near[slot]};
+      else
+        waiting[waiting_count++] = {static_cast<std::uint32_t>(node.child_node(slot)), 0, w_near[slot]};
+    }
+  }
+
+  if (HWY_LIKELY(!flushed)) {
+    write_winners(tree, span, first_ray, rays.count, rays.slot, hits);
+    return;
+  }
+  // Rivals have been decided already: the winners must be nearer.
+  for (int i = 0; i < rays.count; ++i) {
+    if (rays.slot[i] == kNoSlot) continue;
+    if (rivals.full()) rivals.flush();
+    rivals.add(first_ray + i, rays.slot[i]);
+  }
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_KERNELS_BEAM_INL_H_

@@ -1,0 +1,16 @@
+// Beams: blocks of 64 neighbouring rays against the wide tree on the active target; public callers use
+// kernels/queries.h.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/kernels/ray_batch.h"
+#include "bihive/kernels/wide_tree.h"
+
+namespace bihive::kernels {
+
+/// Any rays may come; only blocks (counted from the first ray) that are close in origin and direction are fast.
+void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
+void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+
+}  // namespace bihive::kernels

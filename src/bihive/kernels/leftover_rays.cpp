@@ -1,0 +1,99 @@
+#include "bihive/kernels/leftover_rays.h"
+
+#include <algorithm>
+
+#include "bihive/kernels/lists.h"
+
+namespace bihive {
+namespace {
+
+// Runs of at least this many rays are answered where they lie, shorter ones are copied into a tile of kTile.
+constexpr std::int64_t kLongRun = 4096;
+constexpr std::int64_t kTile = 16384;
+
+// A tile of copied rays, and their answers.
+struct Tile {
+  RayBatch rays;
+  HitBatch hits;
+  std::vector<std::uint8_t> hidden;
+
+  void begin() { rays.clear(); }
+
+  void add(const RaySpan& from, std::int64_t first, std::int64_t count) {
+    for (int axis = 0; axis < 3; ++axis) {
+      rays.origin[axis].insert(rays.origin[axis].end(), from.origin[axis] + first, from.origin[axis] + first + count);
+      rays.direction[axis].insert(rays.direction[axis].end(), from.direction[axis] + first,
+                                  from.direction[axis] + first + count);
+    }
+    const auto append = [&](auto& to, const auto* values) {
+      if (values != nullptr) to.insert(to.end(), values + first, values + first + count);
+    };
+    append(rays.t_min, from.t_min);
+    append(rays.t_max, from.t_max);
+    append(rays.leaves, from.leaves);
+    append(rays.inside, from.inside);
+  }
+};
+
+Tile& tile_of_thread() {
+  static thread_local Tile tile;
+  return tile;
+}
+
+}  // namespace
+
+template <class Direct, class Copied>
+void LeftoverRays::in_tiles(const Direct& direct, const Copied& copied) const {
+  Tile& tile = tile_of_thread();
+  tile.begin();
+  std::vector<Run> in_tile;
+  const auto finish = [&] {
+    if (!in_tile.empty()) copied(in_tile);
+    in_tile.clear();
+    tile.begin();
+  };
+  for (const Run& run : runs_) {
+    if (run.count >= kLongRun) {
+      direct(run);
+      continue;
+    }
+    if (tile.rays.size() + run.count > kTile) finish();
+    tile.add(rays_, run.first, run.count);
+    in_tile.push_back(run);
+  }
+  finish();
+}
+
+void LeftoverRays::closest_hits(const WideTree& tree, const HitSpan& hits) const {
+  in_tiles(
+      [&](const Run& run) {
+        kernels::closest_hits_lists(tree, rays_.part(run.first, run.count), hits.part(run.first));
+      },
+      [&](const std::vector<Run>& runs) {
+        Tile& tile = tile_of_thread();
+        tile.hits.resize(tile.rays.size());
+        kernels::closest_hits_lists(tree, tile.rays.span(), tile.hits.span());
+        std::int64_t from = 0;
+        for (const Run& run : runs) {
+          std::copy_n(tile.hits.t.data() + from, run.count, hits.t + run.first);
+          std::copy_n(tile.hits.sphere_id.data() + from, run.count, hits.sphere_id + run.first);
+          from += run.count;
+        }
+      });
+}
+
+void LeftoverRays::occluded(const WideTree& tree, std::uint8_t* hidden) const {
+  in_tiles([&](const Run& run) { kernels::occluded_lists(tree, rays_.part(run.first, run.count), hidden + run.first); },
+           [&](const std::vector<Run>& runs) {
+             Tile& tile = tile_of_thread();
+             tile.hidden.resize(static_cast<std::size_t>(tile.rays.size()));
+             kernels::occluded_lists(tree, tile.rays.span(), tile.hidden.data());
+             std::int64_t from = 0;
+             for (const Run& run : runs) {
+               std::copy_n(tile.hidden.data() + from, run.count, hidden + run.first);
+               from += run.count;
+             }
+           });
+}
+
+}  // namespace bihive

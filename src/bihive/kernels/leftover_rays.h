@@ -1,0 +1,39 @@
+// Rays of blocks that are not for a beam: answered in one go by the kernel for any rays.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/kernels/ray_batch.h"
+#include "bihive/kernels/wide_tree.h"
+
+namespace bihive {
+
+class LeftoverRays {
+ public:
+  explicit LeftoverRays(const RaySpan& rays) : rays_(rays) {}
+
+  /// Rays first to first + count - 1, after those added before.
+  void add(std::int64_t first, std::int64_t count) {
+    if (!runs_.empty() && runs_.back().first + runs_.back().count == first) {
+      runs_.back().count += count;
+    } else {
+      runs_.push_back({first, count});
+    }
+  }
+
+  void closest_hits(const WideTree& tree, const HitSpan& hits) const;
+  void occluded(const WideTree& tree, std::uint8_t* hidden) const;
+
+ private:
+  struct Run {
+    std::int64_t first, count;
+  };
+  template <class Direct, class Copied>
+  void in_tiles(const Direct& direct, const Copied& copied) const;
+
+  RaySpan rays_;
+  std::vector<Run> runs_;
+};
+
+}  // namespace bihive

@@ -1,0 +1,139 @@
+// Blocks of neighbouring rays get the reference traversal's answers, bit for bit, on every target.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/traversal.h"
+#include "bihive/kernels/queries.h"
+#include "bihive/kernels/target.h"
+#include "bihive/kernels/wide_builder.h"
+#include "support/block_rays.h"
+#include "support/hostile_sets.h"
+
+namespace bihive {
+namespace {
+
+constexpr int kBlocks = 40;
+
+std::vector<test::World> worlds() {
+  std::vector<test::World> all = test::degenerate_worlds();
+  for (test::World& world : test::hostile_worlds(2000, 2000)) all.push_back(std::move(world));
+  all.push_back(test::random_world("dense", 51, 3000, 5, 0.2, 1.0));
+  all.push_back(test::random_world("one radius", 52, 4000, 20, 1, 1));
+  return all;
+}
+
+struct Expected {
+  std::vector<double> t;
+  std::vector<std::int64_t> id;
+  std::vector<std::uint8_t> hidden;
+};
+
+Expected by_reference(const SphereSet& spheres, const RaySpan& rays) {
+  const Tree tree = build_reference_tree(spheres, {8, kUnlimited});
+  Expected expected;
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    const Hit hit = closest_hit(tree, spheres, rays.at(i));
+    expected.t.push_back(hit.t);
+    expected.id.push_back(hit.sphere_id);
+    expected.hidden.push_back(occluded(tree, spheres, rays.at(i)) ? 1 : 0);
+  }
+  return expected;
+}
+
+void check(const test::World& world, const std::string& kind, const SphereSet& spheres, const WideTree& tree,
+           const RaySpan& rays) {
+  const Expected expected = by_reference(spheres, rays);
+  const auto n = static_cast<std::size_t>(rays.count);
+  for (const std::string& target : available_targets()) {
+    ASSERT_TRUE(use_target(target).ok());
+    HitBatch hits;
+    hits.resize(rays.count);
+    std::vector<std::uint8_t> hidden(n, 2);
+    closest_hits(tree, rays, RayOrder::blocks, hits.span());
+    occluded(tree, rays, RayOrder::blocks, hidden.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      const Ray ray = rays.at(static_cast<std::int64_t>(i));
+      ASSERT_EQ(hits.sphere_id[i], expected.id[i])
+          << world.name << ", " << kind << ", " << target << ", ray " << i << ", t " << hits.t[i] << ", not "
+          << expected.t[i] << ": " << test::text_of(ray);
+      ASSERT_EQ(std::memcmp(&hits.t[i], &expected.t[i], sizeof(double)), 0)
+          << world.name << ", " << kind << ", " << target << ", ray " << i << ": " << test::text_of(ray);
+      ASSERT_EQ(hidden[i], expected.hidden[i])
+          << world.name << ", " << kind << ", " << target << ", ray " << i << ": " << test::text_of(ray);
+    }
+  }
+  ASSERT_TRUE(use_target("").ok());
+}
+
+// Rays that say no more than origin and direction, as primary rays do.
+void keep_lines_only(RayBatch& rays) {
+  rays.t_min.clear();
+  rays.t_max.clear();
+  rays.leaves.clear();
+  rays.inside.clear();
+}
+
+TEST(Beam, EveryBlockIsAnsweredAsByTheReference) {
+  std::uint64_t seed = 500;
+  for (const test::World& world : worlds()) {
+    if (world.size() == 0) continue;
+    const SphereSet spheres = test::sphere_set(world);
+    WideBuilder builder;
+    const auto tree = builder.build(spheres);
+    ASSERT_TRUE(tree.ok());
+    test::BlockRays maker(world, ++seed);
+    RayBatch camera, lines, shadow, parallel, any;
+    for (int block = 0; block < kBlocks; ++block) {
+      maker.add_camera(camera);
+      maker.add_camera(lines);
+      maker.add_shadow(shadow);
+      maker.add_parallel(parallel);
+      maker.add_any(any);
+    }
+    keep_lines_only(lines);
+    check(world, "camera", spheres, **tree, camera.span());
+    check(world, "lines", spheres, **tree, lines.span());
+    check(world, "shadow", spheres, **tree, shadow.span());
+    check(world, "parallel", spheres, **tree, parallel.span());
+    check(world, "any", spheres, **tree, any.span());
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(Beam, TheLastBlockMayBeShort) {
+  const test::World world = test::random_world("one radius", 53, 2000, 10, 1, 1);
+  const SphereSet spheres = test::sphere_set(world);
+  WideBuilder builder;
+  const auto tree = builder.build(spheres);
+  ASSERT_TRUE(tree.ok());
+  test::BlockRays maker(world, 54);
+  RayBatch camera, shadow;
+  for (int block = 0; block < 3; ++block) {
+    maker.add_camera(camera);
+    maker.add_shadow(shadow);
+  }
+  for (std::int64_t count = 0; count <= 130; ++count) {
+    check(world, "camera", spheres, **tree, camera.span().part(3, count));
+    check(world, "shadow", spheres, **tree, shadow.span().part(5, count));
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(Beam, AnEmptySetIsMissed) {
+  const SphereSet spheres;
+  WideBuilder builder;
+  const auto tree = builder.build(spheres);
+  ASSERT_TRUE(tree.ok());
+  RayBatch rays;
+  for (int i = 0; i < 100; ++i) rays.push_back({{0, 0, 0}, {1, 0, 0}});
+  check({}, "empty", spheres, **tree, rays.span());
+}
+
+}  // namespace
+}  // namespace bihive
