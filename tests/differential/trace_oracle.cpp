@@ -7,8 +7,8 @@
 // oracle.h states that as an interval for each root, which is never wider than a few 1e-15 of the distance and so
 // within the relative 1e-12 that the project allows itself. Such answers are counted as excused, and too many of them
 // fail too. Spheres that are equal bit for bit have equal roots in both arithmetics: there the smaller id is always
-// required. Brute force must give the reference's bits, and --any must agree with both; those run on the first million
-// rays.
+// required. The reference engine is what is judged. The engine `auto` must give its bits on every ray; on the first
+// million rays so must `auto` on every other instruction set of this machine and brute force, and --any must agree.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -98,30 +98,47 @@ void judge(const Oracle& oracle, const Ray& ray, double t, std::int64_t id, cons
   }
 }
 
+/// Says where two engines differ first; false if they do, or if one failed.
+bool same_answers(const std::vector<Ray>& rays, const std::optional<Answers>& a, const std::optional<Answers>& b,
+                  const std::string& names) {
+  if (!a || !b) return false;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (a->id[i] == b->id[i] && std::memcmp(&a->t[i], &b->t[i], sizeof(double)) == 0) continue;
+    std::fprintf(stderr, "ENGINES DIFFER: %s: %a of %lld, %a of %lld: %s\n", names.c_str(), a->t[i],
+                 static_cast<long long>(a->id[i]), b->t[i], static_cast<long long>(b->id[i]), text_of(rays[i]).c_str());
+    return false;
+  }
+  return true;
+}
+
+/// What --any must say where the closest hits are known.
+Answers any_of(const Answers& closest) {
+  Answers any = closest;
+  for (std::size_t i = 0; i < any.id.size(); ++i)
+    if (any.id[i] >= 0) any.t[i] = 0, any.id[i] = 0;
+  return any;
+}
+
 /// One chunk of rays; false if the engine failed or two engines differ.
 bool run_chunk(EngineUnderTest& engine, const Oracle& oracle, const std::vector<Ray>& rays, bool compare, int threads,
                Tally& tally) {
   if (!engine.set_rays(rays)) return false;
   const auto reference = engine.trace("reference", false);
   if (!reference) return false;
+  if (!same_answers(rays, reference, engine.trace("auto", false), "reference, auto")) return false;
   std::optional<Answers> any;
   if (compare) {
-    const auto brute = engine.trace("brute", false), brute_any = engine.trace("brute", true);
     any = engine.trace("reference", true);
-    if (!brute || !any || !brute_any) return false;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const bool found = reference->id[i] >= 0;
-      const bool same =
-          brute->id[i] == reference->id[i] && std::memcmp(&brute->t[i], &reference->t[i], sizeof(double)) == 0;
-      const bool same_any = any->id[i] == (found ? 0 : -1) && brute_any->id[i] == any->id[i] &&
-                            any->t[i] == (found ? 0.0 : HUGE_VAL) && brute_any->t[i] == any->t[i];
-      if (same && same_any) continue;
-      std::fprintf(stderr, "ENGINES DIFFER: reference %a of %lld, brute %a of %lld, any %lld and %lld: %s\n",
-                   reference->t[i], static_cast<long long>(reference->id[i]), brute->t[i],
-                   static_cast<long long>(brute->id[i]), static_cast<long long>(any->id[i]),
-                   static_cast<long long>(brute_any->id[i]), text_of(rays[i]).c_str());
+    const Answers expected = any_of(*reference);
+    if (!same_answers(rays, expected, any, "closest hits, --any") ||
+        !same_answers(rays, expected, engine.trace("auto", true), "closest hits, auto --any") ||
+        !same_answers(rays, reference, engine.trace("brute", false), "reference, brute") ||
+        !same_answers(rays, expected, engine.trace("brute", true), "closest hits, brute --any"))
       return false;
-    }
+    for (const std::string& target : available_targets())
+      if (target != available_targets().front() &&
+          !same_answers(rays, reference, engine.trace("auto", false, target), "reference, auto on " + target))
+        return false;
   }
   constexpr std::size_t kBlock = 512;
   const std::size_t blocks = (rays.size() + kBlock - 1) / kBlock;

@@ -14,6 +14,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/geometry/ray.h"
+#include "bihive/kernels/target.h"
 #include "bihive/render/tracer.h"
 #include "support/npy_file.h"
 #include "support/world.h"
@@ -25,13 +26,14 @@ struct Answers {
   std::vector<std::int64_t> id;
 };
 
-/// Empty answers mean that the engine failed; why has been printed.
+/// Empty answers mean that the engine failed; why has been printed. `target` is one of available_targets()
+/// (kernels/target.h), or empty for the library's own choice.
 class EngineUnderTest {
  public:
   virtual ~EngineUnderTest() = default;
   virtual bool load(const World& world) = 0;
   virtual bool set_rays(const std::vector<Ray>& rays) = 0;
-  virtual std::optional<Answers> trace(const std::string& engine, bool any) = 0;
+  virtual std::optional<Answers> trace(const std::string& engine, bool any, const std::string& target = "") = 0;
 };
 
 /// `bihive trace`, run as its users run it.
@@ -62,10 +64,11 @@ class ProgramUnderTest : public EngineUnderTest {
     return write_npy(file("rays"), "<f4", values, 8);
   }
 
-  std::optional<Answers> trace(const std::string& engine, bool any) override {
-    const std::string command = "'" + program_ + "' trace '" + file("spheres") + "' --rays '" + file("rays") +
-                                "' --t '" + file("t") + "' --id '" + file("id") + "' --engine " + engine +
-                                (any ? " --any" : "") + " >'" + file("said") + "' 2>&1";
+  std::optional<Answers> trace(const std::string& engine, bool any, const std::string& target) override {
+    const std::string command = (target.empty() ? "'" : "BIHIVE_TARGET=" + target + " '") + program_ + "' trace '" +
+                                file("spheres") + "' --rays '" + file("rays") + "' --t '" + file("t") + "' --id '" +
+                                file("id") + "' --engine " + engine + (any ? " --any" : "") + " >'" + file("said") +
+                                "' 2>&1";
     if (std::system(command.c_str()) != 0) {
       std::ifstream said(file("said"));
       std::stringstream text;
@@ -99,25 +102,27 @@ class LibraryUnderTest : public EngineUnderTest {
     rays_ = &rays;
     return true;
   }
-  std::optional<Answers> trace(const std::string& engine, bool any) override {
+  std::optional<Answers> trace(const std::string& engine, bool any, const std::string& target) override {
     const Engine asked = engine == "brute"       ? Engine::brute
                          : engine == "reference" ? Engine::reference
                                                  : Engine::automatic;
+    BIHIVE_CHECK(use_target(target).ok());
     const Tracer tracer = Tracer::build(spheres_, asked, {}, threads_).value();
     Answers answers{std::vector<double>(rays_->size(), std::numeric_limits<double>::infinity()),
                     std::vector<std::int64_t>(rays_->size(), -1)};
-    constexpr std::size_t kBlock = 1024;
-    parallel_for(threads_, static_cast<std::int64_t>((rays_->size() + kBlock - 1) / kBlock), [&](std::int64_t block) {
-      const std::size_t first = static_cast<std::size_t>(block) * kBlock;
-      for (std::size_t i = first; i < std::min(first + kBlock, rays_->size()); ++i) {
-        if (any) {
-          if (tracer.occluded((*rays_)[i])) answers.t[i] = 0, answers.id[i] = 0;
-        } else {
-          const Hit hit = tracer.closest_hit((*rays_)[i]);
-          answers.t[i] = hit.t;
-          answers.id[i] = hit.sphere_id;
-        }
-      }
+    constexpr std::int64_t kBlock = 16384;
+    const auto count = static_cast<std::int64_t>(rays_->size());
+    parallel_for(threads_, (count + kBlock - 1) / kBlock, [&](std::int64_t block) {
+      const std::int64_t first = block * kBlock;
+      RayBatch batch;
+      for (std::int64_t i = first; i < std::min(first + kBlock, count); ++i)
+        batch.push_back((*rays_)[static_cast<std::size_t>(i)]);
+      const HitSpan hits = HitSpan{answers.t.data(), answers.id.data()}.part(first);
+      if (!any) return tracer.closest_hits(batch.span(), RayOrder::any, hits);
+      std::vector<std::uint8_t> hidden(static_cast<std::size_t>(batch.size()));
+      tracer.occluded(batch.span(), RayOrder::any, hidden.data());
+      for (std::int64_t i = 0; i < batch.size(); ++i)
+        if (hidden[static_cast<std::size_t>(i)] != 0) hits.t[i] = 0, hits.sphere_id[i] = 0;
     });
     return answers;
   }
