@@ -23,6 +23,8 @@
 // u F.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace bihive {
@@ -52,6 +54,13 @@ struct FilterBounds {
     box_pad = kBoxUnits * kUnit * reach;
   }
 };
+
+/// A t as a distance along a local ray, s = t length - shift, rounded up.
+inline float upper_distance(double t, double length, double shift) {
+  const double s = std::clamp(t * length, -1e30, 1e30) - shift;
+  const double upper = s + std::abs(s) * 0x1p-22 + std::abs(shift) * 0x1p-46;
+  return static_cast<float>(std::clamp(upper, -double(kFarthestEnd), double(kFarthestEnd)));
+}
 
 /// One local ray, a cache line.
 struct alignas(64) FilterRay {

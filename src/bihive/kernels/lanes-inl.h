@@ -25,9 +25,15 @@ constexpr int kFloatLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 /// Bit i: lane i.
 template <class Mask>
 HWY_INLINE std::uint32_t mask_bits(Mask mask) {
+#if HWY_TARGET <= HWY_AVX3
+  return mask.raw;
+#elif HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+  return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask));
+#else
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(FloatTag(), mask, bytes);
   return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+#endif
 }
 
 /// first, first + 1, ... (Highway's own Iota writes lane after lane and waits for them.)

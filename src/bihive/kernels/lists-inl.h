@@ -164,11 +164,11 @@ class ListWalk {
     std::uint32_t* places;  // of the list
     std::uint32_t* list;    // of a child
     static std::size_t bytes(std::uint32_t count) {
-      const std::size_t padded = (count + 31) / 16 * 16;
+      const std::size_t padded = (count + 47) / 16 * 16;
       return padded * (2 + 64 + 4 + 4) + 64;
     }
     NodeMemory(char* at, std::uint32_t count) {
-      const std::size_t padded = (count + 31) / 16 * 16;
+      const std::size_t padded = (count + 47) / 16 * 16;
       s_near = reinterpret_cast<float*>(at);
       places = reinterpret_cast<std::uint32_t*>(at + padded * 64);
       list = places + padded;
@@ -241,6 +241,8 @@ class ListWalk {
         any |= bits;
       }
     }
+    // Masks past the end are read too.
+    std::fill_n(memory.masks + count, kWidth, std::uint16_t{0});
     return any;
   }
 
@@ -251,8 +253,6 @@ class ListWalk {
     const auto bit = hn::Set(d, 1u << slot);
     auto places = iota_words(0);
     std::size_t found = 0;
-    // Masks past the end are stale: blank them.
-    for (std::uint32_t i = count; i % kFloatLanes != 0; ++i) memory.masks[i] = 0;
     for (std::uint32_t i = 0; i < count; i += kFloatLanes) {
       const auto masks = hn::PromoteTo(d, hn::LoadU(half, memory.masks + i));
       found += store_compressed(d, places, hn::TestBit(masks, bit), memory.places + found);
@@ -268,26 +268,27 @@ class ListWalk {
     return kept;
   }
 
-  // One ray from a node on, its nearest child first.
-  void walk_alone(std::int64_t node_number, std::uint32_t ray) {
-    SingleRay single_ray;
-    single_ray.local = tile_.rays[ray];
-    single::Waiting waiting[kMostLevels * kWidth];  // NOLINT: written before read
-    int waiting_count = 0;
-    waiting[waiting_count++] = {static_cast<std::uint32_t>(node_number), 0, single_ray.local.s_min};
-    alignas(64) float s_near[kWidth];
-    while (waiting_count > 0) {
-      const single::Waiting top = waiting[--waiting_count];
-      if (top.s_near > tile_.s_best[ray]) continue;
-      if (top.count != 0) {
-        for (std::uint32_t first = 0; first < top.count; first += kWidth)
-          test_leaf(top.node + first, std::min<std::uint32_t>(top.count - first, kWidth), &ray, 1);
-        finish_candidates();
-        continue;
-      }
-      single_ray.s_best = tile_.s_best[ray];
-      const WideNode& node = tree_.nodes[top.node];
-      single::push_children(node, single::hit_boxes(node, single_ray, s_near), s_near, waiting, waiting_count);
+  // One ray from a node on.
+  void walk_alone(std::int64_t node_number, std::uint32_t number) {
+    SingleRay ray;
+    ray.local = tile_.rays[number];
+    ray.s_best = tile_.s_best[number];
+    ray.sure_min = tile_.sure_min[number];
+    ray.e = bounds_.e;
+    ray.width = bounds_.width;
+    ray.left_id = leaves_some_ ? tile_.left_id[number] : kNoSlot;
+    ray.inward = leaves_some_ && rays_.inside != nullptr && tile_.inward[number] != 0;
+    ray.winner = kNoSlot;
+    walk_single<kAnyHit>(tree_, static_cast<std::uint32_t>(node_number), ray, waiting_, [&](std::uint32_t slot) {
+      add_rival(number, slot);
+      return false;
+    });
+    if (ray.winner == kNoSlot) return;
+    if constexpr (kAnyHit) {
+      hide(number);
+    } else {
+      tile_.winner[number] = ray.winner;
+      tile_.s_best[number] = std::min(tile_.s_best[number], ray.s_best);
     }
   }
 
@@ -359,7 +360,6 @@ class ListWalk {
     const FloatTag d;
     const WordTag words;
     const hn::RebindToSigned<WordTag> ints;
-    const auto e = hn::Set(d, bounds_.e);
     for (int first = 0; first < queue.count; first += kFloatLanes) {
       const auto b = hn::Load(d, queue.b + first);
       const auto dp = hn::Load(d, queue.dp + first);
@@ -367,13 +367,9 @@ class ListWalk {
       const auto ray = hn::BitCast(ints, hn::Load(words, queue.ray + first));
       const auto exists = hn::FirstN(d, static_cast<std::size_t>(std::min(queue.count - first, kFloatLanes)));
       const auto index = hn::IfThenElseZero(hn::RebindMask(ints, exists), ray);
-      const auto chord = hn::Sqrt(dp);
-      const auto lower = hn::Sub(hn::Sub(b, e), chord);
-      const auto upper = hn::Add(hn::Add(b, e), chord);
       const auto s_best = hn::GatherIndex(d, tile_.s_best, index);
       const auto sure_min = hn::GatherIndex(d, tile_.sure_min, index);
       const auto s_min = hn::GatherIndex(d, &tile_.rays[0].s_min, hn::ShiftLeft<4>(index));
-      auto keep = hn::And(exists, hn::And(hn::Le(lower, s_best), hn::Ge(upper, s_min)));
       auto own = hn::MaskFromVec(hn::Zero(d));
       auto inward = own;
       if (leaves_some_) {
@@ -383,30 +379,19 @@ class ListWalk {
         own = hn::And(exists, hn::RebindMask(d, hn::Eq(id, gather_words(tile_.left_id, index))));
         if (rays_.inside != nullptr)
           inward = hn::And(own, hn::RebindMask(d, hn::Ne(gather_words(tile_.inward, index), hn::Zero(words))));
-        // Going outward a ray never meets the sphere that it leaves.
-        keep = hn::AndNot(hn::AndNot(inward, own), keep);
       }
-      const auto dp_sure =
-          hn::MulAdd(hn::Set(d, 0.04F), r_squared, hn::Mul(hn::Set(d, 4 * bounds_.e), hn::Sqrt(hn::Abs(r_squared))));
-      // Where the near root surely lies before the segment, or is where the ray starts, the far root counts.
-      const auto clear = hn::Ge(dp, dp_sure);
-      const auto width = hn::Set(d, bounds_.width);
-      const auto far_root = hn::And(clear, hn::Or(inward, hn::Lt(hn::Add(lower, width), s_min)));
-      const auto start = hn::IfThenElse(far_root, hn::Sub(upper, width), lower);
-      keep = hn::And(keep, hn::Le(start, s_best));
-      const auto sure = hn::And(hn::And(clear, hn::Ge(start, sure_min)), hn::Or(far_root, hn::Not(inward)));
-      std::uint32_t bits = mask_bits(keep);
+      const auto judged = judge(b, dp, r_squared, s_best, s_min, sure_min, own, inward, bounds_.e, bounds_.width);
+      std::uint32_t bits = mask_bits(hn::And(exists, judged.keep));
       if (bits == 0) continue;
-      const std::uint32_t sure_bits = mask_bits(sure);
+      const std::uint32_t sure_bits = mask_bits(judged.sure);
       alignas(64) float starts[kFloatLanes];
-      hn::Store(start, d, starts);
+      hn::Store(judged.start, d, starts);
       for (; bits != 0; bits &= bits - 1) {
         const int k = __builtin_ctz(bits);
         accept(queue.ray[first + k], queue.slot[first + k], starts[k], (sure_bits >> k & 1) != 0);
       }
     }
     queue.count = 0;
-    if (tile_.rival_count > kernels::kMostRivals - kernels::kQueue - 32) settle_rivals();
   }
 
   template <class Index>
@@ -428,6 +413,11 @@ class ListWalk {
       }
       return;
     }
+    add_rival(ray, slot);
+  }
+
+  void add_rival(std::uint32_t ray, std::uint32_t slot) {
+    if (tile_.rival_count == kernels::kMostRivals) settle_rivals();
     tile_.rivals[tile_.rival_count++] = {ray, slot};
   }
 
@@ -508,7 +498,7 @@ class ListWalk {
         } else {
           keep_nearer(pairs[k].ray, t[k], tree_.spheres.id(pairs[k].slot));
           float& s_best = tile_.s_best[pairs[k].ray];
-          s_best = std::min(s_best, upper_distance(pairs[k].ray, t[k]));
+          s_best = std::min(s_best, upper_bound_of(pairs[k].ray, t[k]));
         }
       }
     }
@@ -523,10 +513,12 @@ class ListWalk {
   }
 
   // A t of a ray as a distance along its local ray, rounded up.
-  float upper_distance(std::uint32_t ray, double t) const {
-    SingleRay single_ray;
-    if (!set_up_single(ScaledRay(rays_.at(ray), tree_.scale), single_ray)) return kFarthestEnd;
-    return single_ray.upper(t);
+  float upper_bound_of(std::uint32_t number, double t) const {
+    SingleRay ray;
+    double length = 0;
+    double shift = 0;
+    if (!set_up_single(ScaledRay(rays_.at(number), tree_.scale), ray, length, shift)) return kFarthestEnd;
+    return upper_distance(t, length, shift);
   }
 
   void answer_far_rays() {
@@ -549,6 +541,7 @@ class ListWalk {
   HitSpan hits_;
   std::uint8_t* hidden_;
   FilterBounds bounds_;
+  WaitingChildren waiting_;
   std::uint32_t octant_count_[8] = {};
   std::uint32_t far_count_ = 0;
   bool leaves_some_ = false;

@@ -19,6 +19,7 @@
 #include "bihive/kernels/filter.h"
 #include "bihive/kernels/lanes-inl.h"
 #include "bihive/kernels/left_sphere.h"
+#include "bihive/kernels/scalar_traversal.h"
 #include "bihive/kernels/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,175 +27,252 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One ray ready for the filter, and what turns its hits into the tree's truth.
+/// A local ray on its way, and what it has found.
 struct SingleRay {
   FilterRay local;
-  float s_best;  ///< upper bound of the best hit so far; the segment's end at first
-  float e;
-  double length, shift;  ///< s = t length - shift
-
-  /// A t as a distance, rounded up.
-  float upper(double t) const {
-    const double s = std::min(t * length, 1e30) - shift;
-    return static_cast<float>(std::min(s + std::abs(s) * 0x1p-22 + std::abs(shift) * 0x1p-46, double(kFarthestEnd)));
-  }
+  float s_best;           ///< upper bound of the best hit so far; the segment's end at first
+  float sure_min;         ///< roots from here on lie surely in the segment
+  float e, width;         ///< FilterBounds
+  std::uint32_t left_id;  ///< of the sphere that it leaves
+  bool inward;            ///< into it
+  std::uint32_t winner;   ///< slot of the nearest sure hit
 };
+constexpr std::uint32_t kNoWinner = std::numeric_limits<std::uint32_t>::max();
 
-namespace single {
+/// The octant of a direction: bit k where it is negative along axis k.
+HWY_INLINE int octant_of(const FilterRay& ray) {
+  return (std::signbit(ray.inverse[0]) ? 1 : 0) | (std::signbit(ray.inverse[1]) ? 2 : 0) |
+         (std::signbit(ray.inverse[2]) ? 4 : 0);
+}
 
-// A child that waits, with a lower bound of the distance at which the ray enters it.
-struct Waiting {
-  std::uint32_t node;   // number of a wide node, or of its first sphere
-  std::uint32_t count;  // spheres; 0: a node
-  float s_near;
-};
+/// Children that a ray still has to enter, the nearest on top. Each is the number of its node times sixteen plus its
+/// slot, and has a lower bound of the distance at which the ray enters it.
+class WaitingChildren {
+ public:
+  bool empty() const { return count_ == 0; }
+  void clear() { count_ = 0; }
+  std::uint32_t pop() { return child_[--count_]; }
 
-/// The children that the ray may enter before s_best: a bit each, with lower bounds of the distances to `s_near`.
-HWY_INLINE std::uint32_t hit_boxes(const WideNode& node, const SingleRay& ray, float s_near[kWidth]) {
-  const FloatTag d;
-  const float* planes[6];
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool negative = std::signbit(ray.local.inverse[axis]);
-    planes[2 * axis] = negative ? node.hi[axis] : node.lo[axis];
-    planes[2 * axis + 1] = negative ? node.lo[axis] : node.hi[axis];
-  }
-  std::uint32_t bits = 0;
-  for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
-    auto s_in = hn::Set(d, ray.local.s_min);
-    auto s_out = hn::Set(d, ray.s_best);
+  /// Lets the children wait that the ray may enter before s_best.
+  HWY_INLINE void push_entered(const WideNode& node, std::uint32_t number, const SingleRay& ray, int octant) {
+    const FloatTag d;
+    const float* near[3];
+    const float* far[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const auto inverse = hn::Set(d, ray.local.inverse[axis]);
-      s_in = hn::Max(
-          s_in, hn::MulAdd(hn::Load(d, planes[2 * axis] + lane), inverse, hn::Set(d, ray.local.near_offset[axis])));
-      s_out = hn::Min(
-          s_out, hn::MulAdd(hn::Load(d, planes[2 * axis + 1] + lane), inverse, hn::Set(d, ray.local.far_offset[axis])));
+      const bool negative = (octant >> axis & 1) != 0;
+      near[axis] = negative ? node.hi[axis] : node.lo[axis];
+      far[axis] = negative ? node.lo[axis] : node.hi[axis];
     }
-    hn::Store(s_in, d, s_near + lane);
-    bits |= mask_bits(hn::Le(s_in, s_out)) << lane;
-  }
-  return bits;
-}
-
-/// Lets the children in `bits` wait, the nearest on top.
-HWY_INLINE void push_children(const WideNode& node, std::uint32_t bits, const float s_near[kWidth], Waiting* waiting,
-                              int& count) {
-  const int bottom = count;
-  for (; bits != 0; bits &= bits - 1) {
-    const int slot = __builtin_ctz(bits);
-    int place = count++;
-    while (place > bottom && waiting[place - 1].s_near < s_near[slot]) {
-      waiting[place] = waiting[place - 1];
-      --place;
+    const auto test = [&](int lane, auto& s_in) HWY_ATTR {
+      s_in = hn::Set(d, ray.local.s_min);
+      auto s_out = hn::Set(d, ray.s_best);
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto inverse = hn::Set(d, ray.local.inverse[axis]);
+        s_in =
+            hn::Max(s_in, hn::MulAdd(hn::Load(d, near[axis] + lane), inverse, hn::Set(d, ray.local.near_offset[axis])));
+        s_out =
+            hn::Min(s_out, hn::MulAdd(hn::Load(d, far[axis] + lane), inverse, hn::Set(d, ray.local.far_offset[axis])));
+      }
+      return hn::Le(s_in, s_out);
+    };
+    const std::uint64_t order = node.order[octant >= 4 ? 7 - octant : octant];
+    if constexpr (kFloatLanes == kWidth) {
+      push_ordered(node, number, order, octant >= 4, test);
+    } else {
+      // Sixteen children in several steps, then one after the other from far to near.
+      alignas(64) float s_near[kWidth];
+      std::uint32_t bits = 0;
+      for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
+        auto s_in = hn::Zero(d);
+        bits |= mask_bits(test(lane, s_in)) << lane;
+        hn::Store(s_in, d, s_near + lane);
+      }
+      if (bits == 0) return;
+      for (int k = node.child_count - 1; k >= 0; --k) {
+        const int place = octant >= 4 ? node.child_count - 1 - k : k;
+        const auto slot = static_cast<std::uint32_t>(order >> (4 * place) & 15);
+        child_[count_] = number * kWidth + slot;
+        s_near_[count_] = s_near[slot];
+        count_ += static_cast<int>(bits >> slot & 1);
+      }
     }
-    if (node.is_leaf(slot))
-      waiting[place] = {static_cast<std::uint32_t>(node.sphere_begin(slot)),
-                        static_cast<std::uint32_t>(node.sphere_count(slot)), s_near[slot]};
-    else
-      waiting[place] = {static_cast<std::uint32_t>(node.child_node(slot)), 0, s_near[slot]};
   }
-}
 
-}  // namespace single
+  /// Drops the children that start beyond s_best.
+  HWY_INLINE void drop_beyond(float s_best) {
+    const FloatTag d;
+    const WordTag words;
+    int kept = 0;
+    for (int first = 0; first < count_; first += kFloatLanes) {
+      const auto s_near = hn::LoadU(d, s_near_ + first);
+      const auto child = hn::LoadU(words, child_ + first);
+      const auto stays = hn::And(hn::Le(s_near, hn::Set(d, s_best)),
+                                 hn::FirstN(d, static_cast<std::size_t>(std::min(count_ - first, kFloatLanes))));
+      store_compressed(d, s_near, stays, s_near_ + kept);
+      kept += static_cast<int>(store_compressed(words, child, hn::RebindMask(words, stays), child_ + kept));
+    }
+    count_ = kept;
+  }
 
-/// Calls candidate(slot) for every sphere of a leaf that the ray may hit before s_best, which candidate may lower.
-/// Stops when it returns true, and returns that.
-template <class Candidate>
-HWY_INLINE bool for_each_candidate(const WideTree& tree, std::int64_t begin, std::int64_t count, const SingleRay& ray,
-                                   const Candidate& candidate) {
+ private:
+  // All sixteen at once: lanes from far to near, those that are entered moved to the front.
+  template <class Test>
+  HWY_INLINE void push_ordered(const WideNode& node, std::uint32_t number, std::uint64_t order, bool backwards,
+                               const Test& test) {
+    const FloatTag d;
+    const WordTag words;
+    alignas(64) static constexpr std::uint32_t kShiftsUp[kWidth] = {0, 4, 8, 12, 16, 20, 24, 28,
+                                                                    0, 4, 8, 12, 16, 20, 24, 28};
+    alignas(64) static constexpr std::uint32_t kShiftsDown[kWidth] = {28, 24, 20, 16, 12, 8, 4, 0,
+                                                                      28, 24, 20, 16, 12, 8, 4, 0};
+    auto s_in = hn::Zero(d);
+    const std::uint32_t entered = mask_bits(test(0, s_in));
+    const auto low = hn::Set(words, static_cast<std::uint32_t>(order));
+    const auto high = hn::Set(words, static_cast<std::uint32_t>(order >> 32));
+    const auto first_half = hn::FirstN(words, kWidth / 2);
+    const auto count = static_cast<std::size_t>(node.child_count);
+    const auto slot =
+        hn::And(hn::Shr(backwards ? hn::IfThenElse(first_half, low, high) : hn::IfThenElse(first_half, high, low),
+                        hn::Load(words, backwards ? kShiftsUp : kShiftsDown)),
+                hn::Set(words, 15));
+    const auto exists = backwards ? hn::FirstN(words, count) : hn::Not(hn::FirstN(words, kWidth - count));
+    const auto stays =
+        hn::And(exists, hn::Ne(hn::And(hn::Shr(hn::Set(words, entered), slot), hn::Set(words, 1)), hn::Zero(words)));
+    const auto s_near = hn::TableLookupLanes(s_in, hn::IndicesFromVec(d, slot));
+    store_compressed(d, s_near, hn::RebindMask(d, stays), s_near_ + count_);
+    count_ += static_cast<int>(
+        store_compressed(words, hn::Add(slot, hn::Set(words, number * kWidth)), stays, child_ + count_));
+  }
+
+  // Each level leaves at most fifteen waiting; vectors are stored whole.
+  static constexpr int kRoom = kMostLevels * kWidth + 2 * kWidth;
+  float s_near_[kRoom];
+  std::uint32_t child_[kRoom];
+  int count_ = 0;
+};
+
+/// The second look at candidates of the filter, as vectors: bounds of the root that counts.
+template <class V, class M>
+struct Judged {
+  V start;  ///< the root lies here or beyond; if `sure`, by less than W
+  M keep;   ///< may be a hit before s_best
+  M sure;   ///< surely a hit in the segment
+};
+
+/// `own`: the ray leaves the sphere; `inward`: into it. dp >= 0 in all lanes that matter.
+template <class V, class M>
+HWY_INLINE Judged<V, M> judge(V b, V dp, V r_squared, V s_best, V s_min, V sure_min, M own, M inward, float e,
+                              float width) {
   const FloatTag d;
-  const auto ox = hn::Set(d, ray.local.origin[0]);
-  const auto oy = hn::Set(d, ray.local.origin[1]);
-  const auto oz = hn::Set(d, ray.local.origin[2]);
-  const auto nx = hn::Set(d, ray.local.direction[0]);
-  const auto ny = hn::Set(d, ray.local.direction[1]);
-  const auto nz = hn::Set(d, ray.local.direction[2]);
-  const auto e = hn::Set(d, ray.e);
-  for (std::int64_t first = 0; first < count; first += kFloatLanes) {
-    const std::int64_t slot = begin + first;
-    const auto cx = hn::Sub(hn::LoadU(d, tree.spheres.x + slot), ox);
-    const auto cy = hn::Sub(hn::LoadU(d, tree.spheres.y + slot), oy);
-    const auto cz = hn::Sub(hn::LoadU(d, tree.spheres.z + slot), oz);
+  const auto chord = hn::Sqrt(dp);
+  const auto lower = hn::Sub(hn::Sub(b, hn::Set(d, e)), chord);
+  const auto upper = hn::Add(hn::Add(b, hn::Set(d, e)), chord);
+  const auto clear =
+      hn::Ge(dp, hn::MulAdd(hn::Set(d, 0.04F), r_squared, hn::Mul(hn::Set(d, 4 * e), hn::Sqrt(hn::Abs(r_squared)))));
+
+  // Where the near root surely lies before the segment, or is where the ray starts, the far root counts.
+  const auto far_root = hn::And(clear, hn::Or(inward, hn::Lt(hn::Add(lower, hn::Set(d, width)), s_min)));
+  Judged<V, M> judged;
+  judged.start = hn::IfThenElse(far_root, hn::Sub(upper, hn::Set(d, width)), lower);
+  // Going outward a ray never meets the sphere that it leaves.
+  judged.keep = hn::AndNot(hn::AndNot(inward, own), hn::And(hn::Le(judged.start, s_best), hn::Ge(upper, s_min)));
+  judged.sure = hn::And(hn::And(clear, hn::Ge(judged.start, sure_min)), hn::Or(far_root, hn::Not(inward)));
+  return judged;
+}
+
+/// Tests up to sixteen spheres. A sure hit becomes the winner; rival(slot) gets what only binary64 can decide, and
+/// returns true to end the walk. Returns true if the walk is at its end.
+template <bool kAnyHit, class Rival>
+HWY_INLINE bool test_leaf_single(const WideTree& tree, std::int64_t slot, std::int64_t spheres, SingleRay& ray,
+                                 const Rival& rival) {
+  const FloatTag d;
+  const WordTag words;
+  for (std::int64_t lane = 0; lane < spheres; lane += kFloatLanes) {
+    const auto nx = hn::Set(d, ray.local.direction[0]);
+    const auto ny = hn::Set(d, ray.local.direction[1]);
+    const auto nz = hn::Set(d, ray.local.direction[2]);
+    const auto cx = hn::Sub(hn::LoadU(d, tree.spheres.x + slot + lane), hn::Set(d, ray.local.origin[0]));
+    const auto cy = hn::Sub(hn::LoadU(d, tree.spheres.y + slot + lane), hn::Set(d, ray.local.origin[1]));
+    const auto cz = hn::Sub(hn::LoadU(d, tree.spheres.z + slot + lane), hn::Set(d, ray.local.origin[2]));
     const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
     const auto px = hn::NegMulAdd(b, nx, cx);
     const auto py = hn::NegMulAdd(b, ny, cy);
     const auto pz = hn::NegMulAdd(b, nz, cz);
-    const auto pp = hn::MulAdd(pz, pz, hn::MulAdd(py, py, hn::Mul(px, px)));
-    const auto radius = hn::Add(load_radii(tree.spheres, slot), e);
-    const auto dp = hn::NegMulAdd(hn::Set(d, 1.0F), pp, hn::Mul(radius, radius));
-    const auto inside_set = hn::FirstN(d, static_cast<std::size_t>(std::min<std::int64_t>(count - first, kFloatLanes)));
-    const auto passes = hn::And(inside_set, hn::Ge(dp, hn::Zero(d)));
-    if (HWY_LIKELY(hn::AllFalse(d, passes))) continue;
+    const auto radius = hn::Add(load_radii(tree.spheres, slot + lane), hn::Set(d, ray.e));
+    const auto r_squared = hn::Mul(radius, radius);
+    const auto dp = hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)));
+    const auto passes = hn::And(hn::FirstN(d, static_cast<std::size_t>(spheres - lane)), hn::Ge(dp, hn::Zero(d)));
+    if (hn::AllFalse(d, passes)) continue;
 
-    // Bounds of both roots: drop what lies behind the segment or beyond the best.
-    const auto chord = hn::Sqrt(hn::Max(dp, hn::Zero(d)));
-    const auto lower = hn::Sub(hn::Sub(b, e), chord);
-    const auto upper = hn::Add(hn::Add(b, e), chord);
-    std::uint32_t bits = mask_bits(
-        hn::And(passes, hn::And(hn::Le(lower, hn::Set(d, ray.s_best)), hn::Ge(upper, hn::Set(d, ray.local.s_min)))));
+    const auto none = hn::MaskFromVec(hn::Zero(d));
+    auto own = none;
+    if (ray.left_id != kNoWinner) {
+      const auto id =
+          hn::And(hn::LoadU(words, tree.spheres.word + slot + lane), hn::Set(words, tree.spheres.id_mask()));
+      own = hn::RebindMask(d, hn::Eq(id, hn::Set(words, ray.left_id)));
+    }
+    const auto judged =
+        judge(b, hn::Max(dp, hn::Zero(d)), r_squared, hn::Set(d, ray.s_best), hn::Set(d, ray.local.s_min),
+              hn::Set(d, ray.sure_min), own, ray.inward ? own : none, ray.e, ray.width);
+    std::uint32_t bits = mask_bits(hn::And(passes, judged.keep));
     if (bits == 0) continue;
-    alignas(64) float lowers[kFloatLanes];
-    hn::Store(lower, d, lowers);
+    const std::uint32_t sure = mask_bits(judged.sure);
+    alignas(64) float starts[kFloatLanes];
+    hn::Store(judged.start, d, starts);
     for (; bits != 0; bits &= bits - 1) {
       const int k = __builtin_ctz(bits);
-      if (lowers[k] <= ray.s_best && candidate(slot + k)) return true;
+      if (starts[k] > ray.s_best) continue;
+      const auto candidate = static_cast<std::uint32_t>(slot + lane + k);
+      if ((sure >> k & 1) != 0 && starts[k] < ray.s_best - 2 * ray.width) {
+        ray.winner = candidate;
+        if (kAnyHit) return true;
+        ray.s_best = starts[k] + ray.width;
+      } else if (rival(candidate)) {
+        return true;
+      }
     }
   }
   return false;
 }
 
-/// The closest hit or, with kAnyHit, some hit of a valid ray that starts within kFarthestOrigin.
-template <bool kAnyHit>
-HWY_INLINE Hit trace_single(const WideTree& tree, const ScaledRay& exact_ray, const LeftSphere& left, SingleRay& ray) {
-  Hit best;
-  ScaledRay scaled = exact_ray;
-  const auto candidate = [&](std::int64_t slot) {
-    const Vec3d centre = tree.spheres.centre(slot);
-    const double radius = tree.spheres.radius(slot);
-    scaled.left_centre = centre;
-    scaled.left_radius = left.is(tree, slot) ? radius : -1;
-    best.keep_nearer(sphere_hit(scaled, centre, radius), tree.spheres.id(slot));
-    if (!best.found()) return false;
-    if (kAnyHit) return true;
-    ray.s_best = std::min(ray.s_best, ray.upper(best.t));
-    return false;
-  };
-
-  // Each level leaves at most fifteen children waiting.
-  single::Waiting waiting[kMostLevels * kWidth];
-  int waiting_count = 0;
-  waiting[waiting_count++] = {0, 0, ray.local.s_min};
-  alignas(64) float s_near[kWidth];
-  while (waiting_count > 0) {
-    const single::Waiting top = waiting[--waiting_count];
-    if (top.s_near > ray.s_best) continue;
-    if (top.count != 0) {
-      if (for_each_candidate(tree, top.node, top.count, ray, candidate)) return best;
+/// Walks from a node on.
+template <bool kAnyHit, class Rival>
+HWY_INLINE void walk_single(const WideTree& tree, std::uint32_t number, SingleRay& ray, WaitingChildren& waiting,
+                            const Rival& rival) {
+  const int octant = octant_of(ray.local);
+  waiting.clear();
+  waiting.push_entered(tree.nodes[number], number, ray, octant);
+  while (!waiting.empty()) {
+    const std::uint32_t child = waiting.pop();
+    const WideNode& node = tree.nodes[child / kWidth];
+    const auto slot = static_cast<int>(child % kWidth);
+    if (!node.is_leaf(slot)) {
+      const auto next = static_cast<std::uint32_t>(node.child_node(slot));
+      waiting.push_entered(tree.nodes[next], next, ray, octant);
       continue;
     }
-
-    const WideNode& node = tree.nodes[top.node];
-    single::push_children(node, single::hit_boxes(node, ray, s_near), s_near, waiting, waiting_count);
+    const float before = ray.s_best;
+    if (test_leaf_single<kAnyHit>(tree, node.sphere_begin(slot), node.sphere_count(slot), ray, rival)) return;
+    if (ray.s_best != before) waiting.drop_beyond(ray.s_best);
   }
-  return best;
 }
 
-/// Makes a ray ready. False: it certainly misses everything.
-HWY_INLINE bool set_up_single(const ScaledRay& scaled, SingleRay& ray) {
-  const double length = std::sqrt(scaled.direction_squared);
-  Vec3d n = scaled.direction / length;
+/// Makes a ray ready. False: it certainly misses everything. s = t * length - shift.
+HWY_INLINE bool set_up_single(const ScaledRay& scaled, SingleRay& ray, double& length, double& shift) {
+  length = std::sqrt(scaled.direction_squared);
+  const double inverse_length = 1 / length;
+  const Vec3d n = scaled.direction * inverse_length;
   Vec3d o = scaled.origin;
-  double shift = 0;
+  shift = 0;
   const auto size = [](Vec3d a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); };
   if (size(o) > kFarOrigin) {
     shift = -dot(o, n);
     o = o + shift * n;
     if (size(o) > kFarOrigin) return false;
   }
-  const float farthest = static_cast<float>(size(o));
-  const FilterBounds bounds(farthest);
+  const FilterBounds bounds(static_cast<float>(size(o)));
   ray.e = bounds.e;
-  ray.length = length;
-  ray.shift = shift;
+  ray.width = bounds.width;
   for (int axis = 0; axis < 3; ++axis) {
     const auto origin = static_cast<float>(o[axis]);
     const auto direction = static_cast<float>(n[axis]);
@@ -208,7 +286,11 @@ HWY_INLINE bool set_up_single(const ScaledRay& scaled, SingleRay& ray) {
   const double start = std::clamp(scaled.t_min * length, -1e30, 1e30) - shift;
   const double lower = start - std::abs(start) * 0x1p-22 - std::abs(shift) * 0x1p-46;
   ray.local.s_min = static_cast<float>(std::clamp(lower, -double(kFarthestEnd), double(kFarthestEnd)));
-  ray.s_best = std::max(ray.upper(scaled.t_max), -kFarthestEnd);
+  ray.sure_min = ray.local.s_min + ray.width;
+  ray.s_best = upper_distance(scaled.t_max, length, shift);
+  ray.left_id = kNoWinner;
+  ray.inward = false;
+  ray.winner = kNoWinner;
   return true;
 }
 
@@ -216,13 +298,40 @@ HWY_INLINE bool set_up_single(const ScaledRay& scaled, SingleRay& ray) {
 template <bool kAnyHit>
 HWY_INLINE Hit answer_single(const WideTree& tree, const Ray& world) {
   if (!is_valid(world) || tree.node_count == 0) return {};
-  const ScaledRay scaled(world, tree.scale);
+  ScaledRay scaled(world, tree.scale);
   const LeftSphere left(tree, world.leaves);
   const double farthest = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
   if (HWY_UNLIKELY(farthest > kFarthestOrigin)) return traverse_scalar<kAnyHit>(tree, scaled, left);
   SingleRay ray;
-  if (!set_up_single(scaled, ray)) return {};
-  return trace_single<kAnyHit>(tree, scaled, left, ray);
+  double length = 0;
+  double shift = 0;
+  if (!set_up_single(scaled, ray, length, shift)) return {};
+  if (world.leaves >= 0 && world.leaves < std::int64_t{kNoWinner}) {
+    ray.left_id = static_cast<std::uint32_t>(world.leaves);
+    ray.inward = world.inside;
+    if (left.is_repeated()) ray.sure_min = std::numeric_limits<float>::infinity();
+  }
+
+  // Rivals are settled at once, the winner at the end.
+  Hit best;
+  const auto settle = [&](std::uint32_t slot) {
+    const Vec3d centre = tree.spheres.centre(slot);
+    const double radius = tree.spheres.radius(slot);
+    scaled.left_centre = centre;
+    scaled.left_radius = left.is(tree, slot) ? radius : -1;
+    best.keep_nearer(sphere_hit(scaled, centre, radius), tree.spheres.id(slot));
+    if (!best.found()) return false;
+    if (kAnyHit) return true;
+    ray.s_best = std::min(ray.s_best, upper_distance(best.t, length, shift));
+    return false;
+  };
+  WaitingChildren waiting;  // NOLINT: written before read
+  walk_single<kAnyHit>(tree, 0, ray, waiting, settle);
+  if (ray.winner != kNoWinner) {
+    if (kAnyHit) return {0, tree.spheres.id(ray.winner)};
+    settle(ray.winner);
+  }
+  return best;
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
