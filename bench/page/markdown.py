@@ -1,0 +1,48 @@
+"""Tables, numbers and blocks of commands in Markdown."""
+
+
+def table(heads, rows):
+    """Lines of a table; the first column to the left, the others to the right."""
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" + "---:|" * (len(heads) - 1)]
+    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+    return [*lines, ""]
+
+
+def number(value):
+    """Three significant digits, without an exponent."""
+    if value is None:
+        return ""
+    if value >= 100:
+        return f"{value:,.0f}"
+    if value >= 10:
+        return f"{value:.1f}"
+    return f"{value:.2f}"
+
+
+def times(value):
+    return "" if value is None else number(value) + "x"
+
+
+def picture(name, words):
+    return [f"![{words}](performance/{name})", ""]
+
+
+def commands_block(report):
+    """The commands behind a section's numbers, folded up where they are many."""
+    commands = list(dict.fromkeys(run["command"] for run in report["runs"]))
+    seconds = sum(run["seconds"] for run in report["runs"])
+    block = ["```sh", f"scripts/bench {report['part']}", *(f"# runs {command}" for command in commands), "```", ""]
+    words = f"Measured at commit {report['commit']} in {seconds:.0f} s by"
+    if len(commands) <= 2:
+        return [words, "", *block]
+    return [f"<details><summary>{words} <code>scripts/bench {report['part']}</code></summary>", "", *block, "</details>", ""]
+
+
+def verdict(value, floor, at_most=False):
+    """Met, or missed by how much of the floor (or, at most, above the ceiling)."""
+    if value is None:
+        return "not measured"
+    good = value <= floor if at_most else value >= floor
+    if good:
+        return "met"
+    return f"missed by {abs(value / floor - 1) * 100:.0f} %"

@@ -1,0 +1,37 @@
+"""What was aimed at: ratios to Embree's best mode in the same run, a floor and an aim."""
+
+SCENES = ["s1", "s2", "s3", "mol", "u1e5", "mol5", "c1e6", "u1e6", "u1e7"]
+GROUPS = [["s1", "s2", "s3", "mol"], ["u1e5", "mol5"], ["c1e6", "u1e6", "u1e7"]]
+KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3"]
+TITLES = {
+    "primary": "primary",
+    "random": "random",
+    "shadow": "first shadow",
+    "mirror1": "mirror 1",
+    "mirror2": "mirror 2",
+    "mirror3": "mirror 3",
+    "mirror_shadow2": "shadow of mirror 2",
+    "mirror_shadow3": "shadow of mirror 3",
+    "build": "build",
+}
+
+# A line a group of scenes: (floor, aim) of primary, random, first shadow, mirror, their shadows, build.
+_RATIOS = [
+    [(7, 12), (2, 4), (4.5, 8), (2.1, 4), (2, 3.5), (5.5, 10)],
+    [(4.5, 10), (2, 3.5), (1.9, 5), (1.9, 4), (1.7, 3.5), (4.5, 10)],
+    [(3.5, 8), (2.3, 5), (2.4, 5), (2.4, 4.5), (2.2, 4), (7, 10)],
+]
+_COLUMN = {"primary": 0, "random": 1, "shadow": 2, "mirror1": 3, "mirror2": 3, "mirror3": 3, "build": 5}
+_COLUMN.update({"mirror_shadow2": 4, "mirror_shadow3": 4})
+
+BYTES = (19, 16.5)  # a sphere, at most
+AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4}
+PICTURE = (4, 8)  # times as fast as Tachyon
+THESIS_FPS = (240, 500)
+WASM = 4  # times the native time, at most
+
+
+def ratio_target(scene, kind):
+    """(floor, aim) for a scene and a kind of rays, or `build`."""
+    group = next(number for number, scenes in enumerate(GROUPS) if scene in scenes)
+    return _RATIOS[group][_COLUMN[kind]]
