@@ -1,5 +1,7 @@
 """The sections of docs/performance.md: each makes lines of Markdown and charts of one part's report."""
 
+import re
+
 import svg
 import targets
 from markdown import number, picture, table, times, verdict
@@ -17,6 +19,11 @@ def by_scene(report, threads=None):
 
 def ratio(result, kind):
     return (result.get("ratio") or {}).get(kind)
+
+
+def title_of(result):
+    """The scene, and of a molecule the file, without its folders."""
+    return re.sub(r"\(.*/(.*)\)", r"(\1)", result["input"])
 
 
 def worst(results, scenes, kinds):
@@ -64,8 +71,8 @@ def summary(report):
 def scene_rows(results, kinds):
     """A line a scene: ours and, in brackets, Embree's, with the ratio; what misses its floor is marked."""
     rows = []
-    for scene, result in results.items():
-        row = [result["input"], f"{result['spheres']:,}"]
+    for result in results.values():
+        row = [title_of(result), f"{result['spheres']:,}"]
         for kind in kinds:
             value = ratio(result, kind)
             if value is None:
@@ -79,11 +86,11 @@ def scene_rows(results, kinds):
 
 def build_rows(results):
     rows = []
-    for scene, result in results.items():
+    for result in results.values():
         peer = result["peer"]
         rows.append(
             [
-                result["input"],
+                title_of(result),
                 f"{number(result['build_ms'])} ({number(peer['build_ms'])}) **{times(ratio(result, 'build'))}**",
                 f"{number(result['build_fresh_ms'])} ({number(peer['build_fresh_ms'])}) "
                 f"**{times(ratio(result, 'build_fresh'))}**",

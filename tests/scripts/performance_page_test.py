@@ -1,0 +1,116 @@
+"""scripts/performance_page: verdicts and charts of made-up measurements, and docs/performance.md as it was generated."""
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+TOP = pathlib.Path(os.environ.get("BIHIVE_SOURCE", pathlib.Path(__file__).parents[2]))
+KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3"]
+MACHINE = {"processor": "P", "cpus": "2", "l1d": "a", "l2": "b", "l3": "c", "vectors": "avx512f", "memory_gb": 1}
+MACHINE.update({"system": "S", "compiler": "C"})
+
+
+def result_of(scene, threads, ratio):
+    rates = {kind: 10 * ratio for kind in KINDS}
+    peer = {kind: 10 for kind in KINDS}
+    return {
+        "input": scene,
+        "spheres": 4096,
+        "threads": threads,
+        "target": "avx512",
+        "build_ms": 1,
+        "build_fresh_ms": 2,
+        "build_peak_bytes": 5e6,
+        "bytes_per_sphere": 18,
+        "levels": 2,
+        "nodes": 17,
+        "rays": {kind: 1000 for kind in KINDS},
+        "mray_per_s": rates,
+        "peer": {
+            "version": "3.13.5",
+            "build_ms": ratio,
+            "build_fresh_ms": 2 * ratio,
+            "bytes_per_sphere": 40,
+            "mray_per_s": peer,
+            "mode": {kind: "16" for kind in KINDS},
+        },
+        "ratio": {"build": ratio, "build_fresh": ratio, "bytes": 2.2, **{kind: ratio for kind in KINDS}},
+        "peer_wrong": 1,
+        "mismatches": 0,
+    }
+
+
+def report(part, results):
+    runs = [{"command": f"measure {part} {i}", "seconds": 1.0, "result": result} for i, result in enumerate(results)]
+    return {"part": part, "date": "2026-01-02", "commit": "abcdef123", "machine": MACHINE, "runs": runs}
+
+
+class PerformancePageTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="bihive_page_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def generate(self, reports):
+        measured = self.folder / "measured"
+        measured.mkdir()
+        for made in reports:
+            (measured / f"{made['part']}.json").write_text(json.dumps(made))
+        (self.folder / "docs").mkdir()
+        (self.folder / "docs/performance_notes.md").write_text("## Where the time goes\n\nBy hand.\n")
+        command = [sys.executable, TOP / "scripts/performance_page", measured, "--docs", self.folder / "docs"]
+        subprocess.run(command, check=True)
+        return (self.folder / "docs/performance.md").read_text()
+
+    def test_targets_are_judged_by_the_worst_scene(self):
+        # Random rays: floor 2, aim 4. s2 with two threads is below; s1 alone would be fine.
+        page = self.generate(
+            [report("scenes", [result_of("s1", 1, 12.5), result_of("s1", 2, 12.5), result_of("s2", 2, 1.5)])]
+        )
+        row = next(line for line in page.splitlines() if line.startswith("| s1 s2 s3 mol | random"))
+        self.assertIn("2x (4x)", row)
+        self.assertIn("12.5x (s1, random)", row)
+        self.assertIn("1.50x (s2, random)", row)
+        self.assertIn("missed by 25 %", row)
+        self.assertIn("| not measured |", page)
+        self.assertIn("Of 24,000 rays, 0 answers of ours were wrong and 3 of Embree's", page)
+
+    def test_met_and_aim_met(self):
+        page = self.generate([report("scenes", [result_of("s1", n, 9) for n in (1, 2)])])
+        rows = {line.split("|")[2].strip(): line for line in page.splitlines() if line.startswith("| s1 s2 s3 mol")}
+        self.assertTrue(rows["primary"].endswith("| met |"), rows["primary"])
+        self.assertTrue(rows["random"].endswith("| aim met |"), rows["random"])
+        self.assertTrue(rows["bytes a sphere, at most"].endswith("| met |"))
+
+    def test_commands_notes_and_charts(self):
+        growth = [dict(result_of("u1e3", 2, 1), spheres=10**k, build_ms=10.0**k / 1e4) for k in (3, 4, 5)]
+        page = self.generate([report("growth", growth), report("scenes", [result_of("s1", 1, 3)])])
+        for words in ["make bench", "# runs measure growth 2", "# runs measure scenes 0", "abcdef123", "By hand."]:
+            self.assertIn(words, page)
+        charts = sorted(path.name for path in (self.folder / "docs/performance").glob("*.svg"))
+        self.assertEqual(charts, ["growth_build.svg", "growth_rays.svg", "ratios_1.svg"])
+        for name in charts:
+            self.assertIn(f"(performance/{name})", page)
+            root = xml.etree.ElementTree.parse(self.folder / "docs/performance" / name).getroot()
+            self.assertTrue(root.tag.endswith("svg"))
+            self.assertGreater(len(root), 10, name)
+
+    def test_the_page_in_docs_is_what_its_measurements_give(self):
+        docs = self.folder / "docs"
+        shutil.copytree(TOP / "docs/performance", docs / "performance")
+        shutil.copyfile(TOP / "docs/performance_notes.md", docs / "performance_notes.md")
+        for chart in (docs / "performance").glob("*.svg"):
+            chart.unlink()
+        subprocess.run([sys.executable, TOP / "scripts/performance_page", "--docs", docs], check=True)
+        self.assertEqual((docs / "performance.md").read_text(), (TOP / "docs/performance.md").read_text())
+        for chart in sorted((TOP / "docs/performance").glob("*.svg")):
+            self.assertEqual((docs / "performance" / chart.name).read_text(), chart.read_text(), chart.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
