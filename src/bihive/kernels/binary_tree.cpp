@@ -5,7 +5,7 @@
 namespace bihive {
 namespace {
 
-constexpr std::size_t kBlockBytes = NodeArena::kBlockNodes * sizeof(BinaryNode);
+constexpr std::size_t kBlockBytes = NodeArena::kBlockSplits * sizeof(BinarySplit);
 constexpr std::size_t kLargestChunk = std::size_t{1} << 22;
 
 std::size_t blocks_in(const AlignedBuffer& chunk) {
@@ -14,7 +14,7 @@ std::size_t blocks_in(const AlignedBuffer& chunk) {
 
 }  // namespace
 
-BinaryNode* NodeArena::take_block() {
+BinarySplit* NodeArena::take_block() {
   const std::lock_guard lock(mutex_);
   while (chunk_ < chunks_.size() && used_ == blocks_in(chunks_[chunk_])) {
     ++chunk_;
@@ -29,7 +29,7 @@ BinaryNode* NodeArena::take_block() {
     used_ = 0;
   }
   auto* const bytes = static_cast<std::byte*>(chunks_[chunk_].data());
-  return reinterpret_cast<BinaryNode*>(bytes + kBlockBytes * used_++);
+  return reinterpret_cast<BinarySplit*>(bytes + kBlockBytes * used_++);
 }
 
 void NodeArena::clear() {

@@ -8,18 +8,29 @@
 #include <vector>
 
 #include "bihive/kernels/aligned_buffer.h"
+#include "bihive/kernels/wide_tree.h"
 #include "bihive/math/aabb.h"
 
 namespace bihive {
+
+struct BinarySplit;
 
 /// Neighbouring spheres in leaf order, with their box. Stored units.
 struct BinaryNode {
   Aabb box;
   std::uint32_t count;
-  std::uint32_t axis;    ///< of the split: the left child lies towards -inf
-  BinaryNode* children;  ///< left and right; null: a leaf
+  std::uint32_t axis;  ///< of the split: the left child lies towards -inf
+  BinarySplit* split;  ///< null: a leaf
 
-  bool is_leaf() const { return children == nullptr; }
+  bool is_leaf() const { return split == nullptr; }
+};
+
+/// The two sides of a node, and what it costs to have the node's spheres in `k` slots of a wide node, k = 1 to 15, in
+/// cost[k - 1]: the surface of all wide nodes needed below, which is what a ray's node visits are in proportion to.
+/// With more slots, more of what lies below fits into the wide node above (kernels/slot_costs-inl.h).
+struct BinarySplit {
+  BinaryNode side[2];
+  float cost[kWidth];
 };
 
 /// Half the surface of a box, in binary32: areas are only compared.
@@ -28,13 +39,13 @@ inline float half_area(const Aabb& box) {
   return (side.x * side.y + side.y * side.z) + side.z * side.x;
 }
 
-/// Memory for nodes, in blocks, kept from build to build. Any thread may take a block.
+/// Memory for splits, in blocks, kept from build to build. Any thread may take a block.
 class NodeArena {
  public:
-  static constexpr std::size_t kBlockNodes = 200;
+  static constexpr std::size_t kBlockSplits = 56;
 
   /// Throws std::bad_alloc.
-  BinaryNode* take_block();
+  BinarySplit* take_block();
   /// All blocks are free again.
   void clear();
   std::int64_t allocated_bytes() const;
@@ -46,25 +57,23 @@ class NodeArena {
   std::size_t used_ = 0;   // blocks of it that are taken
 };
 
-/// Hands out nodes one by one to a single thread.
-class NodeSource {
+/// Hands out splits one by one to a single thread.
+class SplitSource {
  public:
-  explicit NodeSource(NodeArena& arena) : arena_(arena) {}
-  /// Two neighbouring nodes, not set to anything. Throws std::bad_alloc.
-  BinaryNode* pair() {
+  explicit SplitSource(NodeArena& arena) : arena_(arena) {}
+  /// Not set to anything. Throws std::bad_alloc.
+  BinarySplit* next() {
     if (left_ == 0) {
       next_ = arena_.take_block();
-      left_ = NodeArena::kBlockNodes;
+      left_ = NodeArena::kBlockSplits;
     }
-    BinaryNode* const nodes = next_;
-    next_ += 2;
-    left_ -= 2;
-    return nodes;
+    --left_;
+    return next_++;
   }
 
  private:
   NodeArena& arena_;
-  BinaryNode* next_ = nullptr;
+  BinarySplit* next_ = nullptr;
   std::size_t left_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Vector loops over a range of spheres: bounds, counts, partition.
+// Vector loops over a range of spheres: loads, stores, bounds.
 
 #if defined(BIHIVE_KERNELS_WIDE_BOUNDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_KERNELS_WIDE_BOUNDS_INL_H_
@@ -114,78 +114,6 @@ HWY_INLINE Aabb centre_box(const SphereArrays& spheres, std::int64_t first, std:
     }
   });
   return box.box();
-}
-
-/// The boxes of the centres below a plane, and of the others.
-HWY_INLINE void split_boxes(const SphereArrays& spheres, std::int64_t first, std::int64_t count, int axis, float plane,
-                            Aabb& left, Aabb& right) {
-  const FloatTag d;
-  const Floats planes = hn::Set(d, plane);
-  GrowingBox below, above;
-  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
-    const Mask is_below = hn::Lt(load(d, spheres.axis(axis) + first + i, valid, whole), planes);
-    const Mask left_lanes = hn::And(is_below, valid);
-    const Mask right_lanes = hn::AndNot(is_below, valid);
-    for (int k = 0; k < 3; ++k) {
-      const Floats c = load(d, spheres.axis(k) + first + i, valid, whole);
-      below.add_where(left_lanes, k, c, c);
-      above.add_where(right_lanes, k, c, c);
-    }
-  });
-  left = below.box();
-  right = above.box();
-}
-
-/// How many numbers are below a plane.
-HWY_INLINE std::int64_t count_below(const float* numbers, std::int64_t count, float plane) {
-  const FloatTag d;
-  const Floats planes = hn::Set(d, plane);
-  std::size_t below = 0;
-  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
-    below += hn::CountTrue(d, hn::And(hn::Lt(load(d, numbers + i, valid, whole), planes), valid));
-  });
-  return static_cast<std::int64_t>(below);
-}
-
-/// Moves spheres below the plane to the front of the same range of `to`, the others behind them, each in the order in
-/// which they are. `left_count` are below.
-template <bool kPlainRadii>
-HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std::int64_t first, std::int64_t count,
-                          int axis, float plane, std::int64_t left_count) {
-  const FloatTag d;
-  const WordTag dw;
-  const Floats planes = hn::Set(d, plane);
-  const Words lane_numbers = hn::Iota(dw, 0);
-  std::int64_t left = first;
-  std::int64_t right = first + left_count;
-  const std::int64_t left_end = right;
-  const std::int64_t right_end = first + count;
-  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
-    const Mask is_below = hn::Lt(load(d, from.axis(axis) + first + i, valid, whole), planes);
-    const Mask goes_left = hn::And(is_below, valid);
-    const Mask goes_right = hn::AndNot(is_below, valid);
-    const auto left_lanes = static_cast<std::int64_t>(hn::CountTrue(d, goes_left));
-    const auto right_lanes = static_cast<std::int64_t>(hn::CountTrue(d, goes_right));
-    const auto to_left = hn::IndicesFromVec(dw, hn::Compress(lane_numbers, hn::RebindMask(dw, goes_left)));
-    const auto to_right = hn::IndicesFromVec(dw, hn::Compress(lane_numbers, hn::RebindMask(dw, goes_right)));
-    const auto move = [&](const std::uint32_t* source, std::uint32_t* target) HWY_ATTR {
-      const Words v = load(dw, source + first + i, valid, whole);
-      store_first(dw, hn::TableLookupLanes(v, to_left), left_lanes, left_end - left, target + left);
-      store_first(dw, hn::TableLookupLanes(v, to_right), right_lanes, right_end - right, target + right);
-    };
-    const auto move_floats = [&](const float* source, float* target) HWY_ATTR {
-      const Words v = hn::BitCast(dw, load(d, source + first + i, valid, whole));
-      store_first(d, hn::BitCast(d, hn::TableLookupLanes(v, to_left)), left_lanes, left_end - left, target + left);
-      store_first(d, hn::BitCast(d, hn::TableLookupLanes(v, to_right)), right_lanes, right_end - right, target + right);
-    };
-    move_floats(from.x, to.x);
-    move_floats(from.y, to.y);
-    move_floats(from.z, to.z);
-    move(from.word, to.word);
-    if (kPlainRadii) move_floats(from.r, to.r);
-    left += left_lanes;
-    right += right_lanes;
-  });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

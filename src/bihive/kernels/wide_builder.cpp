@@ -59,15 +59,6 @@ void pad(const SphereArrays& arrays, std::int64_t spheres) {
   }
 }
 
-// The nodes above those that tasks finished get their boxes.
-void close_box(BinaryNode& node) {
-  if (node.is_leaf() || node.count <= kTaskSpheres) return;
-  close_box(node.children[0]);
-  close_box(node.children[1]);
-  node.box = node.children[0].box;
-  node.box.add(node.children[1].box);
-}
-
 }  // namespace
 
 // Working memory, and what outlives a build: a tree that nobody holds any more, whose memory the next one takes.
@@ -156,7 +147,7 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
     const CellGrid grid(summary.centres);
     std::vector<std::int64_t> begins;
     sort_into_cells(spheres, grid, context, threads, begins);
-    NodeSource source(arena);
+    SplitSource source(arena);
     struct CellRange {
       BinaryNode* node;
       int first, last, halving, depth;  // cells first to last - 1; the halving that comes next
@@ -193,9 +184,9 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
       BinaryNode& node = *cells_here.node;
       node.count = static_cast<std::uint32_t>(here);
       node.axis = static_cast<std::uint32_t>(grid.axis[cells_here.halving - 1]);
-      node.children = source.pair();
-      waiting.push_back({node.children, cells_here.first, middle, cells_here.halving, cells_here.depth + 1});
-      waiting.push_back({node.children + 1, middle, cells_here.last, cells_here.halving, cells_here.depth + 1});
+      node.split = source.next();
+      waiting.push_back({&node.split->side[0], cells_here.first, middle, cells_here.halving, cells_here.depth + 1});
+      waiting.push_back({&node.split->side[1], middle, cells_here.last, cells_here.halving, cells_here.depth + 1});
     }
     parallel_tasks(threads, [&](TaskList& list) {
       for (const SplitRange& range : ranges)
@@ -207,7 +198,7 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
     });
   }
   if (context.out_of_memory) throw std::bad_alloc();
-  close_box(root);
+  kernels::close_tops(root);
 }
 
 void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
@@ -233,11 +224,10 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
   context.largest_radius = summary.largest_radius;
   context.arena = &arena;
   CollapseParameters shape;
-  if (parameters.max_prims > 0) shape.full_leaf = parameters.max_prims;
+  if (parameters.max_prims > 0) context.full_leaf = parameters.max_prims;
   if (parameters.max_depth > 0)
     shape.most_levels = static_cast<int>(std::clamp<std::int64_t>(parameters.max_depth - 1, 1, kMostLevels));
-  if (parameters.max_depth == 1) shape.full_leaf = count;
-  context.full_leaf = shape.full_leaf;
+  if (parameters.max_depth == 1) context.full_leaf = count;
   if (has_palette) std::copy(summary.palette.radius, summary.palette.radius + 32, context.palette);
   pad(context.scratch, count);
   pad(context.final, count);

@@ -12,8 +12,9 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-// From this level on the child with most spheres is split, not the largest, so that levels stay few on any set.
-constexpr int kLevelsByArea = 24;
+// So many levels before the last allowed one, children are no longer chosen by cost but by count, so that levels
+// suffice on any set.
+constexpr int kLevelsByCost = 40;
 
 // Subtrees of at most this many spheres are one part.
 constexpr std::int64_t kPartSpheres = 65536;
@@ -23,54 +24,66 @@ constexpr std::int64_t kPartSpheres = 65536;
 struct Children {
   int count = 0;
   const BinaryNode* binary[kWidth];
-  float size[kWidth];  // below 0: not to be split
   int depth_of_child[kWidth];
   std::uint32_t axis[kWidth];
   int depth[kWidth];
 };
 
-// What a wide node's children should hold at most: the largest power of sixteen full leaves below n.
-std::int64_t target_count(std::int64_t n, std::int64_t full_leaf) {
-  std::int64_t target = full_leaf;
-  while (target < n / kWidth) target *= kWidth;
-  return target;
+// A child is parted: its two sides take its slot and the next.
+void part_child(Children& children, int slot) {
+  for (int i = children.count; i > slot + 1; --i) {
+    children.binary[i] = children.binary[i - 1];
+    children.depth_of_child[i] = children.depth_of_child[i - 1];
+    children.axis[i - 1] = children.axis[i - 2];
+    children.depth[i - 1] = children.depth[i - 2];
+  }
+  const BinaryNode& node = *children.binary[slot];
+  const int depth = children.depth_of_child[slot];
+  for (int side = 0; side < 2; ++side) {
+    children.binary[slot + side] = &node.split->side[side];
+    children.depth_of_child[slot + side] = depth + 1;
+  }
+  children.axis[slot] = node.axis;
+  children.depth[slot] = depth;
+  ++children.count;
 }
 
-Children choose_children(const BinaryNode& root, int level, std::int64_t target) {
-  const auto size = [&](const BinaryNode& node) {
-    if (node.is_leaf() || node.count <= target) return -1.0F;
-    return level < kLevelsByArea ? half_area(node.box) : static_cast<float>(node.count);
-  };
-  Children children;
-  children.count = 1;
-  children.binary[0] = &root;
-  children.size[0] = root.is_leaf() ? -1.0F : 0.0F;
-  children.depth_of_child[0] = 0;
+// Parts the child with most spheres, again and again.
+void choose_by_count(Children& children) {
   while (children.count < kWidth) {
-    // Split the largest child that holds more than the target.
-    int best = 0;
-    for (int i = 1; i < children.count; ++i)
-      if (children.size[i] > children.size[best]) best = i;
-    if (children.size[best] < 0) break;
-    const BinaryNode& node = *children.binary[best];
-    const int depth = children.depth_of_child[best];
-    for (int i = children.count; i > best + 1; --i) {
-      children.binary[i] = children.binary[i - 1];
-      children.size[i] = children.size[i - 1];
-      children.depth_of_child[i] = children.depth_of_child[i - 1];
-      children.axis[i - 1] = children.axis[i - 2];
-      children.depth[i - 1] = children.depth[i - 2];
-    }
-    for (int side = 0; side < 2; ++side) {
-      children.binary[best + side] = node.children + side;
-      children.size[best + side] = size(node.children[side]);
-      children.depth_of_child[best + side] = depth + 1;
-    }
-    children.axis[best] = node.axis;
-    children.depth[best] = depth;
-    ++children.count;
+    int best = -1;
+    for (int i = 0; i < children.count; ++i)
+      if (!children.binary[i]->is_leaf() && (best < 0 || children.binary[i]->count > children.binary[best]->count))
+        best = i;
+    if (best < 0) return;
+    part_child(children, best);
   }
-  return children;
+}
+
+float cost_in_slots(const BinaryNode& node, int slots) {
+  return node.is_leaf() ? 0 : node.split->cost[slots - 1];
+}
+
+// Parts the child at `slot` as its costs say (kernels/slot_costs-inl.h), so that it takes at most `slots`; returns how
+// many it takes.
+int choose_by_cost(Children& children, int slot, int slots, bool is_root) {
+  const BinaryNode& node = *children.binary[slot];
+  if (node.is_leaf() || slots == 1) return 1;
+  const BinaryNode& left = node.split->side[0];
+  const BinaryNode& right = node.split->side[1];
+  int best = 1;
+  float best_cost = kInf;
+  for (int i = 1; i < slots; ++i) {
+    const float cost = cost_in_slots(left, i) + cost_in_slots(right, slots - i);
+    if (cost < best_cost) {
+      best = i;
+      best_cost = cost;
+    }
+  }
+  if (!is_root && best_cost >= node.split->cost[0]) return 1;
+  part_child(children, slot);
+  const int taken = choose_by_cost(children, slot, best, false);
+  return taken + choose_by_cost(children, slot + taken, slots - best, false);
 }
 
 // Slots from near to far for directions of that octant: at every split the nearer side comes first.
@@ -100,12 +113,16 @@ void fill_orders(const Children& children, WideNode& wide) {
 }  // namespace
 
 WideNode Collapse::make_node(const Job& job, Part& part, std::vector<Job>& jobs) const {
-  // Where levels are few, do not wait for targets to be met.
+  // Choose by cost, but where levels are few see to it that they suffice.
   const bool last_level = job.level >= parameters_.most_levels;
-  const std::int64_t target = parameters_.most_levels < kMostLevels
-                                  ? parameters_.full_leaf
-                                  : target_count(job.binary->count, parameters_.full_leaf);
-  const Children children = choose_children(*job.binary, job.level, target);
+  Children children;
+  children.count = 1;
+  children.binary[0] = job.binary;
+  children.depth_of_child[0] = 0;
+  if (job.level + kLevelsByCost < parameters_.most_levels)
+    choose_by_cost(children, 0, kWidth, true);
+  else
+    choose_by_count(children);
 
   // Boxes and ranges.
   WideNode wide;

@@ -10,8 +10,7 @@
 namespace bihive {
 
 struct CollapseParameters {
-  int most_levels = kMostLevels;    ///< wide nodes on a way from the root at most, >= 1; what is left becomes leaves
-  std::int64_t full_leaf = kWidth;  ///< spheres that a leaf should hold
+  int most_levels = kMostLevels;  ///< wide nodes on a way from the root at most, >= 1; what is left becomes leaves
 };
 
 /// Makes the wide nodes of a binary tree, in parts that do not depend on the number of threads.

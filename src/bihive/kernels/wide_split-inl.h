@@ -15,7 +15,9 @@
 #include <new>
 #include <vector>
 
+#include "bihive/kernels/slot_costs-inl.h"
 #include "bihive/kernels/wide_bounds-inl.h"
+#include "bihive/kernels/wide_plane-inl.h"
 #include "bihive/kernels/wide_repeated.h"
 #include "bihive/kernels/wide_split.h"
 
@@ -29,52 +31,7 @@ constexpr int kDeepestMidpoint = 48;
 
 // Ranges up to this size choose between the midpoint and a plane that leaves full leaves.
 constexpr std::int64_t kChoosingSpheres = 4096;
-constexpr float kMidpointBias = 1.1F;
-
-// Rounds of the search for a plane: first by interpolation, then by halving what is between in ulps.
-constexpr int kInterpolations = 6;
-
-/// A plane and the number of centres below it.
-struct Plane {
-  float at;
-  std::int64_t below;
-};
-
-inline std::int32_t ordered_bits(float v) {
-  std::int32_t bits;
-  std::memcpy(&bits, &v, sizeof bits);
-  return bits >= 0 ? bits : std::numeric_limits<std::int32_t>::min() - bits;
-}
-inline float from_ordered_bits(std::int32_t bits) {
-  if (bits < 0) bits = std::numeric_limits<std::int32_t>::min() - bits;
-  float v;
-  std::memcpy(&v, &bits, sizeof v);
-  return v;
-}
-
-/// A plane with `wanted` of the numbers below it, or as near to that as equal numbers allow; at least one on each side.
-/// The numbers lie in [lo, hi], lo < hi, and both occur.
-HWY_INLINE Plane plane_by_count(const float* numbers, std::int64_t count, std::int64_t wanted, float lo, float hi) {
-  // `low` has too few below it, `high` too many; hi's own number is asked for only if nothing better is found.
-  Plane low{lo, 0}, high{hi, count};
-  for (int round = 0;; ++round) {
-    const std::int32_t low_bits = ordered_bits(low.at), high_bits = ordered_bits(high.at);
-    const std::int64_t between = std::int64_t{high_bits} - low_bits;
-    if (between <= 1) break;
-    float at = from_ordered_bits(static_cast<std::int32_t>(low_bits + between / 2));
-    if (round < kInterpolations) {
-      const float share = static_cast<float>(wanted - low.below) / static_cast<float>(high.below - low.below);
-      const float guess = low.at + (high.at - low.at) * share;
-      if (guess > low.at && guess < high.at) at = guess;
-    }
-    const std::int64_t below = count_below(numbers, count, at);
-    if (below == wanted) return {at, below};
-    (below < wanted ? low : high) = {at, below};
-  }
-  if (high.at == hi) high.below = count_below(numbers, count, hi);
-  const bool low_is_nearer = wanted - low.below < std::abs(high.below - wanted);
-  return low.below > 0 && low_is_nearer ? low : high;
-}
+constexpr float kMidpointBias = 0.95F;
 
 /// Half of the spheres, in whole subtrees of full leaves.
 HWY_INLINE std::int64_t half_in_full_leaves(std::int64_t count, std::int64_t full_leaf) {
@@ -92,7 +49,7 @@ class Splitter {
     BinaryNode& node = *range.node;
     node.count = static_cast<std::uint32_t>(range.count);
     node.axis = 0;
-    node.children = nullptr;
+    node.split = nullptr;
     if (range.count <= context_.full_leaf) return finish_leaf(range);
 
     // Find the longest side of the centres' box.
@@ -112,9 +69,9 @@ class Splitter {
     right.first = range.first + left.count;
     right.count = range.count - left.count;
     node.axis = static_cast<std::uint32_t>(axis);
-    node.children = source_.pair();
-    left.node = node.children;
-    right.node = node.children + 1;
+    node.split = source_.next();
+    left.node = &node.split->side[0];
+    right.node = &node.split->side[1];
     if (left.count > kTaskSpheres && right.count > kTaskSpheres) {
       list_.add([&context = context_, right, &list = list_] { run(context, right, list); });
       split(left);
@@ -122,9 +79,7 @@ class Splitter {
       split(left);
       split(right);
     }
-    if (range.count > kTaskSpheres) return;
-    node.box = left.node->box;
-    node.box.add(right.node->box);
+    if (range.count <= kTaskSpheres) close_node(node);
   }
 
   static void run(SplitContext& context, const SplitRange& range, TaskList& list) {
@@ -158,40 +113,41 @@ class Splitter {
   // Parts the spheres at a plane; says what is left and right of it.
   void part(const SplitRange& range, int axis, SplitRange& left, SplitRange& right) {
     const SphereArrays& from = arrays(range.in_final);
-    const float* const numbers = from.axis(axis) + range.first;
-    const float lo = range.centres.lo[axis], hi = range.centres.hi[axis];
     const std::int64_t full = context_.full_leaf;
     const std::int64_t wanted = half_in_full_leaves(range.count, full);
+    const auto by_count = [&]() HWY_ATTR {
+      return plane_by_count(from, range.first, range.count, wanted, axis, range.centres);
+    };
     bool boxes_known = false;
-    Plane plane{};
+    Plane plane;
     if (range.depth < kDeepestMidpoint) {
       // Halve the box. Where no number is between its sides, hi itself parts the spheres.
-      plane.at = lo + (hi - lo) * 0.5F;
-      if (!(plane.at > lo)) plane.at = hi;
-      plane.below = count_below(numbers, range.count, plane.at);
+      const float lo = range.centres.lo[axis], hi = range.centres.hi[axis];
+      plane.axis[0] = axis;
+      plane.at[0] = lo + (hi - lo) * 0.5F;
+      if (!(plane.at[0] > lo)) plane.at[0] = hi;
+      plane.below = count_below(from, range.first, range.count, plane);
       const std::int64_t above = range.count - plane.below;
       const bool two_leaves = plane.below <= full && above <= full;
       if (range.count <= kChoosingSpheres && plane.below != wanted && !two_leaves) {
         // Compare with full leaves.
-        const Plane other = plane_by_count(numbers, range.count, wanted, lo, hi);
-        if (other.below != plane.below) {
-          Aabb other_left, other_right;
-          split_boxes(from, range.first, range.count, axis, plane.at, left.centres, right.centres);
-          split_boxes(from, range.first, range.count, axis, other.at, other_left, other_right);
-          boxes_known = true;
-          if (cost(left.centres, plane.below, right.centres, above) >
-              kMidpointBias * cost(other_left, other.below, other_right, range.count - other.below)) {
-            plane = other;
-            left.centres = other_left;
-            right.centres = other_right;
-          }
+        const Plane other = by_count();
+        Aabb other_left, other_right;
+        split_boxes(from, range.first, range.count, plane, left.centres, right.centres);
+        split_boxes(from, range.first, range.count, other, other_left, other_right);
+        boxes_known = true;
+        if (cost(left.centres, plane.below, right.centres, above) >
+            kMidpointBias * cost(other_left, other.below, other_right, range.count - other.below)) {
+          plane = other;
+          left.centres = other_left;
+          right.centres = other_right;
         }
       }
     } else {
-      plane = plane_by_count(numbers, range.count, wanted, lo, hi);
+      plane = by_count();
     }
     const SphereArrays& to = arrays(!range.in_final);
-    partition<kPlainRadii>(from, to, range.first, range.count, axis, plane.at, plane.below);
+    partition<kPlainRadii>(from, to, range.first, range.count, plane);
     left.count = plane.below;
     left.in_final = right.in_final = !range.in_final;
     if (boxes_known) return;
@@ -265,7 +221,7 @@ class Splitter {
 
   SplitContext& context_;
   TaskList& list_;
-  NodeSource source_;
+  SplitSource source_;
   std::vector<RepeatedSphere> repeated_;
 };
 

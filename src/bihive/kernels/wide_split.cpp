@@ -42,6 +42,13 @@ void split_on_target(SplitContext& context, const SplitRange& range, TaskList& l
     Splitter<false>::run(context, range, list);
 }
 
+void close_on_target(BinaryNode& node) {
+  if (node.is_leaf() || node.count <= kTaskSpheres) return;
+  close_on_target(node.split->side[0]);
+  close_on_target(node.split->side[1]);
+  close_node(node);
+}
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace bihive
@@ -55,6 +62,7 @@ HWY_EXPORT(cells_on_target);
 HWY_EXPORT(scatter_on_target);
 HWY_EXPORT(bound_on_target);
 HWY_EXPORT(split_on_target);
+HWY_EXPORT(close_on_target);
 
 void InputSummary::add(const InputSummary& next) {
   centres.add(next.centres);
@@ -119,6 +127,10 @@ Aabb bound_centres(const SplitContext& context, const SplitRange& range) {
 
 void split_range(SplitContext& context, const SplitRange& range, TaskList& list) {
   HWY_DYNAMIC_DISPATCH(split_on_target)(context, range, list);
+}
+
+void close_tops(BinaryNode& root) {
+  HWY_DYNAMIC_DISPATCH(close_on_target)(root);
 }
 
 }  // namespace kernels

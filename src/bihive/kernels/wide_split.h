@@ -109,9 +109,12 @@ void scatter_spheres(const SphereSet& spheres, std::int64_t begin, std::int64_t 
 /// The box of the centres in a range.
 Aabb bound_centres(const SplitContext& context, const SplitRange& range);
 
-/// Builds the tree under range.node. Boxes of nodes with more than kTaskSpheres spheres are left open. Large parts
-/// become tasks in `list`.
+/// Builds the tree under range.node. Nodes with more than kTaskSpheres spheres are left without boxes and costs. Large
+/// parts become tasks in `list`.
 void split_range(SplitContext& context, const SplitRange& range, TaskList& list);
+
+/// When all tasks are done: boxes and costs of the nodes with more than kTaskSpheres spheres.
+void close_tops(BinaryNode& root);
 
 }  // namespace kernels
 }  // namespace bihive
