@@ -76,17 +76,16 @@ void add_input_options(CLI::App& app, InputOptions& input) {
   add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
 }
 
-void add_tree_options(CLI::App& app, BuildParameters& tree) {
-  add_value(app, "--max-prims", tree.max_prims, "N|unlimited", "Most spheres of a leaf (8)", limit_from);
-  add_value(app, "--max-depth", tree.max_depth, "N|unlimited", "Most levels of the tree (unlimited)", limit_from);
-}
-
-void add_engine_options(CLI::App& app, Engine& engine, TreeParameters& tree, std::int64_t& threads) {
-  add_choice(app, "--engine", engine, kEngines, "What answers the rays (auto); all give the same bits");
+void add_tree_options(CLI::App& app, TreeParameters& tree) {
   add_value(app, "--max-prims", tree.max_prims, "N|unlimited",
             "Most spheres of a leaf (the engine's choice; reference: 8)", limit_from);
   add_value(app, "--max-depth", tree.max_depth, "N|unlimited",
             "Most levels of the tree (the engine's choice; reference: unlimited)", limit_from);
+}
+
+void add_engine_options(CLI::App& app, Engine& engine, TreeParameters& tree, std::int64_t& threads) {
+  add_choice(app, "--engine", engine, kEngines, "What answers the rays (auto); all give the same bits");
+  add_tree_options(app, tree);
   add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
 }
 
@@ -137,7 +136,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
 
 void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
   CLI::App& command =
-      add_command(app, "stats", "Build the tree and show what it looks like in numbers", "bihive stats demo",
+      add_command(app, "stats", "Build both trees and show what they look like in numbers", "bihive stats demo",
                   "bihive stats scenario2 --max-prims 1 --seed 7 --json", options, request);
   add_input(command, options.input);
   add_tree_options(command, options.tree);

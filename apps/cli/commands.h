@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "bihive/bih/tree.h"
 #include "bihive/image/transfer.h"
 #include "bihive/math/vec3.h"
 #include "bihive/render/renderer.h"
@@ -39,7 +38,7 @@ void run_render(const RenderOptions& options);
 
 struct StatsOptions {
   InputOptions input;
-  BuildParameters tree;
+  TreeParameters tree;
   bool json = false;
 };
 void run_stats(const StatsOptions& options);
@@ -63,7 +62,7 @@ void run_scene(const SceneOptions& options);
 
 struct InfoOptions {
   InputOptions input;
-  BuildParameters tree;
+  TreeParameters tree;
   bool json = false;
 };
 void run_info(const InfoOptions& options);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/bih/memory.h"
+#include "bihive/kernels/target.h"
+#include "bihive/kernels/wide_builder.h"
 #include "commands.h"
 #include "messages.h"
 
@@ -60,14 +62,16 @@ struct Facts {
   std::vector<Range> attributes;
   BuildParameters parameters;
   MemoryPrediction memory;
+  WideMemoryPrediction wide_memory;
 
-  Facts(const Input& from, const BuildParameters& tree)
+  Facts(const Input& from, const TreeParameters& tree)
       : input(from),
         spheres(from.scene.spheres),
         bounds(spheres.bounds()),
         attributes(attribute_ranges(spheres.attributes())),
-        parameters(tree),
-        memory(predict_tree_memory(spheres.size(), tree)) {
+        parameters(tree.for_reference()),
+        memory(predict_tree_memory(spheres.size(), parameters)),
+        wide_memory(predict_wide_memory(spheres.size(), tree.for_wide(spheres.size()))) {
     for (std::int64_t id = 0; id < spheres.size(); ++id) radius.add(spheres.radius(id));
     zero_radii = std::count(spheres.r().begin(), spheres.r().end(), 0.0F);
   }
@@ -107,6 +111,9 @@ void print_json(const Facts& facts) {
                             {"nodes", range(facts.memory.nodes)},
                             {"thesis_bytes", range(facts.memory.thesis_bytes)},
                             {"allocated_bytes", range(facts.memory.allocated_bytes)}};
+  json["predicted_wide_tree"] = {{"used_bytes", range({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes})},
+                                 {"peak_bytes", facts.wide_memory.peak_bytes}};
+  json["target"] = active_target();
   print(json.dump(2, ' ', true, ordered_json::error_handler_t::replace) + "\n");
 }
 
@@ -136,8 +143,11 @@ void print_text(const Facts& facts) {
   const Vec3d shift = facts.input.recentred_by;
   if (shift != Vec3d{}) row("recentred by", fmt::format("{}, {}, {}", shift.x, shift.y, shift.z));
   row("spheres take", readable_bytes(static_cast<double>(facts.spheres.allocated_bytes())));
-  row("tree will take", bytes(facts.memory.allocated_bytes));
+  row("wide tree", bytes({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes}) + ", at most " +
+                       readable_bytes(static_cast<double>(facts.wide_memory.peak_bytes)) + " while it is built");
+  row("reference tree", bytes(facts.memory.allocated_bytes));
   row("", bytes(facts.memory.thesis_bytes) + " as the thesis counts");
+  row("instruction set", active_target());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
+#include "bihive/kernels/target.h"
 #include "bihive/render/tree_picture.h"
 #include "commands.h"
 #include "failure.h"
@@ -192,6 +193,7 @@ void run_render(const RenderOptions& options) {
   json["size"] = fmt::format("{}x{}", settings.width_px, settings.height_px);
   json["view"] = name_of(kViews, settings.view);
   json["engine"] = name_of(kEngines, tracer.engine());
+  json["target"] = tracer.engine() == Engine::wide ? ordered_json(active_target()) : ordered_json();
   json["spheres"] = scene.spheres.size();
   json["settings"] = described;
   json["rays"] = {{"primary", rays.primary},

@@ -13,11 +13,13 @@
 #include "bihive/base/write_file.h"
 #include "bihive/geometry/plane.h"
 #include "bihive/io/npy.h"
+#include "bihive/kernels/target.h"
 #include "bihive/scene/generators.h"
 #include "commands.h"
 #include "failure.h"
 #include "interrupt.h"
 #include "messages.h"
+#include "names.h"
 #include "write_together.h"
 
 namespace bihive::cli {
@@ -154,9 +156,10 @@ void run_trace(const TraceOptions& options) {
   const std::string t_bytes = npy_bytes(answers.t, {rays.size()});
   const std::string id_bytes = npy_bytes(answers.id, {rays.size()});
   write_together({{options.t, t_bytes}, {options.id, id_bytes}});
-  print(fmt::format("{}, {}: {} rays, {} hit something; tree {}, rays {}\n", options.t, options.id,
-                    grouped(rays.size()), grouped(answers.hits), readable_ms(tracer.build_ms()),
-                    readable_ms(trace_ms)));
+  const std::string target = tracer.engine() == Engine::wide ? " on " + active_target() : "";
+  print(fmt::format("{}, {}: {} rays, {} hit something; engine {}{}, tree {}, rays {}\n", options.t, options.id,
+                    grouped(rays.size()), grouped(answers.hits), name_of(kEngines, tracer.engine()), target,
+                    readable_ms(tracer.build_ms()), readable_ms(trace_ms)));
 }
 
 }  // namespace bihive::cli

@@ -9,7 +9,7 @@ class Stats(ProgramTest):
         json = self.succeed_json("stats", "scenario2")
         for key in (
             "spheres inner_nodes leaves optimized_nodes one_sided_nodes forced_leaves spheres_per_leaf depth "
-            "leaves_with bytes allocated_bytes build_ms max_prims max_depth seed"
+            "leaves_with bytes allocated_bytes build_ms max_prims max_depth seed wide"
         ).split():
             self.assertIn(key, json)
         self.assertEqual(set(json["spheres_per_leaf"]), {"min", "avg", "max"})
@@ -18,6 +18,59 @@ class Stats(ProgramTest):
         self.assertEqual(set(json["bytes"]), {"nodes", "indices", "aabb", "total"})
         self.assertEqual((json["max_prims"], json["max_depth"], json["seed"]), (8, None, 1))
         self.assertGreater(json["build_ms"], 0)
+
+    def test_keys_of_the_wide_tree(self):
+        wide = self.succeed_json("stats", "scenario2")["wide"]
+        self.assertEqual(
+            set(wide),
+            set(
+                "nodes leaves levels children spheres_per_leaf nodes_above_leaf node_fill leaf_fill overlap expected_cost "
+                "bytes bytes_per_sphere allocated_bytes predicted_bytes peak_bytes build_ms target max_prims max_depth".split()
+            ),
+        )
+        self.assertEqual(set(wide["expected_cost"]), {"nodes", "leaves", "spheres"})
+        self.assertEqual(set(wide["bytes"]), {"nodes", "spheres", "other", "total"})
+        self.assertEqual((wide["max_prims"], wide["max_depth"]), (None, None))
+        self.assertGreater(wide["build_ms"], 0)
+
+    def test_the_wide_tree_adds_up_and_was_predicted(self):
+        for given in [["demo"], ["scenario1", "--count", "64"], ["scenario2"], ["scenario3", "--count", "50000"]]:
+            json = self.succeed_json("stats", *given)
+            wide = json["wide"]
+            self.assertAlmostEqual(wide["spheres_per_leaf"]["avg"] * wide["leaves"], json["spheres"])
+            self.assertAlmostEqual(wide["children"]["avg"] * wide["nodes"], wide["leaves"] + wide["nodes"] - 1)
+            self.assertAlmostEqual(wide["node_fill"] * 16, wide["children"]["avg"])
+            self.assertLessEqual(wide["children"]["max"], 16)
+            self.assertLessEqual(wide["spheres_per_leaf"]["max"], 16)
+            self.assertEqual(wide["nodes_above_leaf"]["max"], wide["levels"])
+            parts = wide["bytes"]
+            self.assertEqual(parts["nodes"], 512 * wide["nodes"])
+            self.assertEqual(parts["total"], parts["nodes"] + parts["spheres"] + parts["other"])
+            self.assertAlmostEqual(wide["bytes_per_sphere"], parts["total"] / json["spheres"])
+            self.assertLessEqual(parts["total"], wide["allocated_bytes"])
+            predicted = wide["predicted_bytes"]
+            self.assertTrue(predicted["low"] <= parts["total"] <= predicted["high"], (given, predicted, parts))
+            self.assertLessEqual(wide["peak_bytes"]["measured"], wide["peak_bytes"]["predicted"])
+            foretold = self.succeed_json("info", *given)["predicted_wide_tree"]
+            self.assertEqual(foretold, {"used_bytes": predicted, "peak_bytes": wide["peak_bytes"]["predicted"]})
+            self.assertGreaterEqual(wide["expected_cost"]["nodes"], 1)
+            self.assertLessEqual(wide["expected_cost"]["spheres"], json["spheres"])
+
+    def test_limits_of_the_wide_tree(self):
+        def wide(*limits):
+            return self.succeed_json("stats", "scenario3", "--count", "2000", *limits)["wide"]
+
+        few = wide("--max-prims", "3")
+        self.assertLessEqual(few["spheres_per_leaf"]["max"], 3)
+        self.assertEqual((few["max_prims"], few["max_depth"]), (3, None))
+        root = wide("--max-depth", "1")
+        self.assertEqual((root["nodes"], root["leaves"], root["spheres_per_leaf"]["max"]), (1, 1, 2000))
+        self.assertEqual(root["max_depth"], 1)
+        flat = wide("--max-depth", "2")
+        self.assertEqual((flat["nodes"], flat["levels"]), (1, 1))
+        self.assertLessEqual(flat["leaves"], 16)
+        self.assertEqual(wide("--max-prims", "unlimited")["leaves"], 1)
+        self.assertIsNone(wide("--max-depth", "unlimited")["max_depth"])
 
     def test_scenario_1_as_the_thesis_has_it(self):
         one = self.succeed_json("stats", "scenario1", "--max-prims", "1")
@@ -69,7 +122,13 @@ class Stats(ProgramTest):
         rows += [f"{what} {which}" for what in ["spheres per leaf", "depth"] for which in ["min", "avg", "max"]]
         rows += [f"leaves with N = {n}" for n in range(5)] + ["leaves with N > 4", "optimized nodes"]
         self.assertEqual(names[: len(rows)], rows)
-        values = {line[:26].strip(): line[26:].strip() for line in lines[1:]}
+        second = next(number for number, line in enumerate(lines) if line.startswith("wide tree"))
+        reference, wide = lines[:second], lines[second:]
+        self.assertIn("the engine's choice", wide[0])
+        rows = "nodes leaves levels".split() + ["fill of nodes", "fill of leaves", "overlap of siblings", "bytes a sphere"]
+        for name in rows:
+            self.assertIn(name, [line[:26].strip() for line in wide])
+        values = {line[:26].strip(): line[26:].strip() for line in reference[1:]}
         self.assertEqual(values["inner nodes"], "4,095")
         self.assertEqual(values["leaves with N = 1"], "100.00 %")
         self.assertEqual(values["bytes, total"], "114,700")

@@ -8,7 +8,6 @@
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
-#include "bihive/kernels/wide_builder.h"
 #include "bihive/render/brute_force.h"
 
 namespace bihive {
@@ -16,17 +15,6 @@ namespace {
 
 // The side of a block of neighbouring pixels, as RayOrder::blocks wants them.
 constexpr int kBlockPx = 8;
-
-// 0 is the wide builder's own choice. No leaf can hold more than all spheres, and no tree has more levels than spheres.
-WideParameters for_wide(const TreeParameters& parameters, std::int64_t spheres) {
-  const auto bounded = [&](std::optional<std::int64_t> value) {
-    return value ? std::clamp<std::int64_t>(*value, 1, std::max<std::int64_t>(spheres, 1)) : 0;
-  };
-  WideParameters wide;
-  wide.max_prims = bounded(parameters.max_prims);
-  if (parameters.max_depth && *parameters.max_depth != kUnlimited) wide.max_depth = bounded(parameters.max_depth);
-  return wide;
-}
 
 }  // namespace
 
@@ -37,12 +25,23 @@ BuildParameters TreeParameters::for_reference() const {
   return both;
 }
 
+// 0 is the wide builder's own choice. No leaf can hold more than all spheres, and no tree has more levels than spheres.
+WideParameters TreeParameters::for_wide(std::int64_t spheres) const {
+  const auto bounded = [&](std::optional<std::int64_t> value) {
+    return value ? std::clamp<std::int64_t>(*value, 1, std::max<std::int64_t>(spheres, 1)) : 0;
+  };
+  WideParameters wide;
+  wide.max_prims = bounded(max_prims);
+  if (max_depth && *max_depth != kUnlimited) wide.max_depth = bounded(max_depth);
+  return wide;
+}
+
 Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters, int threads) {
   Tracer tracer(spheres, engine == Engine::automatic ? Engine::wide : engine);
   const Timer timer;
   if (tracer.engine_ == Engine::wide) {
     Result<std::shared_ptr<const WideTree>> tree =
-        WideBuilder().build(spheres, for_wide(parameters, spheres.size()), threads);
+        WideBuilder().build(spheres, parameters.for_wide(spheres.size()), threads);
     if (!tree) return tree.error();
     tracer.wide_tree_ = std::move(*tree);
   }

@@ -12,6 +12,7 @@
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/kernels/queries.h"
+#include "bihive/kernels/wide_builder.h"
 #include "bihive/kernels/wide_tree.h"
 #include "bihive/render/film.h"
 #include "bihive/scene/camera.h"
@@ -35,6 +36,8 @@ struct TreeParameters {
 
   /// With the reference builder's own choice where nothing is said.
   BuildParameters for_reference() const;
+  /// For the wide builder; a limit that cannot bind is none.
+  WideParameters for_wide(std::int64_t spheres) const;
 };
 
 /// Holds the structure that an engine needs, and refers to the spheres, which must outlive it. Queries are const and
