@@ -31,8 +31,7 @@ using test::Truth;
 
 // What the filter makes of a pair.
 struct Filtered {
-  float b, enlarged_squared, dp, lower, upper;
-  Real pp;  // what dp makes of p . p
+  float b, dp, lower, upper;
 
   template <bool kFused>
   static float mul_add(float x, float y, float z) {
@@ -49,16 +48,11 @@ struct Filtered {
     float p[3];
     for (int k = 0; k < 3; ++k) p[k] = mul_add<kFused>(-f.b, n[k], c[k]);
     const float enlarged = radius + ray.e;
-    f.enlarged_squared = enlarged * enlarged;
-    if (kChain) {
-      f.dp = f.enlarged_squared;
+    f.dp = enlarged * enlarged;
+    if (kChain)
       for (const int k : {2, 1, 0}) f.dp = mul_add<kFused>(-p[k], p[k], f.dp);
-      f.pp = Real(f.enlarged_squared) - Real(f.dp);
-    } else {
-      const float pp = mul_add<kFused>(p[2], p[2], mul_add<kFused>(p[1], p[1], p[0] * p[0]));
-      f.dp = f.enlarged_squared - pp;
-      f.pp = Real(pp);
-    }
+    else
+      f.dp -= mul_add<kFused>(p[2], p[2], mul_add<kFused>(p[1], p[1], p[0] * p[0]));
     const float chord = std::sqrt(std::max(f.dp, 0.0F));
     f.lower = f.b - ray.e - chord;
     f.upper = f.b + ray.e + chord;
@@ -103,11 +97,12 @@ TEST(FilterBounds, DistanceAlongTheRay) {
 }
 
 TEST(FilterBounds, DistanceFromTheRay) {
-  // dp < 0 must be a certain miss: the line is at most so much nearer than the filter says.
+  // dp < 0 must be a certain miss: at the silhouette dp is too small by less than what e adds to r^2.
   expect_used("e against |p|",
-              most_used_by_filter([](const Pair& pair, const LocalRay&, const Truth& truth, const Filtered& f) {
-                const Real slack = std::sqrt(Real(f.enlarged_squared)) - Real(pair.radius);
-                return double((std::sqrt(std::max(Real(0), f.pp)) - truth.p) / slack);
+              most_used_by_filter([](const Pair& pair, const LocalRay& local, const Truth& truth, const Filtered& f) {
+                const Real r = Real(pair.radius), e = Real(local.e);
+                if (truth.p > r || truth.p < r - 2 * e) return -HUGE_VAL;
+                return double(((r + e) * (r + e) - truth.p * truth.p - Real(f.dp)) / (2 * r * e + e * e));
               }),
               0.15);
 }
