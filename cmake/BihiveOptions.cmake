@@ -51,7 +51,8 @@ endif()
 
 if(BIHIVE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Known to be wrong about instrumented code.
-  target_compile_options(bihive_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds)
+  target_compile_options(bihive_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread
+                                                -Wno-stringop-overflow)
 endif()
 if(BIHIVE_SANITIZE STREQUAL "asan")
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)

@@ -116,9 +116,9 @@ inline RayAndSphere moved(RayAndSphere pair, SplitMix64& rng) {
 }
 
 /// The largest value of `used` found; NaN counts as -inf. BIHIVE_LONG=N in the environment starts N times as often.
-inline double most_used(const std::function<double(const RayAndSphere&)>& used) {
+inline double most_used(const std::function<double(const RayAndSphere&)>& used, std::uint64_t usual_starts = 3000) {
   const char* const number = std::getenv("BIHIVE_LONG");
-  const std::uint64_t starts = 3000 * (number == nullptr ? 1 : std::strtoull(number, nullptr, 10));
+  const std::uint64_t starts = usual_starts * (number == nullptr ? 1 : std::strtoull(number, nullptr, 10));
   const auto value_of = [&](const RayAndSphere& pair) {
     const double value = pair.allowed() ? used(pair) : -HUGE_VAL;
     return std::isnan(value) ? -HUGE_VAL : value;
