@@ -228,7 +228,7 @@ Measured measure(const BenchScene& bench, const BenchOptions& options) {
   measured.target = active_target();
   std::unique_ptr<Embree> peer;
   if (options.embree) {
-    auto started = Embree::start(bench.scene.spheres, static_cast<int>(options.threads), options.target);
+    auto started = Embree::start(bench.scene.spheres, static_cast<int>(options.threads), measured.target);
     if (!started) throw cli::Failure{cli::kEnvironment, started.error()};
     peer = std::move(*started);
     measured.peer_version = Embree::version();

@@ -23,11 +23,11 @@ bool count_bytes(void* counter, ssize_t bytes, bool /*post*/) {
 
 }  // namespace
 
-Result<std::unique_ptr<Embree>> Embree::start(const SphereSet& spheres, int threads, const std::string& isa) {
+Result<std::unique_ptr<Embree>> Embree::start(const SphereSet& spheres, int threads, const std::string& target) {
   // Its names for instruction sets.
   std::string config = "threads=" + std::to_string(threads);
-  if (isa == "sse4") config += ",isa=sse4.2";
-  if (isa == "avx2" || isa == "avx512") config += ",isa=" + isa;
+  if (target == "sse4") config += ",isa=sse4.2";
+  if (target == "avx2" || target == "avx512") config += ",isa=" + target;
 
   std::unique_ptr<Embree> peer(new Embree);
   peer->device_ = rtcNewDevice(config.c_str());

@@ -37,8 +37,8 @@ class EmbreeRays {
 
 class Embree {
  public:
-  /// `isa`: avx512, avx2, sse4 (its own names are the same or close), or empty for the best. Error: Embree cannot start.
-  static Result<std::unique_ptr<Embree>> start(const SphereSet& spheres, int threads, const std::string& isa);
+  /// Restricted to the instruction set of `target` (kernels/target.h) where it has that. Error: Embree cannot start.
+  static Result<std::unique_ptr<Embree>> start(const SphereSet& spheres, int threads, const std::string& target);
   ~Embree();
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
