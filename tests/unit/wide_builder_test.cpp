@@ -70,18 +70,19 @@ TEST(WideBuilder, BuildsRightTrees) {
 }
 
 TEST(WideBuilder, RadiiFromAPaletteOrPlain) {
-  for (const int radii : {1, 31, 40}) {
-    test::World world;
-    for (int i = 0; i < 400; ++i) world.add(i % 20, i / 20, i % 7, i % radii * 0.01 + 0.01);
-    world.add(3, 3, 3, 0);
-    const SphereSet spheres = test::sphere_set(world);
-    WideBuilder builder;
-    const TreePointer tree = built(builder, spheres);
-    EXPECT_EQ(tree->spheres.has_palette, radii <= 31);
-    EXPECT_EQ(tree->spheres.palette_size, radii <= 31 ? radii : 0);
-    const Status status = validate_wide_tree(*tree, spheres);
-    EXPECT_TRUE(status.ok()) << status.error().to_string();
-  }
+  for (const int radii : {1, 31, 40})
+    for (const bool with_zero : {false, true}) {
+      test::World world;
+      for (int i = 0; i < 400; ++i) world.add(i % 20, i / 20, i % 7, i % radii * 0.01 + 0.01);
+      if (with_zero) world.add(3, 3, 3, 0);
+      const SphereSet spheres = test::sphere_set(world);
+      WideBuilder builder;
+      const TreePointer tree = built(builder, spheres);
+      EXPECT_EQ(tree->spheres.has_palette, radii <= 31);
+      EXPECT_EQ(tree->spheres.palette_size, radii > 31 ? 0 : with_zero ? 32 : radii);
+      const Status status = validate_wide_tree(*tree, spheres);
+      EXPECT_TRUE(status.ok()) << status.error().to_string();
+    }
 }
 
 TEST(WideBuilder, KnowsSpheresThatAreEqual) {

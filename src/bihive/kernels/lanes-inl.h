@@ -27,7 +27,7 @@ template <class Mask>
 HWY_INLINE std::uint32_t mask_bits(Mask mask) {
 #if HWY_TARGET <= HWY_AVX3
   return mask.raw;
-#elif HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+#elif HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4
   return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask));
 #else
   std::uint8_t bytes[8] = {};

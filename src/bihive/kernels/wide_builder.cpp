@@ -258,7 +258,7 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
   result.r = context.final.r;
   result.word = context.final.word;
   result.has_palette = has_palette;
-  result.palette_size = has_palette ? summary.palette.size : 0;
+  result.palette_size = !has_palette ? 0 : summary.palette.has_zero ? 32 : summary.palette.size;
   std::copy(context.palette, context.palette + 32, result.palette.begin());
 }
 

@@ -36,7 +36,7 @@ inline InputSummary summarize_spheres(const SphereSet& spheres, std::int64_t beg
   InputSummary summary;
   RadiusPalette& palette = summary.palette;
   GrowingBox box;
-  Floats largest = hn::Zero(d);
+  Floats largest = hn::Zero(d), smallest = hn::Set(d, kInfinity);
   for_lanes(end - begin, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
     for (int axis = 0; axis < 3; ++axis) {
       const Floats c = load(d, from.axis(axis) + i, valid, whole);
@@ -48,6 +48,7 @@ inline InputSummary summarize_spheres(const SphereSet& spheres, std::int64_t beg
     // Lanes behind the end read as radius 0, which needs no place.
     const Floats r = load(d, from.r + i, valid, whole);
     largest = hn::Max(largest, r);
+    smallest = hn::Min(smallest, hn::IfThenElse(valid, r, smallest));
     if (palette.overflow) return;
     Mask known = hn::Eq(r, hn::Zero(d));
     for (int k = 0; k < palette.size; ++k) known = hn::Or(known, hn::Eq(r, hn::Set(d, palette.radius[k])));
@@ -57,6 +58,7 @@ inline InputSummary summarize_spheres(const SphereSet& spheres, std::int64_t beg
   });
   summary.centres = box.box();
   summary.largest_radius = hn::GetLane(hn::MaxOfLanes(d, largest)) + 0.0F;
+  palette.has_zero = hn::GetLane(hn::MinOfLanes(d, smallest)) == 0;
   return summary;
 }
 
@@ -64,7 +66,7 @@ inline InputSummary summarize_spheres(const SphereSet& spheres, std::int64_t beg
 HWY_INLINE Words make_words(const SplitContext& context, int palette_size, Floats r, std::int64_t id) {
   const FloatTag d;
   const WordTag dw;
-  const Words ids = hn::Iota(dw, static_cast<std::uint32_t>(id));
+  const Words ids = iota_words(static_cast<std::uint32_t>(id));
   if (context.final.r != nullptr) return ids;
   Words classes = hn::Set(dw, RadiusPalette::kZeroClass);
   for (int k = 0; k < palette_size; ++k)

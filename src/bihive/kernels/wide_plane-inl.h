@@ -96,7 +96,7 @@ HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std:
                           const Plane& plane) {
   const FloatTag d;
   const WordTag dw;
-  const Words lane_numbers = hn::Iota(dw, 0);
+  const Words lane_numbers = iota_words(0);
   std::int64_t left = first;
   std::int64_t right = first + plane.below;
   const std::int64_t left_end = right;
@@ -129,7 +129,7 @@ HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std:
 }
 
 // Rounds of the search for a plane: first by interpolation, then by halving the floats between.
-constexpr int kInterpolations = 6;
+constexpr int kInterpolations = 4;
 
 /// Floats as integers in the same order.
 inline std::int32_t ordered_bits(float v) {
@@ -142,6 +142,27 @@ inline float from_ordered_bits(std::int32_t bits) {
   float v;
   std::memcpy(&v, &bits, sizeof v);
   return v;
+}
+
+/// The nearest centres on both sides of a plane, of those that are parted by its last part alone.
+HWY_INLINE void neighbours(const SphereArrays& spheres, std::int64_t first, std::int64_t count, const Plane& plane,
+                           int last_part, float& below, float& above) {
+  const FloatTag d;
+  Floats largest = hn::Set(d, -kInfinity), smallest = hn::Set(d, kInfinity);
+  const Floats at = hn::Set(d, plane.at[last_part]);
+  for_lanes(count, [&](std::int64_t i, Mask valid, auto whole) HWY_ATTR {
+    Mask parted = valid;
+    for (int k = 0; k < last_part; ++k) {
+      const Floats on = hn::Set(d, plane.at[k]);
+      parted = hn::And(parted, hn::Eq(load(d, spheres.axis(plane.axis[k]) + first + i, valid, whole), on));
+    }
+    const Floats c = load(d, spheres.axis(plane.axis[last_part]) + first + i, valid, whole);
+    const Mask is_below = hn::Lt(c, at);
+    largest = hn::Max(largest, hn::IfThenElse(hn::And(parted, is_below), c, largest));
+    smallest = hn::Min(smallest, hn::IfThenElse(hn::AndNot(is_below, parted), c, smallest));
+  });
+  below = hn::GetLane(hn::MaxOfLanes(d, largest));
+  above = hn::GetLane(hn::MinOfLanes(d, smallest));
 }
 
 /// A plane across `axis` with `wanted` of the centres below it, or if many coincide as near to that as they allow; at
@@ -174,11 +195,14 @@ HWY_INLINE Plane plane_by_count(const SphereArrays& spheres, std::int64_t first,
       plane.at[k] = from_ordered_bits(static_cast<std::int32_t>(middle));
       plane.below = count_below(spheres, first, count, plane);
       if (plane.below == wanted) return plane;
+      // Nothing lies between a plane and its neighbours: go on from those where guesses are not soon right.
+      float before = plane.at[k], after = plane.at[k];
+      if (round + 1 >= kInterpolations) neighbours(spheres, first, count, plane, k, before, after);
       if (plane.below < wanted) {
-        low = middle;
+        low = ordered_bits(after);
         low_below = plane.below;
       } else {
-        high = middle;
+        high = std::int64_t{ordered_bits(before)} + (round + 1 >= kInterpolations ? 1 : 0);
         high_below = plane.below;
       }
     }

@@ -31,6 +31,11 @@ constexpr int kDeepestMidpoint = 48;
 
 // Ranges up to this size choose between the midpoint and a plane that leaves full leaves.
 constexpr std::int64_t kChoosingSpheres = 4096;
+
+// The midpoint must be this much better than full leaves, which save memory: more so in the ranges of up to two nodes'
+// spheres that decide how full the lowest nodes are. Chosen so that molecules stay below 19 bytes a sphere.
+constexpr std::int64_t kLowestSpheres = 512;
+constexpr float kLowestBias = 0.87F;
 constexpr float kMidpointBias = 0.95F;
 
 /// Half of the spheres, in whole subtrees of full leaves.
@@ -137,7 +142,8 @@ class Splitter {
         split_boxes(from, range.first, range.count, other, other_left, other_right);
         boxes_known = true;
         if (cost(left.centres, plane.below, right.centres, above) >
-            kMidpointBias * cost(other_left, other.below, other_right, range.count - other.below)) {
+            (range.count <= kLowestSpheres ? kLowestBias : kMidpointBias) *
+                cost(other_left, other.below, other_right, range.count - other.below)) {
           plane = other;
           left.centres = other_left;
           right.centres = other_right;

@@ -68,6 +68,7 @@ void InputSummary::add(const InputSummary& next) {
   centres.add(next.centres);
   largest_radius = std::max(largest_radius, next.largest_radius);
   palette.overflow = palette.overflow || next.palette.overflow;
+  palette.has_zero = palette.has_zero || next.palette.has_zero;
   for (int k = 0; k < next.palette.size; ++k) palette.add(next.palette.radius[k]);
 }
 

@@ -34,6 +34,7 @@ struct RadiusPalette {
   alignas(64) float radius[32] = {};
   int size = 0;
   bool overflow = false;
+  bool has_zero = false;  ///< a radius is 0
 
   void add(float r) {
     if (overflow || r == 0) return;

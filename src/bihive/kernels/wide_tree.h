@@ -51,7 +51,7 @@ static_assert(sizeof(WideNode) == 512);
 /// Spheres in leaf order, structure of arrays, each array padded by kWidth entries that are never hit (radius 0, far
 /// away). Two layouts: with a palette (at most 31 distinct radii above 0, fewer than 2^27 spheres) `word` is radius
 /// class << 27 | id and `r` is null: 16 bytes a sphere; otherwise `word` is the id and `r` holds the radius: 20 bytes.
-/// Class 31 is radius 0, and so are all classes from palette_size on.
+/// Class 31 is radius 0; without such radii palette_size is their number, else 32. The padding is of class 31 always.
 struct WideSpheres {
   const float* x = nullptr;
   const float* y = nullptr;
