@@ -1,5 +1,6 @@
 """bihive-bench: what its JSON holds, that both ray tracers agree, and how it fails."""
 
+import json
 import os
 import subprocess
 
@@ -94,6 +95,22 @@ class BenchTest(ProgramTest):
             ["demo", "--count", "3"],
         ]:
             self.fail_usage(*arguments)
+
+    def frames(self, *arguments):
+        program = os.path.join(os.path.dirname(BENCH), "bihive-frames")
+        return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=300, cwd=self.folder)
+
+    def test_frames_of_the_nine_configurations(self):
+        done = self.frames("thesis", "2", "1")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        found = [(f["scenario"], f["spheres"]) for f in json.loads(done.stdout)["configurations"]]
+        self.assertEqual(found, [(scenario, spheres) for scenario in (1, 2, 3) for spheres in (64, 128, 256)])
+
+    def test_bad_usage_of_frames(self):
+        for arguments in [[], ["thesis"], ["thesis", "0", "1"], ["pictures", "1", "1"], ["other", "1", "1"]]:
+            done = self.frames(*arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assert_one_error_line(done.stderr)
 
     def test_help(self):
         text = self.succeed("--help")
