@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 
 #include "bihive/base/parallel.h"
@@ -124,26 +123,28 @@ struct Contender {
 
 // Every mode on a sample of the rays; the best, and what comes close to it.
 std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const Tiles& sample) {
-  std::vector<std::pair<double, EmbreeMode>> tried;
+  struct Tried {
+    double ms;
+    EmbreeMode mode;
+    std::shared_ptr<EmbreeRays> rays;
+  };
+  std::vector<Tried> tried;
   double best = std::numeric_limits<double>::infinity();
   for (const int width : {16, 8, 4, 1}) {
-    const std::unique_ptr<EmbreeRays> rays = peer.prepare(set, width);
+    const std::shared_ptr<EmbreeRays> rays = peer.prepare(set, width);
     for (const bool coherent : {false, true}) {
       double ms = peer.trace_ms(*rays, coherent, sample);
       for (int i = 1; i < kTries && ms < best * kHopeless; ++i)
         ms = std::min(ms, peer.trace_ms(*rays, coherent, sample));
       best = std::min(best, ms);
-      tried.push_back({ms, {width, coherent}});
+      tried.push_back({ms, {width, coherent}, rays});
     }
   }
-  std::sort(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.ms < b.ms; });
   std::vector<Contender> contenders;
-  std::map<int, std::shared_ptr<EmbreeRays>> prepared;
-  for (const auto& [ms, mode] : tried) {
-    if (ms > best * kCloseToBest || contenders.size() == kMostModes) break;
-    std::shared_ptr<EmbreeRays>& rays = prepared[mode.width];
-    if (!rays) rays = peer.prepare(set, mode.width);
-    contenders.push_back({mode, rays, {}});
+  for (const Tried& one : tried) {
+    if (one.ms > best * kCloseToBest || contenders.size() == kMostModes) break;
+    contenders.push_back({one.mode, one.rays, {}});
   }
   return contenders;
 }
