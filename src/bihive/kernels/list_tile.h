@@ -12,7 +12,7 @@
 
 namespace bihive::kernels {
 
-constexpr int kTileRays = 16384;
+constexpr int kTileRays = 32768;
 constexpr int kMostRivals = 4096;
 constexpr int kQueue = 64;
 constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
