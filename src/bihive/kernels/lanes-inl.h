@@ -70,6 +70,18 @@ HWY_INLINE auto load_radii(const WideSpheres& spheres, std::int64_t slot) {
   return look_up_radii(spheres, hn::ShiftRight<WideSpheres::kIdBits>(hn::LoadU(WordTag(), spheres.word + slot)));
 }
 
+/// The first four lanes (all of a narrower vector).
+template <class V, class T>
+HWY_INLINE void store_four(V v, T* to) {
+  const hn::CappedTag<T, 4> four;
+  if constexpr (kFloatLanes == 16)
+    hn::StoreU(hn::LowerHalf(hn::LowerHalf(v)), four, to);
+  else if constexpr (kFloatLanes == 8)
+    hn::StoreU(hn::LowerHalf(v), four, to);
+  else
+    hn::StoreU(v, four, to);
+}
+
 /// kFloatLanes words with `Compress`ed lanes in front, all of them stored: what follows the last one is overwritten.
 /// Returns how many there are. (Storing the compressed lanes alone takes many times longer on some machines.)
 template <class D, class V, class M>

@@ -45,9 +45,11 @@ struct ListTile {
   alignas(64) FilterRay rays[kTileRays + 4];
   alignas(64) float s_best[kTileRays + 16];
   alignas(64) std::uint32_t winner[kTileRays + 16];
-  alignas(64) float sure_min[kTileRays + 16];         // near roots from here on lie surely in the segment
-  alignas(64) std::uint32_t left_id[kTileRays + 16];  // kNoSlot: the ray leaves none
-  alignas(64) std::uint32_t inward[kTileRays + 16];   // 1: into that sphere; only if the caller says so of some ray
+  alignas(64) float s_min[kTileRays + 16];
+  // Only if some ray leaves a sphere: its id, or kNoSlot, of rays that go outward and that go inward.
+  alignas(64) std::uint32_t outward_id[kTileRays + 16];
+  alignas(64) std::uint32_t inward_id[kTileRays + 16];
+  alignas(64) std::uint32_t careful[kTileRays + 16];  // 1: the sphere that it leaves has equals
   alignas(64) std::uint32_t by_octant[8][kTileRays + 16];
   std::uint32_t far_rays[kTileRays];  // for the scalar traversal
   Rival rivals[kMostRivals + 16];

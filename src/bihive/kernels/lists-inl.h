@@ -55,6 +55,7 @@ class ListWalk {
  private:
   // Lists of fewer rays are walked ray by ray, and leaves with fewer wait for each other.
   static constexpr std::uint32_t kShortList = 4;
+  static constexpr std::uint32_t kAhead = 8;  // rays to fetch before they are needed
   static constexpr std::uint32_t kShortLeafList = 16;
 
   // ---- Making rays ready ----
@@ -105,10 +106,8 @@ class ListWalk {
       std::uint32_t signs[3] = {};
       for (int lane = 0; lane < 16; lane += kFloatLanes) {
         hn::Store(hn::Load(d, local.s_max + lane), d, tile_.s_best + first + lane);
-        hn::Store(hn::Add(hn::Load(d, local.s_min + lane), hn::Set(d, bounds_.width)), d,
-                  tile_.sure_min + first + lane);
+        hn::Store(hn::Load(d, local.s_min + lane), d, tile_.s_min + first + lane);
         hn::Store(nothing, WordTag(), tile_.winner + first + lane);
-        hn::Store(nothing, WordTag(), tile_.left_id + first + lane);
         for (int axis = 0; axis < 3; ++axis)
           signs[axis] |= mask_bits(hn::Lt(hn::Load(d, local.direction[axis] + lane), hn::Zero(d))) << lane;
       }
@@ -129,12 +128,15 @@ class ListWalk {
   // Which sphere does each ray leave? Of rays that leave one of several equal spheres nothing counts as sure.
   void set_up_left() {
     leaves_some_ = true;
+    inward_some_ = rays_.inside != nullptr;
+    careful_some_ = !tree_.repeated.empty();
     for (std::int64_t i = 0; i < rays_.count; ++i) {
-      if (rays_.leaves[i] < 0 || rays_.leaves[i] >= std::int64_t{kNoSlot}) continue;
-      tile_.left_id[i] = static_cast<std::uint32_t>(rays_.leaves[i]);
-      if (rays_.inside != nullptr) tile_.inward[i] = rays_.inside[i];
-      if (HWY_UNLIKELY(!tree_.repeated.empty() && LeftSphere(tree_, rays_.leaves[i]).is_repeated()))
-        tile_.sure_min[i] = std::numeric_limits<float>::infinity();
+      const std::int64_t leaves = rays_.leaves[i];
+      const std::uint32_t id = leaves >= 0 && leaves < tree_.size ? static_cast<std::uint32_t>(leaves) : kNoSlot;
+      const bool inward = inward_some_ && rays_.inside[i] != 0;
+      tile_.outward_id[i] = inward ? kNoSlot : id;
+      if (inward_some_) tile_.inward_id[i] = inward ? id : kNoSlot;
+      if (careful_some_) tile_.careful[i] = LeftSphere(tree_, leaves).is_repeated() ? 1 : 0;
     }
   }
 
@@ -160,19 +162,23 @@ class ListWalk {
   // The working memory of a node with a list of `count` rays, one after the other in the arena.
   struct NodeMemory {
     std::uint16_t* masks;
-    float* s_near;          // sixteen a ray
+    // Distances of entry: of the children that are entered, packed, from offsets[i] on for ray i of the list; on
+    // targets that test sixteen boxes in several steps of all sixteen.
+    float* s_near;
+    std::uint32_t* offsets;
     std::uint32_t* places;  // of the list
     std::uint32_t* list;    // of a child
     static std::size_t bytes(std::uint32_t count) {
       const std::size_t padded = (count + 47) / 16 * 16;
-      return padded * (2 + 64 + 4 + 4) + 64;
+      return padded * (2 + 64 + 4 + 4 + 4) + 64;
     }
     NodeMemory(char* at, std::uint32_t count) {
       const std::size_t padded = (count + 47) / 16 * 16;
       s_near = reinterpret_cast<float*>(at);
       places = reinterpret_cast<std::uint32_t*>(at + padded * 64);
       list = places + padded;
-      masks = reinterpret_cast<std::uint16_t*>(list + padded);
+      offsets = list + padded;
+      masks = reinterpret_cast<std::uint16_t*>(offsets + padded);
     }
   };
   static constexpr std::size_t kArenaBytes = std::size_t{kernels::kTileRays} * 80 * 8;
@@ -209,6 +215,7 @@ class ListWalk {
                            const NodeMemory& memory) const {
     const FloatTag d;
     std::uint32_t any = 0;
+    std::uint32_t stored = 0;
     const float* near[3];
     const float* far[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -224,6 +231,7 @@ class ListWalk {
       const auto far_z = hn::Load(d, far[2] + lane);
       for (std::uint32_t i = 0; i < count; ++i) {
         const FilterRay& ray = tile_.rays[list[i]];
+        __builtin_prefetch(&tile_.rays[list[std::min(i + kAhead, count - 1)]]);
         const auto ix = hn::Set(d, ray.inverse[0]);
         const auto iy = hn::Set(d, ray.inverse[1]);
         const auto iz = hn::Set(d, ray.inverse[2]);
@@ -235,9 +243,17 @@ class ListWalk {
         const auto out_z = hn::MulAdd(far_z, iz, hn::Set(d, ray.far_offset[2]));
         const auto s_in = hn::Max(hn::Max(in_x, in_y), hn::Max(in_z, hn::Set(d, ray.s_min)));
         const auto s_out = hn::Min(hn::Min(out_x, out_y), hn::Min(out_z, hn::Set(d, tile_.s_best[list[i]])));
-        hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
-        const std::uint32_t bits = mask_bits(hn::Le(s_in, s_out)) << lane;
-        memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
+        const auto enters = hn::Le(s_in, s_out);
+        const std::uint32_t bits = mask_bits(enters) << lane;
+        if constexpr (kFloatLanes == kWidth) {
+          hn::StoreU(hn::Compress(s_in, enters), d, memory.s_near + stored);
+          memory.offsets[i] = stored;
+          stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
+          memory.masks[i] = static_cast<std::uint16_t>(bits);
+        } else {
+          hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
+          memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
+        }
         any |= bits;
       }
     }
@@ -258,12 +274,16 @@ class ListWalk {
       found += store_compressed(d, places, hn::TestBit(masks, bit), memory.places + found);
       places = hn::Add(places, hn::Set(d, static_cast<std::uint32_t>(kFloatLanes)));
     }
+    const unsigned below = (1u << slot) - 1;
     std::uint32_t kept = 0;
     for (std::size_t k = 0; k < found; ++k) {
       const std::uint32_t place = memory.places[k];
       const std::uint32_t ray = list[place];
       memory.list[kept] = ray;
-      kept += memory.s_near[std::size_t{place} * kWidth + static_cast<std::size_t>(slot)] <= tile_.s_best[ray] ? 1 : 0;
+      std::size_t at = std::size_t{place} * kWidth + static_cast<std::size_t>(slot);
+      if constexpr (kFloatLanes == kWidth)
+        at = memory.offsets[place] + static_cast<std::size_t>(__builtin_popcount(memory.masks[place] & below));
+      kept += memory.s_near[at] <= tile_.s_best[ray] ? 1 : 0;
     }
     return kept;
   }
@@ -273,11 +293,13 @@ class ListWalk {
     SingleRay ray;
     ray.local = tile_.rays[number];
     ray.s_best = tile_.s_best[number];
-    ray.sure_min = tile_.sure_min[number];
+    ray.sure_min = tile_.s_min[number] + bounds_.width;
     ray.e = bounds_.e;
     ray.width = bounds_.width;
-    ray.left_id = leaves_some_ ? tile_.left_id[number] : kNoSlot;
-    ray.inward = leaves_some_ && rays_.inside != nullptr && tile_.inward[number] != 0;
+    ray.left_id = leaves_some_ ? tile_.outward_id[number] : kNoSlot;
+    ray.inward = inward_some_ && tile_.inward_id[number] != kNoSlot;
+    if (ray.inward) ray.left_id = tile_.inward_id[number];
+    if (careful_some_ && tile_.careful[number] != 0) ray.sure_min = std::numeric_limits<float>::infinity();
     ray.winner = kNoSlot;
     walk_single<kAnyHit>(tree_, static_cast<std::uint32_t>(node_number), ray, waiting_, [&](std::uint32_t slot) {
       add_rival(number, slot);
@@ -318,7 +340,19 @@ class ListWalk {
 
   // The first look: up to sixteen spheres, kept in registers, against a list of rays.
   void test_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list, std::uint32_t count) {
+    if (leaves_some_)
+      test_leaf_of<true>(slot, spheres, list, count);
+    else
+      test_leaf_of<false>(slot, spheres, list, count);
+  }
+
+  template <bool kLeaves>
+  HWY_INLINE void test_leaf_of(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list,
+                               std::uint32_t count) {
     const FloatTag d;
+    const WordTag words;
+    CandidateQueue& queue = tile_.queue;
+    int queued = queue.count;
     for (std::uint32_t lane = 0; lane < spheres; lane += kFloatLanes) {
       const auto x = hn::LoadU(d, tree_.spheres.x + slot + lane);
       const auto y = hn::LoadU(d, tree_.spheres.y + slot + lane);
@@ -327,6 +361,8 @@ class ListWalk {
       // Lanes past the leaf can never pass.
       const auto r_squared = hn::IfThenElse(hn::FirstN(d, spheres - lane), hn::Mul(r, r), hn::Set(d, -1.0F));
       const auto slots = iota_words(slot + lane);
+      const auto ids =
+          hn::And(hn::LoadU(words, tree_.spheres.word + slot + lane), hn::Set(words, tree_.spheres.id_mask()));
       for (std::uint32_t i = 0; i < count; ++i) {
         const FilterRay& ray = tile_.rays[list[i]];
         const auto nx = hn::Set(d, ray.direction[0]);
@@ -341,17 +377,38 @@ class ListWalk {
         const auto pz = hn::NegMulAdd(b, nz, cz);
         const auto dp = hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)));
         // Without a branch: whether some sphere passes cannot be foreseen.
-        const auto passes = hn::Ge(dp, hn::Zero(d));
-        CandidateQueue& queue = tile_.queue;
-        hn::StoreU(hn::Compress(b, passes), d, queue.b + queue.count);
-        hn::StoreU(hn::Compress(dp, passes), d, queue.dp + queue.count);
-        hn::StoreU(hn::Compress(r_squared, passes), d, queue.r_squared + queue.count);
-        hn::StoreU(hn::Compress(slots, hn::RebindMask(WordTag(), passes)), WordTag(), queue.slot + queue.count);
-        hn::StoreU(hn::Set(WordTag(), list[i]), WordTag(), queue.ray + queue.count);
-        queue.count += static_cast<int>(hn::CountTrue(d, passes));
-        if (queue.count >= kernels::kQueue) finish_candidates();
+        auto passes = hn::Ge(dp, hn::Zero(d));
+        // Going outward a ray never meets the sphere that it leaves.
+        if constexpr (kLeaves)
+          passes = hn::And(passes, hn::RebindMask(d, hn::Ne(ids, hn::Set(words, tile_.outward_id[list[i]]))));
+        const int passing = static_cast<int>(hn::CountTrue(d, passes));
+        const auto some_b = hn::Compress(b, passes);
+        const auto some_dp = hn::Compress(dp, passes);
+        const auto some_r_squared = hn::Compress(r_squared, passes);
+        const auto some_slots = hn::Compress(slots, hn::RebindMask(words, passes));
+        // More than four seldom pass, and short stores are quicker.
+        if (HWY_LIKELY(passing <= 4)) {
+          store_four(some_b, queue.b + queued);
+          store_four(some_dp, queue.dp + queued);
+          store_four(some_r_squared, queue.r_squared + queued);
+          store_four(some_slots, queue.slot + queued);
+          store_four(hn::Set(words, list[i]), queue.ray + queued);
+        } else {
+          hn::StoreU(some_b, d, queue.b + queued);
+          hn::StoreU(some_dp, d, queue.dp + queued);
+          hn::StoreU(some_r_squared, d, queue.r_squared + queued);
+          hn::StoreU(some_slots, words, queue.slot + queued);
+          hn::StoreU(hn::Set(words, list[i]), words, queue.ray + queued);
+        }
+        queued += passing;
+        if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
+          queue.count = queued;
+          finish_candidates();
+          queued = 0;
+        }
       }
     }
+    queue.count = queued;
   }
 
   // The second look, many candidates at a time: is the near root surely in the segment and surely the nearest so far?
@@ -368,19 +425,20 @@ class ListWalk {
       const auto exists = hn::FirstN(d, static_cast<std::size_t>(std::min(queue.count - first, kFloatLanes)));
       const auto index = hn::IfThenElseZero(hn::RebindMask(ints, exists), ray);
       const auto s_best = hn::GatherIndex(d, tile_.s_best, index);
-      const auto sure_min = hn::GatherIndex(d, tile_.sure_min, index);
-      const auto s_min = hn::GatherIndex(d, &tile_.rays[0].s_min, hn::ShiftLeft<4>(index));
-      auto own = hn::MaskFromVec(hn::Zero(d));
-      auto inward = own;
-      if (leaves_some_) {
+      const auto s_min = hn::GatherIndex(d, tile_.s_min, index);
+      auto sure_min = hn::Add(s_min, hn::Set(d, bounds_.width));
+      // Rays that go into the sphere that they leave, and those of which nothing is sure.
+      auto inward = hn::MaskFromVec(hn::Zero(d));
+      if (inward_some_) {
         const auto slot = hn::BitCast(ints, hn::Load(words, queue.slot + first));
         const auto safe_slot = hn::IfThenElseZero(hn::RebindMask(ints, exists), slot);
         const auto id = hn::And(gather_words(tree_.spheres.word, safe_slot), hn::Set(words, tree_.spheres.id_mask()));
-        own = hn::And(exists, hn::RebindMask(d, hn::Eq(id, gather_words(tile_.left_id, index))));
-        if (rays_.inside != nullptr)
-          inward = hn::And(own, hn::RebindMask(d, hn::Ne(gather_words(tile_.inward, index), hn::Zero(words))));
+        inward = hn::And(exists, hn::RebindMask(d, hn::Eq(id, gather_words(tile_.inward_id, index))));
       }
-      const auto judged = judge(b, dp, r_squared, s_best, s_min, sure_min, own, inward, bounds_.e, bounds_.width);
+      if (careful_some_)
+        sure_min = hn::IfThenElse(hn::RebindMask(d, hn::Ne(gather_words(tile_.careful, index), hn::Zero(words))),
+                                  hn::Set(d, std::numeric_limits<float>::infinity()), sure_min);
+      const auto judged = judge(b, dp, r_squared, s_best, s_min, sure_min, inward, inward, bounds_.e, bounds_.width);
       std::uint32_t bits = mask_bits(hn::And(exists, judged.keep));
       if (bits == 0) continue;
       const std::uint32_t sure_bits = mask_bits(judged.sure);
@@ -435,6 +493,7 @@ class ListWalk {
     const hn::Rebind<float, Tag> h;
     const hn::Rebind<std::uint32_t, Tag> words;
     const hn::Rebind<std::int32_t, Tag> ints;
+    const hn::Rebind<std::uint64_t, Tag> wide;
     constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
     const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
     const std::int64_t whole = rays_.count / kLanes * kLanes;
@@ -462,12 +521,22 @@ class ListWalk {
       lanes.t_min = rays_.t_min != nullptr ? hn::LoadU(d, rays_.t_min + i) : hn::Zero(d);
       lanes.t_max = rays_.t_max != nullptr ? hn::LoadU(d, rays_.t_max + i) : infinity;
       // A winner that the ray leaves is one that it goes into.
-      const auto left = hn::PromoteTo(hn::Rebind<std::int64_t, Tag>(),
-                                      hn::BitCast(ints, hn::Xor(id, hn::LoadU(words, tile_.left_id + i))));
-      lanes.own = hn::RebindMask(d, hn::Eq(left, hn::Zero(hn::Rebind<std::int64_t, Tag>())));
+      lanes.own = hn::MaskFromVec(hn::Zero(d));
+      if (inward_some_)
+        lanes.own = hn::RebindMask(
+            d, hn::Eq(hn::PromoteTo(wide, id), hn::PromoteTo(wide, hn::LoadU(words, tile_.inward_id + i))));
       lanes.inside = lanes.own;
       const auto t = sphere_hit_lanes(d, lanes);
 
+      if (!settled_early_) {
+        const hn::Rebind<std::int64_t, Tag> longs;
+        const auto nobody =
+            hn::RebindMask(longs, hn::Eq(hn::PromoteTo(wide, winner), hn::Set(wide, std::uint64_t{kNoSlot})));
+        hn::StoreU(hn::IfThenElse(hn::RebindMask(d, nobody), infinity, t), d, hits_.t + i);
+        hn::StoreU(hn::IfThenElse(nobody, hn::Set(longs, kNothing), hn::BitCast(longs, hn::PromoteTo(wide, id))), longs,
+                   hits_.sphere_id + i);
+        continue;
+      }
       alignas(64) double exact[kLanes];
       alignas(64) std::uint32_t ids[kLanes];
       hn::Store(t, d, exact);
@@ -485,6 +554,7 @@ class ListWalk {
   }
 
   void settle_rivals() {
+    settled_early_ = settled_early_ || tile_.rival_count > 0;
     double t[kExactPairs];
     Pair pairs[kExactPairs];
     for (int first = 0; first < tile_.rival_count; first += kExactPairs) {
@@ -544,7 +614,10 @@ class ListWalk {
   WaitingChildren waiting_;
   std::uint32_t octant_count_[8] = {};
   std::uint32_t far_count_ = 0;
-  bool leaves_some_ = false;
+  bool leaves_some_ = false;  // what the arrays of the tile that say so hold
+  bool inward_some_ = false;
+  bool careful_some_ = false;
+  bool settled_early_ = false;  // answers may hold rivals before the winners are confirmed
   bool negative_[3] = {};
   bool backwards_ = false;
   int order_ = 0;
