@@ -3,6 +3,7 @@
 // BIHIVE_LONG=N in the environment repeats everything with N seeds (scripts/verify).
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -139,6 +140,51 @@ TEST(WideTraversal, EqualsTheReferenceOnRandomSets) {
     }
     EXPECT_GT(hits, 15000 / kShare);
   });
+}
+
+TEST(WideTraversal, DeepTreesAndLongLists) {
+  // Groups of spheres at 2^-i, one inside the corner of the other: more levels than a tile's lists have room for.
+  World world;
+  world.name = "groups at all scales";
+  SplitMix64 rng(71);
+  for (int i = 0; i < 120; ++i)
+    for (int k = 0; k < 6; ++k) {
+      const double scale = std::ldexp(1, -i);
+      world.add(scale * test::uniform(rng, 0.5, 1), scale * test::uniform(rng, 0.5, 1),
+                scale * test::uniform(rng, 0.5, 1), scale * test::uniform(rng, 0.005, 0.05));
+    }
+  WideUnderTest wide(world, {{1, 0}});
+  EXPECT_GT(wide.tree().levels, 8);
+  // Through the corner, or past it at any scale; a few thousand spheres are met exactly.
+  std::vector<Ray> rays;
+  for (std::int64_t i = 0; i < 17000 / kShare; ++i) {
+    const Vec3d eye{test::uniform(rng, -1, 2), test::uniform(rng, -1, 2), test::uniform(rng, -1, 2)};
+    const double miss = std::ldexp(1, -static_cast<int>(rng.next_below(60)));
+    const Vec3d target{test::uniform(rng, 0, miss), test::uniform(rng, 0, miss), test::uniform(rng, 0, miss)};
+    Ray ray;
+    ray.origin = to_float(eye);
+    ray.direction = to_float(target - to_double(ray.origin));
+    rays.push_back(ray);
+  }
+  wide.check(rays, 200);
+  wide.check(query_rays(world, wide, 72, 4000 / kShare), 200);
+  EXPECT_GT(wide.hits(), 2000 / kShare);
+}
+
+TEST(WideTraversal, LargeSets) {
+  // So many that the builder sorts them into a grid first, evenly and in clusters.
+  for (const bool clusters : {false, true}) {
+    World world = test::random_world(clusters ? "large, clusters" : "large", 73, 160000, 20, 0.02, 0.1);
+    if (clusters)
+      for (std::size_t i = 0; i < world.size(); ++i)
+        for (std::vector<float>* c : {&world.x, &world.y, &world.z})
+          (*c)[i] = std::round((*c)[i] * 0.2f) * 5 + (*c)[i] * 0.1f;
+    WideUnderTest wide(world);
+    wide.check(query_rays(world, wide, 74, 4000 / kShare), 1000 / kShare);
+    wide.check(test::blocks_of_rays(world, 75, 64 / kShare, [&](const Ray& ray) { return wide.truth(ray); }),
+               100 / kShare);
+    EXPECT_GT(wide.hits(), 2000 / kShare);
+  }
 }
 
 TEST(WideTraversal, AnyNumberOfRays) {
