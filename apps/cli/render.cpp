@@ -168,7 +168,7 @@ void run_render(const RenderOptions& options) {
   // Build, render, write.
   const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, engine, options.tree, settings.threads));
   const Rendered rendered = render_with_progress(scene, tracer, settings);
-  const Image image = image_from_film(rendered.film, settings.view, scene.picture.transfer);
+  const Image image = image_from_film(rendered.film, settings.view, scene.picture.transfer, settings.threads);
   const ordered_json described = settings_json(options, settings, scene);
   std::string png = value_or_fail(encode_png(image, text_chunks(scene, described)));
   {

@@ -1,6 +1,7 @@
 #include "frames/frame.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bihive/base/timer.h"
 
@@ -42,13 +43,15 @@ double FrameTimes::all_ms() const {
 
 void add_frame(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, FrameTimes& times) {
   const Timer render_timer;
-  const Rendered rendered = render(scene, tracer, settings).value();
+  Result<Rendered> result = render(scene, tracer, settings, {}, nullptr, std::move(times.film));
+  Rendered& rendered = *result;
   const double render_ms = render_timer.elapsed_ms();
   const Timer byte_timer;
-  const Image image = image_from_film(rendered.film, settings.view, scene.picture.transfer);
+  const Image image = image_from_film(rendered.film, settings.view, scene.picture.transfer, settings.threads);
   times.times.push_back({render_ms, byte_timer.elapsed_ms()});
   times.rays = rendered.rays;
   times.hash = picture_hash(image);
+  times.film = std::move(rendered.film);
 }
 
 double median(std::vector<double> values) {

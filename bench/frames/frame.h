@@ -26,6 +26,7 @@ struct FrameTimes {
   std::vector<FrameMs> times;
   RenderCounts rays;
   std::uint64_t hash = 0;
+  Film film;  ///< the last one, whose memory the next one takes
 
   /// Medians.
   double render_ms() const;

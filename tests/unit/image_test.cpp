@@ -42,6 +42,31 @@ TEST(Transfer, clamps) {
   }
 }
 
+TEST(Transfer, the_table_of_bytes_is_the_curve) {
+  SplitMix64 rng(5);
+  for (const Transfer transfer : {Transfer::srgb, Transfer::none}) {
+    const ByteTable byte_of(transfer);
+    const auto expect_same = [&](float radiance) {
+      ASSERT_EQ(byte_of(radiance), byte_from_radiance(double(radiance), transfer)) << radiance;
+    };
+    for (const float radiance : {0.0F, -0.0F, -1.0F, 1.0F, 1e30F, 1e-45F, std::numeric_limits<float>::infinity(),
+                                 std::numeric_limits<float>::quiet_NaN(), std::nextafter(1.0F, 0.0F)})
+      expect_same(radiance);
+    for (int i = 0; i < 100000; ++i) expect_same(rng.next_float());
+
+    // On both sides of where each byte begins.
+    for (int byte = 1; byte <= 255; ++byte) {
+      const double begins = (byte - 0.5) / 255;
+      auto radiance = static_cast<float>(transfer == Transfer::srgb ? linear_from_srgb(begins) : begins);
+      for (int step = -3; step <= 3; ++step) {
+        float neighbour = radiance;
+        for (int k = 0; k < std::abs(step); ++k) neighbour = std::nextafter(neighbour, step < 0 ? 0.0F : 2.0F);
+        expect_same(neighbour);
+      }
+    }
+  }
+}
+
 TEST(Transfer, the_curve_against_long_double) {
   SplitMix64 random(9);
   for (int i = 0; i < 100000; ++i) {

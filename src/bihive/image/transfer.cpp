@@ -1,6 +1,7 @@
 #include "bihive/image/transfer.h"
 
 #include <cmath>
+#include <limits>
 
 #include "bihive/math/elementary.h"
 
@@ -19,6 +20,28 @@ std::uint8_t byte_from_radiance(double radiance, Transfer transfer) {
   const double clamped = radiance < 1 ? radiance : 1;
   const double displayed = transfer == Transfer::srgb ? srgb_from_linear(clamped) : clamped;
   return static_cast<std::uint8_t>(std::floor(displayed * 255 + 0.5));
+}
+
+ByteTable::ByteTable(Transfer transfer) : least_{}, first_{} {
+  // Find where each byte begins: numbers above 0 are in the order of their bits. The curve rises by far more from one
+  // number of binary32 to the next than its error, so that bytes never fall.
+  const auto number = [](std::uint32_t bits) {
+    float value = 0;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
+  };
+  constexpr std::uint32_t kOne = 127u << 23;
+  for (unsigned byte = 1; byte <= 255; ++byte) {
+    std::uint32_t below = 0, at_least = kOne;
+    while (at_least - below > 1) {
+      const std::uint32_t middle = below + (at_least - below) / 2;
+      (byte_from_radiance(double(number(middle)), transfer) >= byte ? at_least : below) = middle;
+    }
+    least_[byte] = number(at_least);
+  }
+  least_[256] = std::numeric_limits<float>::infinity();
+  for (unsigned bucket = 0; bucket < kBuckets; ++bucket)
+    first_[bucket] = byte_from_radiance(double(number((kFirstBucket + bucket) << 17)), transfer);
 }
 
 }  // namespace bihive

@@ -1,7 +1,9 @@
 // From linear radiance to what is written into a picture.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "bihive/math/vec3.h"
 
@@ -16,5 +18,33 @@ double linear_from_srgb(double srgb);
 
 /// Clamps to [0, 1] (NaN gives 0), applies the curve, and rounds to the nearest of 0 ... 255.
 std::uint8_t byte_from_radiance(double radiance, Transfer transfer);
+
+/// byte_from_radiance() of numbers of binary32, some hundred times faster on the sRGB curve.
+class ByteTable {
+ public:
+  explicit ByteTable(Transfer transfer);
+
+  std::uint8_t operator()(float radiance) const {
+    if (!(radiance >= least_[1])) return 0;
+    if (radiance >= 1) return 255;
+    // The bucket's least byte, and one more for each byte that begins at or below the radiance.
+    unsigned byte = first_[bucket_of(radiance)];
+    while (radiance >= least_[byte + 1]) ++byte;
+    return static_cast<std::uint8_t>(byte);
+  }
+
+ private:
+  // Binary32 numbers from 2^-13 to below 1 by exponent and the first six bits behind the point.
+  static constexpr unsigned kFirstBucket = (127 - 13) << 6;
+  static constexpr unsigned kBuckets = 13 << 6;
+  static unsigned bucket_of(float radiance) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &radiance, sizeof(bits));
+    return (bits >> 17) - kFirstBucket;
+  }
+
+  std::array<float, 257> least_;  // the least radiance of each byte; beyond 255 infinity
+  std::array<std::uint8_t, kBuckets> first_;
+};
 
 }  // namespace bihive

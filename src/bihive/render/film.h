@@ -17,6 +17,14 @@ struct Film {
   Film() = default;
   Film(int width_px, int height_px)
       : width(width_px), height(height_px), radiance(static_cast<std::size_t>(width_px) * std::size_t(height_px)) {}
+
+  /// To another size; contents are undefined.
+  void resize(int width_px, int height_px) {
+    width = width_px;
+    height = height_px;
+    radiance.resize(static_cast<std::size_t>(width_px) * std::size_t(height_px));
+  }
+
   Vec3f& at(int x, int y) { return radiance[static_cast<std::size_t>(y) * std::size_t(width) + std::size_t(x)]; }
   Vec3f at(int x, int y) const { return radiance[static_cast<std::size_t>(y) * std::size_t(width) + std::size_t(x)]; }
 };

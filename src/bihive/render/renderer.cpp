@@ -1,42 +1,53 @@
 #include "bihive/render/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/check.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
-#include "bihive/render/integrator.h"
+#include "bihive/render/pixel_order.h"
 #include "bihive/render/sample_pattern.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/render/views.h"
+#include "bihive/render/wave_integrator.h"
 
 namespace bihive {
 namespace {
 
-constexpr int kTilePx = 16;
+// Tiles of the wide engine: large enough for its kernels, small enough for the cache. The others need none of that.
+constexpr int kTilePx = 64;
+constexpr int kScalarTilePx = 16;
 
 // The state of one picture in the making.
 class Renderer {
  public:
   Renderer(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const ProgressCallback& progress,
-           const CancelToken* cancel)
+           const CancelToken* cancel, Film film)
       : scene_(scene),
         tracer_(tracer),
         settings_(settings),
         progress_(progress),
         cancel_(cancel),
+        film_(std::move(film)),
         rays_(scene.camera, settings.width_px, settings.height_px),
-        tiles_(tiles_of(settings.width_px, settings.height_px, kTilePx)) {}
+        wave_scene_(scene),
+        tiles_(tiles_of(settings.width_px, settings.height_px,
+                        tracer.engine() == Engine::wide ? kTilePx : kScalarTilePx)) {}
 
   Result<Rendered> run() {
     const Timer timer;
+    for (int i = 0; i < settings_.samples_per_pixel; ++i)
+      places_.push_back(sample_place(i, settings_.samples_per_pixel));
     Rendered rendered;
-    rendered.film = Film(settings_.width_px, settings_.height_px);
+    rendered.film = std::move(film_);
+    rendered.film.resize(settings_.width_px, settings_.height_px);
     passes_ = settings_.view == View::distance ? 2 : 1;
 
     // The distance view needs the range of distances first.
@@ -76,26 +87,66 @@ class Renderer {
     if (lock.owns_lock()) progress_(static_cast<double>(done) / static_cast<double>(passes_ * tiles_.size()));
   }
 
-  template <class Body>
-  void for_each_sample(const Tile& tile, const Body& body) const {
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x)
-        for (int i = 0; i < settings_.samples_per_pixel; ++i) {
-          const SamplePlace place = sample_place(i, settings_.samples_per_pixel);
-          body(rays_.at(x + place.x, y + place.y));
-        }
+  // Calls use(pixels, samples, buffers, first) for parts of a tile, whose samples first to first + primaries - 1 have
+  // been made primary rays; sample i belongs to pixel i / samples.
+  template <class Use>
+  void for_each_part(const Tile& tile, const Use& use) const {
+    // A thread's own, from tile to tile and from picture to picture.
+    static thread_local WaveBuffers buffers;
+    static thread_local std::vector<PixelPlace> pixels;
+    order_pixels(tile, pixels);
+    const std::int64_t all = static_cast<std::int64_t>(pixels.size()) * settings_.samples_per_pixel;
+    for (std::int64_t first = 0; first < all && !cancelled(); first += kMostRaysAtOnce) {
+      make_primaries(pixels, first, std::min(kMostRaysAtOnce, all - first), buffers);
+      use(pixels, buffers, first);
+    }
+  }
+
+  void make_primaries(const std::vector<PixelPlace>& pixels, std::int64_t first, std::int64_t count,
+                      WaveBuffers& buffers) const {
+    Wave& wave = WaveIntegrator::primaries(buffers);
+    wave.reset(count);
+    wave.count = count;
+    wave.starts_at_eye = true;
+    buffers.x.reserve(count);
+    buffers.y.reserve(count);
+    double* const x = buffers.x.data();
+    double* const y = buffers.y.data();
+    const std::int64_t samples = settings_.samples_per_pixel;
+    const PixelPlace* pixel = pixels.data() + first / samples;
+    if (samples == 1) {
+      for (std::int64_t i = 0; i < count; ++i) {
+        x[i] = pixel[i].x + places_[0].x;
+        y[i] = pixel[i].y + places_[0].y;
+      }
+    } else {
+      auto sample = static_cast<std::size_t>(first % samples);
+      for (std::int64_t i = 0; i < count; ++i) {
+        x[i] = pixel->x + places_[sample].x;
+        y[i] = pixel->y + places_[sample].y;
+        if (++sample < places_.size()) continue;
+        sample = 0;
+        ++pixel;
+      }
+    }
+    steps::camera_rays(rays_, x, y, wave);
   }
 
   DistanceRange find_distance_range() {
     constexpr double inf = std::numeric_limits<double>::infinity();
     std::vector<DistanceRange> ranges(tiles_.size(), {inf, -inf});
-    for_each_tile([&](std::size_t i) {
-      for_each_sample(tiles_[i], [&](const Ray& ray) {
-        const SceneHit hit = scene_hit(scene_, tracer_, ray);
-        if (!hit.found()) return;
-        const double distance = distance_of(ray, hit);
-        ranges[i].nearest = std::min(ranges[i].nearest, distance);
-        ranges[i].farthest = std::max(ranges[i].farthest, distance);
+    for_each_tile([&](std::size_t tile) {
+      for_each_part(tiles_[tile], [&](const auto&, WaveBuffers& buffers, std::int64_t) {
+        WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel_);
+        integrator.find_first_hits(buffers);
+        const RaySpan rays = WaveIntegrator::primaries(buffers).span();
+        for (std::int64_t i = 0; i < rays.count; ++i) {
+          const SceneHit hit{buffers.t[i], buffers.id[i]};
+          if (!hit.found()) continue;
+          const double distance = distance_of(rays.at(i), hit);
+          ranges[tile].nearest = std::min(ranges[tile].nearest, distance);
+          ranges[tile].farthest = std::max(ranges[tile].farthest, distance);
+        }
       });
     });
     DistanceRange range{inf, -inf};
@@ -107,44 +158,74 @@ class Renderer {
   }
 
   void render_tile(const Tile& tile, Film& film, RenderCounts& counts) const {
-    Integrator integrator(scene_, tracer_, settings_.recursion, settings_.view == View::shaded && settings_.shadows);
-    std::int64_t primary = 0;
-    const int samples = settings_.samples_per_pixel;
-    for (int y = tile.y0; y < tile.y1; ++y) {
+    const bool shaded = settings_.view == View::shaded;
+    WaveIntegrator integrator(
+        wave_scene_, tracer_,
+        {settings_.recursion, shaded, shaded && settings_.shadows, settings_.view == View::recursion}, cancel_);
+    const std::int64_t samples = settings_.samples_per_pixel;
+    Vec3d sum;
+    std::int64_t added = 0;
+    for_each_part(tile, [&](const std::vector<PixelPlace>& pixels, WaveBuffers& buffers, std::int64_t first) {
+      const std::int64_t count = WaveIntegrator::primaries(buffers).count;
+      if (shaded || settings_.view == View::recursion)
+        integrator.trace(buffers, count);
+      else if (settings_.view != View::traversal)
+        integrator.find_first_hits(buffers);
       if (cancelled()) return;
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        // Add the samples in order, then divide by their number.
-        Vec3d sum;
-        for (int i = 0; i < samples; ++i) {
-          const SamplePlace place = sample_place(i, samples);
-          sum = sum + sample_value(rays_.at(x + place.x, y + place.y), integrator);
-          ++primary;
-        }
-        film.at(x, y) = to_float(sum / samples);
+
+      if (shaded && samples == 1) {
+        put_light(pixels, first, count, buffers, film);
+        return;
       }
-    }
+
+      // Add the samples in order, then divide by their number.
+      for (std::int64_t i = 0; i < count; ++i) {
+        sum = sum + sample_value(buffers, integrator, i);
+        if (++added < samples) continue;
+        const PixelPlace& pixel = pixels[static_cast<std::size_t>((first + i) / samples)];
+        film.at(pixel.x, pixel.y) = to_float(sum / static_cast<double>(samples));
+        sum = {};
+        added = 0;
+      }
+    });
     counts = integrator.rays();
-    counts.primary = primary;
+    counts.primary = std::int64_t{tile.x1 - tile.x0} * (tile.y1 - tile.y0) * samples;
   }
 
-  Vec3d sample_value(const Ray& ray, Integrator& integrator) const {
+  // The only sample of each pixel is the pixel.
+  static void put_light(const std::vector<PixelPlace>& pixels, std::int64_t first, std::int64_t count,
+                        const WaveBuffers& buffers, Film& film) {
+    constexpr std::int64_t kBlock = kBlockPx * kBlockPx;
+    std::array<Vec3f, kBlock + kColumnPadding> radiance;
+    for (std::int64_t i = 0; i < count; i += kBlock) {
+      const std::int64_t n = std::min(kBlock, count - i);
+      steps::round_light(buffers.sums, i, n, radiance.data());
+      for (std::int64_t k = 0; k < n; ++k) {
+        const PixelPlace& pixel = pixels[static_cast<std::size_t>(first + i + k)];
+        film.at(pixel.x, pixel.y) = radiance[static_cast<std::size_t>(k)];
+      }
+    }
+  }
+
+  Vec3d sample_value(WaveBuffers& buffers, const WaveIntegrator& integrator, std::int64_t i) const {
+    const auto ray = [&] { return WaveIntegrator::primaries(buffers).span().at(i); };
+    const auto hit = [&] { return SceneHit{buffers.t[i], buffers.id[i]}; };
     switch (settings_.view) {
       case View::shaded:
-        return integrator.radiance(ray);
+        return buffers.sums.at(i);
       case View::recursion:
-        integrator.radiance(ray);
-        return recursion_colour(integrator.deepest_hit());
+        return recursion_colour(integrator.deepest_hit()[static_cast<std::size_t>(i)]);
       case View::traversal:
-        return traversal_colour(tracer_, ray);
+        return traversal_colour(tracer_, ray());
       case View::normal:
-        return normal_colour(scene_, ray, scene_hit(scene_, tracer_, ray));
+        return normal_colour(scene_, ray(), hit());
       case View::distance:
-        return distance_colour(ray, scene_hit(scene_, tracer_, ray), range_);
+        return distance_colour(ray(), hit(), range_);
       case View::id:
       case View::tree:  // is not made of samples
         break;
     }
-    return id_colour(scene_hit(scene_, tracer_, ray).id);
+    return id_colour(buffers.id[i]);
   }
 
   const Scene& scene_;
@@ -152,7 +233,10 @@ class Renderer {
   const RenderSettings& settings_;
   const ProgressCallback& progress_;
   const CancelToken* cancel_;
+  Film film_;
   PixelRays rays_;
+  WaveScene wave_scene_;
+  std::vector<SamplePlace> places_;  // in a pixel
   std::vector<Tile> tiles_;
   DistanceRange range_{0, 0};
   std::size_t passes_ = 1;
@@ -173,7 +257,7 @@ RenderSettings settings_from(const PictureDefaults& defaults) {
 }
 
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
-                        const ProgressCallback& progress, const CancelToken* cancel) {
+                        const ProgressCallback& progress, const CancelToken* cancel, Film film) {
   BIHIVE_CHECK(settings.width_px >= 1 && settings.width_px <= 65535);
   BIHIVE_CHECK(settings.height_px >= 1 && settings.height_px <= 65535);
   BIHIVE_CHECK(settings.samples_per_pixel >= 1 && settings.samples_per_pixel <= 4096);
@@ -185,16 +269,29 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
     return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                  "choose the reference engine"};
   if (settings.view == View::tree) return render_tree_picture(scene, tracer, settings, progress, cancel);
-  return Renderer(scene, tracer, settings, progress, cancel).run();
+  return Renderer(scene, tracer, settings, progress, cancel, std::move(film)).run();
 }
 
-Image image_from_film(const Film& film, View view, Transfer transfer) {
+Image image_from_film(const Film& film, View view, Transfer transfer, int threads) {
   const Transfer curve = view == View::shaded ? transfer : Transfer::none;
+  static const ByteTable tables[] = {ByteTable(Transfer::srgb), ByteTable(Transfer::none)};
+  const ByteTable& byte_of = tables[curve == Transfer::srgb ? 0 : 1];
   Image image{film.width, film.height, {}};
-  image.rgb.reserve(3 * film.radiance.size());
-  for (const Vec3f& pixel : film.radiance)
-    for (int channel = 0; channel < 3; ++channel)
-      image.rgb.push_back(byte_from_radiance(double(pixel[channel]), curve));
+  image.rgb.resize(3 * film.radiance.size());
+
+  // Some rows at a time.
+  constexpr std::int64_t kPixelsAtOnce = 1 << 15;
+  const auto pixels = static_cast<std::int64_t>(film.radiance.size());
+  parallel_for(threads, (pixels + kPixelsAtOnce - 1) / kPixelsAtOnce, [&](std::int64_t part) {
+    const std::int64_t end = std::min(pixels, (part + 1) * kPixelsAtOnce);
+    std::uint8_t* bytes = image.rgb.data() + 3 * part * kPixelsAtOnce;
+    for (std::int64_t i = part * kPixelsAtOnce; i < end; ++i, bytes += 3) {
+      const Vec3f& pixel = film.radiance[static_cast<std::size_t>(i)];
+      bytes[0] = byte_of(pixel.x);
+      bytes[1] = byte_of(pixel.y);
+      bytes[2] = byte_of(pixel.z);
+    }
+  });
   return image;
 }
 

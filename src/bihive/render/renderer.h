@@ -46,10 +46,13 @@ RenderSettings settings_from(const PictureDefaults& defaults);
 
 /// Settings must be in range (a programmer's error otherwise). The traversal and tree views need a tracer of the
 /// reference engine: an Error without one. An Error "cancelled" when the token was set before the picture was done.
+/// `film`: whose memory becomes the new film's, so that frame after frame is drawn into the same; its contents are
+/// lost. Each thread that took part keeps its buffers for the next picture, usually a few MB
+/// (render/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
-                        const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr);
+                        const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
 
-/// Applies the transfer curve to a shaded film; any other view is written as it is.
-Image image_from_film(const Film& film, View view, Transfer transfer);
+/// Applies the transfer curve to a shaded film; any other view is written as it is. `threads` 0: all.
+Image image_from_film(const Film& film, View view, Transfer transfer, int threads = 0);
 
 }  // namespace bihive

@@ -7,12 +7,22 @@
 namespace bihive {
 namespace {
 
-// Two directions that span the plane. For the thesis's ground they are +x and +z.
-struct PlaneAxes {
-  Vec3d u, v;
-};
+// Parity in floor arithmetic: a conversion to an integer would overflow near the horizon.
+bool is_odd(double whole) {
+  return whole - 2 * std::floor(whole / 2) != 0;
+}
 
-PlaneAxes axes_of(Vec3d normal) {
+Vec3d checker_colour(const ScenePlane& plane, const Checker& checker, Vec3d point) {
+  const Vec3d first = plane.material.colour;
+  if (dot(point, point) > checker.fade_distance * checker.fade_distance) return 0.5 * (first + checker.second_colour);
+  const PlaneAxes axes = plane_axes(plane.plane.normal);
+  const double squares = std::floor(dot(point, axes.u) / checker.size) + std::floor(dot(point, axes.v) / checker.size);
+  return is_odd(squares) ? checker.second_colour : first;
+}
+
+}  // namespace
+
+PlaneAxes plane_axes(Vec3d normal) {
   // Start from the world axis that lies flattest in the plane; of equal ones the first.
   int flattest = 0;
   for (int axis = 1; axis < 3; ++axis)
@@ -22,21 +32,6 @@ PlaneAxes axes_of(Vec3d normal) {
   const Vec3d u = normalized(start - dot(start, normal) * normal);
   return {u, cross(u, normal)};
 }
-
-// Parity in floor arithmetic: a conversion to an integer would overflow near the horizon.
-bool is_odd(double whole) {
-  return whole - 2 * std::floor(whole / 2) != 0;
-}
-
-Vec3d checker_colour(const ScenePlane& plane, const Checker& checker, Vec3d point) {
-  const Vec3d first = plane.material.colour;
-  if (dot(point, point) > checker.fade_distance * checker.fade_distance) return 0.5 * (first + checker.second_colour);
-  const PlaneAxes axes = axes_of(plane.plane.normal);
-  const double squares = std::floor(dot(point, axes.u) / checker.size) + std::floor(dot(point, axes.v) / checker.size);
-  return is_odd(squares) ? checker.second_colour : first;
-}
-
-}  // namespace
 
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
   Surface surface;

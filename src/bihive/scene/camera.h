@@ -29,6 +29,15 @@ class PixelRays {
   /// centre. Its direction has length 1 up to binary32 rounding.
   Ray at(double x_px, double y_px) const;
 
+  /// What at() computes with, for code that makes many rays at once: the direction through (x, y) is that of forward +
+  /// (x - half_width) right + (y - half_height) down.
+  Vec3f eye() const { return eye_; }
+  Vec3d forward() const { return forward_; }
+  Vec3d right() const { return right_; }
+  Vec3d down() const { return down_; }
+  double half_width() const { return half_width_; }
+  double half_height() const { return half_height_; }
+
  private:
   Vec3f eye_;
   Vec3d forward_, right_, down_;  // right_ and down_ span one pixel on the plane at distance 1

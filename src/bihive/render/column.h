@@ -1,0 +1,33 @@
+// A column of numbers that is written before it is read, and that keeps its memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace bihive {
+
+/// Vector code may read and write up to this many entries past the last.
+constexpr std::int64_t kColumnPadding = 16;
+
+template <class T>
+class Column {
+ public:
+  /// Makes room for n entries and the padding. What was held is lost; nothing is initialised.
+  void reserve(std::int64_t n) {
+    if (n <= capacity_) return;
+    memory_.reset(new T[static_cast<std::size_t>(n + kColumnPadding)]);
+    capacity_ = n;
+  }
+
+  T* data() { return memory_.get(); }
+  const T* data() const { return memory_.get(); }
+  T& operator[](std::int64_t i) { return memory_[static_cast<std::size_t>(i)]; }
+  const T& operator[](std::int64_t i) const { return memory_[static_cast<std::size_t>(i)]; }
+
+ private:
+  std::unique_ptr<T[]> memory_;
+  std::int64_t capacity_ = 0;
+};
+
+}  // namespace bihive

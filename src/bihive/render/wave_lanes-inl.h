@@ -1,0 +1,216 @@
+// Vectors of binary64 for the steps of a wave: math/vec3.h and math/elementary.h on several rays at a time, with the
+// very operations of those in the same order. Never with fused multiply-add.
+
+#if defined(BIHIVE_RENDER_WAVE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_RENDER_WAVE_LANES_INL_H_
+#undef BIHIVE_RENDER_WAVE_LANES_INL_H_
+#else
+#define BIHIVE_RENDER_WAVE_LANES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "bihive/math/elementary.h"
+#include "bihive/math/vec3.h"
+#include "bihive/render/wave.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<double, 8>;
+using FloatHalf = hn::Rebind<float, Tag>;
+using WordTag = hn::Rebind<std::int64_t, Tag>;
+using Lanes = hn::Vec<Tag>;
+using Words = hn::Vec<WordTag>;
+using LaneMask = hn::Mask<Tag>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+static_assert(kLanes <= kColumnPadding);
+
+HWY_INLINE Lanes all(double x) {
+  return hn::Set(Tag(), x);
+}
+HWY_INLINE LaneMask first_lanes(std::int64_t n) {
+  return hn::FirstN(Tag(), static_cast<std::size_t>(std::min<std::int64_t>(n, kLanes)));
+}
+HWY_INLINE LaneMask lanes_of(hn::Mask<WordTag> mask) {
+  return hn::RebindMask(Tag(), mask);
+}
+HWY_INLINE hn::Mask<WordTag> words_of(LaneMask mask) {
+  return hn::RebindMask(WordTag(), mask);
+}
+HWY_INLINE bool none(LaneMask mask) {
+  return hn::AllFalse(Tag(), mask);
+}
+HWY_INLINE bool every(LaneMask mask) {
+  return hn::AllTrue(Tag(), mask);
+}
+
+HWY_INLINE Lanes load(const Column<double>& column, std::int64_t i) {
+  return hn::LoadU(Tag(), column.data() + i);
+}
+HWY_INLINE Lanes load(const Column<float>& column, std::int64_t i) {
+  return hn::PromoteTo(Tag(), hn::LoadU(FloatHalf(), column.data() + i));
+}
+HWY_INLINE Words load(const Column<std::int64_t>& column, std::int64_t i) {
+  return hn::LoadU(WordTag(), column.data() + i);
+}
+HWY_INLINE void store(Lanes v, Column<double>& column, std::int64_t i) {
+  hn::StoreU(v, Tag(), column.data() + i);
+}
+HWY_INLINE void store(Lanes v, Column<float>& column, std::int64_t i) {
+  hn::StoreU(hn::DemoteTo(FloatHalf(), v), FloatHalf(), column.data() + i);
+}
+HWY_INLINE void store(Words v, Column<std::int64_t>& column, std::int64_t i) {
+  hn::StoreU(v, WordTag(), column.data() + i);
+}
+
+/// As bytes; each must fit one.
+HWY_INLINE void store(Words v, Column<std::uint8_t>& column, std::int64_t i) {
+  alignas(64) std::int64_t words[kLanes];
+  hn::Store(v, WordTag(), words);
+  for (int k = 0; k < kLanes; ++k) column[i + k] = static_cast<std::uint8_t>(words[k]);
+}
+
+/// Appends lanes to columns: all of them, or those of a mask moved together. Writes up to a vector past the last.
+class Appender {
+ public:
+  Appender(LaneMask keep, std::int64_t at) : keep_(keep), every_(every(keep)), at_(at) {}
+  std::int64_t count() const { return static_cast<std::int64_t>(hn::CountTrue(Tag(), keep_)); }
+
+  template <class T>
+  HWY_INLINE void operator()(Lanes v, Column<T>& column) const {
+    store(HWY_LIKELY(every_) ? v : hn::Compress(v, keep_), column, at_);
+  }
+  template <class T>
+  HWY_INLINE void operator()(Words v, Column<T>& column) const {
+    store(HWY_LIKELY(every_) ? v : hn::Compress(v, words_of(keep_)), column, at_);
+  }
+
+ private:
+  LaneMask keep_;
+  bool every_;
+  std::int64_t at_;
+};
+
+/// Vec3d of several rays.
+struct Lanes3 {
+  Lanes x, y, z;
+
+  HWY_INLINE Lanes operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+};
+
+HWY_INLINE Lanes3 all(Vec3d v) {
+  return {all(v.x), all(v.y), all(v.z)};
+}
+template <class T>
+HWY_INLINE Lanes3 load(const Column<T> (&columns)[3], std::int64_t i) {
+  return {load(columns[0], i), load(columns[1], i), load(columns[2], i)};
+}
+HWY_INLINE Lanes3 add(Lanes3 a, Lanes3 b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Lanes3 subtract(Lanes3 a, Lanes3 b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Lanes3 negate(Lanes3 a) {
+  return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
+}
+HWY_INLINE Lanes3 multiply(Lanes3 a, Lanes3 b) {
+  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
+HWY_INLINE Lanes3 multiply(Lanes s, Lanes3 a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
+}
+HWY_INLINE Lanes3 divide(Lanes3 a, Lanes s) {
+  return {hn::Div(a.x, s), hn::Div(a.y, s), hn::Div(a.z, s)};
+}
+HWY_INLINE Lanes dot(Lanes3 a, Lanes3 b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Lanes length(Lanes3 a) {
+  return hn::Sqrt(dot(a, a));
+}
+HWY_INLINE Lanes3 normalized(Lanes3 a) {
+  return divide(a, length(a));
+}
+HWY_INLINE Lanes3 choose(LaneMask mask, Lanes3 yes, Lanes3 no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+}
+/// As it is after a conversion to binary32 and back.
+HWY_INLINE Lanes rounded(Lanes v) {
+  return hn::PromoteTo(Tag(), hn::DemoteTo(FloatHalf(), v));
+}
+
+/// Whole numbers below 2^51 in magnitude from one form to the other.
+HWY_INLINE Words words_from_whole(Lanes whole) {
+  const auto magic = all(0x1.8p52);
+  return hn::Sub(hn::BitCast(WordTag(), hn::Add(whole, magic)), hn::BitCast(WordTag(), magic));
+}
+HWY_INLINE Lanes whole_from_words(Words words) {
+  const auto magic = all(0x1.8p52);
+  return hn::Sub(hn::BitCast(Tag(), hn::Add(words, hn::BitCast(WordTag(), magic))), magic);
+}
+/// 2^whole for -1022 <= whole <= 1023.
+HWY_INLINE Lanes power_of_two(Lanes whole) {
+  const auto biased = hn::Add(words_from_whole(whole), hn::Set(WordTag(), 1023));
+  return hn::BitCast(Tag(), hn::ShiftLeft<52>(biased));
+}
+
+/// portable_log2() of normal numbers.
+HWY_INLINE Lanes log2_of(Lanes x) {
+  // Split into mantissa in [sqrt(1/2), sqrt(2)) and exponent, both exact.
+  const WordTag w;
+  const auto bits = hn::BitCast(w, x);
+  auto exponent = whole_from_words(hn::Sub(hn::ShiftRight<52>(bits), hn::Set(w, 1022)));
+  auto mantissa =
+      hn::BitCast(Tag(), hn::Or(hn::And(bits, hn::Set(w, 0x000FFFFFFFFFFFFF)), hn::Set(w, 0x3FE0000000000000)));
+  const auto small = hn::Lt(mantissa, all(0.70710678118654752440));
+  mantissa = hn::IfThenElse(small, hn::Add(mantissa, mantissa), mantissa);
+  exponent = hn::IfThenElse(small, hn::Sub(exponent, all(1)), exponent);
+
+  const auto s = hn::Div(hn::Sub(mantissa, all(1)), hn::Add(mantissa, all(1)));
+  const auto s2 = hn::Mul(s, s);
+  auto series = all(0);
+  for (int k = 23; k >= 3; k -= 2) series = hn::Mul(hn::Add(series, all(1.0 / k)), s2);
+  const auto ln = hn::Mul(hn::Mul(all(2), s), hn::Add(all(1), series));
+  return hn::Add(exponent, hn::Mul(ln, all(1.44269504088896340736)));
+}
+
+/// portable_exp2() for -1075 <= x <= 1024.
+HWY_INLINE Lanes exp2_of(Lanes x) {
+  const auto whole = hn::Floor(hn::Add(x, all(0.5)));
+  const auto y = hn::Mul(hn::Sub(x, whole), all(0.69314718055994530942));
+  auto series = all(1);
+  for (int k = 14; k >= 1; --k) series = hn::Add(all(1), hn::Div(hn::Mul(series, y), all(k)));
+  // In two steps: the first is exact, so that the result is rounded once where it is small.
+  const auto half = hn::Floor(hn::Mul(whole, all(0.5)));
+  return hn::Mul(hn::Mul(series, power_of_two(half)), power_of_two(hn::Sub(whole, half)));
+}
+
+/// portable_pow() where the mask is set, x > 0 there.
+HWY_INLINE Lanes pow_of(LaneMask mask, Lanes x, Lanes y) {
+  // Almost always nothing is out of the ordinary.
+  const auto exponent = hn::Mul(y, log2_of(x));
+  const auto plain_x = hn::And(hn::Ge(x, all(0x1p-1022)), hn::Lt(x, all(0x1p1023)));
+  const auto plain_y = hn::And(hn::Ge(exponent, all(-1074)), hn::Le(exponent, all(1024)));
+  const auto plain = hn::And(hn::And(plain_x, plain_y), hn::Ne(y, all(0)));
+  if (HWY_LIKELY(none(hn::AndNot(plain, mask)))) return exp2_of(exponent);
+
+  alignas(64) double xs[kLanes], ys[kLanes], powers[kLanes];
+  hn::Store(hn::IfThenElse(mask, x, all(1)), Tag(), xs);
+  hn::Store(hn::IfThenElse(mask, y, all(1)), Tag(), ys);
+  for (int k = 0; k < kLanes; ++k) powers[k] = portable_pow(xs[k], ys[k]);
+  return hn::Load(Tag(), powers);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_RENDER_WAVE_LANES_INL_H_

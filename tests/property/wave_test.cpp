@@ -1,0 +1,216 @@
+// Pictures drawn wave by wave have the bits of one ray after the other (render/integrator.h), on every instruction set.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+
+#include "bihive/kernels/target.h"
+#include "bihive/math/rng.h"
+#include "bihive/render/integrator.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/sample_pattern.h"
+#include "bihive/render/wave_integrator.h"
+#include "bihive/scene/generators.h"
+
+namespace bihive {
+namespace {
+
+// Spheres of many materials, lights and a plane, all by chance: reflecting, letting through, both or neither; inside
+// each other; with opacities and colours of their own.
+Scene random_scene(std::uint64_t seed) {
+  SplitMix64 rng(seed);
+  const auto between = [&](double lo, double hi) { return lo + (hi - lo) * rng.next_double(); };
+  const auto chance = [&](double share) { return rng.next_double() < share; };
+  const auto vector = [&](double size) {
+    const double x = between(-size, size), y = between(-size, size), z = between(-size, size);
+    return Vec3d{x, y, z};
+  };
+  Scene scene;
+  scene.name = "seed " + std::to_string(seed);
+  const int count = chance(0.1) ? 0 : 1 + static_cast<int>(between(0, 60));
+  std::vector<double> x, y, z, r;
+  for (int i = 0; i < count; ++i) {
+    const Vec3d centre = vector(10);
+    x.push_back(centre.x);
+    y.push_back(centre.y);
+    z.push_back(centre.z);
+    r.push_back(chance(0.05) ? 0 : between(0.3, 4));
+  }
+  scene.spheres = SphereSet::from_world(x, y, z, r).value();
+
+  scene.materials.clear();
+  for (int i = 0; i < 1 + static_cast<int>(between(0, 6)); ++i) {
+    Material material;
+    material.colour = {between(0, 1), between(0, 1), between(0, 1)};
+    material.ambient = between(0, 0.4);
+    material.diffuse = between(0, 0.8);
+    material.reflective = chance(0.5) ? between(0, 0.6) : 0;
+    material.specular = chance(0.6) ? between(0, 1) : 0;
+    material.power = chance(0.1) ? between(1e6, 1e9) : between(0.3, 100);
+    material.transmissive = chance(0.5) ? between(0, 0.9) : 0;
+    material.refraction_index = material.transmissive == 0 && chance(0.5) ? 0 : between(0.5, 2);
+    scene.materials.push_back(material);
+  }
+  if (chance(0.8))
+    for (int i = 0; i < count; ++i)
+      scene.material_of_sphere.push_back(static_cast<std::int32_t>(rng.next() % scene.materials.size()));
+  for (int i = 0; i < count && seed % 3 == 0; ++i) {
+    const auto share = [&] { return static_cast<float>(between(0, 1)); };
+    scene.spheres.attributes().colour.push_back({share(), share(), share()});
+    scene.spheres.attributes().opacity.push_back(chance(0.3) ? 1 : share());
+  }
+
+  const int lights = static_cast<int>(between(0, 4));
+  for (int i = 0; i < lights; ++i) scene.lights.push_back({vector(30), {between(0, 1), between(0, 1), between(0, 1)}});
+  if (chance(0.7)) {
+    scene.plane = thesis_plane();
+    scene.plane->plane.point = {0, -6, 0};
+    if (chance(0.5)) scene.plane->plane.normal = normalized(vector(1));
+    if (chance(0.3)) scene.plane->checker.reset();
+    if (chance(0.5)) scene.plane->material.reflective = 0.2;
+    if (chance(0.3)) scene.plane->material.transmissive = 0.3;
+    if (chance(0.5)) scene.plane->material.specular = 0.4;
+  }
+  scene.background = {between(0, 1), between(0, 1), between(0, 1)};
+  scene.camera.eye = chance(0.2) ? vector(5) : Vec3d{0, 0, 30};
+  scene.camera.fov_deg = between(20, 100);
+  return scene;
+}
+
+// The picture as the readable code makes it, pixel after pixel.
+struct Expected {
+  Film film;
+  RenderCounts rays;
+};
+
+Expected one_after_the_other(const Scene& scene, const RenderSettings& settings) {
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
+  const PixelRays pixels(scene.camera, settings.width_px, settings.height_px);
+  Integrator integrator(scene, tracer, settings.recursion, settings.shadows);
+  Expected expected{Film(settings.width_px, settings.height_px), {}};
+  for (int y = 0; y < settings.height_px; ++y)
+    for (int x = 0; x < settings.width_px; ++x) {
+      Vec3d sum;
+      for (int i = 0; i < settings.samples_per_pixel; ++i) {
+        const SamplePlace place = sample_place(i, settings.samples_per_pixel);
+        sum = sum + integrator.radiance(pixels.at(x + place.x, y + place.y));
+      }
+      expected.film.at(x, y) = to_float(sum / settings.samples_per_pixel);
+    }
+  expected.rays = integrator.rays();
+  return expected;
+}
+
+void expect_same(const Expected& expected, const Rendered& rendered, const std::string& what) {
+  ASSERT_EQ(rendered.film.radiance.size(), expected.film.radiance.size());
+  EXPECT_EQ(std::memcmp(rendered.film.radiance.data(), expected.film.radiance.data(),
+                        expected.film.radiance.size() * sizeof(Vec3f)),
+            0)
+      << what;
+  EXPECT_EQ(rendered.rays.primary, expected.rays.primary) << what;
+  EXPECT_EQ(rendered.rays.shadow, expected.rays.shadow) << what;
+  EXPECT_EQ(rendered.rays.reflected, expected.rays.reflected) << what;
+  EXPECT_EQ(rendered.rays.transmitted, expected.rays.transmitted) << what;
+}
+
+class BestTargetAgain {
+ public:
+  ~BestTargetAgain() { (void)use_target(""); }
+};
+
+TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
+  const BestTargetAgain restore;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Scene scene = random_scene(seed);
+    RenderSettings settings;
+    settings.width_px = 3 + static_cast<int>(seed * 7 % 31);
+    settings.height_px = 1 + static_cast<int>(seed * 11 % 29);
+    settings.samples_per_pixel = 1 + static_cast<int>(seed % 5);
+    settings.recursion = 1 + static_cast<int>(seed % 7);
+    settings.shadows = seed % 4 != 0;
+    const Expected expected = one_after_the_other(scene, settings);
+    for (const Engine engine : {Engine::wide, Engine::reference}) {
+      const Tracer tracer = Tracer::build(scene.spheres, engine).value();
+      for (const std::string& target : available_targets()) {
+        ASSERT_TRUE(use_target(target));
+        settings.threads = target.size() % 2 == 0 ? 1 : 2;
+        const Result<Rendered> rendered = render(scene, tracer, settings);
+        ASSERT_TRUE(rendered);
+        expect_same(expected, *rendered, scene.name + " on " + target);
+        if (::testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(Wave, generations_that_grow_too_large_are_cut) {
+  // Every surface sends on two rays, sixteen generations deep: many more at once than a piece may hold.
+  Scene scene = four_spheres_scene();
+  for (Material& material : scene.materials) {
+    material.reflective = 0.4;
+    material.transmissive = 0.5;
+    material.refraction_index = 1.3;
+  }
+  // From within a sphere around everything no ray is lost.
+  scene.plane.reset();
+  scene.spheres =
+      SphereSet::from_world(std::vector<double>{0, 0, 3, -4}, {0, 0, 1, 2}, {0, 0, 5, -5}, {20, 30, 3, 4}).value();
+  scene.material_of_sphere = {0, 1, 1, 0};
+  scene.camera.eye = {0, 0, 15};
+  RenderSettings settings;
+  settings.width_px = 16;
+  settings.height_px = 9;
+  settings.samples_per_pixel = 1;
+  settings.recursion = 16;
+  const Expected expected = one_after_the_other(scene, settings);
+  ASSERT_GT(expected.rays.reflected, 4 * kMostRaysAtOnce);
+  for (const Engine engine : {Engine::wide, Engine::reference}) {
+    const Tracer tracer = Tracer::build(scene.spheres, engine).value();
+    settings.threads = engine == Engine::wide ? 2 : 1;
+    expect_same(expected, render(scene, tracer, settings).value(), "two rays a surface");
+  }
+}
+
+TEST(Wave, pixels_of_very_many_samples_are_cut) {
+  const Scene scene = four_spheres_scene();
+  RenderSettings settings;
+  settings.width_px = 9;
+  settings.height_px = 5;
+  settings.samples_per_pixel = 2500;
+  settings.recursion = 2;
+  const Expected expected = one_after_the_other(scene, settings);
+  ASSERT_GT(expected.rays.primary, 3 * kMostRaysAtOnce);
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
+  for (settings.threads = 1; settings.threads <= 2; ++settings.threads)
+    expect_same(expected, render(scene, tracer, settings).value(), "2500 samples");
+}
+
+TEST(Wave, large_pictures_of_the_scenarios) {
+  for (const Scenario scenario : {Scenario::grid, Scenario::corners, Scenario::mixed}) {
+    const Scene scene = scenario_scene(scenario, {1000, 1, 1}).value();
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
+    RenderSettings settings;
+    settings.width_px = 231;
+    settings.height_px = 193;
+    settings.samples_per_pixel = 1;
+    const Expected expected = one_after_the_other(scene, settings);
+    expect_same(expected, render(scene, tracer, settings).value(), scene.name);
+  }
+}
+
+TEST(Wave, draws_into_the_film_that_it_is_given) {
+  const Scene scene = four_spheres_scene();
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
+  RenderSettings settings;
+  settings.width_px = 70;
+  settings.height_px = 50;
+  Film old(70, 50);
+  for (Vec3f& pixel : old.radiance) pixel = {7, 7, 7};
+  const Vec3f* const memory = old.radiance.data();
+  const Result<Rendered> rendered = render(scene, tracer, settings, {}, nullptr, std::move(old));
+  EXPECT_EQ(rendered->film.radiance.data(), memory);
+  expect_same(one_after_the_other(scene, settings), *rendered, "into an old film");
+}
+
+}  // namespace
+}  // namespace bihive
