@@ -33,6 +33,12 @@ struct Waiting {
   float w_near;
 };
 
+HWY_INLINE Waiting child_of(const WideNode& node, int slot, float w_near) {
+  if (!node.is_leaf(slot)) return {static_cast<std::uint32_t>(node.child_node(slot)), 0, w_near};
+  return {static_cast<std::uint32_t>(node.sphere_begin(slot)), static_cast<std::uint32_t>(node.sphere_count(slot)),
+          w_near};
+}
+
 // One sphere, ready to meet the rays.
 struct Candidate {
   std::uint32_t slot;
@@ -71,13 +77,14 @@ HWY_INLINE Meeting meet(const BeamRays& rays, const Candidate& sphere, int lane)
 
 // All rays against one sphere. True if a winner changed.
 template <bool kCommonOrigin, bool kLeaves>
-HWY_INLINE bool meet_sphere(BeamRays& rays, std::int64_t first_ray, const Candidate& sphere, Rivals& rivals) {
+HWY_INLINE bool meet_sphere(BeamRays& rays, std::int64_t first_ray, const Candidate& sphere, const WideSpheres& spheres,
+                            Winners& winners, Rivals& rivals) {
   const FloatTag d;
   const auto zero = hn::Zero(d);
   const auto e = hn::Set(d, rays.e);
   const auto sure_above = hn::Set(d, kSureShare * rays.e * sphere.padded);
   const auto spread = hn::Set(d, kWidthShare * rays.e * sphere.padded);
-  const auto slot = hn::Set(WordTag(), sphere.slot);
+  const auto number = hn::Set(WordTag(), winners.next());
   std::uint32_t won = 0;
   for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
     const Meeting m = meet<kCommonOrigin>(rays, sphere, lane);
@@ -101,15 +108,17 @@ HWY_INLINE bool meet_sphere(BeamRays& rays, std::int64_t first_ray, const Candid
         hn::And(hn::And(candidate, hn::Gt(m.dp, sure_above)), hn::And(hn::Gt(lower, zero), hn::Lt(upper, sure_end)));
     hn::Store(hn::IfThenElse(winner, upper, best), d, rays.s_best + lane);
     hn::Store(hn::IfThenElse(winner, lower, sure_end), d, rays.s_sure + lane);
-    const auto slots = hn::Load(WordTag(), rays.slot + lane);
-    hn::Store(hn::IfThenElse(hn::RebindMask(WordTag(), winner), slot, slots), WordTag(), rays.slot + lane);
+    const auto others = hn::Load(WordTag(), rays.winner + lane);
+    hn::Store(hn::IfThenElse(hn::RebindMask(WordTag(), winner), number, others), WordTag(), rays.winner + lane);
     won |= mask_bits(winner);
     for (std::uint32_t bits = mask_bits(hn::AndNot(winner, candidate)); bits != 0; bits &= bits - 1) {
       const int ray = lane + __builtin_ctz(bits);
       if (ray < rays.count) rivals.add(first_ray + ray, sphere.slot);
     }
   }
-  return won != 0;
+  if (won == 0) return false;
+  winners.add(spheres, sphere.slot);
+  return true;
 }
 
 // Radii of all, where there is only one; otherwise loaded.
@@ -123,11 +132,12 @@ HWY_INLINE hn::VFromD<FloatTag> radii_at(const WideSpheres& spheres, std::int64_
 /// One block, set up in `rays`, whose hits are written.
 template <bool kCommonOrigin, bool kLeaves>
 HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frustum& frustum, const RaySpan& span,
-                                     std::int64_t first_ray, const HitSpan& hits, Rivals& rivals) {
+                                     std::int64_t first_ray, const HitSpan& hits, Winners& winners, Rivals& rivals) {
   const FloatTag d;
+  winners.clear();
   const auto e = hn::Set(d, rays.e);
   for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
-    hn::Store(hn::Set(WordTag(), kNoSlot), WordTag(), rays.slot + lane);
+    hn::Store(hn::Set(WordTag(), kNoWinner), WordTag(), rays.winner + lane);
   bool flushed = false;
 
   const auto come_nearer = [&]() HWY_ATTR {
@@ -171,7 +181,8 @@ HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frust
           flushed = true;
           rivals.flush();
         }
-        won |= beam::meet_sphere<kCommonOrigin, kLeaves>(rays, first_ray, sphere, rivals);
+        winners.make_room(rays);
+        won |= beam::meet_sphere<kCommonOrigin, kLeaves>(rays, first_ray, sphere, tree.spheres, winners, rivals);
       }
     }
     if (won) come_nearer();
@@ -199,23 +210,23 @@ HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frust
       const int place = 31 - __builtin_clz(places);
       places ^= 1U << place;
       const int slot = static_cast<int>(order >> (4 * place) & 15);
-      if (node.is_leaf(slot))
-        waiting[waiting_count++] = {static_cast<std::uint32_t>(node.sphere_begin(slot)),
-                                    static_cast<std::uint32_t>(node.sphere_count(slot)), w_near[slot]};
-      else
-        waiting[waiting_count++] = {static_cast<std::uint32_t>(node.child_node(slot)), 0, w_near[slot]};
+      waiting[waiting_count++] = beam::child_of(node, slot, w_near[slot]);
     }
   }
 
+  if (winners.none() && !flushed) {
+    write_misses(hits, first_ray, rays.count);
+    return;
+  }
   if (HWY_LIKELY(!flushed)) {
-    write_winners(tree, span, first_ray, rays.count, rays.slot, hits);
+    write_winners(tree, span, first_ray, rays, winners, hits);
     return;
   }
   // Rivals have been decided already: the winners must be nearer.
   for (int i = 0; i < rays.count; ++i) {
-    if (rays.slot[i] == kNoSlot) continue;
+    if (rays.winner[i] == kNoWinner) continue;
     if (rivals.full()) rivals.flush();
-    rivals.add(first_ray + i, rays.slot[i]);
+    rivals.add(first_ray + i, winners.slot(rays.winner[i]));
   }
 }
 

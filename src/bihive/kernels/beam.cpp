@@ -6,10 +6,14 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 #include "bihive/kernels/beam-inl.h"
 #include "bihive/kernels/dispatch.h"
 #include "bihive/kernels/leftover_rays.h"
+#include "bihive/kernels/lists.h"
+#include "bihive/kernels/occlusion_beam-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
@@ -18,6 +22,7 @@ namespace HWY_NAMESPACE {
 void closest_hits_beams_on_target(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
   Rivals rivals(tree, rays, hits);
   LeftoverRays leftover(rays);
+  Winners winners;
   BeamRays beam;
   Frustum frustum;
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
@@ -26,20 +31,35 @@ void closest_hits_beams_on_target(const WideTree& tree, const RaySpan& rays, con
       leftover.add(first, count);
       continue;
     }
-    if (!make_frustum(tree, beam, frustum)) {
+    if (!make_frustum<kBeamRays>(tree, beam, 0, frustum)) {
       write_misses(hits, first, count);
       continue;
     }
     const bool leaves = rays.leaves != nullptr;
     if (beam.common_origin && !leaves)
-      closest_hits_in_beam<true, false>(tree, beam, frustum, rays, first, hits, rivals);
+      closest_hits_in_beam<true, false>(tree, beam, frustum, rays, first, hits, winners, rivals);
     else if (!leaves)
-      closest_hits_in_beam<false, false>(tree, beam, frustum, rays, first, hits, rivals);
+      closest_hits_in_beam<false, false>(tree, beam, frustum, rays, first, hits, winners, rivals);
     else
-      closest_hits_in_beam<false, true>(tree, beam, frustum, rays, first, hits, rivals);
+      closest_hits_in_beam<false, true>(tree, beam, frustum, rays, first, hits, winners, rivals);
   }
   rivals.flush();
   leftover.closest_hits(tree, hits);
+}
+
+void occluded_beams_on_target(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+  OcclusionBeam beam(tree, rays, hidden);
+  LeftoverRays leftover(rays);
+  for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
+    const int count = static_cast<int>(std::min<std::int64_t>(kBeamRays, rays.count - first));
+    if (set_up_beam(tree, rays, first, count, beam.rays)) {
+      beam.block(first, leftover);
+    } else {
+      leftover.add(first, count);
+    }
+  }
+  beam.flush();
+  leftover.occluded(tree, hidden);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -50,25 +70,35 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bihive {
 HWY_EXPORT(closest_hits_beams_on_target);
+HWY_EXPORT(occluded_beams_on_target);
 
 namespace kernels {
+namespace {
+
+// Ray numbers are 32-bit in pairs. Where spheres coincide, ids do not tell which ones a ray leaves.
+bool for_beams(const WideTree& tree, const RaySpan& rays) {
+  return tree.node_count > 0 && (rays.leaves == nullptr || tree.repeated.empty()) &&
+         rays.count <= std::numeric_limits<std::uint32_t>::max();
+}
+
+}  // namespace
 
 void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
   ensure_target();
-  // Where spheres coincide, ids do not tell which ones a ray leaves.
-  if (tree.node_count == 0 || (rays.leaves != nullptr && !tree.repeated.empty())) {
-    LeftoverRays all(rays);
-    all.add(0, rays.count);
-    all.closest_hits(tree, hits);
-    return;
+  if (for_beams(tree, rays)) {
+    HWY_DYNAMIC_DISPATCH(closest_hits_beams_on_target)(tree, rays, hits);
+  } else {
+    closest_hits_lists(tree, rays, hits);
   }
-  HWY_DYNAMIC_DISPATCH(closest_hits_beams_on_target)(tree, rays, hits);
 }
 
 void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
-  LeftoverRays all(rays);
-  all.add(0, rays.count);
-  all.occluded(tree, hidden);
+  ensure_target();
+  if (for_beams(tree, rays)) {
+    HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, hidden);
+  } else {
+    occluded_lists(tree, rays, hidden);
+  }
 }
 
 }  // namespace kernels

@@ -26,17 +26,17 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kBeamRays = 64;
-constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+constexpr std::uint32_t kNoWinner = ~std::uint32_t{0};
 
 /// What is known of a block's rays. Lanes beyond the block's last ray repeat it.
 struct alignas(64) BeamRays {
   float origin[3][kBeamRays];
   float direction[3][kBeamRays];
-  float s_sure[kBeamRays];        ///< hits before this are surely in the segment and nearer than the winner
-  float s_best[kBeamRays];        ///< hits beyond this are surely not the answer
-  std::uint32_t slot[kBeamRays];  ///< of the winner so far, or kNoSlot
+  float s_sure[kBeamRays];          ///< hits before this are surely in the segment and nearer than the winner
+  float s_best[kBeamRays];          ///< hits beyond this are surely not the answer
+  std::uint32_t winner[kBeamRays];  ///< number of the winner so far (rivals-inl.h), or kNoWinner
   std::uint32_t
-      leaves[kBeamRays];  ///< id of the sphere that the ray leaves, or kNoSlot; not written unless rays.leaves
+      leaves[kBeamRays];  ///< id of the sphere that the ray leaves, or kNoWinner; not written unless rays.leaves
   float e, pad;
   int count;   ///< rays in the block
   int major;   ///< axis along which all rays go, by at least kLeastMajor of their length
@@ -201,7 +201,7 @@ HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int6
   if (block.leaves != nullptr) {
     for (int i = 0; i < kBeamRays; ++i) {
       const std::int64_t id = block.leaves[i];
-      out.leaves[i] = id >= 0 && id < tree.size ? static_cast<std::uint32_t>(id) : kNoSlot;
+      out.leaves[i] = id >= 0 && id < tree.size ? static_cast<std::uint32_t>(id) : kNoWinner;
     }
   }
   return true;

@@ -51,8 +51,10 @@ HWY_INLINE float smallest(hn::VFromD<FloatTag> v) {
 
 }  // namespace frustum
 
-/// False: no ray meets the bounds of the set.
-HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, Frustum& out) {
+/// Of the kRays rays from lane `begin` on; those that are done (s_best below 0) do not count. False: no ray meets the
+/// bounds of the set.
+template <int kRays>
+HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, int begin, Frustum& out) {
   const FloatTag d;
   const int major = rays.major;
   out.major = major;
@@ -66,13 +68,16 @@ HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, Frustum
   const float hi = tree.aabb.hi[major];
   const float set_begin = rays.sign > 0 ? lo : -hi;
   const float set_end = rays.sign > 0 ? hi : -lo;
-  auto start = hn::Mul(sign, hn::Load(d, rays.origin[major]));
-  auto end = start;
-  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+  const auto far_up = hn::Set(d, 1e30F);
+  const auto far_down = hn::Neg(far_up);
+  auto start = far_up;
+  auto end = far_down;
+  for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
     const auto o = hn::Mul(sign, hn::Load(d, rays.origin[major] + lane));
     const auto n = hn::Mul(sign, hn::Load(d, rays.direction[major] + lane));
-    start = hn::Min(start, o);
-    end = hn::Max(end, hn::MulAdd(n, hn::Load(d, rays.s_best + lane), o));
+    const auto best = hn::Load(d, rays.s_best + lane);
+    start = hn::Min(start, hn::IfThenElse(hn::Ge(best, hn::Zero(d)), o, far_up));
+    end = hn::Max(end, hn::MulAdd(n, best, o));
   }
   out.w_begin = std::max(frustum::smallest(start), set_begin) - rays.pad;
   out.w_end = std::min(frustum::largest(end), set_end) + rays.pad;
@@ -86,21 +91,22 @@ HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, Frustum
   out.octant = rays.sign < 0 ? 1 << major : 0;
   for (int k = 0; k < 2; ++k) {
     const int axis = out.minor[k];
-    auto low0 = hn::Set(d, 1e30F);
-    auto low1 = low0;
-    auto high0 = hn::Neg(low0);
-    auto high1 = high0;
-    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+    auto low0 = far_up;
+    auto low1 = far_up;
+    auto high0 = far_down;
+    auto high1 = far_down;
+    for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
       const auto ow = hn::Mul(sign, hn::Load(d, rays.origin[major] + lane));
       const auto nw = hn::Mul(sign, hn::Load(d, rays.direction[major] + lane));
       const auto o = hn::Load(d, rays.origin[axis] + lane);
       const auto slope = hn::Div(hn::Load(d, rays.direction[axis] + lane), nw);
       const auto at0 = hn::MulAdd(slope, hn::Sub(w0, ow), o);
       const auto at1 = hn::MulAdd(slope, hn::Sub(w1, ow), o);
-      low0 = hn::Min(low0, at0);
-      high0 = hn::Max(high0, at0);
-      low1 = hn::Min(low1, at1);
-      high1 = hn::Max(high1, at1);
+      const auto counts = hn::Ge(hn::Load(d, rays.s_best + lane), hn::Zero(d));
+      low0 = hn::Min(low0, hn::IfThenElse(counts, at0, far_up));
+      high0 = hn::Max(high0, hn::IfThenElse(counts, at0, far_down));
+      low1 = hn::Min(low1, hn::IfThenElse(counts, at1, far_up));
+      high1 = hn::Max(high1, hn::IfThenElse(counts, at1, far_down));
     }
     const float l0 = frustum::smallest(low0);
     const float l1 = frustum::smallest(low1);

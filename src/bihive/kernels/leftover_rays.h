@@ -9,6 +9,9 @@
 
 namespace bihive {
 
+/// The mean of the largest extents of some leaves' boxes, stored units: the width at which a beam becomes wide.
+float leaf_extent(const WideTree& tree);
+
 class LeftoverRays {
  public:
   explicit LeftoverRays(const RaySpan& rays) : rays_(rays) {}

@@ -1,0 +1,284 @@
+// Is anything hit by each of a block's 64 neighbouring rays? Made for shadow rays towards a light: rays that are surely
+// hidden leave the beam, and spheres that hid the last blocks are tried first.
+
+#if defined(BIHIVE_KERNELS_OCCLUSION_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_KERNELS_OCCLUSION_BEAM_INL_H_
+#undef BIHIVE_KERNELS_OCCLUSION_BEAM_INL_H_
+#else
+#define BIHIVE_KERNELS_OCCLUSION_BEAM_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "bihive/kernels/beam-inl.h"
+#include "bihive/kernels/beam_rays-inl.h"
+#include "bihive/kernels/exact-inl.h"
+#include "bihive/kernels/frustum-inl.h"
+#include "bihive/kernels/lanes-inl.h"
+#include "bihive/kernels/leftover_rays.h"
+#include "bihive/kernels/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Pairs of rays and spheres of which binary32 cannot tell whether they meet. `hidden` must have been written for their
+/// rays before a flush.
+class Doubts {
+ public:
+  Doubts(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) : tree_(tree), rays_(rays), hidden_(hidden) {}
+
+  bool full() const { return count_ > kRoom - kBeamRays; }
+  void add(std::int64_t ray, std::uint32_t slot) { pairs_[count_++] = {static_cast<std::uint32_t>(ray), slot}; }
+
+  void flush() {
+    double t[kExactPairs];
+    for (int first = 0; first < count_; first += kExactPairs) {
+      const int n = std::min(kExactPairs, count_ - first);
+      exact_hits(tree_, rays_, pairs_ + first, n, t);
+      for (int k = 0; k < n; ++k)
+        if (t[k] < std::numeric_limits<double>::infinity()) hidden_[pairs_[first + k].ray] = 1;
+    }
+    count_ = 0;
+  }
+
+ private:
+  static constexpr int kRoom = 512;
+  const WideTree& tree_;
+  const RaySpan rays_;
+  std::uint8_t* const hidden_;
+  int count_ = 0;
+  Pair pairs_[kRoom];
+};
+
+/// The spheres that hid rays last, the latest first.
+class Occluders {
+ public:
+  static constexpr int kMost = 4;
+  int count() const { return count_; }
+  std::uint32_t slot(int i) const { return slots_[i]; }
+
+  void note(std::uint32_t slot) {
+    int place = 0;
+    while (place < count_ && slots_[place] != slot) ++place;
+    if (place == count_) {
+      if (count_ < kMost) ++count_;
+      place = count_ - 1;
+    }
+    for (; place > 0; --place) slots_[place] = slots_[place - 1];
+    slots_[0] = slot;
+  }
+
+ private:
+  std::uint32_t slots_[kMost] = {};
+  int count_ = 0;
+};
+
+/// A block that is too wide is taken in runs of this many neighbours.
+constexpr int kPartRays = 16;
+/// Beams that are wider than so many leaves are slower than parts of them, or than ray lists. Measured; the first is
+/// flat from 0.7 to 4 on small scenes, the second loses above 2 on large ones.
+constexpr float kWidestInLeaves = 1;
+constexpr float kWidestPartInLeaves = 1.5F;
+
+/// Rays of a block and what hides them.
+class OcclusionBeam {
+ public:
+  OcclusionBeam(const WideTree& tree, const RaySpan& span, std::uint8_t* hidden)
+      : tree_(tree), has_leaves_(span.leaves != nullptr), hidden_(hidden), doubts_(tree, span, hidden) {
+    const float leaf = leaf_extent(tree);
+    width_limit_ = kWidestInLeaves * leaf;
+    part_width_limit_ = kWidestPartInLeaves * leaf;
+  }
+
+  /// The rays of the next block go here, by set_up_beam(), before block().
+  BeamRays rays;
+
+  /// Answers the block, but for doubts, and for runs of sixteen rays that are too wide for beams: those are left over.
+  HWY_INLINE void block(std::int64_t first_ray, LeftoverRays& leftover) {
+    first_ray_ = first_ray;
+    std::fill_n(hidden_ + first_ray, rays.count, std::uint8_t{0});
+    trace_block(leftover);
+    note_hidden();
+  }
+
+  void flush() { doubts_.flush(); }
+
+ private:
+  HWY_INLINE void trace_block(LeftoverRays& leftover) {
+    Frustum frustum;
+    if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return;
+
+    // The spheres that hid the last rays.
+    if (occluders_.count() > 0 && try_occluders(frustum)) {
+      if (done<kBeamRays>(0)) return;
+      make_frustum<kBeamRays>(tree_, rays, 0, frustum);
+    }
+    if (frustum.width <= width_limit_) {
+      trace<kBeamRays>(0, frustum);
+      return;
+    }
+    for (int begin = 0; begin < rays.count; begin += kPartRays) {
+      if (done<kPartRays>(begin) || !make_frustum<kPartRays>(tree_, rays, begin, frustum)) continue;
+      if (frustum.width <= part_width_limit_) {
+        trace<kPartRays>(begin, frustum);
+      } else {
+        leftover.add(first_ray_ + begin, std::min(kPartRays, rays.count - begin));
+      }
+    }
+  }
+
+  const WideTree& tree_;
+  bool has_leaves_;
+  std::uint8_t* hidden_;
+  std::int64_t first_ray_ = 0;
+  float width_limit_, part_width_limit_;
+  Doubts doubts_;
+  Occluders occluders_;
+
+  // From lanes without a segment any more to bytes.
+  HWY_INLINE void note_hidden() {
+    const FloatTag d;
+    std::uint64_t bits = 0;
+    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
+      bits |= std::uint64_t{mask_bits(hn::Lt(hn::Load(d, rays.s_best + lane), hn::Zero(d)))} << lane;
+    if (bits == 0) return;
+    for (int i = 0; i < rays.count; ++i) hidden_[first_ray_ + i] |= static_cast<std::uint8_t>(bits >> i & 1);
+  }
+
+  template <int kRays>
+  HWY_INLINE bool done(int begin) const {
+    const FloatTag d;
+    auto best = hn::Load(d, rays.s_best + begin);
+    for (int lane = begin + kFloatLanes; lane < begin + kRays; lane += kFloatLanes)
+      best = hn::Max(best, hn::Load(d, rays.s_best + lane));
+    return hn::AllTrue(d, hn::Lt(best, hn::Zero(d)));
+  }
+
+  // Has the sphere hidden any more rays?
+  template <int kRays>
+  HWY_INLINE bool meet_sphere(int begin, std::uint32_t slot) {
+    const FloatTag d;
+    const auto zero = hn::Zero(d);
+    const auto e = hn::Set(d, rays.e);
+    const float padded = static_cast<float>(tree_.spheres.radius(slot)) + rays.e;
+    const beam::Candidate sphere{slot,
+                                 static_cast<std::uint32_t>(tree_.spheres.id(slot)),
+                                 {tree_.spheres.x[slot], tree_.spheres.y[slot], tree_.spheres.z[slot]},
+                                 padded,
+                                 padded * padded};
+    const auto sure_above = hn::Set(d, kSureShare * rays.e * padded);
+    const auto spread = hn::Set(d, kWidthShare * rays.e * padded);
+    if (HWY_UNLIKELY(doubts_.full())) doubts_.flush();
+    bool any = false;
+    for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
+      // Which rays are not hidden yet, and do not leave the sphere?
+      const auto best = hn::Load(d, rays.s_best + lane);
+      auto open = hn::Ge(best, zero);
+      if (has_leaves_) {
+        const auto own = hn::Eq(hn::Load(WordTag(), rays.leaves + lane), hn::Set(WordTag(), sphere.id));
+        open = hn::AndNot(hn::RebindMask(d, own), open);
+      }
+      if (hn::AllFalse(d, open)) continue;
+      const beam::Meeting m = beam::meet<false>(rays, sphere, lane);
+      const auto near_enough = hn::And(open, hn::Ge(m.dp, zero));
+      if (hn::AllFalse(d, near_enough)) continue;
+
+      // Bounds of the roots.
+      const auto chord = hn::Sqrt(hn::Max(m.dp, zero));
+      const auto lower = hn::Sub(hn::Sub(m.b, e), chord);
+      const auto far_upper = hn::Add(hn::Add(m.b, e), chord);
+      const auto candidate = hn::And(near_enough, hn::And(hn::Le(lower, best), hn::Ge(far_upper, zero)));
+      const auto width = hn::MulAdd(spread, hn::ApproximateReciprocalSqrt(m.dp), hn::Add(e, e));
+      const auto upper = hn::Add(lower, width);
+      const auto sure = hn::And(hn::And(candidate, hn::Gt(m.dp, sure_above)),
+                                hn::And(hn::Gt(lower, zero), hn::Lt(upper, hn::Load(d, rays.s_sure + lane))));
+      hn::Store(hn::IfThenElse(sure, hn::Set(d, -1.0F), best), d, rays.s_best + lane);
+      any |= !hn::AllFalse(d, sure);
+      for (std::uint32_t bits = mask_bits(hn::AndNot(sure, candidate)); bits != 0; bits &= bits - 1) {
+        const int ray = lane + __builtin_ctz(bits);
+        if (ray < rays.count) doubts_.add(first_ray_ + ray, slot);
+      }
+    }
+    return any;
+  }
+
+  // Have the last occluders hidden any ray?
+  HWY_INLINE bool try_occluders(const Frustum& frustum) {
+    const FloatTag d;
+    alignas(64) float places[4][kFloatLanes] = {};
+    const int n = std::min(occluders_.count(), kFloatLanes);
+    for (int i = 0; i < n; ++i) {
+      const std::uint32_t slot = occluders_.slot(i);
+      places[0][i] = tree_.spheres.x[slot];
+      places[1][i] = tree_.spheres.y[slot];
+      places[2][i] = tree_.spheres.z[slot];
+      places[3][i] = static_cast<float>(tree_.spheres.radius(slot)) + rays.e;
+    }
+    const hn::VFromD<FloatTag> centre[3] = {hn::Load(d, places[0]), hn::Load(d, places[1]), hn::Load(d, places[2])};
+    std::uint32_t bits = spheres_in(frustum, centre, hn::Load(d, places[3])) & ((1U << n) - 1);
+    bool any = false;
+    for (; bits != 0; bits &= bits - 1) any |= meet_sphere<kBeamRays>(0, occluders_.slot(__builtin_ctz(bits)));
+    return any;
+  }
+
+  // Spheres of a leaf. True: all rays are hidden.
+  template <int kRays>
+  HWY_INLINE bool meet_leaf(int begin, const Frustum& frustum, std::int64_t first_slot, std::int64_t count) {
+    const FloatTag d;
+    bool any = false;
+    for (std::int64_t first = 0; first < count; first += kFloatLanes) {
+      const std::int64_t slot = first_slot + first;
+      const hn::VFromD<FloatTag> centre[3] = {hn::LoadU(d, tree_.spheres.x + slot),
+                                              hn::LoadU(d, tree_.spheres.y + slot),
+                                              hn::LoadU(d, tree_.spheres.z + slot)};
+      const auto padded = hn::Add(beam::radii_at(tree_.spheres, slot), hn::Set(d, rays.e));
+      std::uint32_t bits = spheres_in(frustum, centre, padded);
+      if (count - first < kFloatLanes) bits &= (1U << (count - first)) - 1;
+      for (; bits != 0; bits &= bits - 1) {
+        const auto sphere = static_cast<std::uint32_t>(slot + __builtin_ctz(bits));
+        if (!meet_sphere<kRays>(begin, sphere)) continue;
+        occluders_.note(sphere);
+        any = true;
+      }
+    }
+    return any && done<kRays>(begin);
+  }
+
+  template <int kRays>
+  HWY_INLINE void trace(int begin, const Frustum& frustum) {
+    beam::Waiting waiting[kMostLevels * kWidth];
+    int waiting_count = 0;
+    waiting[waiting_count++] = {0, 0, 0};
+    alignas(64) float w_near[kWidth];
+    while (waiting_count > 0) {
+      const beam::Waiting top = waiting[--waiting_count];
+      if (top.count != 0) {
+        if (meet_leaf<kRays>(begin, frustum, top.node, top.count)) return;
+        continue;
+      }
+      const WideNode& node = tree_.nodes[top.node];
+      const std::uint32_t bits = boxes_in(node, frustum, w_near);
+      if (bits == 0) continue;
+      std::uint64_t order = 0;
+      for (std::uint32_t places = near_to_far(node, frustum.octant, bits, order); places != 0;) {
+        const int place = 31 - __builtin_clz(places);
+        places ^= 1U << place;
+        const int slot = static_cast<int>(order >> (4 * place) & 15);
+        waiting[waiting_count++] = beam::child_of(node, slot, w_near[slot]);
+      }
+    }
+  }
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_KERNELS_OCCLUSION_BEAM_INL_H_
