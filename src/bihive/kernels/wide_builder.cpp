@@ -238,9 +238,9 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
   split(spheres, summary, context, root, threads);
   collapse.run(root, shape, threads);
 
-  // Keep the result.
+  // Keep the result, with room for the few nodes more that a next frame may need.
   const auto node_bytes = static_cast<std::size_t>(collapse.node_count()) * sizeof(WideNode);
-  tree.node_memory.reserve(node_bytes);
+  if (tree.node_memory.capacity() < node_bytes) tree.node_memory.reserve(node_bytes + node_bytes / 8);
   auto* const nodes = static_cast<WideNode*>(tree.node_memory.data());
   collapse.copy_to(nodes, threads);
   tree.aabb = root.box;

@@ -43,11 +43,14 @@ class WideBuilder {
   std::shared_ptr<State> state_;
 };
 
-/// Bytes of a tree of that many spheres and of its making, as a range: `low` full leaves and a palette, `high`
-/// scattered spheres of many radii.
+/// Bytes of a tree of that many spheres and of its making.
 struct WideMemoryPrediction {
-  std::int64_t low_bytes = 0, high_bytes = 0;  ///< WideTree::used_bytes()
-  std::int64_t peak_bytes = 0;                 ///< tree and working memory while building, at most
+  /// WideTree::used_bytes(), as a range: full leaves and a palette, to the most scattered scenes of many radii. Spheres
+  /// that coincide in centre and radius add 20 bytes each (WideTree::repeated); clusters in which distances fall
+  /// exponentially can need more.
+  std::int64_t low_bytes = 0, high_bytes = 0;
+  /// Tree and working memory while building, at most, hostile sets included; scenes need a sixth of it.
+  std::int64_t peak_bytes = 0;
 };
 WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParameters& parameters = {});
 

@@ -1,0 +1,201 @@
+// Building the wide tree holds its promises on sets made to break them: time, memory, running out of it.
+#include "bihive/kernels/wide_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#if defined(__linux__)
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+#include "bihive/kernels/wide_validate.h"
+#include "support/hostile_sets.h"
+
+namespace bihive {
+namespace {
+
+using TreePointer = std::shared_ptr<const WideTree>;
+
+struct HostileSet {
+  const char* name;
+  std::function<test::World(int)> make;
+};
+
+test::World filled(int n, const std::function<void(test::World&, SplitMix64&, int)>& add) {
+  test::World world;
+  SplitMix64 rng(77);
+  for (int i = 0; i < n; ++i) add(world, rng, i);
+  return world;
+}
+
+const std::vector<HostileSet>& hostile_sets() {
+  using test::World;
+  static const std::vector<HostileSet> sets{
+      {"coincident", [](int n) { return test::pile("", n, 0.1, 0.2, 0.3, 1); }},
+      {"nested",
+       [](int n) { return filled(n, [](World& w, SplitMix64& g, int) { w.add(1, 2, 3, g.next_double() + 0.1); }); }},
+      {"exponential",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64& g, int) {
+           w.add(std::exp2(-140 * g.next_double()), std::exp2(-140 * g.next_double()),
+                 std::exp2(-140 * g.next_double()), 0);
+         });
+       }},
+      {"piles at powers of two",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64&, int i) {
+           const double c = std::ldexp(1, -(i % 140));
+           w.add(c, c, c, 1e-3);
+         });
+       }},
+      {"clusters with exponential distances",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64&, int i) {
+           const double c = 0.5 + 0.4 * std::ldexp(1, -(i % 20));
+           w.add(c + i / 20 % 31, c + i / 620 % 37, c + i / 22940, 1e-5);
+         });
+       }},
+      {"flat",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64& g, int) { w.add(g.next_double(), 7, g.next_double(), 1e-3); });
+       }},
+      {"on a line",
+       [](int n) { return filled(n, [](World& w, SplitMix64& g, int) { w.add(3, g.next_double(), 4, 1e-3); }); }},
+      {"needle",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64& g, int) {
+           w.add(g.next_double(), 1e-5 * g.next_double(), 1e-5 * g.next_double(), 1e-6);
+         });
+       }},
+      {"one huge sphere over tiny ones",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64& g, int i) {
+           w.add(1e-3 * g.next_double(), 1e-3 * g.next_double(), 1e-3 * g.next_double(), i == 0 ? 1e3 : 1e-6);
+         });
+       }},
+      {"on few planes",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64& g, int) {
+           w.add(std::floor(3 * g.next_double()), std::floor(1e3 * g.next_double()), std::floor(5 * g.next_double()),
+                 0.1);
+         });
+       }},
+      {"smallest and largest numbers",
+       [](int n) {
+         return filled(n, [](World& w, SplitMix64& g, int i) {
+           constexpr double kLargest = std::numeric_limits<float>::max() / 4, kSmallest = 1.5e-45;
+           const double size = i % 3 == 0 ? kLargest : i % 3 == 1 ? kSmallest : 1;
+           w.add(size * (g.next_double() - 0.5), size * (g.next_double() - 0.5), size * (g.next_double() - 0.5),
+                 size * g.next_double() * 0.1);
+         });
+       }},
+  };
+  return sets;
+}
+
+TreePointer built(WideBuilder& builder, const SphereSet& spheres, const WideParameters& parameters = {}) {
+  Result<TreePointer> tree = builder.build(spheres, parameters);
+  EXPECT_TRUE(tree.ok());
+  return *tree;
+}
+
+// The shortest of three builds.
+double build_ms(const SphereSet& spheres) {
+  WideBuilder builder;
+  double shortest = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    built(builder, spheres);
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    shortest = std::min(shortest, time.count());
+  }
+  return shortest;
+}
+
+TEST(WideBuilderHostile, RightTreesInTimeThatGrowsAsNLogN) {
+  for (const HostileSet& set : hostile_sets()) {
+    const SphereSet few = test::sphere_set(set.make(10000)), many = test::sphere_set(set.make(160000));
+    WideBuilder builder;
+    for (const SphereSet* spheres : {&few, &many}) {
+      const Status status = validate_wide_tree(*built(builder, *spheres), *spheres);
+      EXPECT_TRUE(status.ok()) << set.name << ": " << (status.ok() ? "" : status.error().to_string());
+    }
+    // Sixteen times the spheres: n log n is 21 times the work, n squared 256 times. Between them is room for a machine
+    // that is busy.
+    const double few_ms = build_ms(few), many_ms = build_ms(many);
+    EXPECT_LT(many_ms, 80 * few_ms + 20) << set.name << ": " << few_ms << " ms, then " << many_ms << " ms";
+  }
+}
+
+TEST(WideBuilderHostile, PeakMemoryIsBounded) {
+  for (const HostileSet& set : hostile_sets())
+    for (const int n : {1, 100, 10000, 160000})
+      for (const WideParameters parameters : {WideParameters{}, {1, 0}, {100, 0}, {0, 1}, {0, 3}}) {
+        WideBuilder builder;
+        const TreePointer tree = built(builder, test::sphere_set(set.make(n)), parameters);
+        const WideMemoryPrediction prediction = predict_wide_memory(n, parameters);
+        EXPECT_LE(tree->allocated_bytes() + builder.scratch_bytes(), prediction.peak_bytes)
+            << set.name << ", " << n << " spheres, " << parameters.max_prims << ", " << parameters.max_depth;
+      }
+}
+
+TEST(WideBuilderHostile, UsedMemoryIsAsPredicted) {
+  // Scenes as people have them: packed, scattered, clustered, of one radius and of many.
+  std::vector<test::World> worlds;
+  for (int s = 0; s < 3; ++s)
+    for (const int n : {64, 4096, 50000})
+      worlds.push_back(test::world_of(*scenario_spheres(static_cast<Scenario>(s + 1), {n, 0.1F, 1}), "scenario"));
+  for (const int n : {1, 15, 17, 300, 5000, 100000, 200000}) {
+    worlds.push_back(test::random_world("uniform", 5, n, 10, 0.1, 0.1));
+    worlds.push_back(test::random_world("many radii", 6, n, 10, 0.01, 0.5));
+  }
+  for (const test::World& world : worlds)
+    for (const WideParameters parameters : {WideParameters{}, {1, 0}, {4, 0}, {100, 0}, {0, 1}, {0, 3}}) {
+      WideBuilder builder;
+      const TreePointer tree = built(builder, test::sphere_set(world), parameters);
+      const WideMemoryPrediction prediction = predict_wide_memory(tree->size, parameters);
+      const auto repeated = static_cast<std::int64_t>(tree->repeated.size() * sizeof(RepeatedSphere));
+      const std::string what = world.name + ", " + std::to_string(world.size()) + " spheres, " +
+                               std::to_string(parameters.max_prims) + ", " + std::to_string(parameters.max_depth);
+      EXPECT_GE(tree->used_bytes() - repeated, prediction.low_bytes) << what;
+      EXPECT_LE(tree->used_bytes() - repeated, prediction.high_bytes) << what;
+      EXPECT_LE(tree->allocated_bytes() + builder.scratch_bytes(), prediction.peak_bytes) << what;
+    }
+}
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// In a process of its own: leaves it 16 MiB, which are too few for either block of arrays (40 MB), and builds.
+void run_out_of_memory(const SphereSet& spheres) {
+  std::int64_t pages = 0;
+  std::FILE* const file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr || std::fscanf(file, "%ld", &pages) != 1) std::_Exit(3);
+  const rlim_t limit = static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE) + (std::int64_t{16} << 20));
+  const rlimit bound{limit, RLIM_INFINITY};
+  if (setrlimit(RLIMIT_AS, &bound) != 0) std::_Exit(4);
+  WideBuilder builder;
+  const Result<TreePointer> tree = builder.build(spheres, {}, 1);
+  if (tree.ok()) std::_Exit(5);
+  std::fputs(tree.error().to_string().c_str(), stderr);
+  std::_Exit(0);
+}
+
+TEST(WideBuilderHostile, TooLittleMemoryIsAnError) {
+  const SphereSet spheres = test::sphere_set(test::random_world("random", 9, 2000000, 10, 0.01, 0.02));
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(run_out_of_memory(spheres), testing::ExitedWithCode(0), "not enough memory for the tree of 2000000");
+}
+#endif
+
+}  // namespace
+}  // namespace bihive
