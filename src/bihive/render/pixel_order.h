@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,23 +17,32 @@ struct PixelPlace {
   std::uint16_t x, y;
 };
 
+/// The pixels of a block from its first one: the odd bits of the number are y, the even ones x.
+constexpr std::array<PixelPlace, 64> kZCurve = [] {
+  std::array<PixelPlace, 64> places{};
+  for (unsigned i = 0; i < places.size(); ++i)
+    places[i] = {static_cast<std::uint16_t>((i & 1) | (i >> 1 & 2) | (i >> 2 & 4)),
+                 static_cast<std::uint16_t>((i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4))};
+  return places;
+}();
+
 /// Blocks of 8 x 8 pixels, row by row; inside a block along a Z curve, so that any 4, 16 or 64 neighbours counted from
 /// the first are a square. Blocks that the tile's border cuts come last, so that all others start at a multiple of 64.
 inline void order_pixels(const Tile& tile, std::vector<PixelPlace>& pixels) {
-  pixels.clear();
+  // Some more places than pixels, for vectors that read past the last.
+  constexpr std::size_t kPadding = 16;
+  const std::size_t count = static_cast<std::size_t>(tile.x1 - tile.x0) * static_cast<std::size_t>(tile.y1 - tile.y0);
+  pixels.resize(count + kPadding);
+  PixelPlace* next = pixels.data();
   for (const bool whole : {true, false})
     for (int y0 = tile.y0; y0 < tile.y1; y0 += kBlockPx)
       for (int x0 = tile.x0; x0 < tile.x1; x0 += kBlockPx) {
         const int width = std::min(kBlockPx, tile.x1 - x0);
         const int height = std::min(kBlockPx, tile.y1 - y0);
         if ((width == kBlockPx && height == kBlockPx) != whole) continue;
-        for (int i = 0; i < kBlockPx * kBlockPx; ++i) {
-          // The odd bits of i are y, the even ones x.
-          const int x = (i & 1) | (i >> 1 & 2) | (i >> 2 & 4);
-          const int y = (i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4);
-          if (x < width && y < height)
-            pixels.push_back({static_cast<std::uint16_t>(x0 + x), static_cast<std::uint16_t>(y0 + y)});
-        }
+        for (const PixelPlace& step : kZCurve)
+          if (whole || (step.x < width && step.y < height))
+            *next++ = {static_cast<std::uint16_t>(x0 + step.x), static_cast<std::uint16_t>(y0 + step.y)};
       }
 }
 

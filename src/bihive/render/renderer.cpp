@@ -1,7 +1,6 @@
 #include "bihive/render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <limits>
 #include <mutex>
@@ -95,7 +94,7 @@ class Renderer {
     static thread_local WaveBuffers buffers;
     static thread_local std::vector<PixelPlace> pixels;
     order_pixels(tile, pixels);
-    const std::int64_t all = static_cast<std::int64_t>(pixels.size()) * settings_.samples_per_pixel;
+    const std::int64_t all = std::int64_t{tile.x1 - tile.x0} * (tile.y1 - tile.y0) * settings_.samples_per_pixel;
     for (std::int64_t first = 0; first < all && !cancelled(); first += kMostRaysAtOnce) {
       make_primaries(pixels, first, std::min(kMostRaysAtOnce, all - first), buffers);
       use(pixels, buffers, first);
@@ -108,28 +107,20 @@ class Renderer {
     wave.reset(count);
     wave.count = count;
     wave.starts_at_eye = true;
-    buffers.x.reserve(count);
-    buffers.y.reserve(count);
-    double* const x = buffers.x.data();
-    double* const y = buffers.y.data();
     const std::int64_t samples = settings_.samples_per_pixel;
     const PixelPlace* pixel = pixels.data() + first / samples;
-    if (samples == 1) {
-      for (std::int64_t i = 0; i < count; ++i) {
-        x[i] = pixel[i].x + places_[0].x;
-        y[i] = pixel[i].y + places_[0].y;
-      }
-    } else {
-      auto sample = static_cast<std::size_t>(first % samples);
-      for (std::int64_t i = 0; i < count; ++i) {
-        x[i] = pixel->x + places_[sample].x;
-        y[i] = pixel->y + places_[sample].y;
-        if (++sample < places_.size()) continue;
-        sample = 0;
-        ++pixel;
-      }
+    if (samples == 1) return steps::camera_rays(rays_, pixel, places_[0], wave);
+    buffers.x.reserve(count);
+    buffers.y.reserve(count);
+    auto sample = static_cast<std::size_t>(first % samples);
+    for (std::int64_t i = 0; i < count; ++i) {
+      buffers.x[i] = pixel->x + places_[sample].x;
+      buffers.y[i] = pixel->y + places_[sample].y;
+      if (++sample < places_.size()) continue;
+      sample = 0;
+      ++pixel;
     }
-    steps::camera_rays(rays_, x, y, wave);
+    steps::camera_rays(rays_, buffers.x.data(), buffers.y.data(), wave);
   }
 
   DistanceRange find_distance_range() {
@@ -173,10 +164,7 @@ class Renderer {
         integrator.find_first_hits(buffers);
       if (cancelled()) return;
 
-      if (shaded && samples == 1) {
-        put_light(pixels, first, count, buffers, film);
-        return;
-      }
+      if (shaded && samples == 1) return steps::put_light(buffers.sums, pixels.data() + first, count, film);
 
       // Add the samples in order, then divide by their number.
       for (std::int64_t i = 0; i < count; ++i) {
@@ -190,21 +178,6 @@ class Renderer {
     });
     counts = integrator.rays();
     counts.primary = std::int64_t{tile.x1 - tile.x0} * (tile.y1 - tile.y0) * samples;
-  }
-
-  // The only sample of each pixel is the pixel.
-  static void put_light(const std::vector<PixelPlace>& pixels, std::int64_t first, std::int64_t count,
-                        const WaveBuffers& buffers, Film& film) {
-    constexpr std::int64_t kBlock = kBlockPx * kBlockPx;
-    std::array<Vec3f, kBlock + kColumnPadding> radiance;
-    for (std::int64_t i = 0; i < count; i += kBlock) {
-      const std::int64_t n = std::min(kBlock, count - i);
-      steps::round_light(buffers.sums, i, n, radiance.data());
-      for (std::int64_t k = 0; k < n; ++k) {
-        const PixelPlace& pixel = pixels[static_cast<std::size_t>(first + i + k)];
-        film.at(pixel.x, pixel.y) = radiance[static_cast<std::size_t>(k)];
-      }
-    }
   }
 
   Vec3d sample_value(WaveBuffers& buffers, const WaveIntegrator& integrator, std::int64_t i) const {
@@ -274,8 +247,7 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
 
 Image image_from_film(const Film& film, View view, Transfer transfer, int threads) {
   const Transfer curve = view == View::shaded ? transfer : Transfer::none;
-  static const ByteTable tables[] = {ByteTable(Transfer::srgb), ByteTable(Transfer::none)};
-  const ByteTable& byte_of = tables[curve == Transfer::srgb ? 0 : 1];
+  static const ByteTable byte_of(Transfer::srgb);
   Image image{film.width, film.height, {}};
   image.rgb.resize(3 * film.radiance.size());
 
@@ -285,6 +257,9 @@ Image image_from_film(const Film& film, View view, Transfer transfer, int thread
   parallel_for(threads, (pixels + kPixelsAtOnce - 1) / kPixelsAtOnce, [&](std::int64_t part) {
     const std::int64_t end = std::min(pixels, (part + 1) * kPixelsAtOnce);
     std::uint8_t* bytes = image.rgb.data() + 3 * part * kPixelsAtOnce;
+    if (curve == Transfer::none)
+      return steps::bytes_from_radiance(&film.radiance[static_cast<std::size_t>(part * kPixelsAtOnce)].x,
+                                        3 * (end - part * kPixelsAtOnce), bytes);
     for (std::int64_t i = part * kPixelsAtOnce; i < end; ++i, bytes += 3) {
       const Vec3f& pixel = film.radiance[static_cast<std::size_t>(i)];
       bytes[0] = byte_of(pixel.x);

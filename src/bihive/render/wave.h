@@ -6,6 +6,9 @@
 
 #include "bihive/kernels/ray_batch.h"
 #include "bihive/render/column.h"
+#include "bihive/render/film.h"
+#include "bihive/render/pixel_order.h"
+#include "bihive/render/sample_pattern.h"
 #include "bihive/render/surface.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/scene.h"
@@ -143,8 +146,10 @@ struct ShadowWave {
 /// The steps. Each gives the bits of the scalar code that it names on every instruction set.
 namespace steps {
 
-/// PixelRays::at() of picture positions (x[i], y[i]) for the rays of the wave, whose count is set.
+/// PixelRays::at() of picture positions (x[i], y[i]) for the rays of the wave, whose count is set; or of one place in
+/// each of several pixels, which must be followed by kColumnPadding others.
 void camera_rays(const PixelRays& pixels, const double* x, const double* y, Wave& wave);
+void camera_rays(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave);
 
 /// scene_hit()'s look at the plane: where it is nearer than the sphere, the plane becomes the hit.
 void hit_plane(const WaveScene& scene, const WavePart& rays, double* t, std::int64_t* id);
@@ -167,8 +172,11 @@ struct SentOn {
 };
 SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, Wave& next);
 
-/// What owners first to first + count - 1 received, rounded to binary32: to radiance[0] to [count - 1].
-void round_light(const WaveSums& sums, std::int64_t first, std::int64_t count, Vec3f* radiance);
+/// What owners 0 to count - 1 received, rounded to binary32: owner i's to the film at pixel[i].
+void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
+
+/// byte_from_radiance() without a curve, of `count` numbers.
+void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes);
 
 }  // namespace steps
 

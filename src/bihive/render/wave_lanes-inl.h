@@ -181,12 +181,27 @@ HWY_INLINE Lanes log2_of(Lanes x) {
   return hn::Add(exponent, hn::Mul(ln, all(1.44269504088896340736)));
 }
 
+/// x / k, rounded to nearest, for a whole k from 1 to 14 and |x| below 2; right to a part in 2^50 where |x| < 2^-900.
+HWY_INLINE Lanes divide_by_small(Lanes x, int k) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  // Markstein's theorem: from a quotient that is right to one unit in the last place, with the rounded reciprocal, the
+  // exact remainder gives the rounded quotient. For each of these k the reciprocal's relative error is at most 2^-54,
+  // so that with the rounding of the product the first quotient is right to one unit.
+  const Lanes reciprocal = all(1.0 / k);
+  const Lanes quotient = hn::Mul(x, reciprocal);
+  const Lanes remainder = hn::NegMulAdd(quotient, all(k), x);
+  return hn::MulAdd(remainder, reciprocal, quotient);
+#else
+  return hn::Div(x, all(k));
+#endif
+}
+
 /// portable_exp2() for -1075 <= x <= 1024.
 HWY_INLINE Lanes exp2_of(Lanes x) {
   const auto whole = hn::Floor(hn::Add(x, all(0.5)));
   const auto y = hn::Mul(hn::Sub(x, whole), all(0.69314718055994530942));
   auto series = all(1);
-  for (int k = 14; k >= 1; --k) series = hn::Add(all(1), hn::Div(hn::Mul(series, y), all(k)));
+  for (int k = 14; k >= 1; --k) series = hn::Add(all(1), divide_by_small(hn::Mul(series, y), k));
   // In two steps: the first is exact, so that the result is rounded once where it is small.
   const auto half = hn::Floor(hn::Mul(whole, all(0.5)));
   return hn::Mul(hn::Mul(series, power_of_two(half)), power_of_two(hn::Sub(whole, half)));

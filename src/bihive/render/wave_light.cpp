@@ -112,15 +112,6 @@ void add_local_light_on_target(const WaveScene& wave_scene, const WaveSurfaces& 
   }
 }
 
-void round_light_on_target(const WaveSums& sums, std::int64_t first, std::int64_t count, Vec3f* radiance) {
-  for (std::int64_t i = 0; i < count; i += kLanes) {
-    alignas(64) float channel[3][kLanes];
-    for (int k = 0; k < 3; ++k)
-      hn::Store(hn::DemoteTo(FloatHalf(), load(sums.light[k], first + i)), FloatHalf(), channel[k]);
-    for (int k = 0; k < kLanes && i + k < count; ++k) radiance[i + k] = {channel[0][k], channel[1][k], channel[2][k]};
-  }
-}
-
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace bihive
@@ -130,7 +121,6 @@ HWY_AFTER_NAMESPACE();
 namespace bihive {
 HWY_EXPORT(find_shadow_rays_on_target);
 HWY_EXPORT(add_local_light_on_target);
-HWY_EXPORT(round_light_on_target);
 
 namespace steps {
 
@@ -142,11 +132,6 @@ void find_shadow_rays(const WaveSurfaces& surfaces, const PointLight& light, Sha
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums) {
   ensure_target();
   HWY_DYNAMIC_DISPATCH(add_local_light_on_target)(scene, surfaces, hidden, sums);
-}
-
-void round_light(const WaveSums& sums, std::int64_t first, std::int64_t count, Vec3f* radiance) {
-  ensure_target();
-  HWY_DYNAMIC_DISPATCH(round_light_on_target)(sums, first, count, radiance);
 }
 
 }  // namespace steps

@@ -1,0 +1,70 @@
+#include "bihive/render/wave.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bihive/render/put_light.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "bihive/kernels/dispatch.h"
+#include "bihive/render/wave_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+
+void put_light_on_target(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film) {
+  constexpr std::int64_t kBlock = 64;
+  alignas(64) float channel[3][kBlock];
+  Vec3f* const radiance = film.radiance.data();
+  const auto width = static_cast<std::size_t>(film.width);
+  for (std::int64_t first = 0; first < count; first += kBlock) {
+    const std::int64_t n = std::min(kBlock, count - first);
+    for (int k = 0; k < 3; ++k)
+      for (std::int64_t i = 0; i < n; i += kLanes)
+        hn::Store(hn::DemoteTo(FloatHalf(), load(sums.light[k], first + i)), FloatHalf(), channel[k] + i);
+    for (std::int64_t i = 0; i < n; ++i) {
+      const PixelPlace place = pixel[first + i];
+      radiance[place.y * width + place.x] = {channel[0][i], channel[1][i], channel[2][i]};
+    }
+  }
+}
+
+void bytes_from_radiance_on_target(const float* radiance, std::int64_t count, std::uint8_t* bytes) {
+  constexpr hn::Rebind<std::int32_t, Tag> whole;
+  constexpr hn::Rebind<std::uint8_t, Tag> narrow;
+  std::int64_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    const Lanes value = hn::PromoteTo(Tag(), hn::LoadU(FloatHalf(), radiance + i));
+    const Lanes least = hn::IfThenElseZero(hn::Gt(value, all(0)), value);
+    const Lanes clamped = hn::IfThenElse(hn::Lt(least, all(1)), least, all(1));
+    const Lanes displayed = hn::Floor(hn::Add(hn::Mul(clamped, all(255)), all(0.5)));
+    hn::StoreU(hn::DemoteTo(narrow, hn::DemoteTo(whole, displayed)), narrow, bytes + i);
+  }
+  for (; i < count; ++i) bytes[i] = byte_from_radiance(double(radiance[i]), Transfer::none);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bihive {
+HWY_EXPORT(put_light_on_target);
+HWY_EXPORT(bytes_from_radiance_on_target);
+
+namespace steps {
+
+void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(put_light_on_target)(sums, pixel, count, film);
+}
+
+void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(bytes_from_radiance_on_target)(radiance, count, bytes);
+}
+
+}  // namespace steps
+}  // namespace bihive
+#endif

@@ -1,0 +1,87 @@
+// The vector forms of powers and divisions against the scalar ones, on every instruction set.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bihive/kernels/target.h"
+#include "bihive/math/elementary.h"
+#include "bihive/math/rng.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "unit/wave_lanes_test.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "bihive/kernels/dispatch.h"
+#include "bihive/render/wave_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+
+// Counts of multiples of 16.
+void powers_on_target(const double* x, const double* y, std::size_t count, double* powers) {
+  for (std::size_t i = 0; i < count; i += kLanes)
+    hn::StoreU(pow_of(first_lanes(kLanes), hn::LoadU(Tag(), x + i), hn::LoadU(Tag(), y + i)), Tag(), powers + i);
+}
+
+void quotients_on_target(const double* x, int k, std::size_t count, double* quotients) {
+  for (std::size_t i = 0; i < count; i += kLanes)
+    hn::StoreU(divide_by_small(hn::LoadU(Tag(), x + i), k), Tag(), quotients + i);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bihive {
+HWY_EXPORT(powers_on_target);
+HWY_EXPORT(quotients_on_target);
+
+namespace {
+
+constexpr std::size_t kCount = 1 << 16;
+
+class EachTarget : public ::testing::TestWithParam<std::string> {
+ protected:
+  EachTarget() { EXPECT_TRUE(use_target(GetParam())); }
+  ~EachTarget() override { (void)use_target(""); }
+};
+
+TEST_P(EachTarget, powers_are_portable_pow) {
+  SplitMix64 rng(1);
+  std::vector<double> x(kCount), y(kCount), powers(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    x[i] = i % 8 == 0 ? std::exp(60 * rng.next_double() - 50) : 1.0000001 * rng.next_double() + 1e-12;
+    y[i] = i % 5 == 0 ? 2000 * rng.next_double() - 500 : 100 * rng.next_double();
+  }
+  x[16] = 1e-310;
+  y[40] = 0;
+  y[41] = 1e300;
+  x[42] = 1;
+  HWY_DYNAMIC_DISPATCH(powers_on_target)(x.data(), y.data(), kCount, powers.data());
+  for (std::size_t i = 0; i < kCount; ++i) ASSERT_EQ(powers[i], portable_pow(x[i], y[i])) << x[i] << " ^ " << y[i];
+}
+
+TEST_P(EachTarget, quotients_are_rounded_to_nearest) {
+  SplitMix64 rng(2);
+  std::vector<double> x(kCount), quotients(kCount);
+  for (int k = 1; k <= 14; ++k) {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      x[i] = (2 * rng.next_double() - 1) * std::exp2(-static_cast<double>(i % 40));
+      // Numbers next to a multiple of k, where roundings are close.
+      if (i % 2 == 0) x[i] = std::nextafter(k * (x[i] / 16), i % 4 == 0 ? 2.0 : -2.0);
+    }
+    HWY_DYNAMIC_DISPATCH(quotients_on_target)(x.data(), k, kCount, quotients.data());
+    for (std::size_t i = 0; i < kCount; ++i) ASSERT_EQ(quotients[i], x[i] / k) << x[i] << " / " << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(all, EachTarget, ::testing::ValuesIn(available_targets()));
+
+}  // namespace
+}  // namespace bihive
+#endif
