@@ -24,7 +24,7 @@ constexpr double kBuildBudgetMs = 6000;
 constexpr std::int64_t kFewestBuilds = 3;
 // A timing longer than this takes some tiles of the rays only: at least kFewestTiles, the same for ours and the peer.
 constexpr double kLongestTimingMs = 200;
-constexpr std::int64_t kFewestTiles = 16;
+constexpr std::int64_t kFewestTiles = 8;
 // Of the modes of the peer, those that come this close to the fastest on a sample are measured in full. One that is
 // slower than kHopeless times the best so far at its first try gets no other.
 constexpr double kCloseToBest = 1.1;
@@ -149,6 +149,13 @@ std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const T
   return contenders;
 }
 
+// The size of tiles of at most `most` rays, and a number of them that the threads can share evenly.
+std::int64_t even_tile(std::int64_t rays, std::int64_t most, std::int64_t threads) {
+  const std::int64_t rounds = (rays + most * threads - 1) / (most * threads);
+  const std::int64_t tiles = rounds * threads;
+  return (rays + 64 * tiles - 1) / (64 * tiles) * 64;
+}
+
 // How often to repeat work that takes so long once.
 std::int64_t passes_for(double ms) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kShortestTimingMs / std::max(ms, 1e-3))));
@@ -176,17 +183,18 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
     answers.hits.resize(result.rays);
   }
   const auto threads = static_cast<int>(options.threads);
-  const Tiles all = Tiles::all(result.rays, options.tile);
+  const std::int64_t tile = even_tile(result.rays, options.tile, options.threads);
+  const Tiles all = Tiles::all(result.rays, tile);
   double longest = trace_ours_ms(tree, set, threads, all, answers);
   std::vector<Contender> contenders;
   if (peer != nullptr) {
-    contenders = best_modes(*peer, set, Tiles(result.rays, options.tile, std::max<std::int64_t>(1, all.count() / 8)));
+    contenders = best_modes(*peer, set, Tiles(result.rays, tile, std::max<std::int64_t>(1, all.count() / kFewestTiles)));
     for (const Contender& contender : contenders)
       longest = std::max(longest, peer->trace_ms(*contender.rays, contender.mode.coherent, all));
   }
-  const std::int64_t step = std::clamp<std::int64_t>(std::llround(longest / kLongestTimingMs), 1,
-                                                     std::max<std::int64_t>(1, all.count() / kFewestTiles));
-  const Tiles timed(result.rays, options.tile, step);
+  std::int64_t step = 1;
+  while (longest / static_cast<double>(step) > kLongestTimingMs && all.count() / (2 * step) >= kFewestTiles) step *= 2;
+  const Tiles timed(result.rays, tile, step);
   const double share = static_cast<double>(timed.rays()) / static_cast<double>(result.rays);
   const auto ours = [&] { return trace_ours_ms(tree, set, threads, timed, answers) / share; };
   const std::int64_t passes = passes_for(ours() * share);
