@@ -100,6 +100,18 @@ class PerformancePageTest(unittest.TestCase):
             self.assertTrue(root.tag.endswith("svg"))
             self.assertGreater(len(root), 10, name)
 
+    @unittest.skipUnless((TOP / "docs/performance").is_dir(), "nothing was measured yet")
+    def test_the_page_in_docs_is_what_its_measurements_give(self):
+        docs = self.folder / "docs"
+        shutil.copytree(TOP / "docs/performance", docs / "performance")
+        shutil.copyfile(TOP / "docs/performance_notes.md", docs / "performance_notes.md")
+        for chart in (docs / "performance").glob("*.svg"):
+            chart.unlink()
+        subprocess.run([sys.executable, TOP / "scripts/performance_page", "--docs", docs], check=True)
+        self.assertEqual((docs / "performance.md").read_text(), (TOP / "docs/performance.md").read_text())
+        for chart in sorted((TOP / "docs/performance").glob("*.svg")):
+            self.assertEqual((docs / "performance" / chart.name).read_text(), chart.read_text(), chart.name)
+
 
 if __name__ == "__main__":
     unittest.main()
