@@ -24,6 +24,10 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// A block is also taken in runs of this many neighbours.
+constexpr int kPartRays = 16;
+static_assert(kBeamRays == 4 * kPartRays);
+
 namespace beam {
 
 // A child that waits, with the least w at which a ray may enter it.
@@ -75,10 +79,10 @@ HWY_INLINE Meeting meet(const BeamRays& rays, const Candidate& sphere, int lane)
   return {b, hn::Sub(hn::Set(d, sphere.padded_squared), pp)};
 }
 
-// All rays against one sphere. True if a winner changed.
-template <bool kCommonOrigin, bool kLeaves>
-HWY_INLINE bool meet_sphere(BeamRays& rays, std::int64_t first_ray, const Candidate& sphere, const WideSpheres& spheres,
-                            Winners& winners, Rivals& rivals) {
+// kRays rays from lane `begin` on against one sphere. True if a winner changed.
+template <bool kCommonOrigin, bool kLeaves, int kRays>
+HWY_INLINE bool meet_sphere(BeamRays& rays, int begin, std::int64_t first_ray, const Candidate& sphere,
+                            const WideSpheres& spheres, Winners& winners, Rivals& rivals) {
   const FloatTag d;
   const auto zero = hn::Zero(d);
   const auto e = hn::Set(d, rays.e);
@@ -86,7 +90,7 @@ HWY_INLINE bool meet_sphere(BeamRays& rays, std::int64_t first_ray, const Candid
   const auto spread = hn::Set(d, kWidthShare * rays.e * sphere.padded);
   const auto number = hn::Set(WordTag(), winners.next());
   std::uint32_t won = 0;
-  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+  for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
     const Meeting m = meet<kCommonOrigin>(rays, sphere, lane);
     auto near_enough = hn::Ge(m.dp, zero);
     if (kLeaves) {
@@ -127,10 +131,25 @@ HWY_INLINE hn::VFromD<FloatTag> radii_at(const WideSpheres& spheres, std::int64_
   return load_radii(spheres, slot);
 }
 
+// The largest w at which the answer of one of kRays rays from lane `begin` on may lie.
+template <int kRays>
+HWY_INLINE float end_of(const BeamRays& rays, int begin) {
+  const FloatTag d;
+  const auto sign = hn::Set(d, rays.sign);
+  auto end = hn::Set(d, -1e30F);
+  for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
+    const auto o = hn::Load(d, rays.origin[rays.major] + lane);
+    const auto n = hn::Load(d, rays.direction[rays.major] + lane);
+    end = hn::Max(end, hn::Mul(sign, hn::MulAdd(n, hn::Load(d, rays.s_best + lane), o)));
+  }
+  return frustum::largest(end) + rays.pad;
+}
+
 }  // namespace beam
 
-/// One block, set up in `rays`, whose hits are written.
-template <bool kCommonOrigin, bool kLeaves>
+/// One block, set up in `rays`, whose hits are written. Where spheres are small to the beam, kParts lets each meet only
+/// those runs of kPartRays rays in whose own frustum it lies.
+template <bool kCommonOrigin, bool kLeaves, bool kParts>
 HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frustum& frustum, const RaySpan& span,
                                      std::int64_t first_ray, const HitSpan& hits, Winners& winners, Rivals& rivals) {
   const FloatTag d;
@@ -140,15 +159,19 @@ HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frust
     hn::Store(hn::Set(WordTag(), kNoWinner), WordTag(), rays.winner + lane);
   bool flushed = false;
 
-  const auto come_nearer = [&]() HWY_ATTR {
-    const auto sign = hn::Set(d, rays.sign);
-    auto end = hn::Set(d, -1e30F);
-    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
-      const auto o = hn::Load(d, rays.origin[rays.major] + lane);
-      const auto n = hn::Load(d, rays.direction[rays.major] + lane);
-      end = hn::Max(end, hn::Mul(sign, hn::MulAdd(n, hn::Load(d, rays.s_best + lane), o)));
+  // Frustums of the runs. One that meets nothing ends before it begins.
+  Frustum parts[kBeamRays / kPartRays];
+  if (kParts)
+    for (int i = 0; i < kBeamRays / kPartRays; ++i)
+      if (!make_frustum<kPartRays>(tree, rays, i * kPartRays, parts[i])) parts[i].w_end = -2 * kFarthestEnd;
+
+  const auto make_room = [&]() HWY_ATTR {
+    if (HWY_UNLIKELY(rivals.full())) {
+      if (!flushed) write_misses(hits, first_ray, rays.count);
+      flushed = true;
+      rivals.flush();
     }
-    frustum.w_end = std::min(frustum.w_end, frustum::largest(end) + rays.pad);
+    winners.make_room(rays);
   };
 
   const auto meet_leaf = [&](std::int64_t begin, std::int64_t count) HWY_ATTR {
@@ -169,23 +192,38 @@ HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frust
         hn::Store(c, d, centres[axis]);
       }
       hn::Store(padded, d, radii);
-      for (; bits != 0; bits &= bits - 1) {
-        const int k = __builtin_ctz(bits);
-        const beam::Candidate sphere{static_cast<std::uint32_t>(slot + k),
-                                     kLeaves ? static_cast<std::uint32_t>(tree.spheres.id(slot + k)) : 0,
-                                     {centres[0][k], centres[1][k], centres[2][k]},
-                                     radii[k],
-                                     radii[k] * radii[k]};
-        if (HWY_UNLIKELY(rivals.full())) {
-          if (!flushed) write_misses(hits, first_ray, rays.count);
-          flushed = true;
-          rivals.flush();
+      const auto sphere_at = [&](int k) HWY_ATTR {
+        return beam::Candidate{static_cast<std::uint32_t>(slot + k),
+                               kLeaves ? static_cast<std::uint32_t>(tree.spheres.id(slot + k)) : 0,
+                               {centres[0][k], centres[1][k], centres[2][k]},
+                               radii[k],
+                               radii[k] * radii[k]};
+      };
+      if (kParts) {
+        for (int i = 0; i < kBeamRays / kPartRays; ++i) {
+          bool part_won = false;
+          for (std::uint32_t left = bits & spheres_in(parts[i], centre, padded); left != 0; left &= left - 1) {
+            make_room();
+            part_won |= beam::meet_sphere<kCommonOrigin, kLeaves, kPartRays>(
+                rays, i * kPartRays, first_ray, sphere_at(__builtin_ctz(left)), tree.spheres, winners, rivals);
+          }
+          if (part_won) parts[i].w_end = std::min(parts[i].w_end, beam::end_of<kPartRays>(rays, i * kPartRays));
+          won |= part_won;
         }
-        winners.make_room(rays);
-        won |= beam::meet_sphere<kCommonOrigin, kLeaves>(rays, first_ray, sphere, tree.spheres, winners, rivals);
+        continue;
+      }
+      for (; bits != 0; bits &= bits - 1) {
+        make_room();
+        won |= beam::meet_sphere<kCommonOrigin, kLeaves, kBeamRays>(rays, 0, first_ray, sphere_at(__builtin_ctz(bits)),
+                                                                    tree.spheres, winners, rivals);
       }
     }
-    if (won) come_nearer();
+    if (!won) return;
+    if (kParts) {
+      frustum.w_end = std::max(std::max(parts[0].w_end, parts[1].w_end), std::max(parts[2].w_end, parts[3].w_end));
+    } else {
+      frustum.w_end = std::min(frustum.w_end, beam::end_of<kBeamRays>(rays, 0));
+    }
   };
 
   // Each level leaves at most fifteen children waiting.

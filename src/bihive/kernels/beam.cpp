@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "bihive/kernels/beam-inl.h"
 #include "bihive/kernels/dispatch.h"
@@ -19,10 +20,15 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
+// Beams that are wider than so many leaves are also cut into parts. Measured: parts win by a sixth on a million spheres
+// of two pixels, and lose by a sixth on a hundred thousand of ten.
+constexpr float kWidestWholeInLeaves = 0.5F;
+
 void closest_hits_beams_on_target(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
   Rivals rivals(tree, rays, hits);
   LeftoverRays leftover(rays);
   Winners winners;
+  const float part_width = kWidestWholeInLeaves * leaf_extent(tree);
   BeamRays beam;
   Frustum frustum;
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
@@ -35,13 +41,19 @@ void closest_hits_beams_on_target(const WideTree& tree, const RaySpan& rays, con
       write_misses(hits, first, count);
       continue;
     }
-    const bool leaves = rays.leaves != nullptr;
-    if (beam.common_origin && !leaves)
-      closest_hits_in_beam<true, false>(tree, beam, frustum, rays, first, hits, winners, rivals);
-    else if (!leaves)
-      closest_hits_in_beam<false, false>(tree, beam, frustum, rays, first, hits, winners, rivals);
+    const bool parts = frustum.width > part_width;
+    const auto closest = [&](auto common_origin, auto leaves) {
+      if (parts)
+        closest_hits_in_beam<common_origin, leaves, true>(tree, beam, frustum, rays, first, hits, winners, rivals);
+      else
+        closest_hits_in_beam<common_origin, leaves, false>(tree, beam, frustum, rays, first, hits, winners, rivals);
+    };
+    if (rays.leaves != nullptr)
+      closest(std::false_type(), std::true_type());
+    else if (beam.common_origin)
+      closest(std::true_type(), std::false_type());
     else
-      closest_hits_in_beam<false, true>(tree, beam, frustum, rays, first, hits, winners, rivals);
+      closest(std::false_type(), std::false_type());
   }
   rivals.flush();
   leftover.closest_hits(tree, hits);

@@ -79,8 +79,6 @@ class Occluders {
   int count_ = 0;
 };
 
-/// A block that is too wide is taken in runs of this many neighbours.
-constexpr int kPartRays = 16;
 /// Beams that are wider than so many leaves are slower than parts of them, or than ray lists. Measured; the first is
 /// flat from 0.7 to 4 on small scenes, the second loses above 2 on large ones.
 constexpr float kWidestInLeaves = 1;
