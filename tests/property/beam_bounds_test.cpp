@@ -23,8 +23,8 @@ using test::expect_used;
 using test::Real;
 using test::Truth;
 
-// Each look at a frustum is slow: it is made anew a dozen times.
-constexpr std::uint64_t kFewStarts = 300;
+// A beam is slow to set up for one ray, and a frustum is made anew a dozen times at each look.
+constexpr std::uint64_t kStarts = 1000, kFewStarts = 200;
 
 // A tree without spheres that is as large as trees can be.
 const WideTree& empty_tree() {
@@ -77,13 +77,15 @@ struct Meeting {
 
 template <class Used>
 double most_used_by_beams(const Used& used) {
-  return test::most_used([&](const Pair& pair) {
-    here::BeamRays rays;
-    if (!set_up(pair, rays)) return -HUGE_VAL;
-    const Truth truth(pair);
-    return std::max<double>(used(pair, rays, truth, Meeting::of<true>(rays, pair.centre, pair.radius)),
-                            used(pair, rays, truth, Meeting::of<false>(rays, pair.centre, pair.radius)));
-  });
+  return test::most_used(
+      [&](const Pair& pair) {
+        here::BeamRays rays;
+        if (!set_up(pair, rays)) return -HUGE_VAL;
+        const Truth truth(pair);
+        return std::max<double>(used(pair, rays, truth, Meeting::of<true>(rays, pair.centre, pair.radius)),
+                                used(pair, rays, truth, Meeting::of<false>(rays, pair.centre, pair.radius)));
+      },
+      kStarts);
 }
 
 TEST(BeamBounds, DistanceAlongTheRay) {
