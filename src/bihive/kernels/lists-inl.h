@@ -245,7 +245,10 @@ class ListWalk {
         const auto s_out = hn::Min(hn::Min(out_x, out_y), hn::Min(out_z, hn::Set(d, tile_.s_best[list[i]])));
         const auto enters = hn::Le(s_in, s_out);
         const std::uint32_t bits = mask_bits(enters) << lane;
-        if constexpr (kFloatLanes == kWidth) {
+        if constexpr (kAnyHit) {
+          // Distances do not matter.
+          memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
+        } else if constexpr (kFloatLanes == kWidth) {
           hn::StoreU(hn::Compress(s_in, enters), d, memory.s_near + stored);
           memory.offsets[i] = stored;
           stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
@@ -280,6 +283,10 @@ class ListWalk {
       const std::uint32_t place = memory.places[k];
       const std::uint32_t ray = list[place];
       memory.list[kept] = ray;
+      if constexpr (kAnyHit) {
+        kept += tile_.s_best[ray] >= -kFarthestEnd ? 1 : 0;
+        continue;
+      }
       std::size_t at = std::size_t{place} * kWidth + static_cast<std::size_t>(slot);
       if constexpr (kFloatLanes == kWidth)
         at = memory.offsets[place] + static_cast<std::size_t>(__builtin_popcount(memory.masks[place] & below));
