@@ -11,6 +11,7 @@
 
 #include <cstdint>
 
+#include "bihive/kernels/compress_table.h"
 #include "bihive/kernels/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -82,12 +83,28 @@ HWY_INLINE void store_four(V v, T* to) {
     hn::StoreU(v, four, to);
 }
 
+/// The lanes of `mask` moved to the front, in order; the others are undefined. `V` holds floats or words. (Highway's
+/// own Compress copies a table to the stack at every call where GCC 12 compiles it for narrower vectors.)
+template <class V, class M>
+HWY_INLINE V compress(V values, M mask) {
+  if constexpr (kFloatLanes == 8 || kFloatLanes == 4) {
+    const hn::DFromV<V> d;
+    const hn::Rebind<std::uint8_t, WordTag> bytes;
+    const std::uint32_t bits = mask_bits(hn::RebindMask(FloatTag(), mask));
+    const auto* places = reinterpret_cast<const std::uint8_t*>(&kCompressPlaces[bits]);
+    const auto lanes = hn::PromoteTo(WordTag(), hn::LoadU(bytes, places));
+    return hn::TableLookupLanes(values, hn::IndicesFromVec(d, lanes));
+  } else {
+    return hn::Compress(values, mask);
+  }
+}
+
 /// kFloatLanes words with `Compress`ed lanes in front, all of them stored: what follows the last one is overwritten.
 /// Returns how many there are. (Storing the compressed lanes alone takes many times longer on some machines.)
 template <class D, class V, class M>
 HWY_INLINE std::size_t store_compressed(D d, V values, M mask, hn::TFromD<D>* to) {
-  hn::StoreU(hn::Compress(values, mask), d, to);
-  return hn::CountTrue(d, mask);
+  hn::StoreU(compress(values, mask), d, to);
+  return static_cast<std::size_t>(__builtin_popcount(mask_bits(hn::RebindMask(FloatTag(), mask))));
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

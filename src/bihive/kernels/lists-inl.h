@@ -249,7 +249,7 @@ class ListWalk {
           // Distances do not matter.
           memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
         } else if constexpr (kFloatLanes == kWidth) {
-          hn::StoreU(hn::Compress(s_in, enters), d, memory.s_near + stored);
+          hn::StoreU(compress(s_in, enters), d, memory.s_near + stored);
           memory.offsets[i] = stored;
           stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
           memory.masks[i] = static_cast<std::uint16_t>(bits);
@@ -389,10 +389,10 @@ class ListWalk {
         if constexpr (kLeaves)
           passes = hn::And(passes, hn::RebindMask(d, hn::Ne(ids, hn::Set(words, tile_.outward_id[list[i]]))));
         const int passing = static_cast<int>(hn::CountTrue(d, passes));
-        const auto some_b = hn::Compress(b, passes);
-        const auto some_dp = hn::Compress(dp, passes);
-        const auto some_r_squared = hn::Compress(r_squared, passes);
-        const auto some_slots = hn::Compress(slots, hn::RebindMask(words, passes));
+        const auto some_b = compress(b, passes);
+        const auto some_dp = compress(dp, passes);
+        const auto some_r_squared = compress(r_squared, passes);
+        const auto some_slots = compress(slots, hn::RebindMask(words, passes));
         // More than four seldom pass, and short stores are quicker.
         if (HWY_LIKELY(passing <= 4)) {
           store_four(some_b, queue.b + queued);

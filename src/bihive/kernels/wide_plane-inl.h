@@ -109,8 +109,8 @@ HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std:
       const Mask goes_right = hn::AndNot(is_below, valid);
       const auto left_lanes = static_cast<std::int64_t>(hn::CountTrue(d, goes_left));
       const auto right_lanes = static_cast<std::int64_t>(hn::CountTrue(d, goes_right));
-      const auto to_left = hn::IndicesFromVec(dw, hn::Compress(lane_numbers, hn::RebindMask(dw, goes_left)));
-      const auto to_right = hn::IndicesFromVec(dw, hn::Compress(lane_numbers, hn::RebindMask(dw, goes_right)));
+      const auto to_left = hn::IndicesFromVec(dw, compress(lane_numbers, hn::RebindMask(dw, goes_left)));
+      const auto to_right = hn::IndicesFromVec(dw, compress(lane_numbers, hn::RebindMask(dw, goes_right)));
       const auto move = [&](const auto* source, auto* target) HWY_ATTR {
         const auto v = load(dw, reinterpret_cast<const std::uint32_t*>(source) + first + i, valid, whole);
         auto* const words = reinterpret_cast<std::uint32_t*>(target);
