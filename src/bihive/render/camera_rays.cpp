@@ -30,8 +30,7 @@ HWY_INLINE CameraLanes camera_lanes(const PixelRays& pixels) {
 
 HWY_INLINE void put_eye(const PixelRays& pixels, Wave& wave) {
   const Lanes3 eye = all(to_double(pixels.eye()));
-  for (int axis = 0; axis < 3; ++axis)
-    for (std::int64_t i = 0; i < wave.count; i += kLanes) store(eye[axis], wave.origin[axis], i);
+  for (std::int64_t i = 0; i < wave.count; i += kLanes) store(eye, wave.origin, i);
 }
 
 void camera_rays_on_target(const PixelRays& pixels, const double* x, const double* y, Wave& wave) {
@@ -39,7 +38,7 @@ void camera_rays_on_target(const PixelRays& pixels, const double* x, const doubl
   put_eye(pixels, wave);
   for (std::int64_t i = 0; i < wave.count; i += kLanes) {
     const Lanes3 direction = camera.direction(hn::LoadU(Tag(), x + i), hn::LoadU(Tag(), y + i));
-    for (int axis = 0; axis < 3; ++axis) store(direction[axis], wave.direction[axis], i);
+    store(direction, wave.direction, i);
   }
 }
 
@@ -58,7 +57,7 @@ void pixel_rays_on_target(const PixelRays& pixels, const PixelPlace* pixel, Samp
     const Lanes x = hn::Add(hn::PromoteTo(Tag(), x_of), all(place.x));
     const Lanes y = hn::Add(hn::PromoteTo(Tag(), y_of), all(place.y));
     const Lanes3 direction = camera.direction(x, y);
-    for (int axis = 0; axis < 3; ++axis) store(direction[axis], wave.direction[axis], i);
+    store(direction, wave.direction, i);
   }
 }
 

@@ -144,11 +144,9 @@ void find_surfaces_on_target(const WaveScene& wave_scene, const WavePart& rays, 
     const Lanes3 normal = choose(from_inside, negate(outward), outward);
     const Words inside = hn::IfThenElseZero(words_of(hn::AndNot(on_plane, from_inside)), hn::Set(w, 1));
     const Appender append(found, surfaces.count);
-    for (int axis = 0; axis < 3; ++axis) {
-      append(point[axis], surfaces.origin[axis]);
-      append(incoming[axis], surfaces.incoming[axis]);
-      append(normal[axis], surfaces.normal[axis]);
-    }
+    append(point, surfaces.origin);
+    append(incoming, surfaces.incoming);
+    append(normal, surfaces.normal);
     append(wave.starts_at_eye ? all(1) : load(wave.weight, i), surfaces.weight);
     append(wave.starts_at_eye ? hn::Iota(w, i) : load(wave.owner, i), surfaces.owner);
     append(id, surfaces.id);

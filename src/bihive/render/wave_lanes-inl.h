@@ -76,32 +76,9 @@ HWY_INLINE void store(Words v, Column<std::uint8_t>& column, std::int64_t i) {
   for (int k = 0; k < kLanes; ++k) column[i + k] = static_cast<std::uint8_t>(words[k]);
 }
 
-/// Appends lanes to columns: all of them, or those of a mask moved together. Writes up to a vector past the last.
-class Appender {
- public:
-  Appender(LaneMask keep, std::int64_t at) : keep_(keep), every_(every(keep)), at_(at) {}
-  std::int64_t count() const { return static_cast<std::int64_t>(hn::CountTrue(Tag(), keep_)); }
-
-  template <class T>
-  HWY_INLINE void operator()(Lanes v, Column<T>& column) const {
-    store(HWY_LIKELY(every_) ? v : hn::Compress(v, keep_), column, at_);
-  }
-  template <class T>
-  HWY_INLINE void operator()(Words v, Column<T>& column) const {
-    store(HWY_LIKELY(every_) ? v : hn::Compress(v, words_of(keep_)), column, at_);
-  }
-
- private:
-  LaneMask keep_;
-  bool every_;
-  std::int64_t at_;
-};
-
-/// Vec3d of several rays.
+/// Vec3d of several rays. Its parts are named one by one, never by number: GCC 12 would copy it through memory.
 struct Lanes3 {
   Lanes x, y, z;
-
-  HWY_INLINE Lanes operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
 HWY_INLINE Lanes3 all(Vec3d v) {
@@ -141,10 +118,104 @@ HWY_INLINE Lanes3 normalized(Lanes3 a) {
 HWY_INLINE Lanes3 choose(LaneMask mask, Lanes3 yes, Lanes3 no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
-/// As it is after a conversion to binary32 and back.
-HWY_INLINE Lanes rounded(Lanes v) {
-  return hn::PromoteTo(Tag(), hn::DemoteTo(FloatHalf(), v));
+template <class T>
+HWY_INLINE void store(Lanes3 v, Column<T> (&columns)[3], std::int64_t i) {
+  store(v.x, columns[0], i);
+  store(v.y, columns[1], i);
+  store(v.z, columns[2], i);
 }
+
+// Highway 1.0.3 keeps its tables for 64-bit lanes in a local array, which GCC 12 copies to the stack for each vector: 2
+// KiB. So this is our own.
+#if HWY_TARGET == HWY_AVX2
+// Halves of the lanes of each mask in front, in their order.
+struct CompressTable {
+  alignas(32) std::int32_t halves[16][8];
+};
+constexpr CompressTable make_compress_table() {
+  CompressTable table{};
+  for (int mask = 0; mask < 16; ++mask) {
+    int at = 0;
+    for (int lane = 0; lane < 4; ++lane) {
+      if ((mask >> lane & 1) == 0) continue;
+      table.halves[mask][at++] = 2 * lane;
+      table.halves[mask][at++] = 2 * lane + 1;
+    }
+  }
+  return table;
+}
+inline constexpr CompressTable kCompressTable = make_compress_table();
+#endif
+
+/// Moves the lanes of a mask together, to the front; what comes behind them is undefined.
+class Compressor {
+ public:
+#if HWY_TARGET == HWY_AVX3
+  HWY_INLINE explicit Compressor(LaneMask mask) : mask_(mask) {}
+  HWY_INLINE Lanes operator()(Lanes v) const {
+    return Lanes{_mm512_maskz_compress_pd(mask_.raw, v.raw)};
+  }
+
+ private:
+  LaneMask mask_;
+#elif HWY_TARGET == HWY_AVX2
+  HWY_INLINE explicit Compressor(LaneMask mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Tag(), mask, bits);
+    halves_ = kCompressTable.halves[bits[0] & 15];
+  }
+  HWY_INLINE Lanes operator()(Lanes v) const {
+    const hn::Repartition<float, Tag> f;
+    return hn::BitCast(Tag(), hn::TableLookupLanes(hn::BitCast(f, v), hn::SetTableIndices(f, halves_)));
+  }
+
+ private:
+  const std::int32_t* halves_;
+#else
+  HWY_INLINE explicit Compressor(LaneMask mask) {
+    hn::StoreMaskBits(Tag(), mask, bits_);
+  }
+  HWY_INLINE Lanes operator()(Lanes v) const {
+    alignas(64) double lanes[kLanes], kept[kLanes] = {};
+    hn::Store(v, Tag(), lanes);
+    int at = 0;
+    for (int k = 0; k < kLanes; ++k)
+      if ((bits_[0] >> k & 1) != 0) kept[at++] = lanes[k];
+    return hn::Load(Tag(), kept);
+  }
+
+ private:
+  std::uint8_t bits_[8] = {};
+#endif
+};
+
+/// Appends lanes to columns: all of them, or those of a mask moved together. Writes up to a vector past the last.
+class Appender {
+ public:
+  HWY_INLINE Appender(LaneMask keep, std::int64_t at)
+      : compress_(keep), every_(every(keep)), count_(static_cast<std::int64_t>(hn::CountTrue(Tag(), keep))), at_(at) {}
+  HWY_INLINE std::int64_t count() const { return count_; }
+
+  template <class T>
+  HWY_INLINE void operator()(Lanes v, Column<T>& column) const {
+    store(HWY_LIKELY(every_) ? v : compress_(v), column, at_);
+  }
+  template <class T>
+  HWY_INLINE void operator()(Words v, Column<T>& column) const {
+    store(HWY_LIKELY(every_) ? v : hn::BitCast(WordTag(), compress_(hn::BitCast(Tag(), v))), column, at_);
+  }
+  template <class T>
+  HWY_INLINE void operator()(Lanes3 v, Column<T> (&columns)[3]) const {
+    (*this)(v.x, columns[0]);
+    (*this)(v.y, columns[1]);
+    (*this)(v.z, columns[2]);
+  }
+
+ private:
+  Compressor compress_;
+  bool every_;
+  std::int64_t count_, at_;
+};
 
 /// Whole numbers below 2^51 in magnitude from one form to the other.
 HWY_INLINE Words words_from_whole(Lanes whole) {

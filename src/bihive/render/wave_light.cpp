@@ -36,10 +36,8 @@ void find_shadow_rays_on_target(const WaveSurfaces& surfaces, const PointLight& 
     const LaneMask lit = hn::And(to_light.in_front, first_lanes(surfaces.count - i));
     if (none(lit)) continue;
     const Appender append(lit, shadows.count);
-    for (int axis = 0; axis < 3; ++axis) {
-      append(origin[axis], shadows.origin[axis]);
-      append(to_light.offset[axis], shadows.direction[axis]);
-    }
+    append(origin, shadows.origin);
+    append(to_light.offset, shadows.direction);
     append(all(1), shadows.t_max);
     append(load(surfaces.id, i), shadows.leaves);
     append(hn::Iota(w, i), shadows.surface);
@@ -64,13 +62,14 @@ HWY_INLINE void add_to_owners(Lanes3 light, const WaveSurfaces& surfaces, std::i
   const std::int64_t first = surfaces.owner[i];
   const std::int64_t n = std::min<std::int64_t>(surfaces.count - i, kLanes);
   if (n == kLanes && hn::AllTrue(WordTag(), hn::Eq(load(surfaces.owner, i), hn::Iota(WordTag(), first)))) {
-    for (int channel = 0; channel < 3; ++channel)
-      store(hn::Add(sums.empty ? all(0) : load(sums.light[channel], first), light[channel]), sums.light[channel],
-            first);
+    const Lanes3 before = sums.empty ? all(Vec3d{}) : load(sums.light, first);
+    store(add(before, light), sums.light, first);
     return;
   }
   alignas(64) double received[3][kLanes];
-  for (int channel = 0; channel < 3; ++channel) hn::Store(light[channel], Tag(), received[channel]);
+  hn::Store(light.x, Tag(), received[0]);
+  hn::Store(light.y, Tag(), received[1]);
+  hn::Store(light.z, Tag(), received[2]);
   for (int k = 0; k < n; ++k)
     for (int channel = 0; channel < 3; ++channel) {
       double& sum = sums.light[channel][surfaces.owner[i + k]];

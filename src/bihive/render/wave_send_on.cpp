@@ -56,7 +56,9 @@ HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMa
     std::uint8_t bits[8] = {};
   } sent[2];
   const auto keep = [](LaneMask mask, const SentLanes& lanes, Sent& to) HWY_ATTR {
-    for (int axis = 0; axis < 3; ++axis) hn::Store(lanes.direction[axis], Tag(), to.direction[axis]);
+    hn::Store(lanes.direction.x, Tag(), to.direction[0]);
+    hn::Store(lanes.direction.y, Tag(), to.direction[1]);
+    hn::Store(lanes.direction.z, Tag(), to.direction[2]);
     hn::Store(lanes.weight, Tag(), to.weight);
     hn::Store(lanes.inside, WordTag(), to.inside);
     hn::StoreMaskBits(Tag(), mask, to.bits);
@@ -114,10 +116,8 @@ steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surf
     }
 
     const Appender append(sends, next.count);
-    for (int axis = 0; axis < 3; ++axis) {
-      append(load(surfaces.origin[axis], i), next.origin[axis]);
-      append(ray.direction[axis], next.direction[axis]);
-    }
+    append(load(surfaces.origin, i), next.origin);
+    append(ray.direction, next.direction);
     append(ray.weight, next.weight);
     append(load(surfaces.owner, i), next.owner);
     append(id, next.leaves);
