@@ -83,6 +83,9 @@ class Occluders {
 /// flat from 0.7 to 4 on small scenes, the second loses above 2 on large ones.
 constexpr float kWidestInLeaves = 1;
 constexpr float kWidestPartInLeaves = 1.5F;
+/// Groups of fewer rays are left to ray lists; after some of them so are all rays.
+constexpr int kFewestOfGroup = 4;
+constexpr int kMostSmallGroups = 4;
 
 /// Rays of a block and what hides them.
 class OcclusionBeam {
@@ -102,7 +105,6 @@ class OcclusionBeam {
     first_ray_ = first_ray;
     std::fill_n(hidden_ + first_ray, rays.count, std::uint8_t{0});
     trace_block(leftover);
-    note_hidden();
   }
 
   void flush() { doubts_.flush(); }
@@ -114,13 +116,27 @@ class OcclusionBeam {
 
     // The spheres that hid the last rays.
     if (occluders_.count() > 0 && try_occluders(frustum)) {
-      if (done<kBeamRays>(0)) return;
+      if (done<kBeamRays>(0)) {
+        note_hidden(done_lanes());
+        return;
+      }
       make_frustum<kBeamRays>(tree_, rays, 0, frustum);
     }
-    if (frustum.width <= width_limit_) {
-      trace<kBeamRays>(0, frustum);
+    if (frustum.width > width_limit_) {
+      if (has_leaves_) {
+        trace_groups(leftover);
+      } else {
+        trace_parts(leftover);
+      }
       return;
     }
+    trace<kBeamRays>(0, frustum);
+    note_hidden(done_lanes());
+  }
+
+  // Runs of neighbours, each by itself.
+  HWY_INLINE void trace_parts(LeftoverRays& leftover) {
+    Frustum frustum;
     for (int begin = 0; begin < rays.count; begin += kPartRays) {
       if (done<kPartRays>(begin) || !make_frustum<kPartRays>(tree_, rays, begin, frustum)) continue;
       if (frustum.width <= part_width_limit_) {
@@ -129,6 +145,41 @@ class OcclusionBeam {
         leftover.add(first_ray_ + begin, std::min(kPartRays, rays.count - begin));
       }
     }
+    note_hidden(done_lanes());
+  }
+
+  // Rays that leave the same sphere start close together: each such group by itself, the lanes of all others closed.
+  HWY_INLINE void trace_groups(LeftoverRays& leftover) {
+    const FloatTag d;
+    alignas(64) float segment[kBeamRays];
+    std::copy_n(rays.s_best, kBeamRays, segment);
+    std::uint64_t hidden = done_lanes();
+    std::uint64_t group = 0;
+    int small_groups = 0;
+    for (std::uint64_t pending = ~hidden; pending != 0; pending &= ~group) {
+      const std::uint32_t id = rays.leaves[__builtin_ctzll(pending)];
+      group = 0;
+      for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+        const auto s = hn::Load(d, segment + lane);
+        const auto same = hn::RebindMask(d, hn::Eq(hn::Load(WordTag(), rays.leaves + lane), hn::Set(WordTag(), id)));
+        const auto in_group = hn::And(same, hn::Ge(s, hn::Zero(d)));
+        hn::Store(hn::IfThenElse(in_group, s, hn::Set(d, -1.0F)), d, rays.s_best + lane);
+        group |= std::uint64_t{mask_bits(in_group)} << lane;
+      }
+      const bool small = __builtin_popcountll(group) < kFewestOfGroup;
+      if (small && ++small_groups == kMostSmallGroups) group = pending;
+      Frustum frustum;
+      if (small || !make_frustum<kBeamRays>(tree_, rays, 0, frustum) || frustum.width > part_width_limit_) {
+        for (std::uint64_t bits = group; bits != 0; bits &= bits - 1) {
+          const int ray = __builtin_ctzll(bits);
+          if (ray < rays.count) leftover.add(first_ray_ + ray, 1);
+        }
+        continue;
+      }
+      trace<kBeamRays>(0, frustum);
+      hidden |= group & done_lanes();
+    }
+    note_hidden(hidden);
   }
 
   const WideTree& tree_;
@@ -139,14 +190,18 @@ class OcclusionBeam {
   Doubts doubts_;
   Occluders occluders_;
 
-  // From lanes without a segment any more to bytes.
-  HWY_INLINE void note_hidden() {
+  // The lanes whose rays have no segment any more.
+  HWY_INLINE std::uint64_t done_lanes() const {
     const FloatTag d;
     std::uint64_t bits = 0;
     for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
       bits |= std::uint64_t{mask_bits(hn::Lt(hn::Load(d, rays.s_best + lane), hn::Zero(d)))} << lane;
-    if (bits == 0) return;
-    for (int i = 0; i < rays.count; ++i) hidden_[first_ray_ + i] |= static_cast<std::uint8_t>(bits >> i & 1);
+    return bits;
+  }
+
+  HWY_INLINE void note_hidden(std::uint64_t lanes) {
+    if (lanes == 0) return;
+    for (int i = 0; i < rays.count; ++i) hidden_[first_ray_ + i] |= static_cast<std::uint8_t>(lanes >> i & 1);
   }
 
   template <int kRays>
