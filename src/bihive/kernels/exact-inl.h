@@ -15,6 +15,7 @@
 
 #include "bihive/kernels/left_sphere.h"
 #include "bihive/kernels/ray_batch.h"
+#include "bihive/kernels/wasm_float64-inl.h"
 #include "bihive/kernels/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();

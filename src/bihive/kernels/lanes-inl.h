@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include "bihive/kernels/compress_table.h"
+#include "bihive/kernels/wasm_float64-inl.h"
 #include "bihive/kernels/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -15,6 +15,7 @@
 
 #include "bihive/kernels/filter.h"
 #include "bihive/kernels/ray_batch.h"
+#include "bihive/kernels/wasm_float64-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {

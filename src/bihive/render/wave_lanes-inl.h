@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "bihive/kernels/wasm_float64-inl.h"
 #include "bihive/math/elementary.h"
 #include "bihive/math/vec3.h"
 #include "bihive/render/wave.h"
