@@ -59,10 +59,18 @@ void closest_hits_beams_on_target(const WideTree& tree, const RaySpan& rays, con
   leftover.closest_hits(tree, hits);
 }
 
+// Blocks of a call after which its beams are judged.
+constexpr std::int64_t kTrialBlocks = 16;
+
 void occluded_beams_on_target(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   OcclusionBeam beam(tree, rays, hidden);
   LeftoverRays leftover(rays);
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
+    // Where beams give most of their rays back, the lists do better with all of them in their order.
+    if (first == kTrialBlocks * kBeamRays && leftover.count() > first / 3) {
+      leftover.add(first, rays.count - first);
+      break;
+    }
     const int count = static_cast<int>(std::min<std::int64_t>(kBeamRays, rays.count - first));
     if (set_up_beam(tree, rays, first, count, beam.rays)) {
       beam.block(first, leftover);

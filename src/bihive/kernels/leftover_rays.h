@@ -18,12 +18,15 @@ class LeftoverRays {
 
   /// Rays first to first + count - 1, after those added before.
   void add(std::int64_t first, std::int64_t count) {
+    count_ += count;
     if (!runs_.empty() && runs_.back().first + runs_.back().count == first) {
       runs_.back().count += count;
     } else {
       runs_.push_back({first, count});
     }
   }
+
+  std::int64_t count() const { return count_; }
 
   void closest_hits(const WideTree& tree, const HitSpan& hits) const;
   void occluded(const WideTree& tree, std::uint8_t* hidden) const;
@@ -37,6 +40,7 @@ class LeftoverRays {
 
   RaySpan rays_;
   std::vector<Run> runs_;
+  std::int64_t count_ = 0;
 };
 
 }  // namespace bihive
