@@ -91,6 +91,12 @@ HWY_API Doubles<N> Max(Doubles<N> a, Doubles<N> b) {
   return {wasm_f64x2_pmax(b.raw, a.raw)};
 }
 
+/// (Highway's own takes the bits of a double for a whole number.)
+template <std::size_t N>
+HWY_API double GetLane(Doubles<N> v) {
+  return wasm_f64x2_extract_lane(v.raw, 0);
+}
+
 template <std::size_t N, HWY_IF_LE128(double, N)>
 HWY_API Doubles<N> PromoteTo(Simd<double, N, 0> /* tag */, Vec128<float, N> v) {
   return {wasm_f64x2_promote_low_f32x4(v.raw)};
