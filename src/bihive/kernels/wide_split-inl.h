@@ -110,9 +110,9 @@ class Splitter {
   }
   float cost(const Aabb& left, std::int64_t left_count, const Aabb& right, std::int64_t right_count) const {
     const std::int64_t full = context_.full_leaf;
-    const auto left_leaves = static_cast<float>((left_count + full - 1) / full);
-    const auto right_leaves = static_cast<float>((right_count + full - 1) / full);
-    return area(left) * left_leaves + area(right) * right_leaves;
+    const std::int64_t left_leaves = (left_count + full - 1) / full;
+    const std::int64_t right_leaves = (right_count + full - 1) / full;
+    return area(left) * static_cast<float>(left_leaves) + area(right) * static_cast<float>(right_leaves);
   }
 
   // Parts the spheres at a plane; says what is left and right of it.
