@@ -9,14 +9,14 @@ demo: ## install what the program needs, build it, render the bundled molecule
 	scripts/setup demo
 	scripts/demo
 
-test: ## install what the tests need, run every test (about 25 minutes on two cores)
+test: ## install what the tests need, run every test (over half an hour on two cores)
 	scripts/setup all
 	scripts/test
 
 check: ## the quick checks for daily work
 	scripts/check
 
-bench: ## measure everything of docs/performance.md, beside Embree and Tachyon (MINUTES minutes on two cores)
+bench: ## measure everything of docs/performance.md, beside Embree and Tachyon (some twenty minutes on two cores)
 	scripts/setup bench
 	scripts/bench
 
