@@ -31,6 +31,8 @@ HWY_INLINE std::uint32_t mask_bits(Mask mask) {
   return mask.raw;
 #elif HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4
   return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask));
+#elif HWY_TARGET == HWY_WASM
+  return wasm_i32x4_bitmask(mask.raw);
 #else
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(FloatTag(), mask, bytes);
