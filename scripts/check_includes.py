@@ -22,6 +22,7 @@ ALLOWED = {
     "scene": {"base", "math", "geometry", "io", "image"},
     "render": {"base", "math", "geometry", "bih", "kernels", "scene", "image"},
     "gl": {"base", "math", "geometry", "bih", "scene", "image"},
+    "viewer": {"base", "math", "geometry", "bih", "kernels", "io", "scene", "image", "render", "gl"},
 }
 LIBRARY = "src/bihive"
 PROGRAMS = "apps"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bihive/render/film.h"
+#include "bihive/image/film.h"
 
 namespace bihive {
 

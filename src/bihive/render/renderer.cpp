@@ -219,16 +219,6 @@ class Renderer {
 
 }  // namespace
 
-RenderSettings settings_from(const PictureDefaults& defaults) {
-  RenderSettings settings;
-  settings.width_px = defaults.width_px;
-  settings.height_px = defaults.height_px;
-  settings.samples_per_pixel = defaults.samples_per_pixel;
-  settings.recursion = defaults.recursion;
-  settings.shadows = defaults.shadows;
-  return settings;
-}
-
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress, const CancelToken* cancel, Film film) {
   BIHIVE_CHECK(settings.width_px >= 1 && settings.width_px <= 65535);

@@ -11,10 +11,10 @@
 #include "bihive/geometry/hit.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/image/film.h"
 #include "bihive/kernels/queries.h"
 #include "bihive/kernels/wide_builder.h"
 #include "bihive/kernels/wide_tree.h"
-#include "bihive/render/film.h"
 #include "bihive/scene/camera.h"
 
 namespace bihive {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "bihive/image/film.h"
 #include "bihive/kernels/ray_batch.h"
 #include "bihive/render/column.h"
-#include "bihive/render/film.h"
 #include "bihive/render/pixel_order.h"
 #include "bihive/render/sample_pattern.h"
 #include "bihive/render/surface.h"

@@ -1,4 +1,4 @@
-#include "bihive/render/film.h"
+#include "bihive/image/film.h"
 
 #include <algorithm>
 

@@ -1,0 +1,34 @@
+// What a picture shows of a scene, and how finely it is drawn: the same for every renderer.
+#pragma once
+
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// shaded: Whitted's pictures. recursion: the deepest generation that hit something. traversal: gaps passed (green) and
+/// nodes entered (blue) by the primary ray. normal, distance, id: of the first hit. tree: a drawing of the tree itself
+/// (render/tree_picture.h). All but `shaded` are display values.
+enum class View { shaded, recursion, traversal, normal, distance, id, tree };
+
+struct RenderSettings {
+  int width_px = 1280;        ///< 1 to 65535
+  int height_px = 720;        ///< 1 to 65535
+  int samples_per_pixel = 4;  ///< 1 to 4096; 1 = the pixel's centre
+  int recursion = 5;          ///< 1 to 16
+  bool shadows = true;
+  View view = View::shaded;
+  int threads = 0;  ///< 0 = as many as the machine runs at once; of the CPU's renderer
+};
+
+/// Settings of a scene's own defaults.
+inline RenderSettings settings_from(const PictureDefaults& defaults) {
+  RenderSettings settings;
+  settings.width_px = defaults.width_px;
+  settings.height_px = defaults.height_px;
+  settings.samples_per_pixel = defaults.samples_per_pixel;
+  settings.recursion = defaults.recursion;
+  settings.shadows = defaults.shadows;
+  return settings;
+}
+
+}  // namespace bihive

@@ -1,0 +1,119 @@
+// What a person does with a scene on a screen: look at it from all sides, switch views, engines and parameters of the
+// tree. The model behind the native window and the page alike; it knows neither.
+//
+// Pictures come in steps: while something moves, at a resolution that keeps to the budget of a frame; at rest, finer
+// and finer up to every pixel and all samples.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/gl/functions.h"
+#include "bihive/gl/gl_renderer.h"
+#include "bihive/image/image.h"
+#include "bihive/io/read_spheres.h"
+#include "bihive/render/renderer.h"
+#include "bihive/scene/framing.h"
+#include "bihive/scene/generators.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+enum class ViewerEngine { cpu, gpu };
+
+/// Everything that a user chooses. Plain data; as JSON in viewer/viewer_json.h, for links and saved states.
+struct ViewerSettings {
+  ViewerEngine engine = ViewerEngine::cpu;
+  View view = View::shaded;
+  int recursion = 5;          ///< 1 to 16
+  int samples_per_pixel = 4;  ///< 1 to 64, once at rest
+  bool shadows = true;
+  std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
+  Camera camera;
+};
+
+/// What frame() did.
+struct FrameReport {
+  bool drawn = false;     ///< there is something new to show
+  bool settled = false;   ///< all is drawn: frame() does nothing until something changes
+  double done = 0;        ///< of the picture at rest, 0 to 1
+  int divisor = 1;        ///< of width and height: 1 is every pixel
+  double frame_ms = 0;    ///< of this call
+  double fps = 0;         ///< over the last second of frames that moved; 0: none yet
+  double mray_per_s = 0;  ///< rays of all kinds
+};
+
+/// What a scene is, for titles and messages.
+struct SceneFacts {
+  std::string name, format;
+  std::int64_t spheres = 0, frames = 1;
+  std::vector<std::string> rules, warnings;  ///< as io/read_spheres.h
+};
+
+class Viewer {
+ public:
+  Viewer();
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  // The scene. On an Error the scene before stays, and everything else with it.
+
+  /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres".
+  Result<SceneFacts> load_built_in(const std::string& name, const ScenarioParameters& parameters = {});
+  /// The bytes of a file of spheres or of a scene file, compressed or not.
+  Result<SceneFacts> load(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+  /// A scene made elsewhere; without `has_camera` the whole set comes into view.
+  Result<SceneFacts> load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
+  const SceneFacts& facts() const;
+  const Scene& scene() const;
+
+  // The graphics processor. Its context must be current in every call while one is attached.
+
+  Status attach_gl(const GlFunctions& functions);
+  /// The context is gone, or about to go (`lost` false: objects are deleted). ViewerEngine::gpu then is an Error.
+  void detach_gl(bool lost);
+  bool has_gl() const;
+  std::string gl_description() const;  ///< empty without one
+
+  // What is seen. Each starts the picture anew.
+
+  const ViewerSettings& settings() const;
+  /// Error: out of range, a camera that sees nothing (check_camera), no graphics processor, or a view that the engine
+  /// does not have; the settings before stay. Parameters that changed rebuild the tree.
+  Status set(const ViewerSettings& settings);
+  /// Size of the picture at rest. 1 to 16384 each.
+  void resize(int width_px, int height_px);
+  /// The pointer moved by so many pixels: turn around what is looked at (the scene follows the pointer), or shift it.
+  void orbit(double dx_px, double dy_px);
+  void pan(double dx_px, double dy_px);
+  /// Above 1 comes closer. At (x, y) in pixels what is seen stays where it is.
+  void zoom(double factor, double x_px, double y_px);
+  void look_from(ViewFrom side);  ///< the whole set in view
+  void home();                    ///< the scene's own camera, or all in view from the front
+
+  // Pictures.
+
+  /// Goes on with the picture for about `budget_ms`.
+  Result<FrameReport> frame(double budget_ms);
+  /// The last picture of the CPU engine, divisor times smaller than the size asked for; display values.
+  const Image& image() const;
+  /// The last picture of the GPU engine, drawn into the viewport.
+  void show(std::uint32_t framebuffer, const GlViewport& viewport);
+  /// All of it at once at any size, by the engine of the settings: to be saved.
+  Result<Image> picture(int width_px, int height_px, int samples_per_pixel);
+
+  /// Both trees' statistics as in `bihive stats --json`, with the bytes and the build time, of the current parameters.
+  std::string statistics_json() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bihive
