@@ -6,6 +6,7 @@
 #include "bihive/bih/memory.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/read_spheres.h"
+#include "bihive/kernels/wide_builder.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/palette.h"
 #include "bihive/scene/scene_file.h"
@@ -132,9 +133,8 @@ void check_tree_memory(const SphereSet& spheres, const BuildParameters& paramete
 void check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters) {
   if (engine == Engine::brute) return;
   if (engine == Engine::reference) return check_tree_memory(spheres, parameters.for_reference());
-  constexpr double kLeastBytesASphere = 16;
-  check_memory(kLeastBytesASphere * static_cast<double>(spheres.size()),
-               "the tree of " + grouped(spheres.size()) + " spheres");
+  const WideMemoryPrediction prediction = predict_wide_memory(spheres.size(), parameters.for_wide(spheres.size()));
+  check_memory(static_cast<double>(prediction.low_bytes), "the tree of " + grouped(spheres.size()) + " spheres");
 }
 
 }  // namespace bihive::cli

@@ -1,5 +1,6 @@
 // Vectors of binary64 for the steps of a wave: math/vec3.h and math/elementary.h on several rays at a time, with the
-// very operations of those in the same order. Never with fused multiply-add.
+// very operations of those in the same order. Fused multiply-add only where its result is proven to be the rounded one
+// (divide_by_small).
 
 #if defined(BIHIVE_RENDER_WAVE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_RENDER_WAVE_LANES_INL_H_
