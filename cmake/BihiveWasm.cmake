@@ -19,10 +19,15 @@ target_include_directories(bihive_wasm_libraries SYSTEM INTERFACE ${BIHIVE_WASM_
 target_compile_definitions(bihive_wasm_libraries INTERFACE FMT_HEADER_ONLY)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:bihive_wasm_libraries>)
 
-# Exceptions: the header-only libraries throw, and the library turns that into errors. Threads: through workers.
-# SIMD: every browser of the last years has it.
-add_compile_options(-fexceptions -pthread -msimd128)
-add_link_options(-fexceptions -pthread)
+# Exceptions: the header-only libraries throw, and the library turns that into errors. SIMD: every browser of the last
+# years has it. Threads are workers with shared memory, which a page only has where its server sends certain headers.
+option(BIHIVE_WASM_THREADS "Build WebAssembly for several threads" ON)
+add_compile_options(-fexceptions -msimd128)
+add_link_options(-fexceptions)
+if(BIHIVE_WASM_THREADS)
+  add_compile_options(-pthread)
+  add_link_options(-pthread)
+endif()
 
 # Debian keeps the JavaScript modules that em++ needs for linking here.
 if(IS_DIRECTORY /usr/share/nodejs)

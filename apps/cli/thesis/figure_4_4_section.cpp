@@ -7,9 +7,9 @@
 #include <map>
 
 #include "bihive/base/write_file.h"
+#include "bihive/image/svg_chart.h"
 #include "failure.h"
 #include "figure_4_4.h"
-#include "svg_chart.h"
 
 namespace bihive::cli::thesis {
 namespace {

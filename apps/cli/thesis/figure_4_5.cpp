@@ -8,12 +8,12 @@
 #include "bihive/bih/memory.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
+#include "bihive/image/svg_chart.h"
 #include "bihive/scene/generators.h"
 #include "compare.h"
 #include "experiment.h"
 #include "failure.h"
 #include "messages.h"
-#include "svg_chart.h"
 
 namespace bihive::cli::thesis {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "bihive/base/write_file.h"
+#include "bihive/image/html_text.h"
 #include "failure.h"
-#include "html_text.h"
 #include "report_template.h"
 
 namespace bihive::cli::thesis {

@@ -1,6 +1,6 @@
-#include "html_text.h"
+#include "bihive/image/html_text.h"
 
-namespace bihive::cli::thesis {
+namespace bihive {
 
 std::string escape_html(std::string_view text) {
   std::string escaped;
@@ -43,4 +43,4 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace bihive::cli::thesis
+}  // namespace bihive

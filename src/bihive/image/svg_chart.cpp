@@ -1,4 +1,4 @@
-#include "svg_chart.h"
+#include "bihive/image/svg_chart.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "html_text.h"
+#include "bihive/image/html_text.h"
 
-namespace bihive::cli::thesis {
+namespace bihive {
 namespace {
 
 // Units of the view box: a chart stays readable when a phone squeezes it to 330 pixels.
@@ -297,4 +297,4 @@ std::string line_chart(const ChartData& data) {
   return Chart(data).lines();
 }
 
-}  // namespace bihive::cli::thesis
+}  // namespace bihive

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace bihive::cli::thesis {
+namespace bihive {
 
 /// One value per category; nullopt leaves a gap.
 struct Series {
@@ -27,4 +27,4 @@ std::string bar_chart(const ChartData& data);
 /// One line a series over the categories.
 std::string line_chart(const ChartData& data);
 
-}  // namespace bihive::cli::thesis
+}  // namespace bihive

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace bihive::cli::thesis {
+namespace bihive {
 
 /// With & < > " ' escaped: safe as an element's text and inside a quoted attribute.
 std::string escape_html(std::string_view text);
@@ -12,4 +12,4 @@ std::string escape_html(std::string_view text);
 /// RFC 4648 [RFC4648], with padding.
 std::string base64(std::string_view bytes);
 
-}  // namespace bihive::cli::thesis
+}  // namespace bihive
