@@ -4,12 +4,7 @@
 
 #include "bihive/base/write_file.h"
 #include "bihive/bih/memory.h"
-#include "bihive/io/bundled.h"
-#include "bihive/io/read_spheres.h"
 #include "bihive/kernels/wide_builder.h"
-#include "bihive/scene/generators.h"
-#include "bihive/scene/palette.h"
-#include "bihive/scene/scene_file.h"
 #include "failure.h"
 #include "messages.h"
 
@@ -43,75 +38,41 @@ ReadOptions read_options(const InputOptions& options) {
   return reading;
 }
 
-Input from_sphere_file(SphereFile file, const std::string& name) {
-  Input input;
-  input.scene.spheres = std::move(file.spheres);
-  input.scene.name = name;
-  input.format = file.format;
-  input.frames = file.frames;
-  input.rules = std::move(file.rules);
-  input.warnings = std::move(file.warnings);
-  input.recentred_by = file.recentred_by;
-  colour_spheres(input.scene.spheres);
-  return input;
-}
-
-Input from_scene_file(LoadedScene loaded) {
-  Input input;
-  input.scene = std::move(loaded.scene);
-  input.has_camera = loaded.has_camera;
-  input.has_lights = loaded.has_lights;
-  input.format = "scene file";
-  input.frames = loaded.frames;
-  input.rules = std::move(loaded.rules);
-  input.warnings = std::move(loaded.warnings);
-  input.recentred_by = loaded.recentred_by;
-  return input;
-}
-
 }  // namespace
 
 std::optional<Scene> generated_scene(const InputOptions& options) {
   const std::string& name = options.input;
-  const bool scenario = name == "scenario1" || name == "scenario2" || name == "scenario3";
-  if (!scenario && name != "four-spheres") return std::nullopt;
+  if (!is_built_in_scene(name) || name == "demo") return std::nullopt;
   refuse_file_options(options);
-  if (!scenario) {
+  ScenarioParameters parameters;
+  if (name == "four-spheres") {
     refuse_generator_options(options);
     only_for(options.radius.has_value(), "--radius", "the scenarios and files", name);
-    return four_spheres_scene();
+  } else {
+    parameters.count = options.count.value_or(parameters.count);
+    if (options.radius) parameters.radius = static_cast<float>(*options.radius);
+    parameters.seed = options.seed.value_or(parameters.seed);
+    check_memory(static_cast<double>(parameters.count) * kBytesPerGeneratedSphere, "so many spheres");
   }
-  ScenarioParameters parameters;
-  parameters.count = options.count.value_or(parameters.count);
-  if (options.radius) parameters.radius = static_cast<float>(*options.radius);
-  parameters.seed = options.seed.value_or(parameters.seed);
-  check_memory(static_cast<double>(parameters.count) * kBytesPerGeneratedSphere, "so many spheres");
-  Result<Scene> scene = scenario_scene(static_cast<Scenario>(name.back() - '0'), parameters);
-  if (!scene) fail_usage(name + ": " + scene.error().message, scene.error().hint);
-  // Scenario 1 has the same spheres for every seed, but reports the one that it was asked for.
-  scene->seed = parameters.seed;
-  return std::move(*scene);
+  Result<LoadedScene> loaded = built_in_scene(name, parameters);
+  if (!loaded) fail_usage(name + ": " + loaded.error().message, loaded.error().hint);
+  return std::move(loaded->scene);
 }
 
 Input load_input(const InputOptions& options) {
-  Input input;
   if (std::optional<Scene> scene = generated_scene(options)) {
+    Input input;
     input.scene = std::move(*scene);
     input.has_camera = true;
     input.has_lights = true;
     input.format = "built-in";
-  } else if (options.input == "demo") {
-    refuse_generator_options(options);
-    input = from_sphere_file(value_or_fail(read_spheres_from_memory(bundled_molecule(), "demo", read_options(options))),
-                             "demo");
-  } else {
-    refuse_generator_options(options);
-    const std::string bytes = value_or_fail(read_file(options.input));
-    input = looks_like_scene(bytes)
-                ? from_scene_file(value_or_fail(parse_scene(bytes, options.input, read_options(options))))
-                : from_sphere_file(value_or_fail(read_spheres_from_memory(bytes, options.input, read_options(options))),
-                                   options.input);
+    return input;
   }
+  refuse_generator_options(options);
+  const ReadOptions reading = read_options(options);
+  Input input = value_or_fail(options.input == "demo"
+                                  ? built_in_scene("demo", {}, reading)
+                                  : load_scene(value_or_fail(read_file(options.input)), options.input, reading));
   warn(input.warnings);
   return input;
 }

@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bihive/bih/tree.h"
 #include "bihive/render/tracer.h"
-#include "bihive/scene/scene.h"
+#include "bihive/scene/load_scene.h"
 
 namespace bihive::cli {
 
@@ -23,16 +22,8 @@ struct InputOptions {
   bool recenter = false;
 };
 
-struct Input {
-  Scene scene;  ///< coloured, at least one sphere; camera and lights as below
-  bool has_camera = false;
-  bool has_lights = false;
-  std::string format;  ///< "built-in", "scene file", or a sphere file's format
-  std::int64_t frames = 1;
-  std::vector<std::string> rules;     ///< what the reader did
-  std::vector<std::string> warnings;  ///< said on stderr already
-  Vec3d recentred_by;
-};
+/// Coloured, at least one sphere; its warnings have been said on stderr.
+using Input = LoadedScene;
 
 /// Built-in names go first: scenario1, scenario2, scenario3, four-spheres, demo. Says warnings on stderr. Fails with
 /// kBadUsage on options that do not fit the input, and with kBadInput on a file that cannot be read.

@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
-#include "bihive/bih/statistics.h"
 #include "bihive/kernels/target.h"
-#include "bihive/kernels/wide_builder.h"
-#include "bihive/kernels/wide_statistics.h"
+#include "bihive/viewer/statistics_json.h"
 #include "commands.h"
 #include "failure.h"
 #include "messages.h"
@@ -17,94 +13,8 @@
 namespace bihive::cli {
 namespace {
 
-using nlohmann::ordered_json;
-
-constexpr const char* kLeafSizes[] = {"0", "1", "2", "3", "4", "more"};
-
-ordered_json limit(std::int64_t value) {
-  return value == kUnlimited ? ordered_json() : ordered_json(value);
-}
-
 std::string limit_text(std::int64_t value) {
   return value == kUnlimited ? "unlimited" : grouped(value);
-}
-
-ordered_json min_avg_max(const MinAvgMax& value) {
-  return {{"min", value.min}, {"avg", value.avg}, {"max", value.max}};
-}
-
-// The wide tree with what was said of its memory before it was built.
-struct WideFacts {
-  WideStatistics statistics;
-  WideParameters parameters;
-  WideMemoryPrediction predicted;
-  std::int64_t measured_peak_bytes;  // tree and working memory
-  double build_ms;
-
-  double bytes_per_sphere() const {
-    return static_cast<double>(statistics.used_bytes) / static_cast<double>(statistics.spheres);
-  }
-};
-
-WideFacts wide_facts(const SphereSet& spheres, const TreeParameters& tree) {
-  const WideParameters parameters = tree.for_wide(spheres.size());
-  WideBuilder builder;
-  const Timer timer;
-  const std::shared_ptr<const WideTree> built = value_or_fail(builder.build(spheres, parameters));
-  const double build_ms = timer.elapsed_ms();
-  return {wide_statistics(*built), parameters, predict_wide_memory(spheres.size(), parameters),
-          built->allocated_bytes() + builder.scratch_bytes(), build_ms};
-}
-
-ordered_json wide_json(const WideFacts& wide) {
-  const auto chosen = [](std::int64_t value) { return value == 0 ? ordered_json() : ordered_json(value); };
-  const WideStatistics& s = wide.statistics;
-  ordered_json json;
-  json["nodes"] = s.nodes;
-  json["leaves"] = s.leaves;
-  json["levels"] = s.levels;
-  json["children"] = min_avg_max(s.children);
-  json["spheres_per_leaf"] = min_avg_max(s.spheres_per_leaf);
-  json["nodes_above_leaf"] = min_avg_max(s.nodes_above_leaf);
-  json["node_fill"] = s.node_fill;
-  json["leaf_fill"] = s.leaf_fill;
-  json["overlap"] = s.overlap;
-  json["expected_cost"] = {{"nodes", s.expected_nodes}, {"leaves", s.expected_leaves}, {"spheres", s.expected_spheres}};
-  json["bytes"] = {
-      {"nodes", s.node_bytes}, {"spheres", s.sphere_bytes}, {"other", s.other_bytes}, {"total", s.used_bytes}};
-  json["bytes_per_sphere"] = wide.bytes_per_sphere();
-  json["allocated_bytes"] = s.allocated_bytes;
-  json["predicted_bytes"] = {{"low", wide.predicted.low_bytes}, {"high", wide.predicted.high_bytes}};
-  json["peak_bytes"] = {{"predicted", wide.predicted.peak_bytes}, {"measured", wide.measured_peak_bytes}};
-  json["build_ms"] = wide.build_ms;
-  json["target"] = active_target();
-  json["max_prims"] = chosen(wide.parameters.max_prims);
-  json["max_depth"] = chosen(wide.parameters.max_depth);
-  return json;
-}
-
-void print_json(const Scene& scene, const Tree& tree, const TreeStatistics& statistics, double build_ms,
-                const WideFacts& wide) {
-  const ThesisBytes bytes = thesis_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);
-  ordered_json json;
-  json["spheres"] = statistics.spheres;
-  json["inner_nodes"] = statistics.inner_nodes;
-  json["leaves"] = statistics.leaves;
-  json["optimized_nodes"] = statistics.optimized_nodes;
-  json["one_sided_nodes"] = statistics.one_sided_nodes;
-  json["forced_leaves"] = statistics.forced_leaves;
-  json["spheres_per_leaf"] = min_avg_max(statistics.spheres_per_leaf);
-  json["depth"] = min_avg_max(statistics.depth);
-  for (std::size_t i = 0; i < statistics.leaves_with.size(); ++i)
-    json["leaves_with"][kLeafSizes[i]] = statistics.leaves_with[i];
-  json["bytes"] = {{"nodes", bytes.nodes}, {"indices", bytes.indices}, {"aabb", bytes.aabb}, {"total", bytes.total()}};
-  json["allocated_bytes"] = tree.allocated_bytes();
-  json["build_ms"] = build_ms;
-  json["max_prims"] = limit(tree.parameters.max_prims);
-  json["max_depth"] = limit(tree.parameters.max_depth);
-  json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
-  json["wide"] = wide_json(wide);
-  print(json.dump(2) + "\n");
 }
 
 void row(const std::string& name, const std::string& value) {
@@ -156,11 +66,11 @@ void print_wide_table(const WideFacts& wide) {
 }
 
 // The rows of the thesis's Table 4.2 in its order, then what the table leaves out; the wide tree below.
-void print_table(const Scene& scene, const Tree& tree, const TreeStatistics& statistics, double build_ms,
-                 const WideFacts& wide) {
+void print_table(const Scene& scene, const ReferenceFacts& reference, const WideFacts& wide) {
+  const TreeStatistics& statistics = reference.statistics;
   const ThesisBytes bytes = thesis_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);
   print(fmt::format("{}: {} spheres, max_prims {}, max_depth {}{}\n", scene.name, grouped(statistics.spheres),
-                    limit_text(tree.parameters.max_prims), limit_text(tree.parameters.max_depth),
+                    limit_text(reference.parameters.max_prims), limit_text(reference.parameters.max_depth),
                     scene.seed ? fmt::format(", seed {}", *scene.seed) : ""));
   count("inner nodes", statistics.inner_nodes);
   count("leaves", statistics.leaves);
@@ -178,8 +88,8 @@ void print_table(const Scene& scene, const Tree& tree, const TreeStatistics& sta
   row("bytes, indices", grouped(bytes.indices));
   row("bytes, box", grouped(bytes.aabb));
   row("bytes, total", grouped(bytes.total()));
-  row("bytes really allocated", grouped(tree.allocated_bytes()));
-  row("build", readable_ms(build_ms));
+  row("bytes really allocated", grouped(reference.allocated_bytes));
+  row("build", readable_ms(reference.build_ms));
   print_wide_table(wide);
 }
 
@@ -190,12 +100,14 @@ void run_stats(const StatsOptions& options) {
   const SphereSet& spheres = input.scene.spheres;
   check_tree_memory(spheres, options.tree.for_reference());
   check_tree_memory(spheres, Engine::wide, options.tree);
-  const WideFacts wide = wide_facts(spheres, options.tree);
+  const WideFacts wide = wide_facts(value_or_fail(build_wide_tree(spheres, options.tree)));
   const Timer timer;
   const Tree tree = build_reference_tree(spheres, options.tree.for_reference());
-  const double build_ms = timer.elapsed_ms();
-  const TreeStatistics statistics = tree_statistics(tree);
-  (options.json ? print_json : print_table)(input.scene, tree, statistics, build_ms, wide);
+  const ReferenceFacts reference = reference_facts(tree, timer.elapsed_ms());
+  if (options.json)
+    print(statistics_json(reference, wide, input.scene.seed) + "\n");
+  else
+    print_table(input.scene, reference, wide);
 }
 
 }  // namespace bihive::cli

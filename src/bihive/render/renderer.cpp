@@ -4,6 +4,7 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,8 @@ namespace {
 constexpr int kTilePx = 64;
 constexpr int kScalarTilePx = 16;
 
+constexpr DistanceRange kNoRange{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
 // The state of one picture in the making.
 class Renderer {
  public:
@@ -37,47 +40,52 @@ class Renderer {
         film_(std::move(film)),
         rays_(scene.camera, settings.width_px, settings.height_px),
         wave_scene_(scene),
-        tiles_(tiles_of(settings.width_px, settings.height_px,
-                        tracer.engine() == Engine::wide ? kTilePx : kScalarTilePx)) {}
-
-  Result<Rendered> run() {
-    const Timer timer;
+        tiles_(
+            tiles_of(settings.width_px, settings.height_px, tracer.engine() == Engine::wide ? kTilePx : kScalarTilePx)),
+        counts_(tiles_.size()),
+        ranges_(tiles_.size(), kNoRange),
+        passes_(settings.view == View::distance ? 2 : 1) {
     for (int i = 0; i < settings_.samples_per_pixel; ++i)
       places_.push_back(sample_place(i, settings_.samples_per_pixel));
+    film_.resize(settings_.width_px, settings_.height_px);
+  }
+
+  // Tiles of all passes are numbered through. Runs those from `first` to before `end`, which are of one pass.
+  void run(std::size_t first, std::size_t end) {
+    const std::size_t pass = first / tiles_.size();
+    const std::size_t offset = first - pass * tiles_.size();
+    // The distance view needs the range of distances first.
+    const bool finds_range = pass + 1 < passes_;
+    if (passes_ == 2 && pass == 1 && offset == 0) join_ranges();
+    parallel_for(settings_.threads, static_cast<std::int64_t>(end - first), [&](std::int64_t i) {
+      if (cancelled()) return;
+      const std::size_t tile = offset + static_cast<std::size_t>(i);
+      if (finds_range)
+        find_distance_range(tile);
+      else
+        render_tile(tiles_[tile], counts_[tile]);
+      report_progress();
+    });
+  }
+
+  std::size_t tiles_in_a_pass() const { return tiles_.size(); }
+  std::size_t tiles_in_all() const { return passes_ * tiles_.size(); }
+  bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }
+
+  /// Once all tiles have run.
+  Rendered take() {
     Rendered rendered;
     rendered.film = std::move(film_);
-    rendered.film.resize(settings_.width_px, settings_.height_px);
-    passes_ = settings_.view == View::distance ? 2 : 1;
-
-    // The distance view needs the range of distances first.
-    if (settings_.view == View::distance) range_ = find_distance_range();
-
-    // Each tile writes its own pixels and its own counts.
-    std::vector<RenderCounts> counts(tiles_.size());
-    for_each_tile([&](std::size_t i) { render_tile(tiles_[i], rendered.film, counts[i]); });
-    if (cancelled()) return Error{"cancelled", "", 0, 0, ""};
-    for (const RenderCounts& tile : counts) {
+    for (const RenderCounts& tile : counts_) {
       rendered.rays.primary += tile.primary;
       rendered.rays.shadow += tile.shadow;
       rendered.rays.reflected += tile.reflected;
       rendered.rays.transmitted += tile.transmitted;
     }
-    rendered.render_ms = timer.elapsed_ms();
     return rendered;
   }
 
  private:
-  bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }
-
-  template <class Body>
-  void for_each_tile(const Body& body) {
-    parallel_for(settings_.threads, static_cast<std::int64_t>(tiles_.size()), [&](std::int64_t i) {
-      if (cancelled()) return;
-      body(static_cast<std::size_t>(i));
-      report_progress();
-    });
-  }
-
   void report_progress() {
     const std::int64_t done = tiles_done_.fetch_add(1) + 1;
     if (!progress_) return;
@@ -123,32 +131,30 @@ class Renderer {
     steps::camera_rays(rays_, buffers.x.data(), buffers.y.data(), wave);
   }
 
-  DistanceRange find_distance_range() {
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    std::vector<DistanceRange> ranges(tiles_.size(), {inf, -inf});
-    for_each_tile([&](std::size_t tile) {
-      for_each_part(tiles_[tile], [&](const auto&, WaveBuffers& buffers, std::int64_t) {
-        WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel_);
-        integrator.find_first_hits(buffers);
-        const RaySpan rays = WaveIntegrator::primaries(buffers).span();
-        for (std::int64_t i = 0; i < rays.count; ++i) {
-          const SceneHit hit{buffers.t[i], buffers.id[i]};
-          if (!hit.found()) continue;
-          const double distance = distance_of(rays.at(i), hit);
-          ranges[tile].nearest = std::min(ranges[tile].nearest, distance);
-          ranges[tile].farthest = std::max(ranges[tile].farthest, distance);
-        }
-      });
+  void find_distance_range(std::size_t tile) {
+    for_each_part(tiles_[tile], [&](const auto&, WaveBuffers& buffers, std::int64_t) {
+      WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel_);
+      integrator.find_first_hits(buffers);
+      const RaySpan rays = WaveIntegrator::primaries(buffers).span();
+      for (std::int64_t i = 0; i < rays.count; ++i) {
+        const SceneHit hit{buffers.t[i], buffers.id[i]};
+        if (!hit.found()) continue;
+        const double distance = distance_of(rays.at(i), hit);
+        ranges_[tile].nearest = std::min(ranges_[tile].nearest, distance);
+        ranges_[tile].farthest = std::max(ranges_[tile].farthest, distance);
+      }
     });
-    DistanceRange range{inf, -inf};
-    for (const DistanceRange& tile : ranges) {
-      range.nearest = std::min(range.nearest, tile.nearest);
-      range.farthest = std::max(range.farthest, tile.farthest);
-    }
-    return range;
   }
 
-  void render_tile(const Tile& tile, Film& film, RenderCounts& counts) const {
+  void join_ranges() {
+    range_ = kNoRange;
+    for (const DistanceRange& tile : ranges_) {
+      range_.nearest = std::min(range_.nearest, tile.nearest);
+      range_.farthest = std::max(range_.farthest, tile.farthest);
+    }
+  }
+
+  void render_tile(const Tile& tile, RenderCounts& counts) {
     const bool shaded = settings_.view == View::shaded;
     WaveIntegrator integrator(
         wave_scene_, tracer_,
@@ -164,14 +170,14 @@ class Renderer {
         integrator.find_first_hits(buffers);
       if (cancelled()) return;
 
-      if (shaded && samples == 1) return steps::put_light(buffers.sums, pixels.data() + first, count, film);
+      if (shaded && samples == 1) return steps::put_light(buffers.sums, pixels.data() + first, count, film_);
 
       // Add the samples in order, then divide by their number.
       for (std::int64_t i = 0; i < count; ++i) {
         sum = sum + sample_value(buffers, integrator, i);
         if (++added < samples) continue;
         const PixelPlace& pixel = pixels[static_cast<std::size_t>((first + i) / samples)];
-        film.at(pixel.x, pixel.y) = to_float(sum / static_cast<double>(samples));
+        film_.at(pixel.x, pixel.y) = to_float(sum / static_cast<double>(samples));
         sum = {};
         added = 0;
       }
@@ -203,24 +209,23 @@ class Renderer {
 
   const Scene& scene_;
   const Tracer& tracer_;
-  const RenderSettings& settings_;
-  const ProgressCallback& progress_;
+  RenderSettings settings_;
+  ProgressCallback progress_;
   const CancelToken* cancel_;
   Film film_;
   PixelRays rays_;
   WaveScene wave_scene_;
   std::vector<SamplePlace> places_;  // in a pixel
   std::vector<Tile> tiles_;
+  std::vector<RenderCounts> counts_;  // of each tile
+  std::vector<DistanceRange> ranges_;
   DistanceRange range_{0, 0};
-  std::size_t passes_ = 1;
+  std::size_t passes_;
   std::atomic<std::int64_t> tiles_done_{0};
   std::mutex progress_mutex_;
 };
 
-}  // namespace
-
-Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
-                        const ProgressCallback& progress, const CancelToken* cancel, Film film) {
+Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
   BIHIVE_CHECK(settings.width_px >= 1 && settings.width_px <= 65535);
   BIHIVE_CHECK(settings.height_px >= 1 && settings.height_px <= 65535);
   BIHIVE_CHECK(settings.samples_per_pixel >= 1 && settings.samples_per_pixel <= 4096);
@@ -231,8 +236,102 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
   if (of_tree && tracer.tree() == nullptr)
     return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                  "choose the reference engine"};
+  return Done{};
+}
+
+}  // namespace
+
+Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                        const ProgressCallback& progress, const CancelToken* cancel, Film film) {
+  if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
   if (settings.view == View::tree) return render_tree_picture(scene, tracer, settings, progress, cancel);
-  return Renderer(scene, tracer, settings, progress, cancel, std::move(film)).run();
+  const Timer timer;
+  Renderer renderer(scene, tracer, settings, progress, cancel, std::move(film));
+  for (std::size_t first = 0; first < renderer.tiles_in_all(); first += renderer.tiles_in_a_pass())
+    renderer.run(first, first + renderer.tiles_in_a_pass());
+  if (renderer.cancelled()) return Error{"cancelled", "", 0, 0, ""};
+  Rendered rendered = renderer.take();
+  rendered.render_ms = timer.elapsed_ms();
+  return rendered;
+}
+
+class SlicedPicture::Implementation {
+ public:
+  Implementation(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, Film film)
+      : scene_(scene), tracer_(tracer), settings_(settings) {
+    if (settings.view != View::tree) renderer_.emplace(scene, tracer, settings, nullptr, nullptr, std::move(film));
+    slice_ = least_slice_ = static_cast<std::size_t>(settings.threads == 0 ? hardware_threads() : settings.threads);
+  }
+
+  void advance(double budget_ms) {
+    const Timer timer;
+    if (!renderer_ && !rendered_) {
+      Result<Rendered> rendered = render_tree_picture(scene_, tracer_, settings_);
+      BIHIVE_CHECK(rendered.ok());  // only cancelling could end it
+      rendered_ = std::move(*rendered);
+    }
+    while (!finished()) {
+      // Some tiles of one pass; more at a time while they take next to nothing.
+      const Timer of_slice;
+      const std::size_t pass_end = (done_ / renderer_->tiles_in_a_pass() + 1) * renderer_->tiles_in_a_pass();
+      const std::size_t end = std::min(done_ + slice_, pass_end);
+      renderer_->run(done_, end);
+      done_ = end;
+      if (of_slice.elapsed_ms() < budget_ms / 16) slice_ *= 2;
+      if (of_slice.elapsed_ms() > budget_ms / 4) slice_ = std::max(slice_ / 2, least_slice_);
+      if (timer.elapsed_ms() >= budget_ms) break;
+    }
+    spent_ms_ += timer.elapsed_ms();
+  }
+
+  bool finished() const { return renderer_ ? done_ == renderer_->tiles_in_all() : rendered_.has_value(); }
+
+  double done() const {
+    if (!renderer_) return rendered_ ? 1 : 0;
+    return static_cast<double>(done_) / static_cast<double>(renderer_->tiles_in_all());
+  }
+
+  Rendered take() {
+    BIHIVE_CHECK(finished());
+    Rendered rendered = renderer_ ? renderer_->take() : std::move(*rendered_);
+    rendered.render_ms = spent_ms_;
+    return rendered;
+  }
+
+ private:
+  const Scene& scene_;
+  const Tracer& tracer_;
+  RenderSettings settings_;
+  std::optional<Renderer> renderer_;  // none: the tree's picture
+  std::optional<Rendered> rendered_;
+  std::size_t done_ = 0;             // tiles
+  std::size_t slice_, least_slice_;  // tiles at a time
+  double spent_ms_ = 0;
+};
+
+Result<SlicedPicture> SlicedPicture::begin(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                           Film film) {
+  if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
+  return SlicedPicture(std::make_unique<Implementation>(scene, tracer, settings, std::move(film)));
+}
+
+SlicedPicture::SlicedPicture(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+SlicedPicture::SlicedPicture(SlicedPicture&& other) noexcept = default;
+SlicedPicture& SlicedPicture::operator=(SlicedPicture&& other) noexcept = default;
+SlicedPicture::~SlicedPicture() = default;
+
+void SlicedPicture::advance(double budget_ms) {
+  implementation_->advance(budget_ms);
+}
+bool SlicedPicture::finished() const {
+  return implementation_->finished();
+}
+double SlicedPicture::done() const {
+  return implementation_->done();
+}
+Rendered SlicedPicture::take() {
+  return implementation_->take();
 }
 
 Image image_from_film(const Film& film, View view, Transfer transfer, int threads) {

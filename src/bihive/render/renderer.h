@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include "bihive/base/cancel.h"
 #include "bihive/base/result.h"
@@ -34,6 +35,30 @@ using ProgressCallback = std::function<void(double done)>;
 /// (render/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
+
+/// The same picture a slice at a time, for whoever must look up in between.
+class SlicedPicture {
+ public:
+  /// As render(). Scene and tracer must outlive it and stay as they are.
+  static Result<SlicedPicture> begin(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                     Film film = {});
+  SlicedPicture(SlicedPicture&& other) noexcept;
+  SlicedPicture& operator=(SlicedPicture&& other) noexcept;
+  ~SlicedPicture();
+
+  /// Renders tiles until about `budget_ms` have passed, at least one. View::tree is made in one slice.
+  void advance(double budget_ms);
+
+  bool finished() const;
+  double done() const;  ///< share of the picture, 0 to 1
+  /// The finished picture, once; render_ms is the time spent in advance().
+  Rendered take();
+
+ private:
+  class Implementation;
+  explicit SlicedPicture(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
 
 /// Applies the transfer curve to a shaded film; any other view is written as it is. `threads` 0: all.
 Image image_from_film(const Film& film, View view, Transfer transfer, int threads = 0);

@@ -13,14 +13,15 @@
 
 namespace bihive {
 
-/// A scene read from a file, with what the user should be told.
+/// A scene with what the user should be told of where it comes from.
 struct LoadedScene {
   Scene scene;
   bool has_camera = false;  ///< false: the caller frames the spheres
   bool has_lights = false;
-  std::int64_t frames = 1;         ///< frames or models in the sphere file that the document names
-  std::vector<std::string> rules;  ///< what was done to its spheres, a sentence each
-  Vec3d recentred_by;              ///< subtracted from every centre; 0 without `recenter`
+  std::string format = "scene file";  ///< or "built-in", or a sphere file's format (scene/load_scene.h)
+  std::int64_t frames = 1;            ///< frames or models in the sphere file that the document names
+  std::vector<std::string> rules;     ///< what was done to its spheres, a sentence each
+  Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
 };
 

@@ -1,5 +1,5 @@
 // From text to a JSON document that the published schema (docs/scene.schema.json) accepts, or to an error that a person
-// understands. Used by scene_file.cpp alone.
+// understands.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

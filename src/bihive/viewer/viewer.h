@@ -26,12 +26,15 @@ namespace bihive {
 
 enum class ViewerEngine { cpu, gpu };
 
+constexpr int kMostRecursion = 16;
+constexpr int kMostSamples = 64;
+
 /// Everything that a user chooses. Plain data; as JSON in viewer/viewer_json.h, for links and saved states.
 struct ViewerSettings {
   ViewerEngine engine = ViewerEngine::cpu;
   View view = View::shaded;
-  int recursion = 5;          ///< 1 to 16
-  int samples_per_pixel = 4;  ///< 1 to 64, once at rest
+  int recursion = 5;          ///< 1 to kMostRecursion
+  int samples_per_pixel = 4;  ///< 1 to kMostSamples, once at rest
   bool shadows = true;
   std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
   Camera camera;
@@ -62,21 +65,24 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // The scene. On an Error the scene before stays, and everything else with it.
+  // The scene. On an Error the scene before stays, and everything else with it. A new scene brings its own camera and
+  // picture defaults (samples, recursion, shadows); engine, view and parameters of the tree stay. A scene without
+  // lights is lit from behind the camera, wherever that goes, as `bihive render` does.
 
   /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres".
   Result<SceneFacts> load_built_in(const std::string& name, const ScenarioParameters& parameters = {});
   /// The bytes of a file of spheres or of a scene file, compressed or not.
   Result<SceneFacts> load(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
-  /// A scene made elsewhere; without `has_camera` the whole set comes into view.
+  /// A scene made elsewhere, at least one sphere; without `has_camera` the whole set comes into view.
   Result<SceneFacts> load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
-  const SceneFacts& facts() const;
-  const Scene& scene() const;
+  const SceneFacts& facts() const;  ///< empty before the first scene
+  const Scene& scene() const;       ///< without spheres before the first
 
   // The graphics processor. Its context must be current in every call while one is attached.
 
   Status attach_gl(const GlFunctions& functions);
-  /// The context is gone, or about to go (`lost` false: objects are deleted). ViewerEngine::gpu then is an Error.
+  /// The context is gone, or about to go (`lost` false: objects are deleted). ViewerEngine::gpu then is an Error; where
+  /// it was chosen, the CPU goes on.
   void detach_gl(bool lost);
   bool has_gl() const;
   std::string gl_description() const;  ///< empty without one
@@ -87,28 +93,32 @@ class Viewer {
   /// Error: out of range, a camera that sees nothing (check_camera), no graphics processor, or a view that the engine
   /// does not have; the settings before stay. Parameters that changed rebuild the tree.
   Status set(const ViewerSettings& settings);
-  /// Size of the picture at rest. 1 to 16384 each.
+  /// Size of the picture at rest. 1 to 16384 each. A camera that shows the whole set is placed anew.
   void resize(int width_px, int height_px);
   /// The pointer moved by so many pixels: turn around what is looked at (the scene follows the pointer), or shift it.
   void orbit(double dx_px, double dy_px);
   void pan(double dx_px, double dy_px);
-  /// Above 1 comes closer. At (x, y) in pixels what is seen stays where it is.
+  /// Above 1 comes closer. At (x, y) in pixels what is seen stays where it is. Not finite or not above 0: nothing.
   void zoom(double factor, double x_px, double y_px);
   void look_from(ViewFrom side);  ///< the whole set in view
   void home();                    ///< the scene's own camera, or all in view from the front
 
   // Pictures.
 
-  /// Goes on with the picture for about `budget_ms`.
+  /// Goes on with the picture for about `budget_ms`. After a change the first picture comes at once, coarse enough for
+  /// the budget; where it was not, after at most four times the budget there is a report without a picture, and the
+  /// next call goes on with it. Nothing to draw before the first scene: settled. Error: not enough memory, or the
+  /// graphics processor's.
   Result<FrameReport> frame(double budget_ms);
   /// The last picture of the CPU engine, divisor times smaller than the size asked for; display values.
   const Image& image() const;
-  /// The last picture of the GPU engine, drawn into the viewport.
+  /// The last picture of the GPU engine, drawn into the viewport, which it fills. Nothing where there is none.
   void show(std::uint32_t framebuffer, const GlViewport& viewport);
   /// All of it at once at any size, by the engine of the settings: to be saved.
   Result<Image> picture(int width_px, int height_px, int samples_per_pixel);
 
-  /// Both trees' statistics as in `bihive stats --json`, with the bytes and the build time, of the current parameters.
+  /// Both trees' statistics as in `bihive stats --json`, with the bytes and the build time, of the current parameters;
+  /// builds what has not been built. {"error": "..."} where there is no scene, or not enough memory for a tree.
   std::string statistics_json() const;
 
  private:

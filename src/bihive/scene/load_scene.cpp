@@ -1,0 +1,65 @@
+#include "bihive/scene/load_scene.h"
+
+#include <algorithm>
+
+#include "bihive/io/bundled.h"
+#include "bihive/scene/palette.h"
+
+namespace bihive {
+namespace {
+
+Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& name) {
+  if (!file) return file.error();
+  LoadedScene loaded;
+  loaded.scene.spheres = std::move(file->spheres);
+  loaded.scene.name = name;
+  loaded.format = file->format;
+  loaded.frames = file->frames;
+  loaded.rules = std::move(file->rules);
+  loaded.warnings = std::move(file->warnings);
+  loaded.recentred_by = file->recentred_by;
+  colour_spheres(loaded.scene.spheres);
+  return loaded;
+}
+
+LoadedScene generated(Scene scene) {
+  LoadedScene loaded;
+  loaded.scene = std::move(scene);
+  loaded.has_camera = true;
+  loaded.has_lights = true;
+  loaded.format = "built-in";
+  return loaded;
+}
+
+}  // namespace
+
+bool is_built_in_scene(const std::string& name) {
+  return std::find(kBuiltInScenes.begin(), kBuiltInScenes.end(), name) != kBuiltInScenes.end();
+}
+
+Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters,
+                                   const ReadOptions& options) {
+  if (name == "demo") return from_spheres(read_spheres_from_memory(bundled_molecule(), name, options), name);
+  if (name == "four-spheres") return generated(four_spheres_scene());
+  if (!is_built_in_scene(name)) {
+    std::string known;
+    for (const char* one : kBuiltInScenes) known += (known.empty() ? "" : ", ") + std::string(one);
+    return Error{"there is no built-in scene \"" + name + "\"", "", 0, 0, "there are " + known};
+  }
+  Result<Scene> scene = scenario_scene(static_cast<Scenario>(name.back() - '0'), parameters);
+  if (!scene) {
+    Error error = scene.error();
+    if (error.file.empty()) error.file = name;
+    return error;
+  }
+  // Scenario 1 has the same spheres for every seed, but reports the one that it was asked for.
+  scene->seed = parameters.seed;
+  return generated(std::move(*scene));
+}
+
+Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  if (looks_like_scene(bytes)) return parse_scene(bytes, name, options);
+  return from_spheres(read_spheres_from_memory(bytes, name, options), name);
+}
+
+}  // namespace bihive

@@ -1,0 +1,32 @@
+// The names by which people choose views and sides: on the command line, in saved settings, in links.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/scene/framing.h"
+#include "bihive/scene/render_settings.h"
+
+namespace bihive {
+
+template <class T>
+using Names = std::vector<std::pair<std::string, T>>;
+
+inline const Names<View> kViews{
+    {"shaded", View::shaded}, {"recursion", View::recursion}, {"traversal", View::traversal},
+    {"normal", View::normal}, {"distance", View::distance},   {"id", View::id},
+    {"tree", View::tree}};
+inline const Names<ViewFrom> kSides{{"front", ViewFrom::front}, {"back", ViewFrom::back}, {"left", ViewFrom::left},
+                                    {"right", ViewFrom::right}, {"top", ViewFrom::top},   {"bottom", ViewFrom::bottom},
+                                    {"iso", ViewFrom::iso}};
+
+/// The name of a value that is in the list.
+template <class T>
+std::string name_of(const Names<T>& names, T value) {
+  for (const auto& [name, named] : names)
+    if (named == value) return name;
+  return "";
+}
+
+}  // namespace bihive

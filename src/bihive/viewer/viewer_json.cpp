@@ -1,0 +1,184 @@
+#include "bihive/viewer/viewer_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bihive/scene/scene_json.h"
+
+namespace bihive {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+// kUnlimited, which is more than JavaScript's numbers hold.
+constexpr const char* kUnlimitedName = "unlimited";
+
+// Takes members out of one object; remembers the first thing that is wrong.
+class Members {
+ public:
+  Members(const json& object, std::string place, Error& error)
+      : object_(object), place_(std::move(place)), error_(error) {
+    if (!object.is_object()) fail("", "an object", object);
+  }
+
+  // The member that `key` names; null where there is none or something was wrong already.
+  const json* find(const char* key) {
+    known_.emplace_back(key);
+    if (!error_.message.empty()) return nullptr;
+    const auto found = object_.find(key);
+    return found == object_.end() ? nullptr : &*found;
+  }
+
+  void take(const char* key, bool& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (!member->is_boolean()) return fail(key, "true or false", *member);
+    value = member->get<bool>();
+  }
+
+  void take(const char* key, int& value, int min, int max) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (!is_integer(*member, min, max))
+      return fail(key, "a whole number from " + std::to_string(min) + " to " + std::to_string(max), *member);
+    value = member->get<int>();
+  }
+
+  void take(const char* key, std::optional<std::int64_t>& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (member->is_null()) return value.reset();
+    if (*member == kUnlimitedName) {
+      value = kUnlimited;
+      return;
+    }
+    if (!is_integer(*member, 1, kUnlimited)) return fail(key, "a whole number from 1, \"unlimited\" or null", *member);
+    value = member->get<std::int64_t>();
+  }
+
+  void take(const char* key, double& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (!is_finite_number(*member)) return fail(key, "a number", *member);
+    value = member->get<double>();
+  }
+
+  void take(const char* key, Vec3d& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (!member->is_array() || member->size() != 3) return fail(key, "three numbers", *member);
+    for (int axis = 0; axis < 3; ++axis) {
+      const json& number = member->at(static_cast<std::size_t>(axis));
+      if (!is_finite_number(number)) return fail(key, "three numbers", *member);
+      value[axis] = number.get<double>();
+    }
+  }
+
+  template <class T>
+  void take(const char* key, T& value, const Names<T>& names) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    std::string list;
+    for (const auto& [name, named] : names) {
+      if (member->is_string() && member->get_ref<const std::string&>() == name) {
+        value = named;
+        return;
+      }
+      list += (list.empty() ? "" : ", ") + name;
+    }
+    fail(key, "one of " + list, *member);
+  }
+
+  /// After all are taken.
+  void refuse_others() {
+    if (!error_.message.empty()) return;
+    for (const auto& [key, member] : object_.items()) {
+      bool known = false;
+      for (const std::string& name : known_) known = known || name == key;
+      if (known) continue;
+      std::string list;
+      for (const std::string& name : known_) list += (list.empty() ? "" : ", ") + name;
+      error_ = {place_ + "/" + shown(json(key)) + ": unknown key", "", 0, 0, "there are " + list};
+      return;
+    }
+  }
+
+ private:
+  static bool is_integer(const json& value, std::int64_t min, std::int64_t max) {
+    if (value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(max)) return false;
+    return value.is_number_integer() && value.get<std::int64_t>() >= min && value.get<std::int64_t>() <= max;
+  }
+  static bool is_finite_number(const json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
+
+  static std::string shown(const json& value) {
+    constexpr std::size_t kLongest = 60;
+    std::string text = value.dump(-1, ' ', /*ensure_ascii=*/true, json::error_handler_t::replace);
+    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+    return text;
+  }
+
+  void fail(const std::string& key, const std::string& expected, const json& found) {
+    const std::string place = place_ + (key.empty() ? "" : "/" + key);
+    error_ = {(place.empty() ? "" : place + ": ") + "expected " + expected + ", found " + shown(found), "", 0, 0, ""};
+  }
+
+  const json& object_;
+  std::string place_;
+  Error& error_;
+  std::vector<std::string> known_;
+};
+
+ordered_json vector_json(Vec3d v) {
+  return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+std::string settings_to_json(const ViewerSettings& settings) {
+  const auto limit = [](const std::optional<std::int64_t>& value) {
+    if (!value) return ordered_json();
+    return *value == kUnlimited ? ordered_json(kUnlimitedName) : ordered_json(*value);
+  };
+  ordered_json document;
+  document["engine"] = name_of(kViewerEngines, settings.engine);
+  document["view"] = name_of(kViews, settings.view);
+  document["recursion"] = settings.recursion;
+  document["samples_per_pixel"] = settings.samples_per_pixel;
+  document["shadows"] = settings.shadows;
+  document["max_prims"] = limit(settings.max_prims);
+  document["max_depth"] = limit(settings.max_depth);
+  document["camera"] = {{"eye", vector_json(settings.camera.eye)},
+                        {"look_at", vector_json(settings.camera.look_at)},
+                        {"up", vector_json(settings.camera.up)},
+                        {"fov_deg", settings.camera.fov_deg}};
+  return document.dump();
+}
+
+Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSettings& base) {
+  const Result<json> document = parse_json(text, "settings");
+  if (!document) return document.error();
+  ViewerSettings settings = base;
+  Error error;
+  Members members(*document, "", error);
+  members.take("engine", settings.engine, kViewerEngines);
+  members.take("view", settings.view, kViews);
+  members.take("recursion", settings.recursion, 1, kMostRecursion);
+  members.take("samples_per_pixel", settings.samples_per_pixel, 1, kMostSamples);
+  members.take("shadows", settings.shadows);
+  members.take("max_prims", settings.max_prims);
+  members.take("max_depth", settings.max_depth);
+  if (const json* camera = members.find("camera")) {
+    Members of_camera(*camera, "/camera", error);
+    of_camera.take("eye", settings.camera.eye);
+    of_camera.take("look_at", settings.camera.look_at);
+    of_camera.take("up", settings.camera.up);
+    of_camera.take("fov_deg", settings.camera.fov_deg);
+    of_camera.refuse_others();
+  }
+  members.refuse_others();
+  if (!error.message.empty()) return error;
+  return settings;
+}
+
+}  // namespace bihive

@@ -1,0 +1,26 @@
+// A user's choices as JSON: for links, saved states, and the page's worker.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "bihive/base/result.h"
+#include "bihive/scene/names.h"
+#include "bihive/viewer/viewer.h"
+
+namespace bihive {
+
+inline const Names<ViewerEngine> kViewerEngines{{"cpu", ViewerEngine::cpu}, {"gpu", ViewerEngine::gpu}};
+
+/// One line: {"engine":"cpu","view":"shaded","recursion":5,"samples_per_pixel":4,"shadows":true,"max_prims":null,
+/// "max_depth":null,"camera":{"eye":[x,y,z],"look_at":[x,y,z],"up":[x,y,z],"fov_deg":30}}. Numbers come back exactly.
+std::string settings_to_json(const ViewerSettings& settings);
+
+/// What the document leaves out is taken from `base`; a limit of the tree is a number, "unlimited" (kUnlimited),
+/// or null, which leaves the choice to the engine.
+/// Error: not JSON, an unknown key, a wrong type, a number out of range; the message begins with the place
+/// ("/camera/eye:
+/// ..."). The camera is not checked to see anything: Viewer::set() does.
+Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSettings& base = {});
+
+}  // namespace bihive

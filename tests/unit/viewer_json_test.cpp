@@ -1,0 +1,89 @@
+// Settings as JSON: exact on the way there and back, and clear about what is wrong.
+#include "bihive/viewer/viewer_json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace bihive {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(std::string_view json) {
+  const Result<ViewerSettings> settings = settings_from_json(json);
+  return settings ? "no error" : settings.error().to_string();
+}
+
+TEST(ViewerJson, comes_back_exactly) {
+  ViewerSettings settings;
+  settings.engine = ViewerEngine::gpu;
+  settings.view = View::distance;
+  settings.recursion = 16;
+  settings.samples_per_pixel = 64;
+  settings.shadows = false;
+  settings.max_prims = 3;
+  settings.max_depth = kUnlimited;
+  constexpr double kTiny = std::numeric_limits<double>::denorm_min();
+  settings.camera = {{0.1, 1.0 / 3, -1e20}, {kTiny, 1e-20, 3.4028234663852886e38}, {-0.0, 1, 1e-9}, 29.999999999999996};
+  const Result<ViewerSettings> back = settings_from_json(settings_to_json(settings));
+  ASSERT_TRUE(back) << back.error().to_string();
+  EXPECT_EQ(back->engine, settings.engine);
+  EXPECT_EQ(back->view, settings.view);
+  EXPECT_EQ(back->recursion, 16);
+  EXPECT_EQ(back->samples_per_pixel, 64);
+  EXPECT_FALSE(back->shadows);
+  EXPECT_EQ(back->max_prims, settings.max_prims);
+  EXPECT_EQ(back->max_depth, settings.max_depth);
+  EXPECT_EQ(back->camera.eye, settings.camera.eye);
+  EXPECT_EQ(back->camera.look_at, settings.camera.look_at);
+  EXPECT_EQ(back->camera.up, settings.camera.up);
+  EXPECT_EQ(back->camera.fov_deg, settings.camera.fov_deg);
+  EXPECT_EQ(settings_to_json(*back), settings_to_json(settings));
+}
+
+TEST(ViewerJson, what_is_left_out_stays) {
+  ViewerSettings base;
+  base.recursion = 7;
+  base.max_prims = 2;
+  base.max_depth = 9;
+  const Result<ViewerSettings> some =
+      settings_from_json(R"({"view": "id", "max_prims": null, "camera": {"fov_deg": 12}})", base);
+  ASSERT_TRUE(some);
+  EXPECT_EQ(some->view, View::id);
+  EXPECT_EQ(some->recursion, 7);
+  EXPECT_EQ(some->max_prims, std::nullopt);
+  EXPECT_EQ(some->max_depth, 9);
+  EXPECT_EQ(some->camera.fov_deg, 12);
+  EXPECT_EQ(some->camera.eye, base.camera.eye);
+}
+
+TEST(ViewerJson, says_what_is_wrong_and_where) {
+  EXPECT_THAT(error_of("{"), HasSubstr("settings:1:"));
+  EXPECT_THAT(error_of("[]"), HasSubstr("expected an object, found []"));
+  EXPECT_THAT(error_of(R"({"recursion": 17})"),
+              HasSubstr("/recursion: expected a whole number from 1 to 16, found 17"));
+  EXPECT_THAT(error_of(R"({"recursion": 2.0})"), HasSubstr("/recursion: expected a whole number"));
+  EXPECT_THAT(error_of(R"({"recursion": 18446744073709551615})"), HasSubstr("/recursion"));
+  EXPECT_THAT(error_of(R"({"samples_per_pixel": 65})"),
+              HasSubstr("/samples_per_pixel: expected a whole number from 1 to 64"));
+  EXPECT_THAT(error_of(R"({"max_prims": 0})"), HasSubstr("/max_prims"));
+  EXPECT_THAT(error_of(R"({"max_depth": "deep"})"), HasSubstr("/max_depth"));
+  EXPECT_THAT(error_of(R"({"shadows": 1})"), HasSubstr("/shadows: expected true or false, found 1"));
+  EXPECT_THAT(error_of(R"({"engine": "tpu"})"), HasSubstr("/engine: expected one of cpu, gpu, found \"tpu\""));
+  EXPECT_THAT(error_of(R"({"view": 3})"), HasSubstr("/view: expected one of shaded, "));
+  EXPECT_THAT(error_of(R"({"camera": []})"), HasSubstr("/camera: expected an object"));
+  EXPECT_THAT(error_of(R"({"camera": {"eye": [1, 2]}})"),
+              HasSubstr("/camera/eye: expected three numbers, found [1,2]"));
+  EXPECT_THAT(error_of(R"({"camera": {"eye": [1, 2, "3"]}})"), HasSubstr("/camera/eye"));
+  EXPECT_THAT(error_of(R"({"camera": {"fov_deg": true}})"),
+              HasSubstr("/camera/fov_deg: expected a number, found true"));
+  EXPECT_THAT(error_of(R"({"camera": {"fov_deg": 1e999}})"), HasSubstr("settings:1:"));
+  EXPECT_THAT(error_of(R"({"camera": {"roll": 1}})"), HasSubstr("/camera/\"roll\": unknown key"));
+  EXPECT_THAT(error_of(R"({"recursions": 1})"), HasSubstr("/\"recursions\": unknown key; there are engine, view,"));
+  EXPECT_THAT(error_of(R"({"recursion": 1, "recursion": 2})"), HasSubstr("occurs twice"));
+}
+
+}  // namespace
+}  // namespace bihive

@@ -1,0 +1,300 @@
+// The model behind window and page, with the CPU engine.
+#include "bihive/viewer/viewer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "bihive/render/renderer.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/load_scene.h"
+
+namespace bihive {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kBudgetMs = 5;
+
+// Frames until all is drawn, and what each said.
+std::vector<FrameReport> settle(Viewer& viewer) {
+  std::vector<FrameReport> reports;
+  for (int i = 0; i < 100000; ++i) {
+    const Result<FrameReport> report = viewer.frame(kBudgetMs);
+    EXPECT_TRUE(report) << report.error().to_string();
+    if (!report) break;
+    reports.push_back(*report);
+    if (report->settled) break;
+  }
+  return reports;
+}
+
+// What `bihive render` makes of the scene.
+Image rendered(const Viewer& viewer, Engine engine, const RenderSettings& settings) {
+  Scene scene = viewer.scene();
+  scene.camera = viewer.settings().camera;
+  const Result<Tracer> tracer = Tracer::build(scene.spheres, engine);
+  const Result<Rendered> rendered = render(scene, *tracer, settings);
+  return image_from_film(rendered->film, settings.view, scene.picture.transfer);
+}
+
+RenderSettings settings_of(const Viewer& viewer, int width, int height) {
+  const ViewerSettings& of_viewer = viewer.settings();
+  RenderSettings settings;
+  settings.width_px = width;
+  settings.height_px = height;
+  settings.samples_per_pixel = of_viewer.samples_per_pixel;
+  settings.recursion = of_viewer.recursion;
+  settings.shadows = of_viewer.shadows;
+  settings.view = of_viewer.view;
+  return settings;
+}
+
+TEST(Viewer, without_a_scene_there_is_nothing_to_draw) {
+  Viewer viewer;
+  const Result<FrameReport> report = viewer.frame(kBudgetMs);
+  ASSERT_TRUE(report);
+  EXPECT_TRUE(report->settled);
+  EXPECT_FALSE(report->drawn);
+  EXPECT_TRUE(viewer.image().rgb.empty());
+  EXPECT_FALSE(viewer.picture(10, 10, 1));
+  EXPECT_THAT(viewer.statistics_json(), HasSubstr("error"));
+  viewer.orbit(10, 10);
+  viewer.zoom(2, 1, 1);
+  viewer.look_from(ViewFrom::left);
+  viewer.home();
+}
+
+TEST(Viewer, settles_at_the_picture_that_the_program_renders) {
+  Viewer viewer;
+  viewer.resize(160, 90);
+  const Result<SceneFacts> facts = viewer.load_built_in("demo");
+  ASSERT_TRUE(facts);
+  EXPECT_EQ(facts->name, "demo");
+  EXPECT_EQ(facts->format, "PDB");
+  EXPECT_EQ(facts->spheres, 1631);
+  EXPECT_FALSE(facts->rules.empty());
+
+  const std::vector<FrameReport> reports = settle(viewer);
+  double done = 0;
+  for (const FrameReport& report : reports) {
+    EXPECT_GE(report.done, done);
+    done = report.done;
+  }
+  EXPECT_EQ(done, 1);
+  EXPECT_EQ(reports.back().divisor, 1);
+  EXPECT_GT(reports.back().mray_per_s, 0);
+  EXPECT_TRUE(std::any_of(reports.begin(), reports.end(), [](const FrameReport& report) { return report.drawn; }));
+
+  EXPECT_EQ(viewer.settings().samples_per_pixel, 4);
+  const Image expected = rendered(viewer, Engine::wide, settings_of(viewer, 160, 90));
+  EXPECT_EQ(picture_hash(viewer.image()), picture_hash(expected));
+
+  // Nothing more to do.
+  const Result<FrameReport> after = viewer.frame(kBudgetMs);
+  EXPECT_TRUE(after->settled);
+  EXPECT_FALSE(after->drawn);
+}
+
+TEST(Viewer, every_view_is_the_renderers) {
+  Viewer viewer;
+  viewer.resize(96, 64);
+  ASSERT_TRUE(viewer.load_built_in("four-spheres"));
+  EXPECT_EQ(viewer.settings().samples_per_pixel, 1) << "the scene's own";
+  EXPECT_FALSE(viewer.settings().shadows);
+  for (const View view : {View::recursion, View::traversal, View::normal, View::distance, View::id, View::tree}) {
+    ViewerSettings settings = viewer.settings();
+    settings.view = view;
+    ASSERT_TRUE(viewer.set(settings));
+    settle(viewer);
+    const Image expected = rendered(viewer, Engine::reference, settings_of(viewer, 96, 64));
+    EXPECT_EQ(picture_hash(viewer.image()), picture_hash(expected)) << static_cast<int>(view);
+  }
+}
+
+TEST(Viewer, moving_begins_anew_and_is_coarser_where_the_budget_is_small) {
+  Viewer viewer;
+  viewer.resize(640, 400);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  settle(viewer);
+  const std::uint64_t before = picture_hash(viewer.image());
+
+  // Each move is answered by a picture, however small the budget.
+  viewer.orbit(40, 0);
+  const Result<FrameReport> first = viewer.frame(1e-3);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->divisor, 16);
+  EXPECT_FALSE(first->settled);
+  int drawn = first->drawn ? 1 : 0;
+  for (int i = 0; i < 1000 && drawn < 3; ++i) {
+    viewer.orbit(1, 0);
+    const Result<FrameReport> report = viewer.frame(1e-3);
+    ASSERT_TRUE(report);
+    drawn += report->drawn ? 1 : 0;
+    if (drawn > 0) {
+      EXPECT_EQ(viewer.image().width, 40);
+    }
+  }
+  EXPECT_EQ(drawn, 3);
+  settle(viewer);
+  EXPECT_EQ(viewer.image().width, 640);
+  EXPECT_NE(picture_hash(viewer.image()), before);
+
+  viewer.home();
+  settle(viewer);
+  EXPECT_EQ(picture_hash(viewer.image()), before);
+
+  // A moved picture counts as a frame.
+  viewer.orbit(1, 0);
+  (void)viewer.frame(1000);
+  viewer.orbit(1, 0);
+  EXPECT_GT(viewer.frame(1000)->fps, 0);
+}
+
+TEST(Viewer, an_error_leaves_everything_as_it_was) {
+  Viewer viewer;
+  viewer.resize(64, 48);
+  ASSERT_TRUE(viewer.load_built_in("scenario2"));
+  settle(viewer);
+  const std::uint64_t before = picture_hash(viewer.image());
+
+  EXPECT_THAT(viewer.load_built_in("scenario9").error().to_string(), HasSubstr("there are demo, scenario1"));
+  EXPECT_THAT(viewer.load("ATOM nonsense", "broken.pdb").error().to_string(), HasSubstr("broken.pdb"));
+  EXPECT_FALSE(viewer.load(Scene{}, {}, false, false));
+  ScenarioParameters parameters;
+  parameters.count = 0;
+  EXPECT_FALSE(viewer.load_built_in("scenario1", parameters));
+
+  const ViewerSettings good = viewer.settings();
+  const auto refused = [&](auto change) {
+    ViewerSettings settings = good;
+    change(settings);
+    const Status status = viewer.set(settings);
+    EXPECT_FALSE(status);
+    return status ? "" : status.error().to_string();
+  };
+  EXPECT_THAT(refused([](ViewerSettings& s) { s.recursion = 17; }), HasSubstr("recursion"));
+  EXPECT_THAT(refused([](ViewerSettings& s) { s.samples_per_pixel = 0; }), HasSubstr("samples"));
+  EXPECT_THAT(refused([](ViewerSettings& s) { s.max_prims = 0; }), HasSubstr("max_prims"));
+  EXPECT_THAT(refused([](ViewerSettings& s) { s.camera.eye = s.camera.look_at; }), HasSubstr("same point"));
+  EXPECT_THAT(refused([](ViewerSettings& s) { s.engine = ViewerEngine::gpu; }), HasSubstr("no graphics processor"));
+
+  EXPECT_EQ(viewer.facts().name, "scenario2");
+  EXPECT_TRUE(viewer.frame(kBudgetMs)->settled) << "nothing was started anew";
+  EXPECT_EQ(picture_hash(viewer.image()), before);
+}
+
+TEST(Viewer, parameters_of_the_tree_show_in_its_statistics) {
+  Viewer viewer;
+  ASSERT_TRUE(viewer.load_built_in("scenario1"));
+  EXPECT_THAT(viewer.statistics_json(), HasSubstr("\"max_prims\": 8"));
+  ViewerSettings settings = viewer.settings();
+  settings.max_prims = 1;
+  ASSERT_TRUE(viewer.set(settings));
+  EXPECT_THAT(viewer.statistics_json(), HasSubstr("\"inner_nodes\": 4095"));
+  ASSERT_TRUE(viewer.load_built_in("scenario2"));
+  EXPECT_EQ(viewer.settings().max_prims, 1) << "stays for the next scene";
+}
+
+TEST(Viewer, zoom_keeps_the_sphere_under_the_pointer) {
+  for (const double scale : {1e-20, 1.0, 1e20}) {
+    Scene scene;
+    const std::vector<double> x{0, 3 * scale}, y{0, 0.5 * scale}, z{0, 2 * scale}, r{scale, 0.5 * scale};
+    scene.spheres = *SphereSet::from_world(x, y, z, r);
+    Viewer viewer;
+    viewer.resize(200, 100);
+    ASSERT_TRUE(viewer.load(scene, {"two", "made", 2, 1, {}, {}}, false, false));
+    const auto place = [&] {
+      const PixelPlaces places(viewer.settings().camera, 200, 100);
+      const Vec3d point = places.from_eye({3 * scale, 0.5 * scale, 2.5 * scale});
+      return Vec3d{places.x_px(point), places.y_px(point), point.z};
+    };
+    const Vec3d before = place();
+    viewer.zoom(1.5, before.x, before.y);
+    EXPECT_NEAR(place().x, before.x, 0.05) << scale;
+    EXPECT_NEAR(place().y, before.y, 0.05);
+    EXPECT_NEAR(before.z / place().z, 1.5, 0.01);
+    const Camera camera = viewer.settings().camera;
+    viewer.zoom(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+    viewer.zoom(-1, 0, 0);
+    viewer.zoom(std::numeric_limits<double>::infinity(), 0, 0);
+    EXPECT_EQ(viewer.settings().camera.eye, camera.eye);
+  }
+}
+
+TEST(Viewer, a_camera_that_shows_all_does_so_at_any_size) {
+  Viewer viewer;
+  viewer.resize(100, 100);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  viewer.look_from(ViewFrom::left);
+  const Vec3d square = viewer.settings().camera.eye;
+  viewer.resize(100, 300);
+  const Camera expected = frame_spheres(viewer.scene().spheres, ViewFrom::left, 30, 100, 300);
+  EXPECT_EQ(viewer.settings().camera.eye, expected.eye);
+  EXPECT_NE(expected.eye, square);
+
+  // Moved by hand it stays where it is.
+  viewer.orbit(5, 5);
+  const Vec3d moved = viewer.settings().camera.eye;
+  viewer.resize(300, 100);
+  EXPECT_EQ(viewer.settings().camera.eye, moved);
+}
+
+TEST(Viewer, a_picture_to_be_saved_has_any_size_and_does_not_disturb) {
+  Viewer viewer;
+  viewer.resize(64, 36);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  settle(viewer);
+  const std::uint64_t before = picture_hash(viewer.image());
+  const Result<Image> picture = viewer.picture(128, 72, 1);
+  ASSERT_TRUE(picture);
+  RenderSettings settings = settings_of(viewer, 128, 72);
+  settings.samples_per_pixel = 1;
+  EXPECT_EQ(picture_hash(*picture), picture_hash(rendered(viewer, Engine::wide, settings)));
+  EXPECT_EQ(picture_hash(viewer.image()), before);
+  settle(viewer);
+  EXPECT_EQ(picture_hash(viewer.image()), before);
+
+  // In the middle of a picture too.
+  viewer.orbit(10, 0);
+  (void)viewer.frame(1e-3);
+  ASSERT_TRUE(viewer.picture(20, 10, 1));
+  settle(viewer);
+  EXPECT_EQ(picture_hash(viewer.image()), picture_hash(rendered(viewer, Engine::wide, settings_of(viewer, 64, 36))));
+}
+
+TEST(SlicedPicture, is_the_same_picture_as_in_one_go) {
+  const Result<LoadedScene> demo = built_in_scene("scenario3");
+  ASSERT_TRUE(demo);
+  for (const Engine engine : {Engine::wide, Engine::reference})
+    for (const View view : {View::shaded, View::distance}) {
+      const Result<Tracer> tracer = Tracer::build(demo->scene.spheres, engine);
+      RenderSettings settings = settings_from(demo->scene.picture);
+      settings.width_px = 200;
+      settings.height_px = 130;
+      settings.view = view;
+      Result<SlicedPicture> sliced = SlicedPicture::begin(demo->scene, *tracer, settings);
+      ASSERT_TRUE(sliced);
+      double done = 0;
+      int slices = 0;
+      while (!sliced->finished()) {
+        sliced->advance(0);
+        EXPECT_GT(sliced->done(), done);
+        done = sliced->done();
+        ++slices;
+      }
+      EXPECT_EQ(done, 1);
+      EXPECT_GT(slices, 1);
+      const Rendered in_slices = sliced->take();
+      const Result<Rendered> at_once = render(demo->scene, *tracer, settings);
+      EXPECT_EQ(in_slices.film.radiance, at_once->film.radiance);
+      EXPECT_EQ(in_slices.rays.primary, at_once->rays.primary);
+      EXPECT_EQ(in_slices.rays.reflected, at_once->rays.reflected);
+    }
+}
+
+}  // namespace
+}  // namespace bihive
