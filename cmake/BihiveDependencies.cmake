@@ -54,7 +54,8 @@ target_compile_definitions(bihive_options INTERFACE BIHIVE_HAS_ZLIB=1 BIHIVE_HAS
 
 if(BIHIVE_BUILD_CLI)
   bihive_require(CLI11 libcli11-dev)
-  list(APPEND BIHIVE_CLI_DEPENDENCIES CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
+  bihive_require_header(boost/beast/http.hpp libboost-dev)
+  list(APPEND BIHIVE_CLI_DEPENDENCIES CLI11::CLI11 ZLIB::ZLIB fmt::fmt nlohmann_json::nlohmann_json)
 endif()
 if(BIHIVE_BUILD_TESTS)
   find_package(GTest QUIET)

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLargestFloat = 3.4028234663852886e38;
 constexpr std::int64_t kMostThreads = 4096;
+constexpr std::int64_t kLargestPort = 65535;
 
 // An option with one value of its own syntax: `parse` makes a Result of the text.
 template <class Target, class Parse>
@@ -204,6 +205,22 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
   add_json_flag(command, options.json);
 }
 
+void add_web(CLI::App& app, WebOptions& options, Request& request) {
+  CLI::App& command =
+      add_command(app, "web", "Serve the page that shows spheres in a browser", "bihive web molecule.pdb",
+                  "bihive web scenario2 --port 8080 --no-browser", options, request);
+  command.add_option("INPUT", options.input, "A file or a built-in name to open (demo)")->type_name("");
+  add_integer(command, "--port", options.port, 0, kLargestPort,
+              "Port (8017, or the next one that is free; 0: any that is free)");
+  add_value(command, "--bind", options.bind, "ADDRESS",
+            "Serve this machine's address, so that a phone on the network can\n"
+            "open the page; 0.0.0.0: all of them (127.0.0.1: this machine only)",
+            address_from);
+  command.add_flag_callback(
+      "--no-browser", [&options] { options.browser = false; }, "Open no browser");
+  command.add_flag("--json", options.json, "Print the addresses as one JSON object in a line");
+}
+
 std::string version_text() {
   const std::string revision = commit().empty() ? "" : " (" + std::string(commit()) + ")";
   return "bihive " + std::string(version()) + revision;
@@ -224,6 +241,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   SceneOptions scene;
   InfoOptions info;
   ThesisOptions thesis;
+  WebOptions web;
   Request request = HelpText{"", false};
   add_render(app, render, request);
   add_stats(app, stats, request);
@@ -231,6 +249,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   add_scene(app, scene, request);
   add_info(app, info, request);
   add_thesis(app, thesis, request);
+  add_web(app, web, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

@@ -78,4 +78,13 @@ struct ThesisOptions {
 };
 void run_thesis(const ThesisOptions& options);
 
+struct WebOptions {
+  std::string input;                 ///< a file or a built-in name; empty: what the page shows by itself
+  std::optional<std::int64_t> port;  ///< 0: any that is free; unset: 8017, or the next one that is free
+  std::string bind = "127.0.0.1";    ///< numeric, in its usual spelling
+  bool browser = true;
+  bool json = false;
+};
+void run_web(const WebOptions& options);
+
 }  // namespace bihive::cli

@@ -31,6 +31,7 @@ struct Run {
   int operator()(const SceneOptions& options) const { return run_scene(options), kSuccess; }
   int operator()(const InfoOptions& options) const { return run_info(options), kSuccess; }
   int operator()(const ThesisOptions& options) const { return run_thesis(options), kSuccess; }
+  int operator()(const WebOptions& options) const { return run_web(options), kSuccess; }
 };
 
 int run(int argc, const char* const* argv) {

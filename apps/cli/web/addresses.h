@@ -1,0 +1,26 @@
+// Numeric network addresses, and those that this machine has.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bihive::cli {
+
+/// An IPv4 or IPv6 address in the one spelling that all functions here use ("::1" for "0:0::1"); nothing for any other
+/// text.
+std::optional<std::string> usual_spelling(const std::string& address);
+
+/// 127.x.y.z or ::1: only this machine reaches it.
+bool is_loopback(const std::string& address);
+/// 0.0.0.0 or ::, every address of this machine.
+bool is_every_address(const std::string& address);
+
+/// The addresses of this machine's network interfaces that are up: IPv4, and IPv6 if `with_ipv6` (but none that holds
+/// on one link only). Loopback is left out.
+std::vector<std::string> own_addresses(bool with_ipv6);
+
+/// "http://ADDRESS:PORT/".
+std::string page_url(const std::string& address, int port);
+
+}  // namespace bihive::cli

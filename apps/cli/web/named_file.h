@@ -1,0 +1,34 @@
+// FILE of `bihive web`: the one file outside of the page that may be fetched.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "bihive/base/result.h"
+
+namespace bihive::cli {
+
+/// A regular file that is open for reading.
+class OpenFile {
+ public:
+  /// Errors: missing, unreadable, no regular file.
+  static Result<std::shared_ptr<const OpenFile>> open(const std::string& path);
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  std::uint64_t size() const { return size_; }
+  /// Differs where the file was exchanged or written to since.
+  const std::string& version() const { return version_; }
+  /// Reads up to `count` bytes from `offset` on; returns how many, 0 at the end of the file and on errors.
+  std::size_t read(std::uint64_t offset, char* bytes, std::size_t count) const;
+
+ private:
+  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_;
+  std::uint64_t size_ = 0;
+  std::string version_;
+};
+
+}  // namespace bihive::cli

@@ -1,0 +1,34 @@
+// The page: every file of it, read into memory once. What is not in here cannot be fetched.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "bihive/base/result.h"
+
+namespace bihive::cli {
+
+/// One file of the page, ready to be sent.
+struct PageFile {
+  std::string type;  ///< MIME type
+  std::shared_ptr<const std::string> bytes;
+  std::shared_ptr<const std::string> gzip;  ///< the same, packed; null where that is not smaller
+  std::string tag;                          ///< of the bytes; another file's differs
+};
+
+/// By the path of the URL: "/index.html", "/assets/page.js".
+using PageFiles = std::map<std::string, PageFile>;
+
+/// Packs and tags the bytes; the type follows from the name's ending.
+PageFile make_page_file(const std::string& name, std::string bytes);
+
+/// Every regular file in the folder and below. Symbolic links and names with a leading dot are left out. Errors: what
+/// cannot be read; a folder that is far too large for a page; no index.html.
+Result<PageFiles> read_page(const std::string& folder);
+
+/// Where the page lies: the folder that the environment variable BIHIVE_PAGE names, else share/bihive/web of the
+/// installation that this program belongs to, else build-web/page beside the build's folder. Empty: nowhere.
+std::string find_page();
+
+}  // namespace bihive::cli
