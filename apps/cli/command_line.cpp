@@ -84,8 +84,7 @@ void add_tree_options(CLI::App& app, TreeParameters& tree) {
             "Most levels of the tree (the engine's choice; reference: unlimited)", limit_from);
 }
 
-void add_engine_options(CLI::App& app, Engine& engine, TreeParameters& tree, std::int64_t& threads) {
-  add_choice(app, "--engine", engine, kEngines, "What answers the rays (auto); all give the same bits");
+void add_thread_options(CLI::App& app, TreeParameters& tree, std::int64_t& threads) {
   add_tree_options(app, tree);
   add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
 }
@@ -130,7 +129,9 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_value(command, "--up", options.up, "X,Y,Z", "What is up in the picture", vector_from);
   add_value(command, "--fov", options.fov_deg, "DEG", "Angle along the shorter side (30)",
             [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
-  add_engine_options(command, options.engine, options.tree, options.threads);
+  add_choice(command, "--engine", options.engine, kRenderEngines,
+             "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
+  add_thread_options(command, options.tree, options.threads);
   add_input_options(command, options.input);
   add_json_flag(command, options.json);
 }
@@ -155,7 +156,8 @@ void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
   add_path(command, "--id", options.id, "Written: int64 (n), position in the set; -1 for nothing, -2 for the plane");
   command.add_flag("--any", options.any, "Whether anything is hit: id 0 or -1, t 0 or inf");
   command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
-  add_engine_options(command, options.engine, options.tree, options.threads);
+  add_choice(command, "--engine", options.engine, kEngines, "What answers the rays (auto); all give the same bits");
+  add_thread_options(command, options.tree, options.threads);
   add_input_options(command, options.input);
 }
 

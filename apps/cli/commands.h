@@ -16,6 +16,9 @@
 
 namespace bihive::cli {
 
+/// What draws a picture: an engine of the CPU, or the graphics processor on the reference tree or on every sphere.
+enum class RenderEngine { automatic, wide, reference, brute, gpu, gpu_brute };
+
 /// Unset: as the scene says.
 struct RenderOptions {
   InputOptions input;
@@ -23,7 +26,7 @@ struct RenderOptions {
   std::optional<PictureSize> size;
   std::optional<std::int64_t> recursion, samples;
   View view = View::shaded;
-  Engine engine = Engine::automatic;
+  RenderEngine engine = RenderEngine::automatic;
   TreeParameters tree;
   std::int64_t threads = 0;  ///< 0 = all that the machine runs at once
   std::optional<bool> shadows;

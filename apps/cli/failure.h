@@ -29,6 +29,10 @@ struct Failure {
   throw Failure{kBadUsage, Error{message, "", 0, 0, hint}};
 }
 
+[[noreturn]] inline void fail_environment(Error error) {
+  throw Failure{kEnvironment, std::move(error)};
+}
+
 /// The value, or the end of the program with the result's error.
 template <class T>
 T value_or_fail(Result<T> result) {

@@ -5,11 +5,15 @@
 #include "bihive/image/transfer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/names.h"
+#include "commands.h"
 
 namespace bihive::cli {
 
 inline const Names<Engine> kEngines{
     {"auto", Engine::automatic}, {"wide", Engine::wide}, {"reference", Engine::reference}, {"brute", Engine::brute}};
+inline const Names<RenderEngine> kRenderEngines{
+    {"auto", RenderEngine::automatic}, {"wide", RenderEngine::wide}, {"reference", RenderEngine::reference},
+    {"brute", RenderEngine::brute},    {"gpu", RenderEngine::gpu},   {"gpu-brute", RenderEngine::gpu_brute}};
 inline const Names<Transfer> kTransfers{{"srgb", Transfer::srgb}, {"none", Transfer::none}};
 
 }  // namespace bihive::cli

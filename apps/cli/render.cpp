@@ -16,6 +16,7 @@
 #include "interrupt.h"
 #include "messages.h"
 #include "names.h"
+#include "render_on_gpu.h"
 
 namespace bihive::cli {
 namespace {
@@ -60,14 +61,43 @@ bool shows_reference_tree(View view) {
   return view == View::traversal || view == View::tree;
 }
 
-// What to build: the pictures of the tree are of the reference tree, whatever is fastest.
-Engine choose_engine(const RenderOptions& options) {
-  if (!shows_reference_tree(options.view) || options.engine == Engine::reference) return options.engine;
-  if (options.engine == Engine::automatic) return Engine::reference;
+bool is_gpu(RenderEngine engine) {
+  return engine == RenderEngine::gpu || engine == RenderEngine::gpu_brute;
+}
+
+// The pictures of the tree are of the reference tree, whatever is fastest.
+RenderEngine choose_engine(const RenderOptions& options) {
+  const RenderEngine engine = options.engine;
+  if (!shows_reference_tree(options.view) || engine == RenderEngine::reference) return engine;
+  if (engine == RenderEngine::automatic) return RenderEngine::reference;
   const std::string view = "--view " + name_of(kViews, options.view);
-  if (options.engine == Engine::brute) fail_usage(view + " shows a tree, and --engine brute has none");
-  fail_usage(view + " shows the reference tree, and --engine wide has another one",
-             "leave --engine out, or choose --engine reference");
+  const std::string chosen = "--engine " + name_of(kRenderEngines, engine);
+  if (engine == RenderEngine::brute || engine == RenderEngine::gpu_brute)
+    fail_usage(view + " shows a tree, and " + chosen + " has none");
+  if (engine == RenderEngine::wide)
+    fail_usage(view + " shows the reference tree, and --engine wide has another one",
+               "leave --engine out, or choose --engine reference");
+  if (options.view == View::tree)
+    fail_usage(view + " is drawn by the CPU alone, not by " + chosen,
+               "leave --engine out, or choose --engine reference");
+  return engine;
+}
+
+// What an engine builds.
+Engine structure_of(RenderEngine engine) {
+  switch (engine) {
+    case RenderEngine::wide:
+      return Engine::wide;
+    case RenderEngine::reference:
+    case RenderEngine::gpu:
+      return Engine::reference;
+    case RenderEngine::brute:
+    case RenderEngine::gpu_brute:
+      return Engine::brute;
+    case RenderEngine::automatic:
+      break;
+  }
+  return Engine::automatic;
 }
 
 // Everything that decides the picture, for its text chunk. Not threads and engine: they do not.
@@ -131,19 +161,54 @@ PngText text_chunks(const Scene& scene, const ordered_json& settings) {
   return text;
 }
 
-Rendered render_with_progress(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+// A picture, and what is said of it.
+struct Drawn {
+  Film film;
+  std::int64_t all_rays = 0;
+  double render_ms = 0;
+  ordered_json rays, gpu;
+};
+
+Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
   const CancellableSection section;
   Progress progress("rendering");
-  Result<Rendered> rendered = render(
+  Result<Rendered> result = render(
       scene, tracer, settings, [&](double done) { progress.update(done); }, &CancellableSection::token());
   CancellableSection::leave_if_cancelled();
-  return value_or_fail(std::move(rendered));
+  Rendered rendered = value_or_fail(std::move(result));
+  const RenderCounts& rays = rendered.rays;
+  Drawn drawn;
+  drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted;
+  drawn.rays = {{"primary", rays.primary},
+                {"shadow", rays.shadow},
+                {"reflected", rays.reflected},
+                {"transmitted", rays.transmitted},
+                {"all", drawn.all_rays}};
+  drawn.film = std::move(rendered.film);
+  drawn.render_ms = rendered.render_ms;
+  return drawn;
+}
+
+Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+  const CancellableSection section;
+  Progress progress("rendering");
+  GpuPicture picture = render_on_gpu(scene, tracer.tree(), settings, [&](double done) {
+    progress.update(done);
+    CancellableSection::leave_if_cancelled();
+  });
+  Drawn drawn;
+  drawn.all_rays = picture.primary + picture.others;
+  drawn.rays = {{"primary", picture.primary}, {"all", drawn.all_rays}};
+  drawn.gpu = picture.gpu;
+  drawn.film = std::move(picture.film);
+  drawn.render_ms = picture.render_ms;
+  return drawn;
 }
 
 }  // namespace
 
 void run_render(const RenderOptions& options) {
-  const Engine engine = choose_engine(options);
+  const RenderEngine engine = choose_engine(options);
   if (const Status status = check_writable(options.output); !status) fail(status.error());
 
   // Load the scene and put the user's wishes into it.
@@ -163,12 +228,13 @@ void run_render(const RenderOptions& options) {
   if (!input.has_lights) scene.lights = {light_behind(scene.camera)};
   const double pixels = double(settings.width_px) * double(settings.height_px);
   check_memory(pixels * (sizeof(Vec3f) + 2 * 3), "so large a picture");
-  check_tree_memory(scene.spheres, engine, options.tree);
+  check_tree_memory(scene.spheres, structure_of(engine), options.tree);
 
   // Build, render, write.
-  const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, engine, options.tree, settings.threads));
-  const Rendered rendered = render_with_progress(scene, tracer, settings);
-  const Image image = image_from_film(rendered.film, settings.view, scene.picture.transfer, settings.threads);
+  const Tracer tracer =
+      value_or_fail(Tracer::build(scene.spheres, structure_of(engine), options.tree, settings.threads));
+  const Drawn drawn = is_gpu(engine) ? draw_on_gpu(scene, tracer, settings) : draw_on_cpu(scene, tracer, settings);
+  const Image image = image_from_film(drawn.film, settings.view, scene.picture.transfer, settings.threads);
   const ordered_json described = settings_json(options, settings, scene);
   std::string png = value_or_fail(encode_png(image, text_chunks(scene, described)));
   {
@@ -177,13 +243,11 @@ void run_render(const RenderOptions& options) {
   }
 
   // Say what was done.
-  const RenderCounts& rays = rendered.rays;
-  const double all = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.transmitted);
-  const double mray_per_s = rendered.render_ms > 0 ? all / rendered.render_ms / 1000 : 0;
+  const double mray_per_s = drawn.render_ms > 0 ? static_cast<double>(drawn.all_rays) / drawn.render_ms / 1000 : 0;
   if (!options.json) {
     print(fmt::format("{}: {} x {}, {} spheres; tree {}, picture {} ({:.3g} Mray/s of all kinds)\n", options.output,
                       settings.width_px, settings.height_px, grouped(scene.spheres.size()),
-                      readable_ms(tracer.build_ms()), readable_ms(rendered.render_ms), mray_per_s));
+                      readable_ms(tracer.build_ms()), readable_ms(drawn.render_ms), mray_per_s));
     return;
   }
   ordered_json json;
@@ -192,17 +256,14 @@ void run_render(const RenderOptions& options) {
   json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
   json["size"] = fmt::format("{}x{}", settings.width_px, settings.height_px);
   json["view"] = name_of(kViews, settings.view);
-  json["engine"] = name_of(kEngines, tracer.engine());
+  json["engine"] = is_gpu(engine) ? name_of(kRenderEngines, engine) : name_of(kEngines, tracer.engine());
   json["target"] = tracer.engine() == Engine::wide ? ordered_json(active_target()) : ordered_json();
+  if (is_gpu(engine)) json["gpu"] = drawn.gpu;
   json["spheres"] = scene.spheres.size();
   json["settings"] = described;
-  json["rays"] = {{"primary", rays.primary},
-                  {"shadow", rays.shadow},
-                  {"reflected", rays.reflected},
-                  {"transmitted", rays.transmitted},
-                  {"all", rays.primary + rays.shadow + rays.reflected + rays.transmitted}};
+  json["rays"] = drawn.rays;
   json["build_ms"] = tracer.build_ms();
-  json["render_ms"] = rendered.render_ms;
+  json["render_ms"] = drawn.render_ms;
   json["mray_per_s"] = mray_per_s;
   json["picture_hash"] = fmt::format("{:016x}", picture_hash(image));
   json["warnings"] = input.warnings;

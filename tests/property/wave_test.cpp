@@ -8,9 +8,9 @@
 #include "bihive/math/rng.h"
 #include "bihive/render/integrator.h"
 #include "bihive/render/renderer.h"
-#include "bihive/render/sample_pattern.h"
 #include "bihive/render/wave_integrator.h"
 #include "bihive/scene/generators.h"
+#include "bihive/scene/sample_pattern.h"
 
 namespace bihive {
 namespace {

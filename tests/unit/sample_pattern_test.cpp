@@ -1,4 +1,4 @@
-#include "bihive/render/sample_pattern.h"
+#include "bihive/scene/sample_pattern.h"
 
 #include <gtest/gtest.h>
 

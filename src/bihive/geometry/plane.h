@@ -1,6 +1,7 @@
 // An infinite plane, tested analytically beside the tree and never part of it.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "bihive/geometry/ray.h"
@@ -22,6 +23,22 @@ inline double plane_hit(const Ray& ray, const Plane& plane) {
   if (speed == 0) return inf;
   const double t = dot(plane.normal, plane.point - to_double(ray.origin)) / speed;
   return t >= ray.t_min && t <= ray.t_max ? t : inf;
+}
+
+/// Two directions that span a plane, from its normal. For the thesis's ground they are +x and +z.
+struct PlaneAxes {
+  Vec3d u, v;
+};
+
+inline PlaneAxes plane_axes(Vec3d normal) {
+  // Start from the world axis that lies flattest in the plane; of equal ones the first.
+  int flattest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(normal[axis]) < std::abs(normal[flattest])) flattest = axis;
+  Vec3d start;
+  start[flattest] = 1;
+  const Vec3d u = normalized(start - dot(start, normal) * normal);
+  return {u, cross(u, normal)};
 }
 
 }  // namespace bihive

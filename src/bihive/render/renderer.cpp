@@ -12,11 +12,11 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "bihive/render/pixel_order.h"
-#include "bihive/render/sample_pattern.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/render/views.h"
 #include "bihive/render/wave_integrator.h"
+#include "bihive/scene/sample_pattern.h"
 
 namespace bihive {
 namespace {

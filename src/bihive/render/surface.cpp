@@ -22,17 +22,6 @@ Vec3d checker_colour(const ScenePlane& plane, const Checker& checker, Vec3d poin
 
 }  // namespace
 
-PlaneAxes plane_axes(Vec3d normal) {
-  // Start from the world axis that lies flattest in the plane; of equal ones the first.
-  int flattest = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (std::abs(normal[axis]) < std::abs(normal[flattest])) flattest = axis;
-  Vec3d start;
-  start[flattest] = 1;
-  const Vec3d u = normalized(start - dot(start, normal) * normal);
-  return {u, cross(u, normal)};
-}
-
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
   Surface surface;
   surface.id = hit.id;

@@ -19,12 +19,6 @@ struct Surface {
   Material material;  ///< with the checker's colour where there is one
 };
 
-/// Two directions that span a plane, from its normal. For the thesis's ground they are +x and +z.
-struct PlaneAxes {
-  Vec3d u, v;
-};
-PlaneAxes plane_axes(Vec3d normal);
-
 /// `hit` must be found.
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit);
 

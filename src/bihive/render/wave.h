@@ -8,9 +8,9 @@
 #include "bihive/kernels/ray_batch.h"
 #include "bihive/render/column.h"
 #include "bihive/render/pixel_order.h"
-#include "bihive/render/sample_pattern.h"
 #include "bihive/render/surface.h"
 #include "bihive/scene/camera.h"
+#include "bihive/scene/sample_pattern.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {

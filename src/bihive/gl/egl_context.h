@@ -1,0 +1,32 @@
+// A context of OpenGL ES 3 without a window, through EGL. Not there under WebAssembly.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bihive/base/result.h"
+#include "bihive/gl/functions.h"
+
+namespace bihive {
+
+/// EGL is looked for when it is wanted, in libEGL.so.1 or the file that the environment names as BIHIVE_EGL. A graphics
+/// processor goes before Mesa's software.
+class EglContext {
+ public:
+  /// Makes a context and makes it current in this thread. Error: there is no EGL, or it gives no such context; the hint
+  /// says what to install.
+  static Result<EglContext> create();
+  EglContext(EglContext&& other) noexcept;
+  EglContext& operator=(EglContext&& other) noexcept;
+  /// Whatever was made in the context must be gone before.
+  ~EglContext();
+
+  const GlFunctions& functions() const;
+
+ private:
+  class Implementation;
+  explicit EglContext(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bihive

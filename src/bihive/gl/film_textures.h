@@ -1,0 +1,49 @@
+// The film on the graphics processor: two textures of the same size, so that a pass reads what the pass before wrote.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/gl/functions.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Of the functions' context, which must be current in every call.
+class FilmTextures {
+ public:
+  explicit FilmTextures(const GlFunctions& gl) : gl_(&gl) {}
+
+  /// Finds out what the context can draw into: binary32, else binary16. Error: neither.
+  Status choose_format();
+  /// Error: the context has no room for it.
+  Status resize(int width_px, int height_px);
+  void destroy();
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool has_single_precision() const { return format_ == GL_RGBA32F; }
+
+  /// Draws go into texture `index` (0 or 1) from now on; all of it is seen.
+  void draw_into(int index) const;
+  void fill(int index, Vec3f colour) const;
+  GLuint texture(int index) const { return textures_[static_cast<std::size_t>(index)]; }
+  /// Rows y0 to y1 - 1 of a texture, four numbers a pixel. Waits until they are drawn.
+  void read(int index, int y0, int y1, std::vector<float>& rgba) const;
+  /// Waits until everything is drawn. glFinish() may return early in a browser; reading a pixel cannot.
+  void wait(int index) const;
+
+ private:
+  bool make(GLint format, int width_px, int height_px);
+
+  const GlFunctions* gl_;
+  GLint format_ = GL_RGBA32F;
+  int width_ = 0, height_ = 0;
+  std::array<GLuint, 2> textures_{}, framebuffers_{};
+};
+
+/// Binds a new texture for texelFetch() alone: no filter, no mipmap.
+GLuint make_texture(const GlFunctions& gl);
+
+}  // namespace bihive

@@ -1,0 +1,42 @@
+// A linked program of OpenGL, and its uniforms by name.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/gl/functions.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Of the functions' context, which must be current in every call. Not deleted by itself: lost contexts take their
+/// programs with them.
+class GlProgram {
+ public:
+  /// The chunk `name` as fragment shader, on a triangle that covers the target. Error: the compiler's messages with
+  /// chunk and line.
+  static Result<GlProgram> link(const GlFunctions& gl, const std::string& name,
+                                const std::vector<std::string>& defines);
+  void destroy();
+
+  void use() const { gl_->UseProgram(program_); }
+  // Of the program in use. A uniform that the program does not have is left out.
+  void set(const char* uniform, int value);
+  void set(const char* uniform, bool value) { set(uniform, value ? 1 : 0); }
+  void set(const char* uniform, float value);
+  void set(const char* uniform, float x, float y);
+  void set(const char* uniform, Vec3f value);
+
+ private:
+  GlProgram(const GlFunctions& gl, GLuint program) : gl_(&gl), program_(program) {}
+  GLint place(const char* uniform);
+
+  const GlFunctions* gl_;
+  GLuint program_;
+  std::map<std::string, GLint, std::less<>> places_;
+};
+
+}  // namespace bihive

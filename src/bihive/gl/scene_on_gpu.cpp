@@ -1,0 +1,131 @@
+#include "bihive/gl/scene_on_gpu.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "bihive/gl/film_textures.h"
+
+namespace bihive {
+namespace {
+
+// In the order of SceneOnGpu's textures.
+constexpr std::array<const char*, 5> kSamplers{"spheres", "sphere_info", "nodes", "looks", "lights"};
+constexpr int kFirstUnit = 1;
+
+void upload(const GlFunctions& gl, const Texels<float, 4>& texels) {
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, texels.width(), texels.height(), 0, GL_RGBA, GL_FLOAT,
+                texels.channels.data());
+}
+void upload(const GlFunctions& gl, const Texels<std::uint32_t, 2>& texels) {
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, texels.width(), texels.height(), 0, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                texels.channels.data());
+}
+
+// Few different numbers, so that few programs are compiled.
+int rounded_up(int number, int step) {
+  return (std::max(number, 1) + step - 1) / step * step;
+}
+
+}  // namespace
+
+Status SceneOnGpu::set(const Scene& scene, const Tree* tree) {
+  // Pack and upload beside the scene before, which stays if anything fails.
+  GLint most_rows = 0;
+  gl_->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most_rows);
+  const Result<SceneTextures> packed = pack_scene(scene, tree, most_rows);
+  if (!packed) return packed.error();
+  while (gl_->GetError() != GL_NO_ERROR) {
+  }
+  std::array<GLuint, 5> textures{};
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  const auto make = [&](std::size_t i, const auto& texels) {
+    textures[i] = make_texture(*gl_);
+    upload(*gl_, texels);
+  };
+  make(0, packed->spheres);
+  make(1, packed->sphere_info);
+  make(2, packed->nodes);
+  make(3, packed->looks);
+  make(4, packed->lights);
+  gl_->BindTexture(GL_TEXTURE_2D, 0);
+  Status status = Done{};
+  if (gl_->GetError() != GL_NO_ERROR)
+    status = Error{"the graphics processor has no room for " + std::to_string(scene.spheres.size()) + " spheres", "", 0,
+                   0, "choose an engine of the CPU"};
+
+  // Link the program of the shaded view: a driver that refuses it refuses the scene.
+  const bool had_tree = std::exchange(has_tree_, tree != nullptr);
+  const int had_stack = std::exchange(stack_size_, rounded_up(packed->most_waiting, 8));
+  if (status)
+    if (const Result<GlProgram*> shaded = program_for(View::shaded, 5); !shaded) status = shaded.error();
+  if (!status) {
+    gl_->DeleteTextures(GLsizei(textures.size()), textures.data());
+    has_tree_ = had_tree;
+    stack_size_ = had_stack;
+    return status;
+  }
+  if (is_set()) gl_->DeleteTextures(GLsizei(textures_.size()), textures_.data());
+  textures_ = textures;
+  uniforms_ = SceneUniforms(scene, tree, *packed);
+  scale_ = scene.spheres.scale();
+  return Done{};
+}
+
+void SceneOnGpu::destroy() {
+  if (is_set()) gl_->DeleteTextures(GLsizei(textures_.size()), textures_.data());
+  textures_ = {};
+  for (auto& [name, program] : programs_) program.destroy();
+  programs_.clear();
+}
+
+Result<GlProgram*> SceneOnGpu::program(const std::string& chunk, int pending_rays, bool counting) {
+  std::vector<std::string> defines;
+  if (has_tree_) defines = {"TREE", "STACK_SIZE " + std::to_string(stack_size_)};
+  if (pending_rays > 0) defines.push_back("PENDING_RAYS " + std::to_string(pending_rays));
+  if (counting) defines.emplace_back("COUNTING");
+  std::string name = chunk;
+  for (const std::string& define : defines) name += " " + define;
+  const auto known = programs_.find(name);
+  if (known != programs_.end()) return &known->second;
+  Result<GlProgram> linked = GlProgram::link(*gl_, chunk, defines);
+  if (!linked) return linked.error();
+  return &programs_.emplace(name, std::move(*linked)).first->second;
+}
+
+Result<GlProgram*> SceneOnGpu::program_for(View view, int recursion) {
+  // Of each generation but the last two one ray may wait; recursion 1 to 6, and 7 to 16.
+  const int pending_rays = recursion <= 6 ? 6 : 16;
+  switch (view) {
+    case View::shaded:
+      return program("view_shaded", pending_rays, false);
+    case View::recursion:
+      return program("view_recursion", pending_rays, false);
+    case View::traversal:
+      return program("view_traversal", 0, true);
+    case View::normal:
+    case View::distance:
+    case View::id:
+    case View::tree:  // is not drawn here
+      break;
+  }
+  return program("view_first_hit", 0, false);
+}
+
+Result<GlProgram*> SceneOnGpu::program_for_distance_range() {
+  return program("distance_range", 0, false);
+}
+
+void SceneOnGpu::put(GlProgram& program) const {
+  for (std::size_t i = 0; i < textures_.size(); ++i) {
+    const int unit = kFirstUnit + static_cast<int>(i);
+    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl_->BindTexture(GL_TEXTURE_2D, textures_[i]);
+    program.set(kSamplers[i], unit);
+  }
+  gl_->ActiveTexture(GL_TEXTURE0);
+  uniforms_.put(program);
+}
+
+}  // namespace bihive

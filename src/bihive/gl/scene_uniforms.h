@@ -1,0 +1,37 @@
+// Everything of a scene and a camera that a shader takes as single numbers, in stored units.
+#pragma once
+
+#include "bihive/base/result.h"
+#include "bihive/bih/tree.h"
+#include "bihive/gl/program.h"
+#include "bihive/gl/tree_textures.h"
+#include "bihive/math/vec3.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// Plane, checker, background, bounds and counts.
+struct SceneUniforms {
+  int sphere_count = 0, light_count = 0;
+  Vec3f background, tree_lo, tree_hi;
+  bool has_plane = false, has_checker = false;
+  Vec3f plane_normal, plane_u, plane_v, second_colour;
+  float plane_offset = 0, checker_size = 1, fade_distance = 0;
+
+  SceneUniforms() = default;
+  SceneUniforms(const Scene& scene, const Tree* tree, const SceneTextures& textures);
+  /// Into the program in use.
+  void put(GlProgram& program) const;
+};
+
+struct CameraUniforms {
+  Vec3f eye, forward, right, down;
+  float half_width = 0, half_height = 0;
+
+  /// Error: as check_camera(), or an eye so far away (1e15 times the extent of the spheres) that squares leave
+  /// binary32.
+  static Result<CameraUniforms> from(const Camera& camera, double scale, int width_px, int height_px);
+  void put(GlProgram& program) const;
+};
+
+}  // namespace bihive

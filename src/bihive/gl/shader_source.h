@@ -1,0 +1,34 @@
+// One shader's text, assembled from chunks that include each other by name.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+
+namespace bihive {
+
+struct ShaderSource {
+  std::string text;
+  std::vector<std::string> chunks;  ///< in the order of the numbers that #line gives them
+
+  /// A compiler's messages with the chunk's name in the place of its number: "2:13(7): error" becomes
+  /// "sphere.glsl:13(7): error".
+  std::string with_names(std::string_view log) const;
+};
+
+/// The text of a chunk by its name, or nothing.
+using ChunkFinder = std::function<std::optional<std::string_view>(std::string_view name)>;
+
+/// The chunk `name` behind "#version 300 es" and a #define for each of `defines` ("STACK_SIZE 32"). A line
+/// `#include "other"` becomes the chunk of that name where it stands first, and nothing later. Error: there is no such
+/// chunk; it names file and line of the #include.
+Result<ShaderSource> assemble_shader(std::string_view name, const std::vector<std::string>& defines,
+                                     const ChunkFinder& find);
+/// From the library's own chunks.
+Result<ShaderSource> assemble_shader(std::string_view name, const std::vector<std::string>& defines);
+
+}  // namespace bihive

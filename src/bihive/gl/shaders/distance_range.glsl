@@ -1,0 +1,15 @@
+// The range of distances that the distance view needs first: a pixel's nearest and farthest of its samples so far.
+#include "film"
+#include "scene_hit"
+
+void main() {
+  Ray ray = sample_ray();
+  Hit hit = scene_hit(ray);
+  float distance = hit.t * sqrt(ray.direction_squared);
+  vec2 range = hit.sphere == kNothing ? vec2(kNever, -kNever) : vec2(distance);
+  if (sample_index > 0) {
+    vec2 before = texelFetch(film_before, ivec2(gl_FragCoord.xy), 0).xy;
+    range = vec2(min(before.x, range.x), max(before.y, range.y));
+  }
+  film_after = vec4(range, 0.0, 0.0);
+}

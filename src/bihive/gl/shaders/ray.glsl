@@ -1,0 +1,19 @@
+// Twin of geometry/ray.h and geometry/scaled_ray.h.
+#include "common"
+
+// Points origin + t direction with 0 <= t <= t_max. `leaves`: position in leaf order of the sphere on which the ray
+// starts, kPlane or kNothing. `left`: that sphere, centre and radius, -1 for none; spheres that coincide with it are left
+// too.
+struct Ray {
+  vec3 origin;
+  vec3 direction;
+  float direction_squared;
+  float t_max;
+  int leaves;
+  bool inside;
+  vec4 left;
+};
+
+Ray make_ray(vec3 origin, vec3 direction) {
+  return Ray(origin, direction, dot(direction, direction), kNever, kNothing, false, vec4(0.0, 0.0, 0.0, -1.0));
+}

@@ -1,0 +1,79 @@
+// Twin of render/surface.h.
+#include "scene_hit"
+
+uniform bool has_checker;
+uniform vec3 plane_u;
+uniform vec3 plane_v;
+uniform vec3 second_colour;
+uniform float checker_size;
+uniform float fade_distance;
+
+struct Material {
+  vec3 colour;
+  float ambient;
+  float diffuse;
+  float reflective;
+  float specular;
+  float power;
+  float transmissive;
+  float refraction_index;
+};
+
+struct Surface {
+  int sphere;        // or kPlane
+  vec4 stored;       // the sphere
+  vec3 origin;       // where the next rays start
+  vec3 incoming;     // length 1
+  vec3 normal;       // length 1, turned against the ray
+  bool from_inside;  // the ray comes from inside the sphere
+  Material material;
+};
+
+Material material_of(int look) {
+  vec4 a = texelFetch(looks, texel(3 * look), 0);
+  vec4 b = texelFetch(looks, texel(3 * look + 1), 0);
+  vec4 c = texelFetch(looks, texel(3 * look + 2), 0);
+  return Material(a.xyz, a.w, b.x, b.y, b.z, b.w, c.x, c.y);
+}
+
+vec3 checker_colour(vec3 first, vec3 point) {
+  if (dot(point, point) > fade_distance * fade_distance) return 0.5 * (first + second_colour);
+  float squares = floor(dot(point, plane_u) / checker_size) + floor(dot(point, plane_v) / checker_size);
+  return squares - 2.0 * floor(squares / 2.0) != 0.0 ? second_colour : first;
+}
+
+// The shape alone; the material is not set.
+Surface shape_at(Ray ray, Hit hit) {
+  Surface surface;
+  surface.sphere = hit.sphere;
+  surface.stored = vec4(0.0);
+  surface.incoming = normalized(ray.direction);
+  if (hit.sphere == kPlane) {
+    // Not origin + t direction: the quotients of symmetric directions are exact, and so are the edges of a checker that
+    // pass through many pixels' centres. Then onto the plane.
+    float height = plane_offset - dot(plane_normal, ray.origin);
+    vec3 point = ray.origin + height * (ray.direction / dot(plane_normal, ray.direction));
+    surface.origin = point - (dot(plane_normal, point) - plane_offset) * plane_normal;
+    surface.from_inside = dot(surface.incoming, plane_normal) > 0.0;
+    surface.normal = surface.from_inside ? -plane_normal : plane_normal;
+    return surface;
+  }
+  // From the centre to the hit along perpendicular and half chord: that is as exact as the sphere is large, which
+  // origin + t direction is not.
+  surface.stored = stored_sphere(hit.sphere);
+  SphereRoots roots = sphere_roots(ray, surface.stored);
+  surface.from_inside = hit.t > roots.t_closest;
+  float along = surface.from_inside ? roots.half_chord : -roots.half_chord;
+  vec3 outward = normalized(along * ray.direction - roots.perpendicular);
+  surface.origin = surface.stored.xyz + surface.stored.w * outward;
+  surface.normal = surface.from_inside ? -outward : outward;
+  return surface;
+}
+
+Surface surface_at(Ray ray, Hit hit) {
+  Surface surface = shape_at(ray, hit);
+  bool plane = hit.sphere == kPlane;
+  surface.material = material_of(plane ? 0 : int(texelFetch(sphere_info, texel(hit.sphere), 0).y));
+  if (plane && has_checker) surface.material.colour = checker_colour(surface.material.colour, surface.origin);
+  return surface;
+}

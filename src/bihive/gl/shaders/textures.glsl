@@ -1,0 +1,22 @@
+// Twin of gl/tree_textures.h: what its textures hold.
+#include "common"
+
+uniform sampler2D spheres;       // a texel a sphere in leaf order: centre, radius
+uniform usampler2D sphere_info;  // a texel a sphere: id, look
+uniform usampler2D nodes;        // two texels a node: planes; kind, axis and count, first
+uniform sampler2D looks;         // three texels a look; the plane's is look 0
+uniform sampler2D lights;        // two texels a light: position; colour
+uniform int sphere_count;
+uniform int light_count;
+
+ivec2 texel(int i) {
+  return ivec2(i & 2047, i >> 11);
+}
+
+vec4 stored_sphere(int i) {
+  return texelFetch(spheres, texel(i), 0);
+}
+
+uint sphere_id(int i) {
+  return texelFetch(sphere_info, texel(i), 0).x;
+}

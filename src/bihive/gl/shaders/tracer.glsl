@@ -1,0 +1,22 @@
+// Twin of render/tracer.h: the tree where TREE is defined, else every sphere.
+#ifdef TREE
+#include "traversal"
+
+Hit closest_hit(Ray ray) {
+  return traverse(ray, false);
+}
+
+bool occluded(Ray ray) {
+  return traverse(ray, true).sphere != kNothing;
+}
+#else
+#include "brute_force"
+
+Hit closest_hit(Ray ray) {
+  return test_all_spheres(ray, false);
+}
+
+bool occluded(Ray ray) {
+  return test_all_spheres(ray, true).sphere != kNothing;
+}
+#endif

@@ -1,0 +1,200 @@
+#include "bihive/gl/tree_textures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace bihive {
+namespace {
+
+constexpr int kTexelsOfLook = 3;
+constexpr std::int64_t kMostSpheresOfLeaf = (std::int64_t{1} << 27) - 1;
+
+// Farther lights shine from the same direction, but their squares would leave binary32.
+constexpr double kFarthestLight = 1e15;
+
+using Look = std::array<float, 12>;
+
+struct HashOfLook {
+  std::size_t operator()(const Look& look) const {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const float value : look) {
+      std::uint32_t bits = 0;
+      std::memcpy(&bits, &value, sizeof(bits));
+      hash = (hash ^ bits) * 1099511628211u;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+std::uint32_t bits_of(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+float float_of(std::uint32_t bits) {
+  float value = 0;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+Look look_of(const Material& m) {
+  // Adding 0 makes -0 and 0 one look.
+  const auto number = [](double value) { return static_cast<float>(value) + 0.0F; };
+  return {number(m.colour.x),
+          number(m.colour.y),
+          number(m.colour.z),
+          number(m.ambient),
+          number(m.diffuse),
+          number(m.reflective),
+          number(m.specular),
+          number(m.power),
+          number(m.transmissive),
+          number(m.refraction_index),
+          0,
+          0};
+}
+
+template <class T, int kChannels>
+void reserve(Texels<T, kChannels>& texels, std::int64_t count) {
+  const std::int64_t rows = std::max<std::int64_t>(1, (count + kTextureWidth - 1) / kTextureWidth);
+  texels.channels.assign(static_cast<std::size_t>(rows * kTextureWidth * kChannels), T{});
+}
+
+Error too_many(const std::string& what, std::int64_t count, std::int64_t most) {
+  return {std::to_string(count) + " " + what + " are too many for this graphics processor, whose textures hold " +
+              std::to_string(most),
+          "", 0, 0, "choose an engine of the CPU"};
+}
+
+Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texels, SceneTextures& packed) {
+  const SphereSet& spheres = scene.spheres;
+  packed.sphere_count = spheres.size();
+  if (packed.sphere_count > most_texels) return too_many("spheres", packed.sphere_count, most_texels);
+  reserve(packed.spheres, packed.sphere_count);
+  reserve(packed.sphere_info, packed.sphere_count);
+
+  // Equal looks share one entry; the plane has the first for itself.
+  std::unordered_map<Look, std::uint32_t, HashOfLook> numbers;
+  std::vector<Look> looks{look_of(scene.plane ? scene.plane->material : Material{})};
+  for (std::int64_t position = 0; position < packed.sphere_count; ++position) {
+    const std::int64_t id = tree != nullptr ? tree->sphere_ids[static_cast<std::size_t>(position)] : position;
+    const auto i = static_cast<std::size_t>(id);
+    const Look look = look_of(material_of(scene, id));
+    const auto [entry, is_new] = numbers.try_emplace(look, static_cast<std::uint32_t>(looks.size()));
+    if (is_new) looks.push_back(look);
+
+    const std::array<float, 4> sphere{spheres.x()[i], spheres.y()[i], spheres.z()[i], spheres.r()[i]};
+    std::copy(sphere.begin(), sphere.end(), packed.spheres.channels.begin() + 4 * position);
+    packed.sphere_info.channels[static_cast<std::size_t>(2 * position)] = static_cast<std::uint32_t>(id);
+    packed.sphere_info.channels[static_cast<std::size_t>(2 * position + 1)] = entry->second;
+  }
+
+  packed.look_count = static_cast<std::int64_t>(looks.size());
+  if (packed.look_count * kTexelsOfLook > most_texels)
+    return too_many("different looks", packed.look_count, most_texels / kTexelsOfLook);
+  reserve(packed.looks, packed.look_count * kTexelsOfLook);
+  for (std::size_t i = 0; i < looks.size(); ++i)
+    std::copy(looks[i].begin(), looks[i].end(), packed.looks.channels.begin() + std::ptrdiff_t(12 * i));
+  return Done{};
+}
+
+Status pack_tree(const Tree& tree, std::int64_t most_texels, SceneTextures& packed) {
+  packed.node_count = static_cast<std::int64_t>(tree.nodes.size());
+  if (2 * packed.node_count > most_texels) return too_many("nodes", packed.node_count, most_texels / 2);
+  reserve(packed.nodes, 2 * packed.node_count);
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const Node& node = tree.nodes[i];
+    if (node.sphere_count > kMostSpheresOfLeaf)
+      return too_many("spheres of one leaf", node.sphere_count, kMostSpheresOfLeaf);
+    std::uint32_t* const out = &packed.nodes.channels[4 * i];
+    out[0] = bits_of(node.left_clip);
+    out[1] = bits_of(node.right_clip);
+    out[2] = static_cast<std::uint32_t>(node.kind) | std::uint32_t{node.split_axis} << 3 |
+             static_cast<std::uint32_t>(node.sphere_count) << 5;
+    out[3] = static_cast<std::uint32_t>(node.first);
+  }
+
+  // Go down every way, counting the nodes with two children.
+  std::vector<std::pair<std::int64_t, int>> open{{0, 0}};
+  while (!open.empty()) {
+    const auto [position, above] = open.back();
+    open.pop_back();
+    packed.most_waiting = std::max(packed.most_waiting, above);
+    const Node& node = tree.nodes[static_cast<std::size_t>(position)];
+    if (node.is_leaf()) continue;
+    const bool split = node.kind == NodeKind::split;
+    open.emplace_back(node.left_child(), above + (split ? 1 : 0));
+    if (split) open.emplace_back(node.right_child(), above + 1);
+  }
+  return Done{};
+}
+
+Status pack_lights(const Scene& scene, std::int64_t most_texels, SceneTextures& packed) {
+  packed.light_count = static_cast<std::int64_t>(scene.lights.size());
+  if (2 * packed.light_count > most_texels) return too_many("lights", packed.light_count, most_texels / 2);
+  reserve(packed.lights, 2 * packed.light_count);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const PointLight& light = scene.lights[i];
+    Vec3d position = light.position * scene.spheres.scale();
+    const double farthest = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+    if (farthest > kFarthestLight) position = (position / farthest) * kFarthestLight;
+    const std::array<float, 8> out{float(position.x),     float(position.y),     float(position.z),     0,
+                                   float(light.colour.x), float(light.colour.y), float(light.colour.z), 0};
+    std::copy(out.begin(), out.end(), packed.lights.channels.begin() + std::ptrdiff_t(8 * i));
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<SceneTextures> pack_scene(const Scene& scene, const Tree* tree, int most_rows) {
+  const std::int64_t most_texels = std::int64_t{most_rows} * kTextureWidth;
+  SceneTextures packed;
+  if (const Status status = pack_spheres(scene, tree, most_texels, packed); !status) return status.error();
+  reserve(packed.nodes, 0);
+  if (tree != nullptr)
+    if (const Status status = pack_tree(*tree, most_texels, packed); !status) return status.error();
+  if (const Status status = pack_lights(scene, most_texels, packed); !status) return status.error();
+  return packed;
+}
+
+PackedSphere unpack_sphere(const SceneTextures& textures, std::int64_t position) {
+  const float* const sphere = &textures.spheres.channels[static_cast<std::size_t>(4 * position)];
+  const std::uint32_t* const info = &textures.sphere_info.channels[static_cast<std::size_t>(2 * position)];
+  return {sphere[0], sphere[1], sphere[2], sphere[3], info[0], info[1]};
+}
+
+Node unpack_node(const SceneTextures& textures, std::int64_t position) {
+  const std::uint32_t* const in = &textures.nodes.channels[static_cast<std::size_t>(4 * position)];
+  Node node;
+  node.left_clip = float_of(in[0]);
+  node.right_clip = float_of(in[1]);
+  node.kind = static_cast<NodeKind>(in[2] & 7u);
+  node.split_axis = static_cast<std::uint8_t>(in[2] >> 3 & 3u);
+  node.sphere_count = in[2] >> 5;
+  node.first = in[3];
+  return node;
+}
+
+Material unpack_look(const SceneTextures& textures, std::int64_t look) {
+  const float* const in = &textures.looks.channels[static_cast<std::size_t>(12 * look)];
+  Material material;
+  material.colour = {double(in[0]), double(in[1]), double(in[2])};
+  material.ambient = double(in[3]);
+  material.diffuse = double(in[4]);
+  material.reflective = double(in[5]);
+  material.specular = double(in[6]);
+  material.power = double(in[7]);
+  material.transmissive = double(in[8]);
+  material.refraction_index = double(in[9]);
+  return material;
+}
+
+}  // namespace bihive

@@ -1,0 +1,59 @@
+// How spheres, their looks, lights and the tree lie in textures: the only place that packs them. shaders/textures.glsl
+// reads them, and bih/tree.h says what they mean.
+//
+// Entry i of a texture is the texel (i mod 2048, i / 2048). All is binary32 in stored units (geometry/sphere_set.h).
+//
+//   spheres      RGBA32F  a texel a sphere, in leaf order (without a tree in the order of ids): centre, radius
+//   sphere_info  RG32UI   a texel a sphere: id, look
+//   nodes        RG32UI   two texels a node: the bits of left_clip, right_clip;
+//                         kind (bits 0-2), split_axis (bits 3-4), sphere_count (bits 5-31); first
+//   looks        RGBA32F  three texels a look: colour, ambient; diffuse, reflective, specular, power; transmissive,
+//                         refraction_index, 0, 0. Look 0 is the plane's; of the others no two are equal.
+//   lights       RGBA32F  two texels a light: position, 0; colour, 0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/bih/tree.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+constexpr int kTextureWidth = 2048;
+
+/// The texels of one texture row by row, filled up with zeros to whole rows; at least one row.
+template <class Channel, int kChannels>
+struct Texels {
+  static constexpr int kPerTexel = kChannels;
+  std::vector<Channel> channels;
+
+  int width() const { return kTextureWidth; }
+  int height() const { return static_cast<int>(channels.size() / (std::size_t{kTextureWidth} * kChannels)); }
+};
+
+struct SceneTextures {
+  std::int64_t sphere_count = 0, node_count = 0, look_count = 0, light_count = 0;
+  /// The most nodes with two children on any way from the root to a leaf: as many may wait during a traversal.
+  int most_waiting = 0;
+  Texels<float, 4> spheres;
+  Texels<std::uint32_t, 2> sphere_info;
+  Texels<std::uint32_t, 2> nodes;
+  Texels<float, 4> looks;
+  Texels<float, 4> lights;
+};
+
+/// `tree` may be null. Error: something does not fit a texture of `most_rows` rows.
+Result<SceneTextures> pack_scene(const Scene& scene, const Tree* tree, int most_rows);
+
+/// What the shader reads, for tests.
+struct PackedSphere {
+  float x, y, z, r;
+  std::uint32_t id, look;
+};
+PackedSphere unpack_sphere(const SceneTextures& textures, std::int64_t position);
+Node unpack_node(const SceneTextures& textures, std::int64_t position);
+Material unpack_look(const SceneTextures& textures, std::int64_t look);
+
+}  // namespace bihive
