@@ -69,6 +69,30 @@ if(BIHIVE_BUILD_TESTS)
   endif()
 endif()
 
+# The window is built where GLFW and Dear ImGui are: nothing else needs them.
+set(BIHIVE_BUILD_VIEWER_DEFAULT OFF)
+if(BIHIVE_BUILD_CLI AND NOT BIHIVE_SANITIZE)
+  find_package(glfw3 3.3 QUIET)
+  find_path(BIHIVE_IMGUI_FOLDER backends/imgui_impl_glfw.h PATH_SUFFIXES imgui)
+  find_library(BIHIVE_IMGUI_LIBRARY imgui)
+  find_library(BIHIVE_STB_LIBRARY stb) # of whose fonts and packing ImGui makes use
+  mark_as_advanced(BIHIVE_IMGUI_FOLDER BIHIVE_IMGUI_LIBRARY BIHIVE_STB_LIBRARY)
+  if(glfw3_FOUND AND BIHIVE_IMGUI_FOLDER AND BIHIVE_IMGUI_LIBRARY AND BIHIVE_STB_LIBRARY)
+    set(BIHIVE_BUILD_VIEWER_DEFAULT ON)
+  endif()
+endif()
+option(BIHIVE_BUILD_VIEWER "Build bihive-view (needs GLFW and Dear ImGui, Debian packages libglfw3-dev libimgui-dev)"
+       ${BIHIVE_BUILD_VIEWER_DEFAULT})
+if(BIHIVE_BUILD_VIEWER AND NOT BIHIVE_BUILD_VIEWER_DEFAULT)
+  message(FATAL_ERROR "GLFW or Dear ImGui was not found. On Debian or Ubuntu: apt-get install libglfw3-dev libimgui-dev, "
+                      "or scripts/setup view.")
+endif()
+if(BIHIVE_BUILD_VIEWER)
+  add_library(bihive_imgui INTERFACE)
+  target_include_directories(bihive_imgui SYSTEM INTERFACE ${BIHIVE_IMGUI_FOLDER} ${BIHIVE_IMGUI_FOLDER}/backends)
+  target_link_libraries(bihive_imgui INTERFACE ${BIHIVE_IMGUI_LIBRARY} ${BIHIVE_STB_LIBRARY} ${CMAKE_DL_LIBS} m)
+endif()
+
 # The benchmark is built where Embree is: nothing else needs it.
 set(BIHIVE_BUILD_BENCH_DEFAULT OFF)
 if(BIHIVE_BUILD_CLI AND NOT BIHIVE_SANITIZE AND NOT BIHIVE_OWN_POOL)

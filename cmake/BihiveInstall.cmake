@@ -21,3 +21,6 @@ if(TARGET bihive)
   # The page of `bihive web`, where `make web` has built it.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build-web/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bihive/web OPTIONAL)
 endif()
+if(TARGET bihive-view)
+  install(TARGETS bihive-view)
+endif()

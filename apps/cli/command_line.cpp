@@ -89,6 +89,12 @@ void add_thread_options(CLI::App& app, TreeParameters& tree, std::int64_t& threa
   add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
 }
 
+void add_shadows(CLI::App& app, std::optional<bool>& shadows) {
+  const auto set = [&shadows](bool on) { return [&shadows, on] { shadows = on; }; };
+  CLI::Option* on = app.add_flag_callback("--shadows", set(true), "Spheres cast shadows (files)");
+  app.add_flag_callback("--no-shadows", set(false), "They do not (thesis's scenes)")->excludes(on);
+}
+
 void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object instead of text");
 }
@@ -113,9 +119,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
   add_integer(command, "--samples", options.samples, 1, 4096, "Samples a pixel (files: 4, thesis's scenes: 1)");
   add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
-  const auto set_shadows = [&options](bool on) { return [&options, on] { options.shadows = on; }; };
-  CLI::Option* on = command.add_flag_callback("--shadows", set_shadows(true), "Spheres cast shadows (files)");
-  command.add_flag_callback("--no-shadows", set_shadows(false), "They do not (thesis's scenes)")->excludes(on);
+  add_shadows(command, options.shadows);
   add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
   add_value(command, "--background", options.background, "COLOUR",
             "A name, #rrggbb or r,g,b from 0 to 1 (files: white)", [](const std::string& text) -> Result<std::string> {
@@ -134,6 +138,25 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_thread_options(command, options.tree, options.threads);
   add_input_options(command, options.input);
   add_json_flag(command, options.json);
+}
+
+void add_view(CLI::App& app, ViewOptions& options, Request& request) {
+  CLI::App& command =
+      add_command(app, "view", "Look at it in a window: turn it, switch views, engines and trees",
+                  "bihive view data/1hpv.pdb --view-from left",
+                  "bihive view scenario2 --engine gpu --max-prims 1 --view traversal", options, request);
+  add_input(command, options.input);
+  add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
+  add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (gpu where a real one can, else cpu)");
+  add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
+  add_integer(command, "--samples", options.samples, 1, kMostSamples, "Samples a pixel (files: 4, thesis's scenes: 1)");
+  add_integer(command, "--recursion", options.recursion, 1, kMostRecursion, "Generations of rays (5)");
+  add_shadows(command, options.shadows);
+  add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
+  add_tree_options(command, options.tree);
+  add_input_options(command, options.input);
+  command.add_option("--screenshot", options.screenshot, "Write the settled window into a PNG, and end")
+      ->type_name("FILE");
 }
 
 void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
@@ -238,6 +261,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(0, 1);
 
   RenderOptions render;
+  ViewOptions view;
   StatsOptions stats;
   TraceOptions trace;
   SceneOptions scene;
@@ -246,6 +270,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   WebOptions web;
   Request request = HelpText{"", false};
   add_render(app, render, request);
+  add_view(app, view, request);
   add_stats(app, stats, request);
   add_trace(app, trace, request);
   add_scene(app, scene, request);

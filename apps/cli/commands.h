@@ -11,6 +11,7 @@
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/framing.h"
+#include "bihive/viewer/viewer_settings.h"
 #include "input.h"
 #include "values.h"
 
@@ -38,6 +39,21 @@ struct RenderOptions {
   bool json = false;
 };
 void run_render(const RenderOptions& options);
+
+/// Unset: as the scene says.
+struct ViewOptions {
+  InputOptions input;
+  std::optional<PictureSize> size;  ///< of the window
+  std::optional<ViewerEngine> engine;
+  View view = View::shaded;
+  std::optional<std::int64_t> recursion, samples;
+  std::optional<bool> shadows;
+  TreeParameters tree;
+  std::optional<ViewFrom> view_from;
+  std::string screenshot;  ///< empty: none
+};
+/// Becomes bihive-view, the program with the window; returns only by a Failure.
+[[noreturn]] void run_view(const ViewOptions& options);
 
 struct StatsOptions {
   InputOptions input;

@@ -29,6 +29,11 @@ void refuse_file_options(const InputOptions& options) {
   only_for(options.frame.has_value(), "--frame", "files", options.input);
 }
 
+// Made by the program, not read.
+bool is_generated(const std::string& name) {
+  return is_built_in_scene(name) && name != "demo";
+}
+
 ReadOptions read_options(const InputOptions& options) {
   ReadOptions reading;
   reading.radius = options.radius;
@@ -40,15 +45,20 @@ ReadOptions read_options(const InputOptions& options) {
 
 }  // namespace
 
+void check_input_options(const InputOptions& options) {
+  if (!is_generated(options.input)) return refuse_generator_options(options);
+  refuse_file_options(options);
+  if (options.input != "four-spheres") return;
+  refuse_generator_options(options);
+  only_for(options.radius.has_value(), "--radius", "the scenarios and files", options.input);
+}
+
 std::optional<Scene> generated_scene(const InputOptions& options) {
   const std::string& name = options.input;
-  if (!is_built_in_scene(name) || name == "demo") return std::nullopt;
-  refuse_file_options(options);
+  if (!is_generated(name)) return std::nullopt;
+  check_input_options(options);
   ScenarioParameters parameters;
-  if (name == "four-spheres") {
-    refuse_generator_options(options);
-    only_for(options.radius.has_value(), "--radius", "the scenarios and files", name);
-  } else {
+  if (name != "four-spheres") {
     parameters.count = options.count.value_or(parameters.count);
     if (options.radius) parameters.radius = static_cast<float>(*options.radius);
     parameters.seed = options.seed.value_or(parameters.seed);
@@ -68,7 +78,7 @@ Input load_input(const InputOptions& options) {
     input.format = "built-in";
     return input;
   }
-  refuse_generator_options(options);
+  check_input_options(options);
   const ReadOptions reading = read_options(options);
   Input input = value_or_fail(options.input == "demo"
                                   ? built_in_scene("demo", {}, reading)

@@ -25,6 +25,9 @@ struct InputOptions {
 /// Coloured, at least one sphere; its warnings have been said on stderr.
 using Input = LoadedScene;
 
+/// Fails with kBadUsage on options that do not fit the input.
+void check_input_options(const InputOptions& options);
+
 /// Built-in names go first: scenario1, scenario2, scenario3, four-spheres, demo. Says warnings on stderr. Fails with
 /// kBadUsage on options that do not fit the input, and with kBadInput on a file that cannot be read.
 Input load_input(const InputOptions& options);

@@ -471,8 +471,9 @@ class Viewer::Implementation {
 Viewer::Viewer() : implementation_(std::make_unique<Implementation>()) {}
 Viewer::~Viewer() = default;
 
-Result<SceneFacts> Viewer::load_built_in(const std::string& name, const ScenarioParameters& parameters) {
-  return implementation_->load(built_in_scene(name, parameters));
+Result<SceneFacts> Viewer::load_built_in(const std::string& name, const ScenarioParameters& parameters,
+                                         const ReadOptions& options) {
+  return implementation_->load(built_in_scene(name, parameters, options));
 }
 Result<SceneFacts> Viewer::load(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   return implementation_->load(load_scene(bytes, name, options));

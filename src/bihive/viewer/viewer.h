@@ -17,28 +17,12 @@
 #include "bihive/gl/gl_renderer.h"
 #include "bihive/image/image.h"
 #include "bihive/io/read_spheres.h"
-#include "bihive/render/renderer.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/scene.h"
+#include "bihive/viewer/viewer_settings.h"
 
 namespace bihive {
-
-enum class ViewerEngine { cpu, gpu };
-
-constexpr int kMostRecursion = 16;
-constexpr int kMostSamples = 64;
-
-/// Everything that a user chooses. Plain data; as JSON in viewer/viewer_json.h, for links and saved states.
-struct ViewerSettings {
-  ViewerEngine engine = ViewerEngine::cpu;
-  View view = View::shaded;
-  int recursion = 5;          ///< 1 to kMostRecursion
-  int samples_per_pixel = 4;  ///< 1 to kMostSamples, once at rest
-  bool shadows = true;
-  std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
-  Camera camera;
-};
 
 /// What frame() did.
 struct FrameReport {
@@ -69,8 +53,10 @@ class Viewer {
   // picture defaults (samples, recursion, shadows); engine, view and parameters of the tree stay. A scene without
   // lights is lit from behind the camera, wherever that goes, as `bihive render` does.
 
-  /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres".
-  Result<SceneFacts> load_built_in(const std::string& name, const ScenarioParameters& parameters = {});
+  /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres". The parameters are the scenarios', the options the
+  /// demo's.
+  Result<SceneFacts> load_built_in(const std::string& name, const ScenarioParameters& parameters = {},
+                                   const ReadOptions& options = {});
   /// The bytes of a file of spheres or of a scene file, compressed or not.
   Result<SceneFacts> load(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
   /// A scene made elsewhere, at least one sphere; without `has_camera` the whole set comes into view.

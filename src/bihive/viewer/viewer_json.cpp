@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bihive/bih/tree.h"
 #include "bihive/scene/scene_json.h"
 
 namespace bihive {

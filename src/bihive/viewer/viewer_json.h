@@ -5,12 +5,9 @@
 #include <string_view>
 
 #include "bihive/base/result.h"
-#include "bihive/scene/names.h"
-#include "bihive/viewer/viewer.h"
+#include "bihive/viewer/viewer_settings.h"
 
 namespace bihive {
-
-inline const Names<ViewerEngine> kViewerEngines{{"cpu", ViewerEngine::cpu}, {"gpu", ViewerEngine::gpu}};
 
 /// One line: {"engine":"cpu","view":"shaded","recursion":5,"samples_per_pixel":4,"shadows":true,"max_prims":null,
 /// "max_depth":null,"camera":{"eye":[x,y,z],"look_at":[x,y,z],"up":[x,y,z],"fov_deg":30}}. Numbers come back exactly.

@@ -1,0 +1,354 @@
+#include "app.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "bihive/base/version.h"
+#include "bihive/base/write_file.h"
+#include "bihive/image/png.h"
+#include "bihive/scene/names.h"
+#include "bihive/viewer/viewer_json.h"
+#include "theme.h"
+
+namespace bihive::window {
+namespace {
+
+constexpr double kBudgetMs = 16;
+constexpr double kIdleSeconds = 0.5;
+constexpr double kZoomOfNotch = 1.15;
+constexpr double kTurnOfKeyPx = 24;  // an arrow turns or shifts by so much
+
+App& app_of(GLFWwindow* window) {
+  return *static_cast<App*>(glfwGetWindowUserPointer(window));
+}
+
+// A processor that only pretends: the CPU engine is the better one then.
+bool is_software(const std::string& description) {
+  for (const char* name : {"llvmpipe", "softpipe", "SwiftShader", "swrast"})
+    if (description.find(name) != std::string::npos) return true;
+  return false;
+}
+
+// "demo.png", or "demo-2.png" where that exists.
+std::string free_name(const std::string& wanted) {
+  const std::filesystem::path path(wanted);
+  std::error_code ignored;
+  std::string name = wanted;
+  for (int number = 2; std::filesystem::exists(name, ignored); ++number)
+    name = (path.parent_path() / (path.stem().string() + "-" + std::to_string(number) + path.extension().string()))
+               .string();
+  return name;
+}
+
+}  // namespace
+
+App::~App() {
+  viewer_.detach_gl(false);
+  texture_.reset();
+}
+
+Status App::open() {
+  Result<std::unique_ptr<Window>> window = Window::open("bihive", request_.width, request_.height, this, &App::listen);
+  if (!window) return window.error();
+  window_ = std::move(*window);
+  texture_ = std::make_unique<PictureTexture>(window_->gl());
+
+  // The graphics processor is welcome, but nothing depends on it unless it was asked for.
+  const Result<GlFunctions> functions = load_gl_functions(glfwGetProcAddress);
+  const Status attached = functions ? viewer_.attach_gl(*functions) : Status(functions.error());
+  ViewerSettings settings = viewer_.settings();
+  const ImVec2 size = picture_size();
+  viewer_.resize(static_cast<int>(size.x), static_cast<int>(size.y));
+  if (request_.side) viewer_.look_from(*request_.side);
+  settings.camera = viewer_.settings().camera;
+  if (!request_.chooses_engine && attached && !is_software(viewer_.gl_description()))
+    settings.engine = ViewerEngine::gpu;
+  const Result<ViewerSettings> asked = settings_from_json(request_.settings, settings);
+  if (!asked) return asked.error();
+  if (asked->engine == ViewerEngine::gpu && !attached) return attached.error();
+  if (Status status = viewer_.set(*asked); !status) return status;
+  opened(viewer_.facts());
+  return Done{};
+}
+
+void App::listen(GLFWwindow* window) {
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+    app_of(w).wake();
+    app_of(w).on_key(key, action, mods);
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+    app_of(w).wake();
+    app_of(w).on_button(button, action, mods);
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    app_of(w).wake();
+    app_of(w).on_cursor(x, y);
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) {
+    app_of(w).wake();
+    app_of(w).on_wheel(dy);
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { app_of(w).wake(); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { app_of(w).wake(); });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { app_of(w).wake(); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { app_of(w).wake(); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    app_of(w).wake();
+    app_of(w).on_drop({paths, paths + count});
+  });
+}
+
+// --- What the window tells --------------------------------------------------------------------------------------
+
+void App::on_key(int key, int action, int mods) {
+  if (action == GLFW_RELEASE || ImGui::GetIO().WantTextInput) return;
+  const bool again = action == GLFW_REPEAT;
+  const double step = kTurnOfKeyPx * window_->pixels_per_unit() * window_->text_scale();
+  const auto turn = [&](double dx, double dy) {
+    if ((mods & GLFW_MOD_SHIFT) != 0)
+      viewer_.pan(dx * step, dy * step);
+    else
+      viewer_.orbit(dx * step, dy * step);
+  };
+  const auto zoom = [&](double factor) {
+    const ImVec2 size = picture_size();
+    viewer_.zoom(factor, size.x / 2.0, size.y / 2.0);
+  };
+  switch (key) {
+    case GLFW_KEY_LEFT:
+      return turn(-1, 0);
+    case GLFW_KEY_RIGHT:
+      return turn(1, 0);
+    case GLFW_KEY_UP:
+      return turn(0, -1);
+    case GLFW_KEY_DOWN:
+      return turn(0, 1);
+    case GLFW_KEY_EQUAL:  // with or without shift, "+" on most keyboards
+    case GLFW_KEY_KP_ADD:
+      return zoom(kZoomOfNotch);
+    case GLFW_KEY_MINUS:
+    case GLFW_KEY_KP_SUBTRACT:
+      return zoom(1 / kZoomOfNotch);
+    default:
+      break;
+  }
+  if (again) return;
+  ViewerSettings settings = viewer_.settings();
+  if (key >= GLFW_KEY_1 && key < GLFW_KEY_1 + static_cast<int>(kViews.size())) {
+    settings.view = kViews[static_cast<std::size_t>(key - GLFW_KEY_1)].second;
+    return apply(settings);
+  }
+  // Letters where the user's keyboard has them.
+  const char* const name = glfwGetKeyName(key, 0);
+  const char letter = key == GLFW_KEY_HOME ? 'r' : name == nullptr ? '\0' : name[0];
+  switch (letter) {
+    case '+':
+      return zoom(kZoomOfNotch);
+    case 'e':
+      settings.engine = settings.engine == ViewerEngine::cpu ? ViewerEngine::gpu : ViewerEngine::cpu;
+      return apply(settings);
+    case 'h':
+      panel_shown_ = !panel_shown_;
+      return;
+    case 'r':
+      return viewer_.home();
+    case 's':
+      return save();
+    default:
+      if (key == GLFW_KEY_ESCAPE) message_.clear();
+  }
+}
+
+void App::on_button(int button, int action, int mods) {
+  if (action == GLFW_RELEASE) {
+    drag_ = Drag::none;
+    return;
+  }
+  glfwGetCursorPos(window_->handle(), &x_, &y_);
+  const ImVec2 size = picture_size();
+  const double scale = window_->pixels_per_unit();
+  if (x_ * scale >= size.x || ImGui::GetIO().WantCaptureMouse) return;
+  const bool shifts = button != GLFW_MOUSE_BUTTON_LEFT || (mods & GLFW_MOD_SHIFT) != 0;
+  drag_ = shifts ? Drag::pan : Drag::orbit;
+}
+
+void App::on_cursor(double x, double y) {
+  const double scale = window_->pixels_per_unit();
+  const double dx = scale * (x - x_), dy = scale * (y - y_);
+  x_ = x;
+  y_ = y;
+  if (dx == 0 && dy == 0) return;
+  if (drag_ == Drag::orbit) viewer_.orbit(dx, dy);
+  if (drag_ == Drag::pan) viewer_.pan(dx, dy);
+}
+
+void App::on_wheel(double dy) {
+  const double scale = window_->pixels_per_unit();
+  const ImVec2 size = picture_size();
+  if (x_ * scale >= size.x || ImGui::GetIO().WantCaptureMouse) return;
+  viewer_.zoom(std::pow(kZoomOfNotch, std::clamp(dy, -10.0, 10.0)), x_ * scale, y_ * scale);
+}
+
+void App::on_drop(std::vector<std::string> paths) {
+  if (paths.size() > 1) say("several files were dropped; the first is shown", false);
+  if (!paths.empty()) file_to_open_ = std::move(paths.front());
+}
+
+// --- What follows from it ---------------------------------------------------------------------------------------
+
+void App::open_file(const std::string& path) {
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return say(bytes.error().to_string(), true);
+  opened(viewer_.load(*bytes, path));
+}
+
+void App::open_built_in(const std::string& name) {
+  opened(viewer_.load_built_in(name));
+}
+
+void App::opened(const Result<SceneFacts>& facts) {
+  if (!facts) return say(facts.error().to_string(), true);
+  message_.clear();
+  texture_->forget();
+  panel_.table.forget();
+  const std::filesystem::path name(facts->name);
+  panel_.file_name = name.stem().string() + ".png";
+  glfwSetWindowTitle(window_->handle(), (name.filename().string() + " - bihive").c_str());
+}
+
+void App::apply(const ViewerSettings& settings) {
+  if (Status status = viewer_.set(settings); !status) return say(status.error().to_string(), true);
+  if (message_is_bad_) message_.clear();
+}
+
+void App::follow(const PanelWishes& wishes) {
+  if (wishes.settings) apply(*wishes.settings);
+  if (wishes.side) viewer_.look_from(*wishes.side);
+  if (wishes.home) viewer_.home();
+  if (wishes.built_in) open_built_in(*wishes.built_in);
+  if (wishes.save) save();
+}
+
+void App::save() {
+  const ImVec2 size = picture_size();
+  const Result<Image> picture =
+      viewer_.picture(static_cast<int>(size.x), static_cast<int>(size.y), viewer_.settings().samples_per_pixel);
+  if (!picture) return say(picture.error().to_string(), true);
+  const std::string path = free_name(panel_.file_name);
+  const PngText text{{"Software", "bihive " + std::string(version())},
+                     {"Scene", viewer_.facts().name},
+                     {"Settings", settings_to_json(viewer_.settings())}};
+  if (Status status = write_png(path, *picture, text); !status) return say(status.error().to_string(), true);
+  std::error_code ignored;
+  say(fmt::format("saved {} ({} x {})", std::filesystem::absolute(path, ignored).string(), picture->width,
+                  picture->height),
+      false);
+}
+
+void App::say(const std::string& text, bool bad) {
+  message_ = text;
+  message_is_bad_ = bad;
+  wake();
+}
+
+// --- Frame after frame ------------------------------------------------------------------------------------------
+
+ImVec2 App::picture_size() const {
+  const PixelSize pixels = window_->framebuffer();
+  const double panel = panel_shown_ ? Panel::width(window_->text_scale()) * window_->pixels_per_unit() : 0;
+  return {std::max(1.0F, static_cast<float>(pixels.width - panel)), std::max(1.0F, static_cast<float>(pixels.height))};
+}
+
+Status App::run() {
+  FrameReport report;
+  int settled_frames = 0;
+  while (glfwWindowShouldClose(window_->handle()) == GLFW_FALSE) {
+    if (frames_to_draw_ > 0 || !report.settled)
+      glfwPollEvents();
+    else
+      glfwWaitEventsTimeout(kIdleSeconds);
+    const PixelSize pixels = window_->framebuffer();
+    if (pixels.width == 0 || pixels.height == 0) {
+      // Minimized.
+      glfwWaitEventsTimeout(kIdleSeconds);
+      continue;
+    }
+    const ImVec2 size = picture_size();
+    viewer_.resize(static_cast<int>(size.x), static_cast<int>(size.y));
+
+    // Go on with the picture, and with what the panel says of it.
+    const Result<FrameReport> next = viewer_.frame(kBudgetMs);
+    if (next)
+      report = *next;
+    else
+      say(next.error().to_string(), true);
+    if (report.drawn && viewer_.settings().engine == ViewerEngine::cpu) texture_->take(viewer_.image());
+    if (panel_shown_) panel_.table.update(viewer_, report.settled);
+
+    // Draw the window where there is something new in it.
+    if (frames_to_draw_ == 0 && report.settled && !report.drawn) continue;
+    frames_to_draw_ = std::max(0, frames_to_draw_ - 1);
+    settled_frames = report.settled ? settled_frames + 1 : 0;
+    constexpr int kFramesOfScreenshot = 4;
+    Image screenshot;
+    const bool is_screenshot = !request_.screenshot.empty() && settled_frames >= kFramesOfScreenshot;
+    draw(report, is_screenshot ? &screenshot : nullptr);
+    if (is_screenshot) return write_png(request_.screenshot, screenshot, {});
+    if (!request_.screenshot.empty()) wake();
+    if (report.settled && report.drawn) wake();
+
+    // A file that was dropped, once its name is on the screen.
+    if (!file_to_open_) continue;
+    const std::string path = *std::exchange(file_to_open_, std::nullopt);
+    open_file(path);
+    wake();
+  }
+  return Done{};
+}
+
+void App::draw(const FrameReport& report, Image* screenshot) {
+  const ImVec2 size = picture_size();
+  const auto unit = static_cast<float>(1 / window_->pixels_per_unit());
+  const PixelSize pixels = window_->framebuffer();
+  const Gl& gl = window_->gl();
+  gl.Viewport(0, 0, pixels.width, pixels.height);
+  gl.ClearColor(kBackground.x, kBackground.y, kBackground.z, 1);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  window_->begin_frame();
+  if (viewer_.settings().engine == ViewerEngine::gpu)
+    viewer_.show(0, {0, 0, static_cast<int>(size.x), static_cast<int>(size.y)});
+  else
+    texture_->draw({size.x * unit, size.y * unit});
+  PanelWishes wishes;
+  if (panel_shown_) wishes = panel_.draw(viewer_, report, ImGui::GetIO().DisplaySize, window_->text_scale());
+  draw_message();
+  window_->end_frame(screenshot);
+  follow(wishes);
+}
+
+void App::draw_message() {
+  const std::string text = file_to_open_ ? "opening " + *file_to_open_ : message_;
+  if (text.empty()) return;
+  const auto margin = static_cast<float>(14 * window_->text_scale());
+  const float width = picture_size().x / static_cast<float>(window_->pixels_per_unit()) - 2 * margin;
+  ImGui::SetNextWindowPos({margin, ImGui::GetIO().DisplaySize.y - margin}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {std::max(width, 100.0F), ImGui::GetIO().DisplaySize.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * static_cast<float>(window_->text_scale()));
+  ImGui::SetNextWindowBgAlpha(0.92F);
+  ImGui::Begin("message", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushTextWrapPos(std::max(width, 100.0F) - margin);
+  ImGui::TextColored(file_to_open_ ? kDim : message_is_bad_ ? kBad : kGood, "%s", text.c_str());
+  ImGui::PopTextWrapPos();
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) message_.clear();
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace bihive::window

@@ -1,0 +1,71 @@
+// The window's program: the viewer on one side, the user on the other.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/viewer/viewer.h"
+#include "panel.h"
+#include "picture_texture.h"
+#include "request.h"
+#include "window.h"
+
+struct GLFWwindow;
+
+namespace bihive::window {
+
+class App {
+ public:
+  /// The viewer has the scene of the request.
+  App(Viewer& viewer, const Request& request) : viewer_(viewer), request_(request) {}
+  ~App();
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
+
+  /// Error: no window, no OpenGL, or not the graphics processor that the request asks for.
+  Status open();
+  /// Until the window is closed, or the screenshot is written. Error: it could not be.
+  Status run();
+
+ private:
+  // What the window tells.
+  static void listen(GLFWwindow* window);
+  void on_key(int key, int action, int mods);
+  void on_button(int button, int action, int mods);
+  void on_cursor(double x, double y);
+  void on_wheel(double dy);
+  void on_drop(std::vector<std::string> paths);
+  void wake() { frames_to_draw_ = 3; }
+
+  // What follows from it.
+  void open_file(const std::string& path);
+  void open_built_in(const std::string& name);
+  void opened(const Result<SceneFacts>& facts);
+  void apply(const ViewerSettings& settings);
+  void follow(const PanelWishes& wishes);
+  void save();
+  void say(const std::string& text, bool bad);
+
+  void draw(const FrameReport& report, Image* screenshot);
+  void draw_message();
+  ImVec2 picture_size() const;  // in ImGui's units
+
+  Viewer& viewer_;
+  Request request_;
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<PictureTexture> texture_;
+  Panel panel_;
+  bool panel_shown_ = true;
+  std::string message_;
+  bool message_is_bad_ = false;
+  std::optional<std::string> file_to_open_;
+  int frames_to_draw_ = 3;  // of the window, however little happens
+
+  enum class Drag { none, orbit, pan };
+  Drag drag_ = Drag::none;
+  double x_ = 0, y_ = 0;  // of the pointer
+};
+
+}  // namespace bihive::window

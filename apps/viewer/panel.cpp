@@ -1,0 +1,178 @@
+#include "panel.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "bihive/scene/load_scene.h"
+#include "bihive/scene/names.h"
+#include "theme.h"
+
+namespace bihive::window {
+namespace {
+
+// A slider's range; numbers beyond it are for the command line.
+constexpr int kMostPrims = 64, kMostDepth = 64;
+
+void heading(const char* text) {
+  ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y * 0.4F});
+  ImGui::Separator();
+  ImGui::TextColored(kDim, "%s", text);
+}
+
+// A label in the left column, and the control that follows in the right one.
+void label(const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + 0.36F * ImGui::GetWindowWidth());
+  ImGui::SetNextItemWidth(-1);
+}
+
+void slider(const char* name, int& value, int max, ImGuiSliderFlags flags = 0) {
+  label(name);
+  const std::string id = std::string("##") + name;
+  ImGui::SliderInt(id.c_str(), &value, 1, max, "%d", flags | ImGuiSliderFlags_AlwaysClamp);
+}
+
+// A limit of the tree: the engine's choice, or a number. At the slider's left end the engine chooses.
+void limit_slider(const char* name, std::optional<std::int64_t>& value, int max) {
+  label(name);
+  int position = value ? static_cast<int>(std::clamp<std::int64_t>(*value, 1, max)) : 0;
+  const std::string shown = !value ? "auto" : *value == kUnlimited ? "unlimited" : std::to_string(*value);
+  const std::string id = std::string("##") + name;
+  if (!ImGui::SliderInt(id.c_str(), &position, 0, max, shown.c_str(), ImGuiSliderFlags_AlwaysClamp)) return;
+  if (position == 0)
+    value.reset();
+  else
+    value = position;
+}
+
+}  // namespace
+
+PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale) {
+  PanelWishes wishes;
+  ViewerSettings settings = viewer.settings();
+  const float across = width(text_scale);
+  ImGui::SetNextWindowPos({display.x - across, 0});
+  ImGui::SetNextWindowSize({across, display.y});
+  ImGui::Begin("bihive", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  draw_scene(viewer, wishes);
+  draw_picture(viewer, settings);
+  draw_camera(wishes);
+  draw_tree(settings);
+  draw_speed(viewer, report);
+  draw_saving(wishes);
+  ImGui::End();
+
+  const ViewerSettings& before = viewer.settings();
+  const bool changed = settings.engine != before.engine || settings.view != before.view ||
+                       settings.recursion != before.recursion ||
+                       settings.samples_per_pixel != before.samples_per_pixel || settings.shadows != before.shadows ||
+                       settings.max_prims != before.max_prims || settings.max_depth != before.max_depth;
+  if (changed) wishes.settings = settings;
+  return wishes;
+}
+
+void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) const {
+  const SceneFacts& facts = viewer.facts();
+  const std::size_t slash = facts.name.rfind('/');
+  const std::string name = slash == std::string::npos ? facts.name : facts.name.substr(slash + 1);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##scene", name.c_str(), ImGuiComboFlags_HeightLarge)) {
+    ImGui::TextColored(kDim, "built-in scenes; drop a file for another");
+    for (const char* built_in : kBuiltInScenes)
+      if (ImGui::Selectable(built_in, facts.name == built_in)) wishes.built_in = built_in;
+    ImGui::EndCombo();
+  }
+  ImGui::TextColored(
+      kDim, "%s", fmt::format("{} sphere{}, {}", facts.spheres, facts.spheres == 1 ? "" : "s", facts.format).c_str());
+  if (!facts.rules.empty() && ImGui::IsItemHovered()) {
+    ImGui::BeginTooltip();
+    for (const std::string& rule : facts.rules) ImGui::TextUnformatted(rule.c_str());
+    ImGui::EndTooltip();
+  }
+  ImGui::PushTextWrapPos(0);
+  for (const std::string& warning : facts.warnings) ImGui::TextColored(kBad, "%s", warning.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
+  heading("picture");
+  label("engine");
+  if (ImGui::RadioButton("CPU", settings.engine == ViewerEngine::cpu)) settings.engine = ViewerEngine::cpu;
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!viewer.has_gl());
+  if (ImGui::RadioButton("GPU", settings.engine == ViewerEngine::gpu)) settings.engine = ViewerEngine::gpu;
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", viewer.has_gl() ? viewer.gl_description().c_str() : "no graphics processor that can do it");
+
+  label("view");
+  if (ImGui::BeginCombo("##view", name_of(kViews, settings.view).c_str(), ImGuiComboFlags_HeightLarge)) {
+    int number = 1;
+    for (const auto& [name, view] : kViews) {
+      const std::string entry = std::to_string(number++) + "  " + name;
+      if (ImGui::Selectable(entry.c_str(), settings.view == view)) settings.view = view;
+    }
+    ImGui::EndCombo();
+  }
+  slider("recursion", settings.recursion, kMostRecursion);
+  slider("samples", settings.samples_per_pixel, kMostSamples, ImGuiSliderFlags_Logarithmic);
+  label("shadows");
+  ImGui::Checkbox("##shadows", &settings.shadows);
+}
+
+void Panel::draw_camera(PanelWishes& wishes) const {
+  heading("look from");
+  const float space = ImGui::GetStyle().ItemSpacing.x;
+  const float across = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
+  int column = 0;
+  const auto button = [&](const char* name) {
+    if (column++ % 4 != 0) ImGui::SameLine();
+    return ImGui::Button(name, {across, 0});
+  };
+  for (const auto& [name, side] : kSides)
+    if (button(name.c_str())) wishes.side = side;
+  if (button("home")) wishes.home = true;
+}
+
+void Panel::draw_tree(ViewerSettings& settings) const {
+  heading("tree");
+  limit_slider("max_prims", settings.max_prims, kMostPrims);
+  limit_slider("max_depth", settings.max_depth, kMostDepth);
+  table.draw();
+}
+
+void Panel::draw_speed(const Viewer& viewer, const FrameReport& report) const {
+  heading("speed");
+  const std::string fps = report.fps > 0 ? fmt::format("{:.1f} frames/s moving", report.fps) : "move to see frames/s";
+  ImGui::TextUnformatted(fps.c_str());
+  const std::string rays = fmt::format("{:.3g} Mray/s", report.mray_per_s);
+  ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(rays.c_str()).x - ImGui::GetStyle().WindowPadding.x);
+  ImGui::TextUnformatted(rays.c_str());
+  const std::string progress = report.settled       ? "all drawn"
+                               : report.divisor > 1 ? fmt::format("1/{} of width and height", report.divisor)
+                                                    : fmt::format("{:.0f} %", 100 * report.done);
+  ImGui::ProgressBar(static_cast<float>(report.done), {-1, 0}, progress.c_str());
+  if (viewer.settings().engine == ViewerEngine::gpu) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextColored(kDim, "%s", viewer.gl_description().c_str());
+    ImGui::PopTextWrapPos();
+  }
+}
+
+void Panel::draw_saving(PanelWishes& wishes) {
+  heading("save the picture");
+  const float button = ImGui::CalcTextSize("save").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::InputText("##file", &file_name);
+  ImGui::SameLine();
+  if (ImGui::Button("save")) wishes.save = true;
+  ImGui::TextColored(kDim, "drag: turn  shift+drag: shift  wheel: zoom");
+  ImGui::TextColored(kDim, "1-7 views  E engine  R home  S save  H hide");
+}
+
+}  // namespace bihive::window

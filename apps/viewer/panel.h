@@ -1,0 +1,43 @@
+// The panel beside the picture: what a user sees of the settings, and what was clicked.
+#pragma once
+
+#include <imgui.h>
+
+#include <optional>
+#include <string>
+
+#include "bihive/scene/framing.h"
+#include "bihive/viewer/viewer.h"
+#include "tree_table.h"
+
+namespace bihive::window {
+
+/// Of one frame.
+struct PanelWishes {
+  std::optional<ViewerSettings> settings;
+  std::optional<ViewFrom> side;
+  std::optional<std::string> built_in;  ///< a scene to be opened
+  bool home = false, save = false, hide = false;
+};
+
+class Panel {
+ public:
+  /// Width in ImGui's units.
+  static float width(double text_scale) { return static_cast<float>(348 * text_scale); }
+
+  /// Draws the panel at the right border of a display of that size.
+  PanelWishes draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale);
+
+  TreeTable table;
+  std::string file_name = "bihive.png";  ///< where pictures are saved
+
+ private:
+  void draw_scene(const Viewer& viewer, PanelWishes& wishes) const;
+  void draw_picture(const Viewer& viewer, ViewerSettings& settings) const;
+  void draw_tree(ViewerSettings& settings) const;
+  void draw_camera(PanelWishes& wishes) const;
+  void draw_speed(const Viewer& viewer, const FrameReport& report) const;
+  void draw_saving(PanelWishes& wishes);
+};
+
+}  // namespace bihive::window

@@ -1,0 +1,49 @@
+#include "request.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bihive/scene/names.h"
+
+namespace bihive::window {
+namespace {
+
+using nlohmann::json;
+
+Request take(const json& document) {
+  Request request;
+  request.input = document.at("input").get<std::string>();
+  request.scenario.count = document.value("count", request.scenario.count);
+  request.scenario.seed = document.value("seed", request.scenario.seed);
+  if (document.contains("radius")) {
+    const double radius = document.at("radius").get<double>();
+    request.scenario.radius = static_cast<float>(radius);
+    request.reading.radius = radius;
+  }
+  request.reading.radius_scale = document.value("radius_scale", request.reading.radius_scale);
+  request.reading.recenter = document.value("recenter", false);
+  request.reading.frame = document.value("frame", request.reading.frame);
+  if (document.contains("size")) {
+    request.width = document.at("size").at(0).get<int>();
+    request.height = document.at("size").at(1).get<int>();
+  }
+  for (const auto& [name, side] : kSides)
+    if (document.value("view_from", "") == name) request.side = side;
+  if (document.contains("settings")) {
+    request.settings = document.at("settings").dump();
+    request.chooses_engine = document.at("settings").contains("engine");
+  }
+  request.screenshot = document.value("screenshot", "");
+  return request;
+}
+
+}  // namespace
+
+Result<Request> request_from_json(std::string_view text) {
+  try {
+    return take(json::parse(text));
+  } catch (const json::exception& error) {
+    return Error{std::string("this program is started by `bihive view`: ") + error.what(), "", 0, 0, ""};
+  }
+}
+
+}  // namespace bihive::window

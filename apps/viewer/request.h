@@ -1,0 +1,36 @@
+// What the window is to show, as `bihive view` hands it over: it has parsed and checked the command line, and starts
+// this program with one argument, a JSON object.
+//
+//   {"input": "demo",                        a built-in name or a file
+//    "count": 64, "seed": 1, "radius": 1,    of the scenarios; all but "input" may be missing
+//    "radius_scale": 1, "recenter": false, "frame": 0,
+//    "size": [1280, 800], "view_from": "left",
+//    "settings": {...},                      as in viewer/viewer_json.h; what is missing is the scene's
+//    "screenshot": "window.png"}
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bihive/base/result.h"
+#include "bihive/io/read_spheres.h"
+#include "bihive/scene/framing.h"
+#include "bihive/scene/generators.h"
+
+namespace bihive::window {
+
+struct Request {
+  std::string input;
+  ScenarioParameters scenario;
+  ReadOptions reading;
+  int width = 1280, height = 800;  ///< of the window, in the screen's units
+  std::optional<ViewFrom> side;
+  std::string settings = "{}";
+  bool chooses_engine = false;  ///< the settings name one
+  std::string screenshot;       ///< not empty: a PNG of the settled window is written there, and the program ends
+};
+
+Result<Request> request_from_json(std::string_view text);
+
+}  // namespace bihive::window

@@ -1,0 +1,34 @@
+// What a user of the viewer chooses.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/scene/camera.h"
+#include "bihive/scene/names.h"
+#include "bihive/scene/render_settings.h"
+
+namespace bihive {
+
+enum class ViewerEngine { cpu, gpu };
+
+inline const Names<ViewerEngine> kViewerEngines{{"cpu", ViewerEngine::cpu}, {"gpu", ViewerEngine::gpu}};
+
+constexpr int kMostRecursion = 16;
+constexpr int kMostSamples = 64;
+
+/// Everything that a user chooses. Plain data; as JSON in viewer/viewer_json.h, for links and saved states.
+struct ViewerSettings {
+  ViewerEngine engine = ViewerEngine::cpu;
+  View view = View::shaded;
+  int recursion = 5;          ///< 1 to kMostRecursion
+  int samples_per_pixel = 4;  ///< 1 to kMostSamples, once at rest
+  bool shadows = true;
+  std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
+  Camera camera;
+};
+
+}  // namespace bihive
