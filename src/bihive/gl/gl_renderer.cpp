@@ -63,6 +63,12 @@ class GlRenderer::Implementation {
     return status;
   }
 
+  Status set_lights(const Scene& scene) {
+    BIHIVE_CHECK(scene_.is_set());
+    program_ = nullptr;
+    return scene_.set_lights(scene);
+  }
+
   Status begin(const Camera& camera, const RenderSettings& settings) {
     BIHIVE_CHECK(scene_.is_set());
     program_ = nullptr;
@@ -284,6 +290,9 @@ GlRenderer::~GlRenderer() = default;
 
 Status GlRenderer::set_scene(const Scene& scene, const Tree* tree) {
   return implementation_->set_scene(scene, tree);
+}
+Status GlRenderer::set_lights(const Scene& scene) {
+  return implementation_->set_lights(scene);
 }
 Status GlRenderer::begin(const Camera& camera, const RenderSettings& settings) {
   return implementation_->begin(camera, settings);

@@ -41,6 +41,10 @@ class GlRenderer {
   /// the scene before stays.
   Status set_scene(const Scene& scene, const Tree* tree);
 
+  /// Takes the lights anew, for a light that goes along with the camera; everything else is as set_scene() took it.
+  /// Ends a picture that was begun. Error: more lights than a texture holds.
+  Status set_lights(const Scene& scene);
+
   /// Starts a picture. Settings as for render() (render/renderer.h; threads mean nothing), but View::tree is an Error,
   /// and View::traversal one where there is no tree. A scene must have been set.
   Status begin(const Camera& camera, const RenderSettings& settings);

@@ -11,6 +11,7 @@ namespace {
 
 // In the order of SceneOnGpu's textures.
 constexpr std::array<const char*, 5> kSamplers{"spheres", "sphere_info", "nodes", "looks", "lights"};
+constexpr std::size_t kLights = 4;
 constexpr int kFirstUnit = 1;
 
 void upload(const GlFunctions& gl, const Texels<float, 4>& texels) {
@@ -48,7 +49,7 @@ Status SceneOnGpu::set(const Scene& scene, const Tree* tree) {
   make(1, packed->sphere_info);
   make(2, packed->nodes);
   make(3, packed->looks);
-  make(4, packed->lights);
+  make(kLights, packed->lights);
   gl_->BindTexture(GL_TEXTURE_2D, 0);
   Status status = Done{};
   if (gl_->GetError() != GL_NO_ERROR)
@@ -70,6 +71,20 @@ Status SceneOnGpu::set(const Scene& scene, const Tree* tree) {
   textures_ = textures;
   uniforms_ = SceneUniforms(scene, tree, *packed);
   scale_ = scene.spheres.scale();
+  return Done{};
+}
+
+Status SceneOnGpu::set_lights(const Scene& scene) {
+  GLint most_rows = 0;
+  gl_->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most_rows);
+  const Result<SceneTextures> packed = pack_lights(scene, most_rows);
+  if (!packed) return packed.error();
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl_->BindTexture(GL_TEXTURE_2D, textures_[kLights]);
+  upload(*gl_, packed->lights);
+  gl_->BindTexture(GL_TEXTURE_2D, 0);
+  uniforms_.light_count = static_cast<int>(packed->light_count);
   return Done{};
 }
 

@@ -21,6 +21,8 @@ class SceneOnGpu {
 
   /// As GlRenderer::set_scene().
   Status set(const Scene& scene, const Tree* tree);
+  /// As GlRenderer::set_lights().
+  Status set_lights(const Scene& scene);
   void destroy();
 
   bool is_set() const { return textures_[0] != 0; }

@@ -165,6 +165,13 @@ Result<SceneTextures> pack_scene(const Scene& scene, const Tree* tree, int most_
   return packed;
 }
 
+Result<SceneTextures> pack_lights(const Scene& scene, int most_rows) {
+  SceneTextures packed;
+  if (const Status status = pack_lights(scene, std::int64_t{most_rows} * kTextureWidth, packed); !status)
+    return status.error();
+  return packed;
+}
+
 PackedSphere unpack_sphere(const SceneTextures& textures, std::int64_t position) {
   const float* const sphere = &textures.spheres.channels[static_cast<std::size_t>(4 * position)];
   const std::uint32_t* const info = &textures.sphere_info.channels[static_cast<std::size_t>(2 * position)];

@@ -47,6 +47,9 @@ struct SceneTextures {
 /// `tree` may be null. Error: something does not fit a texture of `most_rows` rows.
 Result<SceneTextures> pack_scene(const Scene& scene, const Tree* tree, int most_rows);
 
+/// Its lights alone; everything else stays empty.
+Result<SceneTextures> pack_lights(const Scene& scene, int most_rows);
+
 /// What the shader reads, for tests.
 struct PackedSphere {
   float x, y, z, r;

@@ -8,7 +8,6 @@
 #include "bihive/base/result.h"
 #include "bihive/gl/functions.h"
 #include "bihive/gl/gl_renderer.h"
-#include "bihive/image/image.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
 
@@ -19,30 +18,36 @@ class GpuPictures {
  public:
   /// Error: the context cannot do it.
   static Result<std::unique_ptr<GpuPictures>> create(const GlFunctions& functions);
-  virtual ~GpuPictures() = default;
+  ~GpuPictures();
+  GpuPictures(const GpuPictures&) = delete;
+  GpuPictures& operator=(const GpuPictures&) = delete;
 
-  /// As GlRenderer::set_scene(). Error: the scene before stays.
-  virtual Status set_scene(const Scene& scene, const Tree& tree) = 0;
-  /// Other lights for the same scene.
-  virtual Status set_lights(const Scene& scene, const Tree& tree) = 0;
+  /// Makes the pictures; a picture begins with begin() below.
+  GlRenderer& renderer() { return renderer_; }
+  const GlRenderer& renderer() const { return renderer_; }
 
-  /// Starts a picture with the scene's camera and transfer.
-  virtual Status begin(const Scene& scene, const RenderSettings& settings) = 0;
-  virtual Status advance(double budget_ms) = 0;
-  virtual bool finished() const = 0;
-  virtual double done() const = 0;
-  virtual int samples_done() const = 0;
+  /// Starts a picture of the scene that was set, with its camera and transfer as they are in `scene`.
+  Status begin(const Scene& scene, const RenderSettings& settings);
 
-  /// Keeps what has been drawn so far as the picture that show() draws.
-  virtual void keep() = 0;
-  virtual void show(std::uint32_t framebuffer, const GlViewport& viewport) = 0;
+  /// Copies the passes that are complete: the picture that show() draws from now on. Error: no room for it.
+  Status keep();
+  /// Draws the kept picture, if any, stretched to the viewport.
+  void show(std::uint32_t framebuffer, const GlViewport& viewport) const;
+  void forget() { width_ = height_ = 0; }
 
-  /// The finished picture.
-  virtual Result<GlRenderer::Picture> read() = 0;
-
-  virtual std::string description() const = 0;
   /// The context is gone: nothing is to be deleted.
-  virtual void abandon() = 0;
+  void abandon();
+
+ private:
+  GpuPictures(const GlFunctions& gl, GlRenderer renderer) : gl_(gl), renderer_(std::move(renderer)) {}
+
+  GlFunctions gl_;
+  GlRenderer renderer_;
+  bool abandoned_ = false;
+  RenderSettings settings_;  // of the picture in the making
+  Transfer transfer_ = Transfer::srgb;
+  GLuint texture_ = 0, framebuffer_ = 0;  // of the kept picture
+  int width_ = 0, height_ = 0;            // 0: none is kept
 };
 
 }  // namespace bihive

@@ -104,6 +104,7 @@ class Viewer::Implementation {
     settings_ = settings;
     framed_from_ = side;
     image_ = {};
+    if (gpu_) gpu_->forget();
     start_anew();
     return shown_->facts;
   }
@@ -137,7 +138,7 @@ class Viewer::Implementation {
   }
 
   bool has_gl() const { return gpu_ != nullptr; }
-  std::string gl_description() const { return gpu_ ? gpu_->description() : ""; }
+  std::string gl_description() const { return gpu_ ? gpu_->renderer().description() : ""; }
 
   // --- What is seen -------------------------------------------------------------------------------------------
 
@@ -242,10 +243,10 @@ class Viewer::Implementation {
       if (!rendered) return rendered.error();
       return image_from_film(rendered->film, settings.view, transfer);
     }
-    if (Status status = gpu_->begin(shown_->scene, settings); !status) return status.error();
-    while (!gpu_->finished())
-      if (Status status = gpu_->advance(kGpuSliceMs); !status) return status.error();
-    const Result<GlRenderer::Picture> picture = gpu_->read();
+    if (Status status = begin_gpu(settings); !status) return status.error();
+    while (!gpu_->renderer().finished())
+      if (Status status = gpu_->renderer().advance(kGpuSliceMs); !status) return status.error();
+    const Result<GlRenderer::Picture> picture = gpu_->renderer().read();
     if (!picture) return picture.error();
     return image_from_film(picture->film, settings.view, transfer);
   }
@@ -275,7 +276,7 @@ class Viewer::Implementation {
     const Result<const Tracer*> tracer = tracer_for(trees, settings);
     if (!tracer) return tracer.error();
     if (settings.engine != ViewerEngine::gpu || !upload) return Done{};
-    return gpu_->set_scene(shown.scene, *(*tracer)->tree());
+    return gpu_->renderer().set_scene(shown.scene, (*tracer)->tree());
   }
 
   static Result<const Tracer*> tracer_for(SceneTrees& trees, const ViewerSettings& settings) {
@@ -351,12 +352,7 @@ class Viewer::Implementation {
     shown_samples_ = 0;
     begun_ = true;
     const RenderSettings settings = render_settings(step_);
-    if (settings_.engine == ViewerEngine::gpu) {
-      if (!shown_->has_lights)
-        if (Status status = gpu_->set_lights(shown_->scene, *(*shown_->trees->reference())->tree()); !status)
-          return status;
-      return gpu_->begin(shown_->scene, settings);
-    }
+    if (settings_.engine == ViewerEngine::gpu) return begin_gpu(settings);
     const Result<const Tracer*> tracer = tracer_for(*shown_->trees, settings_);
     if (!tracer) return tracer.error();
     Result<SlicedPicture> picture = SlicedPicture::begin(shown_->scene, **tracer, settings, std::move(film_));
@@ -364,6 +360,12 @@ class Viewer::Implementation {
     if (!picture) return picture.error();
     picture_ = std::move(*picture);
     return Done{};
+  }
+
+  Status begin_gpu(const RenderSettings& settings) {
+    if (!shown_->has_lights)
+      if (Status status = gpu_->renderer().set_lights(shown_->scene); !status) return status;
+    return gpu_->begin(shown_->scene, settings);
   }
 
   // One step, or a part of it.
@@ -385,7 +387,7 @@ class Viewer::Implementation {
     const Timer timer;
     const double limit_ms = moving_ ? kMostBudgets * budget_ms : budget_ms;
     if (settings_.engine == ViewerEngine::gpu) {
-      if (Status status = gpu_->advance(limit_ms); !status) return status;
+      if (Status status = gpu_->renderer().advance(limit_ms); !status) return status;
       spent_ms_ += timer.elapsed_ms();
       return take_gpu(drawn);
     }
@@ -409,10 +411,11 @@ class Viewer::Implementation {
   }
 
   Status take_gpu(bool& drawn) {
-    drawn = gpu_->samples_done() > shown_samples_;
-    if (drawn) gpu_->keep();
-    shown_samples_ = gpu_->samples_done();
-    if (!gpu_->finished()) return Done{};
+    drawn = gpu_->renderer().samples_done() > shown_samples_;
+    if (drawn)
+      if (Status status = gpu_->keep(); !status) return status;
+    shown_samples_ = gpu_->renderer().samples_done();
+    if (!gpu_->renderer().finished()) return Done{};
     const PictureStep step = step_;
     finish_step();
 
@@ -420,7 +423,7 @@ class Viewer::Implementation {
     const double primary =
         static_cast<double>(divided(size_.width, step.divisor)) * divided(size_.height, step.divisor) * step.samples;
     if (settled_) {
-      const Result<GlRenderer::Picture> picture = gpu_->read();
+      const Result<GlRenderer::Picture> picture = gpu_->renderer().read();
       if (!picture) return picture.error();
       rays_per_primary_ = static_cast<double>(picture->primary + picture->others) / primary;
     }
@@ -438,7 +441,7 @@ class Viewer::Implementation {
 
   double done_of_step() const {
     if (!begun_) return 1;
-    if (settings_.engine == ViewerEngine::gpu) return gpu_->done();
+    if (settings_.engine == ViewerEngine::gpu) return gpu_->renderer().done();
     return picture_ ? picture_->done() : 0;
   }
 

@@ -98,7 +98,8 @@ class Viewer {
   Result<FrameReport> frame(double budget_ms);
   /// The last picture of the CPU engine, divisor times smaller than the size asked for; display values.
   const Image& image() const;
-  /// The last picture of the GPU engine, drawn into the viewport, which it fills. Nothing where there is none.
+  /// The last picture of the GPU engine, stretched to the viewport. Nothing where there is none. A framebuffer of
+  /// several samples a pixel (antialiasing) is not for this.
   void show(std::uint32_t framebuffer, const GlViewport& viewport);
   /// All of it at once at any size, by the engine of the settings: to be saved.
   Result<Image> picture(int width_px, int height_px, int samples_per_pixel);

@@ -1,0 +1,207 @@
+// The model behind window and page, with the graphics processor.
+#include "bihive/viewer/viewer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "bihive/image/image_diff.h"
+#include "support/gl_picture.h"
+
+namespace bihive {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kWidth = 120, kHeight = 80;
+
+const GlFunctions& gl() {
+  return test::GlPictures::get().functions();
+}
+
+void settle(Viewer& viewer) {
+  for (int i = 0; i < 100000; ++i) {
+    const Result<FrameReport> report = viewer.frame(20);
+    ASSERT_TRUE(report) << report.error().to_string();
+    if (report->settled) return;
+  }
+  FAIL() << "never settled";
+}
+
+void choose(Viewer& viewer, ViewerEngine engine) {
+  ViewerSettings settings = viewer.settings();
+  settings.engine = engine;
+  const Status status = viewer.set(settings);
+  ASSERT_TRUE(status) << status.error().to_string();
+}
+
+// What show() draws into a framebuffer as large as the picture.
+Image shown(Viewer& viewer, int width = kWidth, int height = kHeight) {
+  GLuint texture = 0, framebuffer = 0;
+  gl().GenTextures(1, &texture);
+  gl().BindTexture(GL_TEXTURE_2D, texture);
+  gl().TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  gl().GenFramebuffers(1, &framebuffer);
+  gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl().FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  gl().ClearColor(1, 0, 1, 1);
+  gl().Clear(GL_COLOR_BUFFER_BIT);
+  viewer.show(framebuffer, {0, 0, width, height});
+  gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  std::vector<std::uint8_t> rgba(std::size_t(4) * std::size_t(width) * std::size_t(height));
+  gl().ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  EXPECT_EQ(gl().GetError(), GLenum(GL_NO_ERROR));
+  gl().BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl().DeleteFramebuffers(1, &framebuffer);
+  gl().DeleteTextures(1, &texture);
+  Image image{width, height, {}};
+  for (int y = height - 1; y >= 0; --y)
+    for (int x = 0; x < width; ++x)
+      for (int channel = 0; channel < 3; ++channel)
+        image.rgb.push_back(rgba[std::size_t(4 * (y * width + x) + channel)]);
+  return image;
+}
+
+// The share of pixels that differ by more than 2 in a channel.
+double share_off(const Image& a, const Image& b) {
+  EXPECT_EQ(a.rgb.size(), b.rgb.size());
+  std::int64_t off = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3)
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      if (std::abs(int(a.rgb[i + channel]) - int(b.rgb[i + channel])) > 2) {
+        ++off;
+        break;
+      }
+  return static_cast<double>(off) / (a.width * a.height);
+}
+
+TEST(GpuViewer, settles_at_what_the_cpu_draws) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  EXPECT_FALSE(viewer.has_gl());
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  EXPECT_TRUE(viewer.has_gl());
+  EXPECT_THAT(viewer.gl_description(), HasSubstr("OpenGL"));
+  for (const char* name : {"demo", "scenario1"}) {
+    ASSERT_TRUE(viewer.load_built_in(name));
+    viewer.orbit(25, 10);
+    choose(viewer, ViewerEngine::cpu);
+    settle(viewer);
+    const Image by_cpu = viewer.image();
+    choose(viewer, ViewerEngine::gpu);
+    settle(viewer);
+    EXPECT_LE(share_off(shown(viewer), by_cpu), 0.005) << name;
+    EXPECT_GT(viewer.frame(20)->mray_per_s, 0);
+  }
+  for (const View view : {View::recursion, View::traversal, View::normal, View::distance, View::id}) {
+    ViewerSettings settings = viewer.settings();
+    settings.view = view;
+    settings.engine = ViewerEngine::cpu;
+    ASSERT_TRUE(viewer.set(settings));
+    settle(viewer);
+    const Image by_cpu = viewer.image();
+    choose(viewer, ViewerEngine::gpu);
+    settle(viewer);
+    EXPECT_LE(share_off(shown(viewer), by_cpu), 0.005) << static_cast<int>(view);
+  }
+}
+
+TEST(GpuViewer, moves_and_shows_the_last_picture_meanwhile) {
+  Viewer viewer;
+  viewer.resize(400, 300);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose(viewer, ViewerEngine::gpu);
+  settle(viewer);
+  const Image before = shown(viewer, 400, 300);
+
+  // Nothing new is shown until it is complete, and then it is coarser.
+  viewer.orbit(60, 0);
+  Result<FrameReport> report = viewer.frame(1e-3);
+  for (int i = 0; i < 1000 && report && !report->drawn; ++i) {
+    EXPECT_EQ(picture_hash(shown(viewer, 400, 300)), picture_hash(before));
+    report = viewer.frame(1e-3);
+  }
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->divisor, 1);
+  EXPECT_GT(share_off(shown(viewer, 400, 300), before), 0.05);
+  settle(viewer);
+  viewer.home();
+  settle(viewer);
+  EXPECT_EQ(picture_hash(shown(viewer, 400, 300)), picture_hash(before));
+}
+
+TEST(GpuViewer, a_picture_to_be_saved_does_not_disturb) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose(viewer, ViewerEngine::gpu);
+  settle(viewer);
+  const Image before = shown(viewer);
+  const Result<Image> same = viewer.picture(kWidth, kHeight, viewer.settings().samples_per_pixel);
+  ASSERT_TRUE(same);
+  EXPECT_LE(share_off(*same, before), 0.001);
+  const Result<Image> larger = viewer.picture(2 * kWidth, 2 * kHeight, 1);
+  ASSERT_TRUE(larger);
+  EXPECT_EQ(larger->width, 2 * kWidth);
+  EXPECT_EQ(picture_hash(shown(viewer)), picture_hash(before));
+  viewer.orbit(30, 0);
+  settle(viewer);
+  EXPECT_GT(share_off(shown(viewer), before), 0.05);
+}
+
+TEST(GpuViewer, a_lost_context_comes_back) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("scenario3"));
+  choose(viewer, ViewerEngine::gpu);
+  settle(viewer);
+  const Image before = shown(viewer);
+  for (const bool lost : {true, false}) {
+    viewer.orbit(20, 0);
+    ASSERT_TRUE(viewer.frame(1));
+    viewer.detach_gl(lost);
+    EXPECT_FALSE(viewer.has_gl());
+    EXPECT_EQ(viewer.settings().engine, ViewerEngine::cpu) << "the CPU goes on";
+    settle(viewer);
+    EXPECT_EQ(viewer.image().width, kWidth);
+    ViewerSettings settings = viewer.settings();
+    settings.engine = ViewerEngine::gpu;
+    EXPECT_THAT(viewer.set(settings).error().to_string(), HasSubstr("no graphics processor"));
+    ASSERT_TRUE(viewer.attach_gl(gl()));
+    choose(viewer, ViewerEngine::gpu);
+    viewer.home();
+    settle(viewer);
+    EXPECT_EQ(picture_hash(shown(viewer)), picture_hash(before));
+  }
+}
+
+TEST(GpuViewer, refuses_what_it_cannot_draw_and_goes_on) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("scenario1"));
+  choose(viewer, ViewerEngine::gpu);
+  settle(viewer);
+  const Image before = shown(viewer);
+  ViewerSettings settings = viewer.settings();
+  settings.view = View::tree;
+  EXPECT_THAT(viewer.set(settings).error().to_string(), HasSubstr("tree"));
+  EXPECT_FALSE(viewer.load("nonsense", "a.pdb"));
+  EXPECT_TRUE(viewer.frame(20)->settled);
+  EXPECT_EQ(picture_hash(shown(viewer)), picture_hash(before));
+
+  // Another tree, the same picture.
+  settings = viewer.settings();
+  settings.max_prims = 1;
+  ASSERT_TRUE(viewer.set(settings));
+  settle(viewer);
+  EXPECT_LE(share_off(shown(viewer), before), 0.001);
+}
+
+}  // namespace
+}  // namespace bihive
