@@ -1,6 +1,7 @@
 // The graphics processor's pictures against the CPU's.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -105,6 +106,102 @@ TEST_P(Scenes, views) {
 INSTANTIATE_TEST_SUITE_P(all, Scenes,
                          ::testing::Values("scenario1", "scenario2", "scenario3", "four_spheres", "molecule"),
                          [](const auto& scene) { return scene.param; });
+
+// Spheres in turn red and transparent, seen from the front, with a light.
+Scene scene_around(SphereSet spheres) {
+  Scene scene;
+  scene.materials = {red_material(), transparent_material()};
+  for (std::int64_t id = 0; id < spheres.size(); ++id) scene.material_of_sphere.push_back(static_cast<int>(id % 2));
+  scene.spheres = std::move(spheres);
+  scene.camera = frame_spheres(scene.spheres, ViewFrom::front, 30, 240, 150);
+  scene.lights = {light_behind(scene.camera)};
+  return scene;
+}
+
+TEST(Agreement, hostile_sets) {
+  for (const test::World& world : test::hostile_worlds(512, 200)) {
+    SCOPED_TRACE(world.name);
+    std::printf("%s: ", world.name.c_str());
+    const Scene scene = scene_around(test::sphere_set(world));
+    RenderSettings settings = settings_of(scene, 240, 150);
+    settings.recursion = 3;
+    expect_agreement(compare(scene, settings), kAtDepth5);
+    settings.recursion = 1;
+    expect_agreement(compare(scene, settings), kAtDepth1);
+  }
+}
+
+TEST(Agreement, brute_force) {
+  const Scene scene = scenario_scene(Scenario::mixed, {200, 2, 1}).value();
+  RenderSettings settings = settings_of(scene, 241, 150);
+  settings.shadows = true;
+  expect_agreement(compare(scene, settings, Structure::brute), kAtDepth5);
+  settings.view = View::id;
+  expect_agreement(compare(scene, settings, Structure::brute), kAtDepth1);
+}
+
+TEST(Agreement, leaves_of_every_size) {
+  const Scene scene = scenario_scene(Scenario::corners, {300, 1, 1}).value();
+  const RenderSettings settings = settings_of(scene, 241, 150);
+  for (const BuildParameters parameters : {BuildParameters{1, kUnlimited}, BuildParameters{300, 1}}) {
+    const Tree tree = build_reference_tree(scene.spheres, parameters);
+    const Tracer tracer(scene.spheres, std::make_shared<const Tree>(tree));
+    const Image cpu = image_from_film(render(scene, tracer, settings)->film, View::shaded, Transfer::none);
+    const Image gpu =
+        image_from_film(GlPictures::get().draw(scene, &tree, settings).film, View::shaded, Transfer::none);
+    expect_agreement(test::agreement_of(scene, tracer, settings, cpu, gpu), kAtDepth5);
+  }
+}
+
+TEST(Agreement, several_samples_and_lights) {
+  Scene scene = four_spheres_scene();
+  scene.lights.push_back({{-30, 10, 30}, {0.2, 0.5, 1}});
+  scene.lights.push_back({{30, 0, 40}, {0.5, 0.2, 0.1}});
+  RenderSettings settings = settings_of(scene, 160, 100);
+  settings.samples_per_pixel = 5;
+  settings.recursion = 8;
+  settings.shadows = true;
+  expect_agreement(compare(scene, settings), kAtDepth5);
+  settings.view = View::distance;
+  expect_agreement(compare(scene, settings), kAtDepth1);
+}
+
+TEST(Agreement, little_of_everything) {
+  RenderSettings settings;
+  settings.width_px = 121;
+  settings.height_px = 76;
+  settings.samples_per_pixel = 1;
+  const auto expect = [&](const Scene& scene) {
+    for (const View view : {View::shaded, View::traversal, View::normal, View::distance, View::id}) {
+      settings.view = view;
+      expect_agreement(compare(scene, settings), kAtDepth5);
+    }
+  };
+  // One sphere; one sphere without a light; nothing but a radius of 0; nothing but the plane; nothing.
+  const auto spheres = [](double radius) {
+    return SphereSet::from_world(std::vector<double>{1}, {2}, {3}, {radius}).value();
+  };
+  expect(scene_around(spheres(0.5)));
+  Scene dark = scene_around(spheres(0.5));
+  dark.lights.clear();
+  expect(dark);
+  expect(scene_around(spheres(0)));
+  expect(thesis_scene_without_spheres());
+  Scene nothing = thesis_scene_without_spheres();
+  nothing.plane.reset();
+  expect(nothing);
+}
+
+TEST(Agreement, powers_of_highlights) {
+  for (const double power : {0.5, 1.0, 3.0, 1000.0}) {
+    Scene scene = four_spheres_scene();
+    scene.plane.reset();
+    for (Material& material : scene.materials) material.power = power, material.specular = 1;
+    RenderSettings settings = settings_of(scene, 161, 100);
+    settings.recursion = 1;
+    expect_agreement(compare(scene, settings), kAtDepth1);
+  }
+}
 
 }  // namespace
 }  // namespace bihive

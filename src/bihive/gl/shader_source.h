@@ -24,8 +24,8 @@ struct ShaderSource {
 using ChunkFinder = std::function<std::optional<std::string_view>(std::string_view name)>;
 
 /// The chunk `name` behind "#version 300 es" and a #define for each of `defines` ("STACK_SIZE 32"). A line
-/// `#include "other"` becomes the chunk of that name where it stands first, and nothing later. Error: there is no such
-/// chunk; it names file and line of the #include.
+/// `#include "other"` becomes the chunk of that name where it stands first, and nothing later; so what two branches of
+/// an #if need must be included before it. Error: there is no such chunk; it names file and line of the #include.
 Result<ShaderSource> assemble_shader(std::string_view name, const std::vector<std::string>& defines,
                                      const ChunkFinder& find);
 /// From the library's own chunks.

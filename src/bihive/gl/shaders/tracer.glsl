@@ -1,4 +1,7 @@
 // Twin of render/tracer.h: the tree where TREE is defined, else every sphere.
+#include "hit"
+#include "sphere"
+
 #ifdef TREE
 #include "traversal"
 

@@ -1,0 +1,67 @@
+"""bihive render --engine gpu: what is written and said. Pictures are compared pixel by pixel in agreement_test.cpp."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cli"))
+from program import BIHIVE, ProgramTest, main, png_pixels, png_text  # noqa: E402
+
+SIZE = ["--size", "96x64"]
+
+
+class RenderOnGpu(ProgramTest):
+    def test_json_says_what_was_done(self):
+        said = self.succeed_json("render", "scenario1", *SIZE, "--engine", "gpu", "--max-prims", "2", "-o", "gpu.png")
+        self.assertEqual(said["engine"], "gpu")
+        self.assertIsNone(said["target"])
+        self.assertIn("OpenGL ES 3", said["gpu"])
+        self.assertEqual(said["rays"]["primary"], 96 * 64)
+        self.assertGreater(said["rays"]["all"], said["rays"]["primary"])
+        self.assertGreater(said["build_ms"], 0)
+        self.assertGreater(said["render_ms"], 0)
+
+        # As many rays as on the CPU, nearly; the same words in the picture.
+        cpu = self.succeed_json("render", "scenario1", *SIZE, "--engine", "reference", "-o", "cpu.png")
+        self.assertNotIn("gpu", cpu)
+        self.assertAlmostEqual(said["rays"]["all"] / cpu["rays"]["all"], 1, delta=0.005)
+        self.assertEqual(png_text(self.read("gpu.png")), png_text(self.read("cpu.png")))
+
+    def test_tree_and_brute_force_draw_the_same(self):
+        self.succeed("render", "scenario3", "--count", "100", *SIZE, "--engine", "gpu", "-o", "tree.png")
+        said = self.succeed_json("render", "scenario3", "--count", "100", *SIZE, "--engine", "gpu-brute", "-o", "brute.png")
+        self.assertEqual(said["engine"], "gpu-brute")
+        pairs = zip(sum(png_pixels(self.read("tree.png")), []), sum(png_pixels(self.read("brute.png")), []))
+        self.assertLessEqual(sum(tree != brute for tree, brute in pairs), 3)
+
+    def test_max_prims_shows_in_the_traversal_view(self):
+        view = ["render", "scenario1", "--count", "64", *SIZE, "--engine", "gpu", "--view", "traversal"]
+        pictures = set()
+        for max_prims in ["1", "64"]:
+            self.succeed(*view, "--max-prims", max_prims, "-o", "a.png")
+            pictures.add(self.read("a.png"))
+        self.assertEqual(len(pictures), 2)
+
+    def test_ctrl_c_leaves_no_picture(self):
+        process = subprocess.Popen(
+            [BIHIVE, "render", "scenario1", "--engine", "gpu", "--samples", "4096", "-o", "a.png"],
+            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out, err), (130, b"", b""))
+        self.assertEqual(self.contents(), {})
+
+    def test_samples_smooth_edges(self):
+        colours = []
+        for samples in ["1", "4"]:
+            self.succeed("render", "four-spheres", *SIZE, "--engine", "gpu", "--view", "id", "--samples", samples, "-o", "a.png")
+            colours.append(len(set(sum(png_pixels(self.read("a.png")), []))))
+        self.assertLessEqual(colours[0], 6)
+        self.assertGreater(colours[1], 20)
+
+
+if __name__ == "__main__":
+    main()
