@@ -23,13 +23,16 @@ function(add_bihive_test file)
   set_tests_properties(${name} PROPERTIES LABELS ${kind} TIMEOUT 900 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT}")
 endfunction()
 
-# add_bihive_script_test(file): a Python test, run with BIHIVE and BIHIVE_BENCH (the built programs) and BIHIVE_SOURCE
+# add_bihive_script_test(file): a Python test, run with BIHIVE, BIHIVE_VIEW and BIHIVE_BENCH (the built programs) and BIHIVE_SOURCE
 # (the top of the sources) in its environment.
 function(add_bihive_script_test file)
   bihive_test_name(${file} name kind target)
   set(environment ${BIHIVE_TEST_ENVIRONMENT})
   if(TARGET bihive)
     list(APPEND environment "BIHIVE=$<TARGET_FILE:bihive>")
+  endif()
+  if(TARGET bihive-view)
+    list(APPEND environment "BIHIVE_VIEW=$<TARGET_FILE:bihive-view>")
   endif()
   if(TARGET bihive-bench)
     list(APPEND environment "BIHIVE_BENCH=$<TARGET_FILE:bihive-bench>")

@@ -14,8 +14,8 @@ struct HelpText {
   std::string text;
   bool asked_for;  ///< true: exit code 0, stdout; false: a sub-command is missing, exit code 2, stderr
 };
-using Request = std::variant<HelpText, RenderOptions, ViewOptions, StatsOptions, TraceOptions, SceneOptions, InfoOptions,
-                             ThesisOptions, WebOptions>;
+using Request = std::variant<HelpText, RenderOptions, ViewOptions, StatsOptions, TraceOptions, SceneOptions,
+                             InfoOptions, ThesisOptions, WebOptions>;
 
 /// Fails with kBadUsage on anything that is unknown, missing, repeated or out of range.
 Request parse_command_line(int argc, const char* const* argv);

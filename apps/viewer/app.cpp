@@ -3,10 +3,12 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
@@ -154,6 +156,13 @@ void App::on_key(int key, int action, int mods) {
       return apply(settings);
     case 'h':
       panel_shown_ = !panel_shown_;
+      return;
+    case 'o':
+      asked_file_ = "";
+      prompt_is_new_ = true;
+      return;
+    case 'q':
+      glfwSetWindowShouldClose(window_->handle(), GLFW_TRUE);
       return;
     case 'r':
       return viewer_.home();
@@ -326,29 +335,55 @@ void App::draw(const FrameReport& report, Image* screenshot) {
     texture_->draw({size.x * unit, size.y * unit});
   PanelWishes wishes;
   if (panel_shown_) wishes = panel_.draw(viewer_, report, ImGui::GetIO().DisplaySize, window_->text_scale());
-  draw_message();
+  if (asked_file_)
+    draw_prompt();
+  else
+    draw_message();
   window_->end_frame(screenshot);
   follow(wishes);
+}
+
+// A small window at the lower border of the picture; returns its width.
+float App::begin_overlay(const char* name) const {
+  const auto scale = static_cast<float>(window_->text_scale());
+  const float margin = 14 * scale;
+  const float across = picture_size().x / static_cast<float>(window_->pixels_per_unit()) - 2 * margin;
+  const float width = std::max(across, 100 * scale);
+  ImGui::SetNextWindowPos({margin, ImGui::GetIO().DisplaySize.y - margin}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {width, ImGui::GetIO().DisplaySize.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * scale);
+  ImGui::SetNextWindowBgAlpha(0.94F);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  return width;
+}
+
+void App::end_overlay() {
+  ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 void App::draw_message() {
   const std::string text = file_to_open_ ? "opening " + *file_to_open_ : message_;
   if (text.empty()) return;
-  const auto margin = static_cast<float>(14 * window_->text_scale());
-  const float width = picture_size().x / static_cast<float>(window_->pixels_per_unit()) - 2 * margin;
-  ImGui::SetNextWindowPos({margin, ImGui::GetIO().DisplaySize.y - margin}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {std::max(width, 100.0F), ImGui::GetIO().DisplaySize.y});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * static_cast<float>(window_->text_scale()));
-  ImGui::SetNextWindowBgAlpha(0.92F);
-  ImGui::Begin("message", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::PushTextWrapPos(std::max(width, 100.0F) - margin);
+  const float width = begin_overlay("message");
+  ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
   ImGui::TextColored(file_to_open_ ? kDim : message_is_bad_ ? kBad : kGood, "%s", text.c_str());
   ImGui::PopTextWrapPos();
   if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) message_.clear();
-  ImGui::End();
-  ImGui::PopStyleVar();
+  end_overlay();
+}
+
+void App::draw_prompt() {
+  const float width = begin_overlay("open");
+  ImGui::TextColored(kDim, "a file of spheres or a scene file; Enter opens it, Esc does not");
+  ImGui::SetNextItemWidth(width - 2 * ImGui::GetStyle().WindowPadding.x);
+  if (std::exchange(prompt_is_new_, false)) ImGui::SetKeyboardFocusHere();
+  if (ImGui::InputText("##path", &*asked_file_, ImGuiInputTextFlags_EnterReturnsTrue) && !asked_file_->empty())
+    file_to_open_ = *asked_file_;
+  if (file_to_open_ || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE)) asked_file_.reset();
+  end_overlay();
 }
 
 }  // namespace bihive::window

@@ -49,7 +49,10 @@ class App {
   void say(const std::string& text, bool bad);
 
   void draw(const FrameReport& report, Image* screenshot);
+  float begin_overlay(const char* name) const;
+  static void end_overlay();
   void draw_message();
+  void draw_prompt();
   ImVec2 picture_size() const;  // in ImGui's units
 
   Viewer& viewer_;
@@ -61,6 +64,8 @@ class App {
   std::string message_;
   bool message_is_bad_ = false;
   std::optional<std::string> file_to_open_;
+  std::optional<std::string> asked_file_;  // being typed
+  bool prompt_is_new_ = false;
   int frames_to_draw_ = 3;  // of the window, however little happens
 
   enum class Drag { none, orbit, pan };

@@ -61,10 +61,11 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   draw_scene(viewer, wishes);
   draw_picture(viewer, settings);
-  draw_camera(wishes);
-  draw_tree(settings);
   draw_speed(viewer, report);
+  draw_camera(wishes);
   draw_saving(wishes);
+  draw_tree(settings);
+  draw_keys();
   ImGui::End();
 
   const ViewerSettings& before = viewer.settings();
@@ -82,7 +83,7 @@ void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) const {
   const std::string name = slash == std::string::npos ? facts.name : facts.name.substr(slash + 1);
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##scene", name.c_str(), ImGuiComboFlags_HeightLarge)) {
-    ImGui::TextColored(kDim, "built-in scenes; drop a file for another");
+    ImGui::TextColored(kDim, "built-in scenes; for a file press O, or drop it");
     for (const char* built_in : kBuiltInScenes)
       if (ImGui::Selectable(built_in, facts.name == built_in)) wishes.built_in = built_in;
     ImGui::EndCombo();
@@ -151,12 +152,13 @@ void Panel::draw_speed(const Viewer& viewer, const FrameReport& report) const {
   const std::string fps = report.fps > 0 ? fmt::format("{:.1f} frames/s moving", report.fps) : "move to see frames/s";
   ImGui::TextUnformatted(fps.c_str());
   const std::string rays = fmt::format("{:.3g} Mray/s", report.mray_per_s);
-  ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(rays.c_str()).x - ImGui::GetStyle().WindowPadding.x);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(rays.c_str()).x);
   ImGui::TextUnformatted(rays.c_str());
   const std::string progress = report.settled       ? "all drawn"
                                : report.divisor > 1 ? fmt::format("1/{} of width and height", report.divisor)
                                                     : fmt::format("{:.0f} %", 100 * report.done);
-  ImGui::ProgressBar(static_cast<float>(report.done), {-1, 0}, progress.c_str());
+  ImGui::ProgressBar(static_cast<float>(report.done), {-1, ImGui::GetTextLineHeight() / 3}, "");
+  ImGui::TextColored(kDim, "%s", progress.c_str());
   if (viewer.settings().engine == ViewerEngine::gpu) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextColored(kDim, "%s", viewer.gl_description().c_str());
@@ -171,8 +173,15 @@ void Panel::draw_saving(PanelWishes& wishes) {
   ImGui::InputText("##file", &file_name);
   ImGui::SameLine();
   if (ImGui::Button("save")) wishes.save = true;
-  ImGui::TextColored(kDim, "drag: turn  shift+drag: shift  wheel: zoom");
-  ImGui::TextColored(kDim, "1-7 views  E engine  R home  S save  H hide");
+}
+
+void Panel::draw_keys() const {
+  heading("mouse and keys");
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextColored(kDim,
+                     "drag to turn, with shift or another button to shift, wheel to zoom; arrows, + and - likewise\n"
+                     "1-7 view   E engine   R home   O open   S save   H panel   Q quit");
+  ImGui::PopTextWrapPos();
 }
 
 }  // namespace bihive::window

@@ -17,7 +17,7 @@ struct PanelWishes {
   std::optional<ViewerSettings> settings;
   std::optional<ViewFrom> side;
   std::optional<std::string> built_in;  ///< a scene to be opened
-  bool home = false, save = false, hide = false;
+  bool home = false, save = false;
 };
 
 class Panel {
@@ -38,6 +38,7 @@ class Panel {
   void draw_camera(PanelWishes& wishes) const;
   void draw_speed(const Viewer& viewer, const FrameReport& report) const;
   void draw_saving(PanelWishes& wishes);
+  void draw_keys() const;
 };
 
 }  // namespace bihive::window

@@ -5,7 +5,7 @@
 namespace bihive::window {
 namespace {
 
-constexpr double kFontSize = 16;
+constexpr double kFontSize = 15;
 
 // Where Linux systems keep a plain font without serifs; otherwise ImGui's own, which is coarse.
 constexpr const char* kFonts[] = {
@@ -41,14 +41,14 @@ void use_theme(double text_scale, double pixels_per_unit) {
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 0;
   style.WindowBorderSize = 0;
-  style.WindowPadding = {16, 14};
-  style.FramePadding = {8, 5};
+  style.WindowPadding = {16, 12};
+  style.FramePadding = {8, 4};
   style.FrameRounding = 4;
   style.GrabRounding = 4;
   style.GrabMinSize = 12;
   style.PopupRounding = 4;
-  style.ItemSpacing = {8, 7};
-  style.CellPadding = {4, 2};
+  style.ItemSpacing = {8, 5};
+  style.CellPadding = {4, 1};
   style.ScrollbarSize = 10;
 
   const ImVec4 control = lighter(kPanel, 0.07F), hovered = lighter(kPanel, 0.12F);

@@ -1,0 +1,235 @@
+"""bihive view: the window on a screen of its own (Xvfb), what is in it, and what keys and pointer do (xdotool)."""
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+
+from program import BIHIVE, ProgramTest, main, png_pixels, png_size, png_text
+
+HAS_WINDOW = "BIHIVE_VIEW" in os.environ
+PANEL_PX = 348
+PANEL_COLOUR = (27, 29, 33)
+
+
+class Screen:
+    """An X server without a screen, on a number that is free."""
+
+    def __init__(self, *options):
+        read, write = os.pipe()
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-nolisten", "tcp", *options]
+        self.server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as number:
+            self.display = ":" + number.readline().strip()
+
+    def environment(self):
+        environment = {key: value for key, value in os.environ.items() if key != "WAYLAND_DISPLAY"}
+        return {**environment, "DISPLAY": self.display, "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+    def end(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+def share_off(a, b, tolerance):
+    """The share of pixels of two pictures (rows of colours) that differ by more than that in a channel."""
+    off = sum(
+        any(abs(x - y) > tolerance for x, y in zip(p, q)) for row_a, row_b in zip(a, b) for p, q in zip(row_a, row_b)
+    )
+    return off / (len(a) * len(a[0]))
+
+
+class NoWindow(ProgramTest):
+    def test_without_a_display(self):
+        if not HAS_WINDOW:
+            self.skipTest("bihive-view was not built")
+        environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        self.assertIn("no window can be opened here", self.fail_with(3, "view", "demo", env=environment))
+
+    def test_without_the_program(self):
+        """A copy of bihive in a folder of its own, and nowhere else to look."""
+        with tempfile.TemporaryDirectory() as folder:
+            alone = shutil.copy(BIHIVE, folder)
+            done = subprocess.run([alone, "view", "demo"], env={"PATH": folder}, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assert_one_error_line(done.stderr)
+        self.assertIn("bihive-view, is not installed", done.stderr)
+
+    def test_usage(self):
+        self.assertIn("INPUT", self.fail_usage("view"))
+        self.assertIn("--engine:", self.fail_usage("view", "demo", "--engine", "reference"))
+        self.assertIn("--view tree", self.fail_usage("view", "demo", "--engine", "gpu", "--view", "tree"))
+        self.assertIn("--count is for", self.fail_usage("view", "demo", "--count", "5"))
+        self.assertIn("--samples:", self.fail_usage("view", "demo", "--samples", "65"))
+        self.assertIn("bihive view", self.succeed("view", "--help"))
+
+
+@unittest.skipUnless(HAS_WINDOW, "bihive-view was not built")
+class Window(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.screen = Screen()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.screen.end()
+
+    def screenshot(self, *arguments):
+        """Rows of pixels of the picture, and of the panel beside it."""
+        done = self.run_bihive("view", *arguments, "--screenshot", "window.png", env=self.screen.environment())
+        self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
+        rows = png_pixels(self.read("window.png"))
+        return [row[:-PANEL_PX] for row in rows], [row[-PANEL_PX:] for row in rows]
+
+    def rendered(self, size, *arguments):
+        self.succeed("render", *arguments, "-o", "rendered.png", "--size", size)
+        return png_pixels(self.read("rendered.png"))
+
+    def assert_is_panel(self, panel):
+        pixels = [pixel for row in panel for pixel in row]
+        self.assertGreater(pixels.count(PANEL_COLOUR) / len(pixels), 0.4)
+        self.assertGreater(sum(min(pixel) > 200 for pixel in pixels), 500, "text")
+
+    def test_the_cpu_shows_what_it_renders(self):
+        picture, panel = self.screenshot("demo", "--size", "620x420", "--engine", "cpu")
+        self.assertEqual((len(picture[0]), len(picture)), (620 - PANEL_PX, 420))
+        self.assertEqual(picture, self.rendered("272x420", "demo"))
+        self.assert_is_panel(panel)
+
+    def test_the_graphics_processor_shows_nearly_the_same(self):
+        given = ["scenario3", "--recursion", "2"]
+        picture, panel = self.screenshot(*given, "--size", "620x420", "--engine", "gpu", "--max-prims", "2")
+        self.assertLessEqual(share_off(picture, self.rendered("272x420", *given), 2), 0.005)
+        self.assert_is_panel(panel)
+
+    def test_options_of_the_picture_and_of_the_file(self):
+        self.write("two.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        given = ["two.csv", "--view", "normal", "--view-from", "top", "--radius-scale", "1.5"]
+        picture, _ = self.screenshot(*given, "--size", "500x200")
+        self.assertEqual(picture, self.rendered("152x200", *given))
+
+    def test_bad_input(self):
+        for name, content in [("broken.pdb", "ATOM what"), ("missing.xyz", None)]:
+            if content is not None:
+                self.write(name, content)
+            self.assertIn(name, self.fail_input("view", name, env=self.screen.environment()))
+        self.fail_input("view", "demo", "--screenshot", "no/such/folder.png", env=self.screen.environment())
+
+    def test_without_opengl(self):
+        screen = Screen("-extension", "GLX")
+        self.addCleanup(screen.end)
+        self.assertIn("OpenGL 3.3", self.fail_with(3, "view", "demo", env=screen.environment()))
+
+    # --- Keys and pointer ---------------------------------------------------------------------------------------
+
+    def open_window(self, *arguments):
+        self.program = subprocess.Popen(
+            [BIHIVE, "view", *arguments], cwd=self.folder, env=self.screen.environment(), stderr=subprocess.PIPE, text=True
+        )
+        self.addCleanup(self.close_window)
+        found = self.tool("search", "--sync", "--onlyvisible", "--pid", str(self.program.pid))
+        self.window = found.split()[0]
+        self.tool("windowfocus", "--sync", self.window)
+
+    def close_window(self):
+        if self.program.poll() is None:
+            self.program.kill()
+        self.program.communicate()
+
+    def tool(self, *arguments):
+        done = subprocess.run(
+            ["xdotool", *arguments], env=self.screen.environment(), capture_output=True, text=True, timeout=60
+        )
+        self.assertEqual(done.returncode, 0, (arguments, done.stderr))
+        return done.stdout
+
+    def press(self, *keys):
+        for key in keys:
+            self.tool("key", key)
+            time.sleep(0.05)
+
+    def saved(self):
+        """Presses S; the settings and the scene of the picture that is written."""
+        before = set(os.listdir(self.folder))
+        self.press("s")
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline:
+            new = [name for name in set(os.listdir(self.folder)) - before if name.endswith(".png")]
+            if new:
+                data = self.read(new[0])
+                text = png_text(data)
+                return {"name": new[0], "size": png_size(data), "scene": text["Scene"], **json.loads(text["Settings"])}
+            time.sleep(0.05)
+        self.fail("nothing was saved")
+
+    def test_keys_and_pointer(self):
+        self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        self.write("broken.csv", "x,y,z\n1,2,what\n")
+        self.open_window("demo", "--size", "700x400", "--samples", "1")
+        first = self.saved()
+        self.assertEqual((first["name"], first["scene"], first["size"]), ("demo.png", "demo", (700 - PANEL_PX, 400)))
+        self.assertEqual((first["view"], first["engine"]), ("shaded", "cpu"))
+
+        # Views, engine.
+        self.press("4", "e")
+        after = self.saved()
+        self.assertEqual((after["name"], after["view"], after["engine"]), ("demo-2.png", "normal", "gpu"))
+        self.press("7")
+        self.assertEqual(self.saved()["view"], "normal", "the graphics processor does not draw the tree")
+        self.press("e", "7")
+        self.assertEqual(self.saved()["view"], "tree")
+        self.press("1")
+
+        # The pointer turns, shifts and zooms; over the panel it does not.
+        self.tool("mousemove", "--window", self.window, "100", "100", "mousedown", "1")
+        self.tool("mousemove", "--window", self.window, "160", "120", "mouseup", "1")
+        turned = self.saved()["camera"]
+        self.assertNotEqual(turned["eye"], first["camera"]["eye"])
+        self.assertEqual(turned["look_at"], first["camera"]["look_at"])
+        self.tool("mousemove", "--window", self.window, "100", "100", "mousedown", "3")
+        self.tool("mousemove", "--window", self.window, "160", "120", "mouseup", "3")
+        shifted = self.saved()["camera"]
+        self.assertNotEqual(shifted["look_at"], turned["look_at"])
+        self.tool("click", "4")
+        nearer = self.saved()["camera"]
+
+        def distance(camera):
+            return sum((a - b) ** 2 for a, b in zip(camera["eye"], camera["look_at"])) ** 0.5
+
+        self.assertAlmostEqual(distance(shifted) / distance(nearer), 1.15)
+        self.tool("mousemove", "--window", self.window, "600", "390", "click", "4")
+        self.assertEqual(self.saved()["camera"], nearer)
+        self.press("Left", "minus")
+        self.assertGreater(distance(self.saved()["camera"]), distance(nearer))
+        self.press("r")
+        self.assertEqual(self.saved()["camera"], first["camera"])
+
+        # Without the panel the picture is larger.
+        self.press("h")
+        self.assertEqual(self.saved()["size"], (700, 400))
+        self.press("h")
+
+        # A file that is wrong leaves the scene; another takes its place.
+        def open_file(name):
+            self.press("o")
+            time.sleep(0.3)
+            self.tool("type", "--delay", "20", name)
+            self.press("Return")
+            time.sleep(0.5)
+
+        open_file("broken.csv")
+        self.assertEqual(self.saved()["scene"], "demo")
+        open_file("pair.csv")
+        pair = self.saved()
+        self.assertEqual((pair["scene"], pair["name"]), ("pair.csv", "pair.png"))
+
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=20), 0)
+
+
+if __name__ == "__main__":
+    main()
