@@ -108,7 +108,7 @@ void App::listen(GLFWwindow* window) {
 // --- What the window tells --------------------------------------------------------------------------------------
 
 void App::on_key(int key, int action, int mods) {
-  if (action == GLFW_RELEASE || ImGui::GetIO().WantTextInput) return;
+  if (action == GLFW_RELEASE || asked_file_ || ImGui::GetIO().WantTextInput) return;
   const bool again = action == GLFW_REPEAT;
   const double step = kTurnOfKeyPx * window_->pixels_per_unit() * window_->text_scale();
   const auto turn = [&](double dx, double dy) {

@@ -216,10 +216,10 @@ class Window(ProgramTest):
         # A file that is wrong leaves the scene; another takes its place.
         def open_file(name):
             self.press("o")
-            time.sleep(0.3)
+            time.sleep(1)
             self.tool("type", "--delay", "20", name)
             self.press("Return")
-            time.sleep(0.5)
+            time.sleep(1)
 
         open_file("broken.csv")
         self.assertEqual(self.saved()["scene"], "demo")
