@@ -25,6 +25,20 @@ class Figure44(ProgramTest):
         (experiment,) = results["experiments"]
         return experiment
 
+    def test_without_egl_it_says_so(self):
+        os.environ["BIHIVE_EGL"], before = "/nowhere", os.environ.get("BIHIVE_EGL")
+        try:
+            experiment = self.measure(scenarios=[2], spheres_list=[64], max_prims_list=[1])
+        finally:
+            del os.environ["BIHIVE_EGL"]
+            if before is not None:
+                os.environ["BIHIVE_EGL"] = before
+        self.assertEqual(experiment["missing_steps"], [])
+        self.assertIn("The engine gpu was not measured: the graphics processor cannot be used: there is no EGL (/nowhere).",
+                      experiment["paragraphs"])
+        self.assertEqual([table for table in experiment["tables"] if "gpu" in table["title"]], [])
+        self.assertEqual(len(experiment["data"]["wide"]["configurations"]), 1)
+
     def rows(self, experiment, title, engine="reference"):
         """First cell -> the other cells of a row."""
         of_engine = [table for table in experiment["tables"] if table["title"].endswith(f"(engine {engine})")]
@@ -84,6 +98,16 @@ class Figure44(ProgramTest):
         self.assertEqual(wide.keys(), measured.keys())
         self.assertEqual(len(wide["configurations"]), len(fps))
         self.assertEqual(self.rows(experiment, "Frames", "wide").keys(), self.rows(experiment, "Frames").keys())
+
+        # So has the graphics processor, where there is one; its name is said.
+        if "BIHIVE_EGL" not in os.environ:
+            gpu = experiment["data"]["gpu"]
+            self.assertEqual(gpu.keys(), measured.keys())
+            self.assertEqual(len(gpu["configurations"]), len(fps))
+            self.assertEqual(self.rows(experiment, "Frames", "gpu").keys(), self.rows(experiment, "Frames").keys())
+            name = gpu["configurations"][0]["frame_ms"]["gpu"]
+            self.assertIn("OpenGL ES 3", name)
+            self.assertIn(name, experiment["paragraphs"][-1])
 
         # Bars: brute force and each tree for each count. Lines: each tree for each count.
         for scenario in SCENARIOS:

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bihive/bih/reference_builder.h"
 #include "bihive/scene/generators.h"
 
@@ -18,9 +20,13 @@ TEST(TreeTextures, hold_every_sphere_in_leaf_order) {
   const SceneTextures textures = pack_scene(scene, &tree, 2048).value();
   ASSERT_EQ(textures.sphere_count, 5000);
   EXPECT_EQ(textures.spheres.height(), 3);
+  // Within a leaf, ids rise.
+  std::vector<std::int64_t> ids = tree.sphere_ids;
+  for (const Node& node : tree.nodes)
+    if (node.is_leaf()) std::sort(ids.begin() + node.first, ids.begin() + node.first + node.sphere_count);
   for (std::int64_t i = 0; i < 5000; ++i) {
     const PackedSphere packed = unpack_sphere(textures, i);
-    const std::int64_t id = tree.sphere_ids[static_cast<std::size_t>(i)];
+    const std::int64_t id = ids[static_cast<std::size_t>(i)];
     ASSERT_EQ(packed.id, id);
     ASSERT_EQ((Vec3d{double(packed.x), double(packed.y), double(packed.z)}), scene.spheres.stored_centre(id));
     ASSERT_EQ(double(packed.r), scene.spheres.stored_radius(id));

@@ -1,16 +1,18 @@
 // Figure 4.4: how many frames a second brute force and trees of several MAX_PRIMS make.
 //
 // A frame is render() of the shaded view to a film: the same camera rays and the same shading for all, whatever finds
-// the hits.
+// the hits. On the graphics processor it is the same picture, drawn there and left there.
 #include "figure_4_4.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "bihive/render/renderer.h"
 #include "bihive/scene/generators.h"
 #include "failure.h"
+#include "frame_contestant.h"
 
 namespace bihive::cli::thesis {
 namespace {
@@ -41,72 +43,74 @@ Scene scene_of(const StepContext& context, std::int64_t scenario, std::int64_t s
   return value_or_fail(scenario_scene(static_cast<Scenario>(scenario), parameters));
 }
 
-// Something that draws frames, under the name that its times are kept by.
-struct Contestant {
-  std::string name;
-  const Scene* scene;
-  Tracer tracer;
-};
-
 // Milliseconds a frame, of as many frames as kLeastMs needs. Nothing if cancelled.
-std::optional<double> frame_ms(const Contestant& contestant, const RenderSettings& settings,
-                               const CancelToken& cancel) {
+std::optional<double> frame_ms(Contestant& contestant, const RenderSettings& settings, const CancelToken& cancel) {
+  contestant.prepare();
   double all_ms = 0;
   int frames = 0;
   for (; all_ms < kLeastMs; ++frames) {
-    const Result<Rendered> rendered = render(*contestant.scene, contestant.tracer, settings, {}, &cancel);
+    all_ms += contestant.draw(settings, cancel);
     if (cancel.cancelled()) return std::nullopt;
-    if (!rendered) fail(rendered.error());
-    all_ms += rendered->render_ms;
   }
   return all_ms / frames;
 }
 
 // All take turns, so that a slow minute of the machine hits all; the first round warms up and does not count.
-Json frame_times(const std::vector<Contestant>& contestants, const StepContext& context) {
-  const RenderSettings settings = frame_settings(context.settings, context.values, *contestants.front().scene);
+Json frame_times(const std::vector<std::unique_ptr<Contestant>>& contestants, const StepContext& context) {
+  const RenderSettings settings = frame_settings(context.settings, context.values, contestants.front()->scene());
   Json times = Json::object();
   for (int i = -1; i < kRepetitions; ++i)
-    for (const Contestant& contestant : contestants) {
-      const std::optional<double> ms = frame_ms(contestant, settings, context.cancel);
+    for (const std::unique_ptr<Contestant>& contestant : contestants) {
+      const std::optional<double> ms = frame_ms(*contestant, settings, context.cancel);
       if (!ms) return {};
-      if (i >= 0) times[contestant.name].push_back(*ms);
+      if (i >= 0) times[contestant->name()].push_back(*ms);
     }
   return {{"width_px", settings.width_px}, {"height_px", settings.height_px}, {"frame_ms", std::move(times)}};
 }
 
 Json measure_configuration(const StepContext& context, const ComparedEngine& engine, std::int64_t scenario,
-                           std::int64_t spheres) {
+                           std::int64_t spheres, const ContestantMaker& make) {
   const Scene scene = scene_of(context, scenario, spheres);
-  std::vector<Contestant> contestants;
+  std::vector<std::unique_ptr<Contestant>> contestants;
   contestants.push_back(
-      {"brute", &scene, value_or_fail(Tracer::build(scene.spheres, engine.brute, engine.brute_parameters))});
+      make("brute", scene, value_or_fail(Tracer::build(scene.spheres, engine.brute, engine.brute_parameters))));
   for (const double max_prims : context.values.numbers("max_prims_list")) {
     BuildParameters parameters;
     parameters.max_prims = static_cast<std::int64_t>(max_prims);
-    contestants.push_back({fmt::format("max_prims{}", max_prims), &scene,
-                           value_or_fail(Tracer::build(scene.spheres, engine.tree, parameters))});
+    contestants.push_back(make(fmt::format("max_prims{}", max_prims), scene,
+                               value_or_fail(Tracer::build(scene.spheres, engine.tree, parameters))));
   }
   return frame_times(contestants, context);
 }
 
-Json measure_independence(const StepContext& context, const ComparedEngine& engine) {
+Json measure_independence(const StepContext& context, const ComparedEngine& engine, const ContestantMaker& make) {
   Json by_spheres = Json::object();
   for (const double spheres : context.values.numbers("spheres_list")) {
     const std::vector<double> scenarios = context.values.numbers("scenarios");
     std::vector<Scene> scenes;
     scenes.reserve(scenarios.size());
-    std::vector<Contestant> contestants;
+    std::vector<std::unique_ptr<Contestant>> contestants;
     for (const double scenario : scenarios) {
       scenes.push_back(scene_of(context, static_cast<std::int64_t>(scenario), static_cast<std::int64_t>(spheres)));
       contestants.push_back(
-          {fmt::format("scenario{}", scenario), &scenes.back(),
-           value_or_fail(Tracer::build(scenes.back().spheres, engine.brute, engine.brute_parameters))});
+          make(fmt::format("scenario{}", scenario), scenes.back(),
+               value_or_fail(Tracer::build(scenes.back().spheres, engine.brute, engine.brute_parameters))));
     }
     by_spheres[fmt::format("spheres{}", spheres)] = frame_times(contestants, context);
     if (context.cancel.cancelled()) return {};
   }
   return by_spheres;
+}
+
+// What `measure` finds with contestants of this engine; on the graphics processor with its name beside.
+template <class Measure>
+Json measure_on(const ComparedEngine& engine, const Measure& measure) {
+  if (!engine.gpu) return measure(cpu_contestants());
+  const Result<std::shared_ptr<Gpu>> gpu = Gpu::open();
+  if (!gpu) return {{kMissing, gpu.error().message}};
+  Json result = measure(gpu_contestants(*gpu));
+  if (!result.empty()) result[kGpu] = (*gpu)->renderer.description();
+  return result;
 }
 
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
@@ -121,12 +125,17 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
                    spheres = static_cast<std::int64_t>(spheres_number);
         steps.push_back({configuration_step(engine, scenario, spheres), 1.5 * weight * spheres_number,
                          [engine, scenario, spheres](StepContext& context) {
-                           return measure_configuration(context, engine, scenario, spheres);
+                           return measure_on(engine, [&](const ContestantMaker& make) {
+                             return measure_configuration(context, engine, scenario, spheres, make);
+                           });
                          }});
         all_spheres += spheres_number;
       }
-    steps.push_back({independence_step(engine), weight * all_spheres,
-                     [engine](StepContext& context) { return measure_independence(context, engine); }});
+    steps.push_back({independence_step(engine), weight * all_spheres, [engine](StepContext& context) {
+                       return measure_on(engine, [&](const ContestantMaker& make) {
+                         return measure_independence(context, engine, make);
+                       });
+                     }});
   }
   return steps;
 }
@@ -135,7 +144,8 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
 
 const std::vector<ComparedEngine>& compared_engines() {
   static const std::vector<ComparedEngine> kCompared{{"reference", Engine::reference, Engine::brute, {}},
-                                                     {"wide", Engine::wide, Engine::wide, {std::nullopt, 1}}};
+                                                     {"wide", Engine::wide, Engine::wide, {std::nullopt, 1}},
+                                                     {"gpu", Engine::reference, Engine::brute, {}, true}};
   return kCompared;
 }
 
@@ -161,10 +171,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+std::optional<std::string> why_missing(const Json& result) {
+  const auto found = result.find(kMissing);
+  return found == result.end() ? std::nullopt : std::optional(found->get<std::string>());
+}
+
 std::optional<ConfigurationFps> fps_of(const StepResults& results, const ComparedEngine& engine, std::int64_t scenario,
                                        std::int64_t spheres) {
   const auto found = results.find(configuration_step(engine, scenario, spheres));
-  if (found == results.end()) return std::nullopt;
+  if (found == results.end() || why_missing(found->second)) return std::nullopt;
   ConfigurationFps fps{0, {}};
   for (const auto& [name, times] : found->second["frame_ms"].items()) {
     const double value = 1000 / median(times.get<std::vector<double>>());

@@ -19,6 +19,7 @@ struct ComparedEngine {
   std::string name;
   Engine tree, brute;
   TreeParameters brute_parameters;
+  bool gpu = false;  ///< draws what these engines have built on the graphics processor
 };
 const std::vector<ComparedEngine>& compared_engines();
 
@@ -37,7 +38,15 @@ struct ConfigurationFps {
   double gain_percent() const;
 };
 
-/// Nothing if the step has not been done.
+/// Keys of a step's result: why there is none, and the graphics processor's name.
+constexpr const char* kMissing = "missing";
+constexpr const char* kGpu = "gpu";
+
+/// Why a step could not measure anything: nothing if it did. A machine without EGL has no graphics processor to
+/// measure, and the experiment is complete without.
+std::optional<std::string> why_missing(const Json& result);
+
+/// Nothing if the step has not been done, or could not.
 std::optional<ConfigurationFps> fps_of(const StepResults& results, const ComparedEngine& engine, std::int64_t scenario,
                                        std::int64_t spheres);
 

@@ -83,7 +83,8 @@ class EngineSection {
       section.tables.push_back(extremes());
       for (const std::int64_t scenario : scenarios_) add_charts(scenario, section);
     }
-    if (const auto found = context_.results.find(independence_step(engine_)); found != context_.results.end())
+    if (const auto found = context_.results.find(independence_step(engine_));
+        found != context_.results.end() && !why_missing(found->second))
       section.tables.push_back(independence(found->second));
     section.data[engine_.name] = data();
   }
@@ -374,6 +375,24 @@ class EngineSection {
   std::map<std::pair<std::int64_t, std::int64_t>, ConfigurationFps> fps_;
 };
 
+// Which graphics processor it was, or why there was none: as the first of its steps says.
+void add_gpu(const SectionContext& context, Section& section) {
+  for (const auto& [name, result] : context.results) {
+    if (const std::optional<std::string> why = why_missing(result)) {
+      section.paragraphs.push_back("The engine gpu was not measured: " + *why + ".");
+      return;
+    }
+    if (!result.contains(kGpu)) continue;
+    section.paragraphs.push_back(
+        "The engine gpu is the same renderer as a shader of OpenGL ES 3, as in the thesis: the reference tree, or "
+        "every "
+        "sphere, in binary32. Here it ran on: " +
+        result[kGpu].get<std::string>() +
+        ". Where that names llvmpipe or SwiftShader, the processor's own cores stood in for a graphics processor.");
+    return;
+  }
+}
+
 }  // namespace
 
 Section figure_4_4_section(const SectionContext& context) {
@@ -395,6 +414,7 @@ Section figure_4_4_section(const SectionContext& context) {
       break;
     }
   for (const ComparedEngine& engine : compared_engines()) EngineSection(context, engine).add_to(section);
+  add_gpu(context, section);
   return section;
 }
 

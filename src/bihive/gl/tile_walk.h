@@ -29,10 +29,10 @@ class TileWalk {
   /// The next tile: some blocks of one row, or whole rows. It should take about `wanted_ms`.
   Tile next(double wanted_ms) {
     // At most four times as many as the last time: behind an empty sky may come what takes seconds.
-    const double most = drawn_ > 0 ? 4.0 * drawn_ : kFirstBlocks;
-    const double blocks = block_ms_ > 0 ? std::min(wanted_ms / block_ms_, most) : most;
+    planned_ = block_ms_ > 0 ? std::min({wanted_ms / block_ms_, 4 * planned_, 1e6}) : kFirstBlocks;
     const int column = next_ % columns_, row = next_ / columns_;
-    int count = std::max(1, static_cast<int>(blocks));
+    planned_ = std::max(planned_, 1.0);
+    int count = static_cast<int>(planned_);
     int y1 = row + 1;
     if (column > 0 || count < columns_) {
       count = std::min(count, columns_ - column);
@@ -57,7 +57,7 @@ class TileWalk {
 
   int width_ = 0, height_ = 0, columns_ = 1, rows_ = 0;
   int next_ = 0, drawn_ = 0;
-  double block_ms_ = 0;
+  double block_ms_ = 0, planned_ = kFirstBlocks;
 };
 
 }  // namespace bihive

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
+#include <numeric>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -73,6 +73,17 @@ Error too_many(const std::string& what, std::int64_t count, std::int64_t most) {
           "", 0, 0, "choose an engine of the CPU"};
 }
 
+// The ids in leaf order, rising within each leaf.
+std::vector<std::int64_t> leaf_order(const SphereSet& spheres, const Tree* tree) {
+  std::vector<std::int64_t> ids(static_cast<std::size_t>(spheres.size()));
+  std::iota(ids.begin(), ids.end(), 0);
+  if (tree == nullptr) return ids;
+  ids = tree->sphere_ids;
+  for (const Node& node : tree->nodes)
+    if (node.is_leaf()) std::sort(ids.begin() + node.first, ids.begin() + node.first + node.sphere_count);
+  return ids;
+}
+
 Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texels, SceneTextures& packed) {
   const SphereSet& spheres = scene.spheres;
   packed.sphere_count = spheres.size();
@@ -80,11 +91,13 @@ Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texe
   reserve(packed.spheres, packed.sphere_count);
   reserve(packed.sphere_info, packed.sphere_count);
 
+  const std::vector<std::int64_t> ids = leaf_order(spheres, tree);
+
   // Equal looks share one entry; the plane has the first for itself.
   std::unordered_map<Look, std::uint32_t, HashOfLook> numbers;
   std::vector<Look> looks{look_of(scene.plane ? scene.plane->material : Material{})};
   for (std::int64_t position = 0; position < packed.sphere_count; ++position) {
-    const std::int64_t id = tree != nullptr ? tree->sphere_ids[static_cast<std::size_t>(position)] : position;
+    const std::int64_t id = ids[static_cast<std::size_t>(position)];
     const auto i = static_cast<std::size_t>(id);
     const Look look = look_of(material_of(scene, id));
     const auto [entry, is_new] = numbers.try_emplace(look, static_cast<std::uint32_t>(looks.size()));

@@ -3,7 +3,8 @@
 //
 // Entry i of a texture is the texel (i mod 2048, i / 2048). All is binary32 in stored units (geometry/sphere_set.h).
 //
-//   spheres      RGBA32F  a texel a sphere, in leaf order (without a tree in the order of ids): centre, radius
+//   spheres      RGBA32F  a texel a sphere, in leaf order and within a leaf in the order of ids (without a tree in that
+//                         order altogether): centre, radius
 //   sphere_info  RG32UI   a texel a sphere: id, look
 //   nodes        RG32UI   two texels a node: the bits of left_clip, right_clip;
 //                         kind (bits 0-2), split_axis (bits 3-4), sphere_count (bits 5-31); first

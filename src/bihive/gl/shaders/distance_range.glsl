@@ -5,7 +5,7 @@
 void main() {
   Ray ray = sample_ray();
   Hit hit = scene_hit(ray);
-  float distance = hit.t * sqrt(ray.direction_squared);
+  float distance = hit.t * length(ray.direction);
   vec2 range = hit.sphere == kNothing ? vec2(kNever, -kNever) : vec2(distance);
   if (sample_index > 0) {
     vec2 before = texelFetch(film_before, ivec2(gl_FragCoord.xy), 0).xy;

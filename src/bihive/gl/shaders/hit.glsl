@@ -7,9 +7,10 @@ struct Hit {
   int sphere;
 };
 
-// Takes the candidate if it is nearer; of equal t the smaller id wins.
-void keep_nearer(inout Hit hit, float candidate_t, int candidate) {
-  bool nearer = candidate_t < hit.t;
-  if (candidate_t == hit.t && hit.sphere != kNothing) nearer = sphere_id(candidate) < sphere_id(hit.sphere);
-  if (nearer) hit = Hit(candidate_t, candidate);
+// Takes the candidate if it is nearer; of equal t the smaller id wins. Within a leaf the order of ids is that of
+// positions, and so the first of equal ones has won before: here come the best of different leaves.
+void keep_nearer(inout Hit hit, Hit candidate) {
+  bool nearer = candidate.t < hit.t;
+  if (candidate.t == hit.t && candidate.sphere != kNothing) nearer = sphere_id(candidate.sphere) < sphere_id(hit.sphere);
+  if (nearer) hit = candidate;
 }

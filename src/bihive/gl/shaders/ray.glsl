@@ -7,7 +7,7 @@
 struct Ray {
   vec3 origin;
   vec3 direction;
-  float direction_squared;
+  float over_direction_squared;  // 1 / direction . direction
   float t_max;
   int leaves;
   bool inside;
@@ -15,5 +15,5 @@ struct Ray {
 };
 
 Ray make_ray(vec3 origin, vec3 direction) {
-  return Ray(origin, direction, dot(direction, direction), kNever, kNothing, false, vec4(0.0, 0.0, 0.0, -1.0));
+  return Ray(origin, direction, 1.0 / dot(direction, direction), kNever, kNothing, false, vec4(0.0, 0.0, 0.0, -1.0));
 }

@@ -11,11 +11,11 @@ struct SphereRoots {
 
 SphereRoots sphere_roots(Ray ray, vec4 sphere) {
   vec3 oc = sphere.xyz - ray.origin;
-  float t_closest = dot(oc, ray.direction) / ray.direction_squared;
+  float t_closest = dot(oc, ray.direction) * ray.over_direction_squared;
   vec3 perpendicular = oc - t_closest * ray.direction;
   float discriminant = sphere.w * sphere.w - dot(perpendicular, perpendicular);
   bool met = discriminant >= 0.0 && sphere.w > 0.0;
-  return SphereRoots(met, t_closest, met ? sqrt(discriminant / ray.direction_squared) : 0.0, perpendicular);
+  return SphereRoots(met, t_closest, met ? sqrt(discriminant * ray.over_direction_squared) : 0.0, perpendicular);
 }
 
 // The t at which the ray hits the sphere, kNever if it does not.

@@ -86,10 +86,13 @@ Hit traverse(Ray ray, bool any_hit) {
     if (kind == kLeaf) {
       // Test every sphere of the leaf.
       int end = first + int(what.x >> 5);
+      Hit best_here = Hit(kNever, kNothing);
       for (int i = first; i < end; ++i) {
-        keep_nearer(best, sphere_hit(ray, stored_sphere(i)), i);
-        if (any_hit && best.sphere != kNothing) return best;
+        float t = sphere_hit(ray, stored_sphere(i));
+        if (t < best_here.t) best_here = Hit(t, i);
       }
+      if (any_hit && best_here.sphere != kNothing) return best_here;
+      keep_nearer(best, best_here);
     } else {
       vec2 planes = uintBitsToFloat(texelFetch(nodes, texel(2 * position), 0).xy);
       int axis = int(what.x >> 3 & 3u);

@@ -8,7 +8,7 @@ uniform float nearest;
 uniform float farthest;
 
 float distance_of(Ray ray, Hit hit) {
-  return hit.t * sqrt(ray.direction_squared);
+  return hit.t * length(ray.direction);
 }
 
 vec3 normal_colour(Ray ray, Hit hit) {
