@@ -1,0 +1,24 @@
+// What a run of Figure 4.4 gave: as JSON, and as charts beside what the thesis states of the iPhone 5s.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/viewer/frame_rates.h"
+
+namespace bihive {
+
+/// {"experiment", "engine", "device", "width_px", "height_px", "quick", "rounds", "configurations": [{"scenario",
+/// "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains": [{"scenario", "spheres",
+/// "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}. `device`: in words, whatever
+/// the caller knows. `values_json`: thesis/figure-4.4/values.json.
+std::string frame_rates_json(const FrameRateRun& run, std::string_view values_json, const std::string& engine,
+                             const std::string& device);
+
+/// SVG texts (image/svg_chart.h): the gains over brute force beside the stated ones, then the frame rates of each
+/// scenario beside the few that the thesis states. `here` names this device in the legend.
+std::vector<std::string> frame_rates_charts(const FrameRateRun& run, std::string_view values_json,
+                                            const std::string& here);
+
+}  // namespace bihive

@@ -1,0 +1,122 @@
+// The run of Figure 4.4 in steps: what is measured in which order, and what is made of it.
+#include "bihive/viewer/frame_rates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bihive/base/write_file.h"
+#include "bihive/viewer/frame_rates_report.h"
+
+namespace bihive {
+namespace {
+
+std::string values_json() {
+  return read_file(std::string(BIHIVE_SOURCE_DIR) + "/thesis/figure-4.4/values.json").value();
+}
+
+FrameRatePlan small_plan() {
+  FrameRatePlan plan;
+  plan.scenarios = {1, 2};
+  plan.spheres = {64};
+  plan.max_prims = {1, 8};
+  plan.width_px = 16;
+  plan.height_px = 9;
+  plan.rounds = 3;
+  plan.least_ms = 0;
+  return plan;
+}
+
+TEST(FrameRatePlan, IsTheThesis) {
+  const Result<FrameRatePlan> plan = FrameRatePlan::from_values(values_json());
+  ASSERT_TRUE(plan) << plan.error().to_string();
+  EXPECT_EQ(plan->configurations(), 54);
+  EXPECT_EQ(plan->spheres, (std::vector<std::int64_t>{64, 128, 256}));
+  EXPECT_EQ(plan->width_px, 1136);
+  EXPECT_EQ(plan->recursion, 1);
+  const FrameRatePlan quick = plan->quickly();
+  EXPECT_EQ(quick.width_px, 284);
+  EXPECT_EQ(quick.configurations(), 54);
+}
+
+TEST(FrameRatePlan, SaysWhichValueIsMissing) {
+  const Result<FrameRatePlan> plan = FrameRatePlan::from_values(R"({"values": {"scenarios": {"value": [1]}}})");
+  ASSERT_FALSE(plan);
+  EXPECT_NE(plan.error().message.find("spheres_list"), std::string::npos);
+  EXPECT_FALSE(FrameRatePlan::from_values("[]"));
+  EXPECT_FALSE(FrameRatePlan::from_values("{"));
+}
+
+TEST(FrameRateRun, TakesTurnsAndCountsAllButTheFirstRound) {
+  FrameRateRun run(small_plan(), nullptr);
+  int steps = 0;
+  double before = -1;
+  for (; !run.finished(); ++steps) {
+    EXPECT_GT(run.done(), before);
+    before = run.done();
+    const Status status = run.step();
+    ASSERT_TRUE(status) << status.error().to_string();
+  }
+  // Two groups of three, four rounds each.
+  EXPECT_EQ(steps, 2 * 3 * 4);
+  EXPECT_EQ(run.done(), 1);
+  EXPECT_NEAR(run.seconds_left(), 0, 1e-9);
+  ASSERT_EQ(run.rates().size(), 6u);
+  EXPECT_FALSE(run.rates()[3].max_prims);
+  EXPECT_EQ(run.rates()[3].scenario, 2);
+  EXPECT_EQ(run.rates()[5].max_prims, 8);
+  for (const MeasuredRate& rate : run.rates()) {
+    EXPECT_EQ(rate.frame_ms.size(), 3u);
+    EXPECT_GT(rate.fps(), 0);
+  }
+}
+
+TEST(FrameRateRun, EndsWithAnError) {
+  FrameRatePlan plan = small_plan();
+  plan.scenarios = {4};
+  FrameRateRun run(plan, nullptr);
+  EXPECT_FALSE(run.step());
+  EXPECT_TRUE(run.finished());
+  EXPECT_TRUE(run.rates().empty());
+}
+
+TEST(MeasuredRate, IsOfTheMedianRound) {
+  MeasuredRate rate;
+  rate.frame_ms = {100, 10, 20};
+  EXPECT_DOUBLE_EQ(rate.fps(), 50);
+}
+
+TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
+  FrameRateRun run(small_plan(), nullptr);
+  while (!run.finished()) ASSERT_TRUE(run.step());
+  const auto json = nlohmann::json::parse(frame_rates_json(run, values_json(), "cpu", "a \"device\" \xff"));
+  EXPECT_EQ(json["engine"], "cpu");
+  EXPECT_EQ(json["complete"], true);
+  ASSERT_EQ(json["configurations"].size(), 6u);
+  EXPECT_TRUE(json["configurations"][0]["max_prims"].is_null());
+  ASSERT_EQ(json["gains"].size(), 2u);
+  const double brute = json["configurations"][0]["fps"], gain = json["gains"][0]["percent"];
+  const double best =
+      std::max(json["configurations"][1]["fps"].get<double>(), json["configurations"][2]["fps"].get<double>());
+  EXPECT_NEAR(gain, 100 * (best / brute - 1), 1e-9 * std::abs(gain) + 1e-9);
+  EXPECT_EQ(json["stated"]["brute.fps.spheres256"]["value"], 1.87);
+  // What was chosen where the thesis is silent is not stated.
+  EXPECT_FALSE(json["stated"].contains("width_px"));
+}
+
+TEST(FrameRatesReport, DrawsWhatIsComplete) {
+  FrameRateRun run(small_plan(), nullptr);
+  EXPECT_TRUE(frame_rates_charts(run, values_json(), "here").empty());
+  while (!run.finished()) ASSERT_TRUE(run.step());
+  const std::vector<std::string> charts = frame_rates_charts(run, values_json(), "here");
+  ASSERT_EQ(charts.size(), 3u);
+  EXPECT_NE(charts[0].find("iPhone 5s, stated, 2 mean: 1,212"), std::string::npos) << charts[0];
+  EXPECT_NE(charts[1].find("BIH 8, iPhone 5s, stated, 64: 60"), std::string::npos) << charts[1];
+  EXPECT_EQ(charts[2].find("iPhone 5s"), std::string::npos) << "the thesis states nothing of 64 spheres there";
+}
+
+}  // namespace
+}  // namespace bihive
