@@ -1,6 +1,6 @@
 # Shortcuts: each job is a script in scripts/.
 
-.PHONY: help demo test check bench verify lint format clean
+.PHONY: help demo web test check bench verify lint format clean
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -8,6 +8,10 @@ help: ## this list
 demo: ## install what the program needs, build it, render the bundled molecule
 	scripts/setup demo
 	scripts/demo
+
+web: ## install what the page needs, build it into build-web/page
+	scripts/setup web
+	scripts/build-web
 
 test: ## install what the tests need, run every test (over half an hour on two cores)
 	scripts/setup all

@@ -1,0 +1,238 @@
+#include "page.h"
+
+#include <emscripten/bind.h>
+#include <emscripten/html5_webgl.h>
+
+#include <new>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bihive/base/parallel.h"
+#include "bihive/base/version.h"
+#include "bihive/scene/names.h"
+#include "bihive/viewer/frame_rates_report.h"
+#include "bihive/viewer/viewer_json.h"
+#include "stated_values.h"
+
+namespace bihive::page {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', /*ensure_ascii=*/false, ordered_json::error_handler_t::replace);
+}
+
+std::string failure(const Error& error) {
+  return text_of({{"error",
+                   {{"message", error.message},
+                    {"file", error.file},
+                    {"line", error.line},
+                    {"column", error.column},
+                    {"hint", error.hint}}}});
+}
+
+std::string done_or(const Status& status) {
+  return status ? "{}" : failure(status.error());
+}
+
+// Memory is the one thing that runs out by an exception.
+template <class Work>
+std::string with_memory(const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return failure({"there is not enough memory for this in the browser", "", 0, 0, "try a smaller file or picture"});
+  }
+}
+
+}  // namespace
+
+emscripten::val Page::room(double bytes) {
+  input_.assign(static_cast<std::size_t>(bytes), '\0');
+  return emscripten::val(
+      emscripten::typed_memory_view(input_.size(), reinterpret_cast<const std::uint8_t*>(input_.data())));
+}
+
+std::string Page::loaded(const Result<SceneFacts>& facts) const {
+  if (!facts) return failure(facts.error());
+  ordered_json json;
+  json["facts"] = {{"name", facts->name},     {"format", facts->format}, {"spheres", facts->spheres},
+                   {"frames", facts->frames}, {"rules", facts->rules},   {"warnings", facts->warnings}};
+  json["settings"] = ordered_json::parse(settings());
+  return text_of(json);
+}
+
+std::string Page::load(const std::string& name) {
+  return with_memory([&] {
+    const std::string bytes = std::exchange(input_, {});
+    return loaded(viewer_.load(bytes, name));
+  });
+}
+
+std::string Page::load_built_in(const std::string& name, double count) {
+  return with_memory([&] {
+    ScenarioParameters parameters;
+    if (count >= 1) parameters.count = static_cast<std::int64_t>(count);
+    return loaded(viewer_.load_built_in(name, parameters));
+  });
+}
+
+std::string Page::settings() const {
+  return settings_to_json(viewer_.settings());
+}
+
+std::string Page::set(const std::string& changes) {
+  return with_memory([&] {
+    const Result<ViewerSettings> settings = settings_from_json(changes, viewer_.settings());
+    return settings ? done_or(viewer_.set(*settings)) : failure(settings.error());
+  });
+}
+
+std::string Page::look_from(const std::string& side) {
+  for (const auto& [name, from] : kSides)
+    if (name == side) {
+      viewer_.look_from(from);
+      return "{}";
+    }
+  return failure({"there is no side \"" + side + "\"", "", 0, 0, ""});
+}
+
+std::string Page::attach_gl() {
+  return with_memory([&] {
+    if (emscripten_webgl_get_current_context() == 0) return failure({"no WebGL2 context is current", "", 0, 0, ""});
+    const Status status = viewer_.attach_gl(browser_gl_functions());
+    return status ? text_of({{"description", viewer_.gl_description()}}) : failure(status.error());
+  });
+}
+
+std::string Page::frame(double budget_ms) {
+  return with_memory([&] {
+    const Result<FrameReport> report = viewer_.frame(budget_ms);
+    if (!report) return failure(report.error());
+    return text_of({{"drawn", report->drawn},
+                    {"settled", report->settled},
+                    {"done", report->done},
+                    {"divisor", report->divisor},
+                    {"frame_ms", report->frame_ms},
+                    {"fps", report->fps},
+                    {"mray_per_s", report->mray_per_s}});
+  });
+}
+
+void Page::take_pixels(const Image& image) {
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  rgba_.resize(4 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t channel = 0; channel < 3; ++channel) rgba_[4 * i + channel] = image.rgb[3 * i + channel];
+    rgba_[4 * i + 3] = 255;
+  }
+}
+
+std::string Page::take_image() {
+  const Image& image = viewer_.image();
+  take_pixels(image);
+  return text_of({{"width", image.width}, {"height", image.height}});
+}
+
+emscripten::val Page::pixels() const {
+  return emscripten::val(emscripten::typed_memory_view(rgba_.size(), rgba_.data()));
+}
+
+void Page::show(int width_px, int height_px) {
+  viewer_.show(0, {0, 0, width_px, height_px});
+}
+
+std::string Page::picture(int width_px, int height_px, int samples_per_pixel) {
+  return with_memory([&] {
+    const Result<Image> image = viewer_.picture(width_px, height_px, samples_per_pixel);
+    if (!image) return failure(image.error());
+    take_pixels(*image);
+    return text_of({{"width", image->width}, {"height", image->height}});
+  });
+}
+
+std::string Page::begin_thesis(bool quick) {
+  return with_memory([&] {
+    Result<FrameRatePlan> plan = FrameRatePlan::from_values(stated_values_figure_4_4());
+    if (!plan) return failure(plan.error());
+    thesis_.reset();
+    thesis_gl_.reset();
+    if (viewer_.settings().engine == ViewerEngine::gpu) {
+      Result<GlRenderer> renderer = GlRenderer::create(browser_gl_functions());
+      if (!renderer) return failure(renderer.error());
+      thesis_gl_ = std::move(*renderer);
+    }
+    thesis_.emplace(quick ? plan->quickly() : *plan, thesis_gl_ ? &*thesis_gl_ : nullptr);
+    return std::string("{}");
+  });
+}
+
+std::string Page::step_thesis() {
+  return with_memory([&] {
+    if (!thesis_) return failure({"no run of the thesis has begun", "", 0, 0, ""});
+    if (const Status status = thesis_->step(); !status) return failure(status.error());
+    return text_of({{"finished", thesis_->finished()},
+                    {"done", thesis_->done()},
+                    {"seconds_left", thesis_->seconds_left()},
+                    {"configurations_done", thesis_->rates().size()},
+                    {"configurations", thesis_->plan().configurations()},
+                    {"scenario", thesis_->scenario()},
+                    {"spheres", thesis_->spheres()}});
+  });
+}
+
+std::string Page::end_thesis(const std::string& device) {
+  return with_memory([&] {
+    if (!thesis_) return failure({"no run of the thesis has begun", "", 0, 0, ""});
+    const std::string_view values = stated_values_figure_4_4();
+    const std::string engine = thesis_gl_ ? "gpu" : "cpu";
+    ordered_json json;
+    json["result"] = frame_rates_json(*thesis_, values, engine, device);
+    json["charts"] = frame_rates_charts(*thesis_, values, "this device");
+    thesis_.reset();
+    thesis_gl_.reset();
+    return text_of(json);
+  });
+}
+
+}  // namespace bihive::page
+
+namespace {
+
+std::string version_text() {
+  const std::string commit(bihive::commit());
+  return std::string(bihive::version()) + (commit.empty() ? "" : " (" + commit + ")");
+}
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(page) {
+  using bihive::page::Page;
+  emscripten::function("version", &version_text);
+  emscripten::function("threads", &bihive::hardware_threads);
+  emscripten::class_<Page>("Page")
+      .constructor<>()
+      .function("room", &Page::room)
+      .function("load", &Page::load)
+      .function("load_built_in", &Page::load_built_in)
+      .function("settings", &Page::settings)
+      .function("set", &Page::set)
+      .function("resize", &Page::resize)
+      .function("orbit", &Page::orbit)
+      .function("pan", &Page::pan)
+      .function("zoom", &Page::zoom)
+      .function("look_from", &Page::look_from)
+      .function("home", &Page::home)
+      .function("attach_gl", &Page::attach_gl)
+      .function("detach_gl", &Page::detach_gl)
+      .function("frame", &Page::frame)
+      .function("take_image", &Page::take_image)
+      .function("pixels", &Page::pixels)
+      .function("show", &Page::show)
+      .function("picture", &Page::picture)
+      .function("statistics", &Page::statistics)
+      .function("begin_thesis", &Page::begin_thesis)
+      .function("step_thesis", &Page::step_thesis)
+      .function("end_thesis", &Page::end_thesis);
+}

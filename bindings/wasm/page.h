@@ -1,0 +1,78 @@
+// What the page's worker calls: the viewer, with text and bytes instead of C++ types.
+//
+// Every method that can fail returns a JSON text; where it failed, {"error": {"message", "file", "line", "column",
+// "hint"}}. Everything runs on the thread of the caller, and on the threads that the library makes.
+#pragma once
+
+#include <emscripten/val.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/viewer/frame_rates.h"
+#include "bihive/viewer/viewer.h"
+
+namespace bihive::page {
+
+class Page {
+ public:
+  // The scene. Answers: {"facts": {...}, "settings": {...}}.
+
+  /// Room for the bytes of a file, as a view of memory; load() takes what was written there.
+  emscripten::val room(double bytes);
+  std::string load(const std::string& name);
+  /// `count` 0: the scenario's own number of spheres.
+  std::string load_built_in(const std::string& name, double count);
+
+  // What is seen. Settings are JSON texts (viewer/viewer_json.h); what set() is not told stays as it is.
+
+  std::string settings() const;
+  std::string set(const std::string& changes);
+  void resize(int width_px, int height_px) { viewer_.resize(width_px, height_px); }
+  void orbit(double dx_px, double dy_px) { viewer_.orbit(dx_px, dy_px); }
+  void pan(double dx_px, double dy_px) { viewer_.pan(dx_px, dy_px); }
+  void zoom(double factor, double x_px, double y_px) { viewer_.zoom(factor, x_px, y_px); }
+  std::string look_from(const std::string& side);
+  void home() { viewer_.home(); }
+
+  // The graphics processor: WebGL2's current context.
+
+  std::string attach_gl();  ///< {"description": ...}
+  void detach_gl(bool lost) { viewer_.detach_gl(lost); }
+
+  // Pictures.
+
+  /// {"drawn", "settled", "done", "divisor", "frame_ms", "fps", "mray_per_s"}.
+  std::string frame(double budget_ms);
+  /// The CPU engine's last picture: {"width", "height"}, and its pixels as a view of memory, four bytes each.
+  std::string take_image();
+  emscripten::val pixels() const;
+  /// The GPU engine's, into the whole canvas.
+  void show(int width_px, int height_px);
+  /// A whole picture; afterwards as after take_image().
+  std::string picture(int width_px, int height_px, int samples_per_pixel);
+  std::string statistics() const { return viewer_.statistics_json(); }
+
+  // Figure 4.4, a step a call.
+
+  std::string begin_thesis(bool quick);
+  /// {"finished", "done", "seconds_left", "configurations_done", "configurations", "scenario", "spheres"}.
+  std::string step_thesis();
+  /// Of what was measured so far: {"result": JSON text, "charts": [SVG text]}.
+  std::string end_thesis(const std::string& device);
+
+ private:
+  std::string loaded(const Result<SceneFacts>& facts) const;
+  void take_pixels(const Image& image);
+
+  Viewer viewer_;
+  std::string input_;
+  std::vector<std::uint8_t> rgba_;
+  std::optional<GlRenderer> thesis_gl_;
+  std::optional<FrameRateRun> thesis_;
+};
+
+}  // namespace bihive::page

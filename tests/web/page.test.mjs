@@ -1,0 +1,300 @@
+// The page in a real browser, as a desktop's user meets it: pictures, controls, files, links, errors.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import {
+  and_settle, compare, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture, scratch,
+  set_value, settled, shown_error, source,
+} from './page_kit.mjs';
+import { serve } from './page_server.mjs';
+
+// Of the issue's targets: until the first picture of the molecule is on the screen.
+const firstPictureMs = 2000;
+
+let browser, server, plain;
+before(async () => {
+  const files = { '/file/points.csv': join(scratch, 'points.csv') };
+  writeFileSync(files['/file/points.csv'], 'x,y,z,r\n0,0,0,1\n2,0,0,0.5\n0,2,0,0.25\n');
+  browser = await launch();
+  server = await serve(folder, { files });
+  plain = await serve(folder, { isolated: false, files });
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+  plain?.close();
+});
+
+// The machine may be busy with other tests: the best of three counts.
+for (const [name, is_plain] of [['threads', false], ['no threads', true]])
+  test(`the molecule comes at once, with ${name}`, async () => {
+    const times = [];
+    for (let i = 0; i < 3 && !(Math.min(...times) < firstPictureMs); ++i) {
+      const { page, context, complaints } = await open_page(browser, (is_plain ? plain : server).url);
+      const [time, isolated] = await page.evaluate(() => [
+        performance.getEntriesByName('first picture')[0].startTime,
+        crossOriginIsolated,
+      ]);
+      times.push(time);
+      assert.equal(isolated, !is_plain);
+      assert.match(await page.textContent('#about'), is_plain ? /one thread/ : /[2-9]\d* threads|one thread/);
+      assert.match(await page.textContent('#facts'), /1,\d+ spheres, PDB/);
+      no_complaints(complaints);
+      await context.close();
+    }
+    console.log(`first picture, ${name}: ${times.map((time) => time.toFixed(0)).join(', ')} ms`);
+    assert.ok(Math.min(...times) < firstPictureMs, `the first picture took ${times} ms`);
+  });
+
+for (const [name, is_plain] of [['threads', false], ['no threads', true]])
+  test(`the CPU engine's pictures are the program's own, with ${name}`, async () => {
+    const { page, context, complaints } = await open_page(browser, (is_plain ? plain : server).url);
+    for (const [scene, options] of [['four-spheres', []], ['scenario3', ['--count', '256']]]) {
+      await and_settle(page, () => page.selectOption('#built_in', scene));
+      if (options.length) await and_settle(page, () => set_value(page, '#count', options[1]));
+      const native = native_picture(scene, scene, '--size', '320x200', '--samples', '1', '--recursion', '5', ...options);
+      await set_value(page, '#samples', 1);
+      await and_settle(page, () => set_value(page, '#recursion', 5));
+      const here = await saved_picture(page, 320, 200);
+      assert.deepEqual(await compare(page, native, here, 0), { width: 320, height: 200, share: 0 }, scene);
+    }
+    no_complaints(complaints);
+    await context.close();
+  });
+
+test('every control changes what it says', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url);
+  const before = await link_state(page);
+  assert.equal(before.source.built_in, 'demo');
+
+  // Values.
+  await set_value(page, '#recursion', 2);
+  await set_value(page, '#samples', 1);
+  await and_settle(page, () => page.click('#shadows'));
+  let { settings } = await link_state(page);
+  assert.deepEqual([settings.recursion, settings.samples_per_pixel, settings.shadows], [2, 1, !before.settings.shadows]);
+
+  // The tree, with its table.
+  const cell = (row, column) => page.textContent(`#statistics tbody tr:nth-child(${row}) td:nth-of-type(${column})`);
+  await page.waitForSelector('#statistics tbody tr');
+  const nodes = await cell(1, 1), bytes = await cell(5, 1);
+  await and_settle(page, () => set_value(page, '#max_prims', 1));
+  await page.waitForFunction((old) => document.querySelector('#statistics tbody td').textContent !== old, nodes);
+  assert.ok(Number((await cell(5, 1)).replaceAll(',', '')) > Number(bytes.replaceAll(',', '')), 'a finer tree is larger');
+  await and_settle(page, () => set_value(page, '#max_depth', 3));
+  ({ settings } = await link_state(page));
+  assert.deepEqual([settings.max_prims, settings.max_depth], [1, 3]);
+
+  // Every view makes another picture.
+  const seen = new Set();
+  for (const view of ['shaded', 'recursion', 'traversal', 'normal', 'distance', 'id', 'tree']) {
+    await and_settle(page, () => page.selectOption('#view', view));
+    seen.add((await saved_picture(page, 96, 64)).toString('base64'));
+  }
+  assert.equal(seen.size, 7);
+  await and_settle(page, () => page.selectOption('#view', 'normal'));
+
+  // Every side another camera, and home the first one.
+  const eyes = new Set();
+  for (const button of await page.$$('.sides [data-side]')) {
+    await and_settle(page, () => button.click());
+    eyes.add(String((await link_state(page)).settings.camera.eye));
+  }
+  assert.equal(eyes.size, 7);
+  await and_settle(page, () => page.click('#home'));
+  const round = (camera) => JSON.stringify(camera, (_, value) => (typeof value === 'number' ? +value.toPrecision(6) : value));
+  assert.equal(round((await link_state(page)).settings.camera), round(before.settings.camera));
+
+  // Colours.
+  for (const [theme, colour] of [['dark', 'rgb(16, 19, 23)'], ['light', 'rgb(244, 244, 241)']]) {
+    await page.click(`#theme input[value=${theme}] + span`);
+    assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), colour);
+  }
+  await page.click('#theme input[value=auto] + span');
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('mouse, wheel and keys move the camera', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url);
+  await and_settle(page, () => page.selectOption('#view', 'normal'));
+  const camera = async () => (await link_state(page)).settings.camera;
+  const length = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
+  const away = ({ eye, look_at }) => length(eye, look_at);
+  const first = await camera();
+  const drag = async (options = {}) => {
+    if (options.key) await page.keyboard.down(options.key);
+    await page.mouse.move(200, 300);
+    await page.mouse.down({ button: options.button ?? 'left' });
+    await page.mouse.move(300, 340, { steps: 4 });
+    await page.mouse.up({ button: options.button ?? 'left' });
+    if (options.key) await page.keyboard.up(options.key);
+  };
+
+  await and_settle(page, () => drag());
+  const turned = await camera();
+  assert.ok(length(turned.eye, first.eye) > 0.1 * away(first), 'a drag turns');
+  assert.ok(Math.abs(away(turned) / away(first) - 1) < 1e-6, 'and keeps the distance');
+  for (const options of [{ button: 'right' }, { key: 'Shift' }]) {
+    const old = await camera();
+    await and_settle(page, () => drag(options));
+    const now = await camera();
+    assert.ok(length(now.look_at, old.look_at) > 0, 'a drag with the right button or Shift moves');
+  }
+  const wheel = async (by) => {
+    await page.mouse.move(200, 300);
+    await page.mouse.wheel(0, by);
+  };
+  for (const [act, nearer] of [
+    [() => wheel(-200), true],
+    [() => wheel(200), false],
+    [() => page.press('#picture', '+'), true],
+    [() => page.press('#picture', '-'), false],
+  ]) {
+    const old = away(await camera());
+    await and_settle(page, act);
+    assert.equal(away(await camera()) < old, nearer);
+  }
+  for (const key of ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Shift+ArrowLeft']) {
+    const old = await camera();
+    await and_settle(page, () => page.press('#picture', key));
+    assert.notDeepEqual(await camera(), old, key);
+  }
+  await and_settle(page, () => page.press('#picture', '6'));
+  assert.equal((await link_state(page)).settings.view, 'id');
+  await and_settle(page, () => page.press('#picture', 'Home'));
+  assert.ok(Math.abs(away(await camera()) / away(first) - 1) < 1e-6);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('files by picker, drop and address, packed or not', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url);
+  const facts = () => page.textContent('#facts');
+  const pick = (name, buffer) =>
+    and_settle(page, () => page.setInputFiles('#file', { name, mimeType: 'application/octet-stream', buffer }));
+  const data = (name) => readFileSync(join(source, name));
+
+  await pick('atoms.xyz', Buffer.from('3\nwater\nO 0 0 0\nH 0.76 0.59 0\nH -0.76 0.59 0\n'));
+  assert.equal(await facts(), 'atoms.xyz: 3 spheres, XYZ');
+  await pick('1hpv.pdb.gz', gzipSync(data('data/1hpv.pdb')));
+  assert.match(await facts(), /1hpv\.pdb\.gz: 1,\d+ spheres, PDB/);
+  await pick('little_f4_C.npy', data('tests/data/io/little_f4_C.npy'));
+  assert.match(await facts(), /NPY/);
+  await pick(
+    'dump.lammpstrj',
+    Buffer.from(
+      'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 4\n0 4\n0 4\n' +
+        'ITEM: ATOMS id type x y z\n1 1 1 1 1\n2 1 3 1 1\n',
+    ),
+  );
+  assert.equal(await facts(), 'dump.lammpstrj: 2 spheres, LAMMPS dump');
+  await pick('scene.json', Buffer.from('{"bihive_scene": 1, "spheres": [[0, 0, 0, 1], [1, 1, 0, 0.7]]}'));
+  assert.match(await facts(), /scene\.json: 2 spheres, scene file/);
+
+  // A drop.
+  const drop = await page.evaluateHandle(() => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File(['x,y,z,r\n0,0,0,1\n'], 'one.csv'));
+    return transfer;
+  });
+  await and_settle(page, async () => {
+    await page.dispatchEvent('#picture', 'dragover', { dataTransfer: drop });
+    await page.dispatchEvent('#picture', 'drop', { dataTransfer: drop });
+  });
+  assert.equal(await facts(), 'one.csv: 1 sphere, CSV');
+  assert.match((await link_state(page)).source.built_in, /demo/, 'no link holds a file');
+
+  // An address on this server; one elsewhere is refused before anything is sent.
+  await page.fill('#url', 'file/points.csv');
+  await and_settle(page, () => page.press('#url', 'Enter'));
+  assert.equal(await facts(), 'points.csv: 3 spheres, CSV');
+  await page.fill('#url', 'http://example.com/a.pdb');
+  await page.click('#url_form button');
+  assert.match(await shown_error(page), /another server/);
+  no_complaints(complaints);
+  await page.fill('#url', 'file/nothing.pdb');
+  await page.click('#url_form button');
+  await page.waitForFunction(() => /404/.test(document.querySelector('#errors').textContent));
+  await context.close();
+});
+
+test('bad input says what and where, and keeps the old scene', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url);
+  const facts = await page.textContent('#facts');
+  const picture = await saved_picture(page, 96, 64);
+  for (const [name, content, words] of [
+    ['bad.csv', 'x,y,z\n1,2,3\n4,five,6\n', /bad\.csv.*line 3.*five/],
+    ['empty.pdb', '', /empty\.pdb/],
+    ['noise.bin', '\u0001\u0002\u0003', /noise\.bin/],
+    ['scene.json', '{"bihive_scene": 1, "spheres": [[0, 0]]}', /scene\.json/],
+    ['cut.pdb.gz', gzipSync(Buffer.from('ATOM')).subarray(0, 12), /cut\.pdb\.gz.*gzip/],
+  ]) {
+    await page.setInputFiles('#file', { name, mimeType: 'text/plain', buffer: Buffer.from(content) });
+    await page.waitForFunction((file) => document.querySelector('#errors')?.textContent.includes(file), name);
+    assert.match(await shown_error(page), words);
+    assert.equal(await page.textContent('#facts'), facts);
+    assert.equal(await page.inputValue('#built_in'), 'demo');
+  }
+  assert.deepEqual((await compare(page, picture, await saved_picture(page, 96, 64), 0)).share, 0);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a link brings everything back', async () => {
+  const { page, context } = await open_page(browser, server.url);
+  await and_settle(page, () => page.selectOption('#built_in', 'scenario2'));
+  await and_settle(page, () => set_value(page, '#count', 300));
+  await set_value(page, '#max_prims', 3);
+  await and_settle(page, () => page.selectOption('#view', 'traversal'));
+  await and_settle(page, () => page.press('#picture', 'ArrowLeft'));
+  const state = await link_state(page);
+  const picture = await saved_picture(page, 128, 96);
+  const link = page.url();
+  await context.close();
+
+  const other = await open_page(browser, link);
+  assert.deepEqual(await link_state(other.page), state);
+  assert.equal((await compare(other.page, picture, await saved_picture(other.page, 128, 96), 0)).share, 0);
+  assert.deepEqual(state.source, { built_in: 'scenario2', count: 300 });
+  no_complaints(other.complaints);
+  await other.context.close();
+
+  // A damaged one is said to be so, and the molecule shown.
+  const damaged = await open_page(browser, `${server.url}#state=abc`);
+  assert.match(await shown_error(damaged.page), /damaged/);
+  no_complaints(damaged.complaints);
+  await damaged.context.close();
+});
+
+test('every control has a name and can be reached', async () => {
+  const { page, context } = await open_page(browser, server.url);
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll('button, input, select, a, [role], dialog')]
+      .filter((element) => {
+        const labels = element.labels ? [...element.labels].map((label) => label.textContent).join('') : '';
+        const by = element.getAttribute('aria-labelledby');
+        const name =
+          element.getAttribute('aria-label') ?? (by ? document.getElementById(by)?.textContent : null) ?? (labels || element.textContent);
+        const speaks = ['status', 'alert'].includes(element.getAttribute('role'));
+        return !speaks && !name.trim();
+      })
+      .map((element) => element.outerHTML),
+  );
+  assert.deepEqual(nameless, []);
+  const snapshot = await page.locator('body').ariaSnapshot();
+  for (const words of ['application', 'combobox "Built-in"', 'slider "Recursion"', 'radio "GPU"', 'checkbox "Shadows"'])
+    assert.ok(snapshot.includes(words), `${words} is not among what a screen reader finds:\n${snapshot}`);
+  // By Tab alone from the picture into the panel.
+  await page.focus('#picture');
+  const reached = new Set();
+  for (let i = 0; i < 40; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => document.activeElement?.id ?? ''));
+  }
+  for (const id of ['built_in', 'file', 'view', 'recursion', 'max_prims', 'save', 'copy_link', 'thesis_open'])
+    assert.ok(reached.has(id), `Tab does not reach ${id}`);
+  await context.close();
+});

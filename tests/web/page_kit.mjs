@@ -1,0 +1,119 @@
+// What the tests of the page share: the browser, a page that notes what goes wrong, pictures compared pixel by pixel.
+// Environment: PAGE, the folder that scripts/build-web made; BIHIVE, the program; CHROMIUM, the browser; SOURCE, the
+// project; SCRATCH, a folder to write to.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { chromium } from 'playwright-core';
+
+export const folder = process.env.PAGE;
+export const source = process.env.SOURCE;
+export const scratch = process.env.SCRATCH;
+
+// No sandbox: it cannot be had by root or in a container. WebGL2 by software.
+const flags = [
+  '--no-sandbox',
+  '--disable-dev-shm-usage',
+  '--use-gl=angle',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+];
+
+export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM, args: flags });
+
+/** Opens the page and waits for the first whole picture. `complaints` fills with whatever the browser complains of. */
+export async function open_page(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 900, height: 600 }, acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on('console', (message) => {
+    if (message.type() === 'error') complaints.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => complaints.push(`script: ${error.message}`));
+  context.on('request', (request) => {
+    if (!request.url().startsWith(new URL(url).origin) && !/^(data|blob):/.test(request.url()))
+      complaints.push(`a request leaves the origin: ${request.url()}`);
+  });
+  await page.goto(url);
+  await settled(page);
+  return { page, context, complaints };
+}
+
+/** Waits until all of the picture is drawn. */
+export const settled = (page) => page.waitForSelector('#picture[data-settled=true]', { timeout: 60_000 });
+
+/** Does something that begins a new picture, and waits for the end of it. */
+export async function and_settle(page, work) {
+  await page.evaluate(() => (document.getElementById('picture').dataset.settled = 'false'));
+  await work();
+  await settled(page);
+}
+
+/** The words of the errors that are shown; waits for one. */
+export async function shown_error(page) {
+  await page.waitForSelector('#errors .message');
+  return page.textContent('#errors .message p');
+}
+
+/** What `bihive render` makes of an input: the bytes of a PNG. */
+export function native_picture(input, name, ...options) {
+  const file = join(scratch, `${name}.png`);
+  execFileSync(process.env.BIHIVE, ['render', input, '-o', file, ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
+  return readFileSync(file);
+}
+
+/** Saves a picture by the page's own button. */
+export async function saved_picture(page, width, height) {
+  await page.fill('#save_width', String(width));
+  await page.fill('#save_height', String(height));
+  const [download] = await Promise.all([page.waitForEvent('download', { timeout: 60_000 }), page.click('#save')]);
+  return readFileSync(await download.path());
+}
+
+/** Two PNGs pixel by pixel, decoded by the browser: {width, height, share}, the share of pixels that differ by more
+ * than `by` of 255 in a channel; share 1 where the sizes differ. */
+export async function compare(page, a, b, by) {
+  return page.evaluate(
+    async ([first, second, least]) => {
+      const pixels = async (base64) => {
+        const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+        const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }), { colorSpaceConversion: 'none' });
+        const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+        const context = canvas.getContext('2d');
+        context.drawImage(bitmap, 0, 0);
+        return context.getImageData(0, 0, bitmap.width, bitmap.height);
+      };
+      const [p, q] = [await pixels(first), await pixels(second)];
+      if (p.width !== q.width || p.height !== q.height) return { width: p.width, height: p.height, share: 1 };
+      let different = 0;
+      for (let i = 0; i < p.data.length; i += 4)
+        if ([0, 1, 2].some((k) => Math.abs(p.data[i + k] - q.data[i + k]) > least)) ++different;
+      return { width: p.width, height: p.height, share: different / (p.width * p.height) };
+    },
+    [a.toString('base64'), b.toString('base64'), by],
+  );
+}
+
+/** Moves a slider or types into a number as a user does. */
+export async function set_value(page, selector, value) {
+  await page.$eval(
+    selector,
+    (input, to) => {
+      input.value = String(to);
+      input.dispatchEvent(new Event('input', { bubbles: true }));
+      input.dispatchEvent(new Event('change', { bubbles: true }));
+    },
+    value,
+  );
+}
+
+/** The state that the page's link holds. */
+export async function link_state(page) {
+  await page.click('#copy_link');
+  await page.waitForFunction(() => location.hash.startsWith('#state='));
+  const text = new URL(page.url()).hash.slice('#state='.length);
+  return JSON.parse(Buffer.from(text, 'base64url').toString('utf8'));
+}
+
+export const no_complaints = (complaints) => assert.deepEqual(complaints, []);

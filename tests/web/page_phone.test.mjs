@@ -1,0 +1,93 @@
+// The page on a phone: 360 pixels wide, by fingers.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { devices } from 'playwright-core';
+import { and_settle, folder, launch, link_state, no_complaints, open_page, scratch } from './page_kit.mjs';
+import { serve } from './page_server.mjs';
+
+let browser, server;
+before(async () => {
+  browser = await launch();
+  server = await serve(folder);
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+// Fingers on the picture, each along a line, as the browser sees them.
+async function touch(page, lines) {
+  const session = await page.context().newCDPSession(page);
+  const points = (share) =>
+    lines.map(([x0, y0, x1, y1], id) => ({ id, x: x0 + share * (x1 - x0), y: y0 + share * (y1 - y0) }));
+  await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: points(0) });
+  for (let i = 1; i <= 5; ++i)
+    await session.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: points(i / 5) });
+  await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+}
+
+for (const scheme of ['light', 'dark'])
+  test(`a phone of 360 pixels, ${scheme}`, async () => {
+    const { page, context, complaints } = await open_page(browser, server.url, {
+      ...devices['Pixel 7'],
+      viewport: { width: 360, height: 740 },
+      colorScheme: scheme,
+    });
+    await page.screenshot({ path: join(scratch, `phone-${scheme}.png`) });
+    const width = () => page.evaluate(() => document.documentElement.scrollWidth);
+    assert.equal(await width(), 360);
+    const state = async () => {
+      if ((await page.getAttribute('#panel_toggle', 'aria-expanded')) === 'false') await page.tap('#panel_toggle');
+      const found = await link_state(page);
+      await page.tap('#panel_toggle');
+      return found.settings.camera;
+    };
+    const away = ({ eye, look_at }) => Math.hypot(...eye.map((value, i) => value - look_at[i]));
+
+    const first = await state();
+    await and_settle(page, () => touch(page, [[100, 300, 220, 330]]));
+    const turned = await state();
+    assert.notDeepEqual(turned.eye, first.eye);
+    assert.ok(Math.abs(away(turned) / away(first) - 1) < 1e-6, 'one finger turns');
+    await and_settle(page, () => touch(page, [[150, 300, 90, 240], [210, 360, 270, 420]]));
+    const near = await state();
+    assert.ok(away(near) < away(turned), 'two fingers apart come closer');
+    await and_settle(page, () => touch(page, [[120, 300, 180, 380], [220, 300, 280, 380]]));
+    const moved = await state();
+    assert.notDeepEqual(moved.look_at, near.look_at);
+
+    // The sheet: everything inside the window, nothing smaller than a fingertip.
+    await page.tap('#panel_toggle');
+    await page.waitForTimeout(300);
+    await page.screenshot({ path: join(scratch, `phone-${scheme}-sheet.png`) });
+    assert.equal(await width(), 360);
+    const small = await page.evaluate(() =>
+      [...document.querySelectorAll('#panel button, #panel select, #panel input[type=range], #panel .button')]
+        .filter((element) => element.getClientRects().length > 0 && element.getBoundingClientRect().height < 38)
+        .map((element) => element.id || element.textContent),
+    );
+    assert.deepEqual(small, []);
+    const outside = await page.evaluate(() =>
+      [...document.querySelectorAll('#panel *')]
+        .filter((element) => element.getClientRects().length > 0 && element.getBoundingClientRect().right > 361)
+        .map((element) => element.outerHTML.slice(0, 80)),
+    );
+    assert.deepEqual(outside, []);
+    await page.tap('#thesis_open');
+    await page.screenshot({ path: join(scratch, `phone-${scheme}-thesis.png`) });
+    assert.equal(await width(), 360);
+    no_complaints(complaints);
+    await context.close();
+  });
+
+for (const scheme of ['light', 'dark'])
+  test(`a desktop, ${scheme}`, async () => {
+    const { page, context, complaints } = await open_page(browser, server.url, {
+      viewport: { width: 1280, height: 800 },
+      colorScheme: scheme,
+    });
+    await page.screenshot({ path: join(scratch, `desktop-${scheme}.png`) });
+    no_complaints(complaints);
+    await context.close();
+  });

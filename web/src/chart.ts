@@ -1,0 +1,55 @@
+// The library's charts (SVG texts) on the page, and as one picture.
+
+/** Its style sheet is left out: the page's own knows the user's colours. */
+export function chart_element(text: string): SVGSVGElement {
+  const parsed = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement;
+  parsed.querySelector('style')?.remove();
+  return document.importNode(parsed, true) as unknown as SVGSVGElement;
+}
+
+const copied = ['fill', 'stroke', 'stroke-width', 'stroke-linejoin', 'font-family', 'font-size', 'font-weight', 'color'];
+
+// A copy that looks the same without any style sheet.
+function with_looks(chart: SVGSVGElement): SVGSVGElement {
+  const copy = chart.cloneNode(true) as SVGSVGElement;
+  const originals = [chart, ...chart.querySelectorAll('*')];
+  [copy, ...copy.querySelectorAll('*')].forEach((element, i) => {
+    const style = getComputedStyle(originals[i]!);
+    for (const name of copied) element.setAttribute(name, style.getPropertyValue(name));
+  });
+  return copy;
+}
+
+/** All charts, one below the other, under a heading; `width` in pixels. */
+export async function charts_as_png(charts: SVGSVGElement[], heading: string, width: number): Promise<Blob> {
+  const margin = 24, heading_height = 60;
+  const heights = charts.map((chart) => (width - 2 * margin) * (chart.viewBox.baseVal.height / chart.viewBox.baseVal.width));
+  const canvas = document.createElement('canvas');
+  canvas.width = width;
+  canvas.height = Math.ceil(heading_height + heights.reduce((sum, height) => sum + height + margin, 0));
+  const context = canvas.getContext('2d')!;
+  const style = getComputedStyle(document.body);
+  context.fillStyle = style.backgroundColor;
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.fillStyle = style.color;
+  context.font = '20px system-ui, sans-serif';
+  context.fillText(heading, margin, 38, width - 2 * margin);
+  let y = heading_height;
+  for (const [i, chart] of charts.entries()) {
+    const copy = with_looks(chart);
+    copy.setAttribute('width', String(width - 2 * margin));
+    copy.setAttribute('height', String(heights[i]));
+    const address = URL.createObjectURL(
+      new Blob([new XMLSerializer().serializeToString(copy)], { type: 'image/svg+xml' }),
+    );
+    const image = new Image();
+    image.src = address;
+    await image.decode();
+    context.drawImage(image, margin, y, width - 2 * margin, heights[i]!);
+    URL.revokeObjectURL(address);
+    y += heights[i]! + margin;
+  }
+  return new Promise((resolve, reject) =>
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The charts could not be drawn'))), 'image/png'),
+  );
+}

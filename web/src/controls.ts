@@ -1,0 +1,94 @@
+// The panel's controls for settings: shown as they are, and what the user changes is handed on.
+import { element, RadioGroup } from './dom';
+import type { EngineName, Move, Settings, SideName, ViewName } from './protocol';
+
+export interface ControlActions {
+  change(changes: Partial<Settings>): void;
+  move(move: Move): void;
+}
+
+// A slider with its value beside it.
+class Slider {
+  private readonly input: HTMLInputElement;
+  private readonly output: HTMLOutputElement;
+
+  constructor(id: string, private readonly words: (value: number) => string, on_change: (value: number) => void) {
+    this.input = element<HTMLInputElement>(id);
+    this.output = document.querySelector<HTMLOutputElement>(`output[for=${id}]`)!;
+    this.input.addEventListener('input', () => {
+      this.show();
+      on_change(Number(this.input.value));
+    });
+  }
+
+  set value(value: number) {
+    this.input.value = String(value);
+    this.show(value);
+  }
+
+  // A value beyond the slider's end is still said.
+  private show(value = Number(this.input.value)): void {
+    this.output.textContent = this.words(value);
+    this.input.setAttribute('aria-valuetext', this.words(value));
+  }
+}
+
+// A limit of the tree on a slider: 0 is the engine's choice.
+const limit_words = (value: number) => (value === 0 ? 'auto' : value === Infinity ? 'none' : String(value));
+const limit_of = (value: Settings['max_prims']) => (value === null ? 0 : value === 'unlimited' ? Infinity : value);
+
+export class Controls {
+  private readonly engine: RadioGroup;
+  private readonly view = element<HTMLSelectElement>('view');
+  private readonly shadows = element<HTMLInputElement>('shadows');
+  private readonly recursion: Slider;
+  private readonly samples: Slider;
+  private readonly max_prims: Slider;
+  private readonly max_depth: Slider;
+  private shown: Settings | null = null;
+
+  constructor(private readonly actions: ControlActions) {
+    const { change } = actions;
+    this.engine = new RadioGroup('engine', (value) => this.set_engine(value as EngineName));
+    this.view.addEventListener('change', () => this.set_view(this.view.value as ViewName));
+    this.recursion = new Slider('recursion', String, (recursion) => change({ recursion }));
+    this.samples = new Slider('samples', String, (samples_per_pixel) => change({ samples_per_pixel }));
+    this.shadows.addEventListener('change', () => change({ shadows: this.shadows.checked }));
+    this.max_prims = new Slider('max_prims', limit_words, (value) => change({ max_prims: value || null }));
+    this.max_depth = new Slider('max_depth', limit_words, (value) => change({ max_depth: value || null }));
+    for (const button of document.querySelectorAll<HTMLButtonElement>('[data-side]'))
+      button.addEventListener('click', () =>
+        actions.move({ kind: 'look_from', side: button.dataset['side'] as SideName }),
+      );
+    element('home').addEventListener('click', () => actions.move({ kind: 'home' }));
+  }
+
+  move(move: Move): void {
+    this.actions.move(move);
+  }
+
+  get settings(): Settings | null {
+    return this.shown;
+  }
+
+  // The drawing of the tree is the CPU's: whoever asks for one gets the other.
+  set_engine(engine: EngineName): void {
+    this.actions.change(engine === 'gpu' && this.shown?.view === 'tree' ? { engine, view: 'shaded' } : { engine });
+  }
+
+  set_view(view: ViewName): void {
+    this.actions.change(view === 'tree' ? { view, engine: 'cpu' } : { view });
+  }
+
+  /** Shows settings that come from the worker; a slider that is being dragged is left alone. */
+  show(settings: Settings): void {
+    this.shown = settings;
+    this.engine.value = settings.engine;
+    this.view.value = settings.view;
+    this.shadows.checked = settings.shadows;
+    this.recursion.value = settings.recursion;
+    this.samples.value = settings.samples_per_pixel;
+    this.max_prims.value = limit_of(settings.max_prims);
+    this.max_depth.value = limit_of(settings.max_depth);
+  }
+}

@@ -1,0 +1,25 @@
+// The worker as the page sees it: requests go out, answers come in by type.
+import type { Answer, Request } from './protocol';
+
+type Handlers = { [Type in Answer['type']]: (answer: Extract<Answer, { type: Type }>) => void };
+
+export class Engine {
+  private readonly worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'bihive' });
+  private next_id = 1;
+
+  constructor(handlers: Handlers, on_broken: (message: string) => void) {
+    this.worker.addEventListener('message', (event: MessageEvent<Answer>) => {
+      const handler = handlers[event.data.type] as (answer: Answer) => void;
+      handler(event.data);
+    });
+    this.worker.addEventListener('error', (event) => on_broken(event.message || 'The worker could not be started'));
+  }
+
+  send(request: Request, transfer: Transferable[] = []): void {
+    this.worker.postMessage(request, transfer);
+  }
+
+  new_id(): number {
+    return this.next_id++;
+  }
+}

@@ -1,0 +1,70 @@
+// The canvas of the graphics processor: its WebGL2 context, known to the C++ module, and what happens when it is lost.
+import type { GpuState } from './protocol';
+import type { Module } from './module';
+
+const attributes: WebGLContextAttributes = {
+  alpha: false,
+  antialias: false,
+  depth: false,
+  stencil: false,
+  powerPreference: 'high-performance',
+};
+
+// WebGL2 without a graphics processor: the CPU engine is faster than that. Browsers do not say so themselves; the
+// names of the programs that they use do.
+function is_software(context: WebGL2RenderingContext): boolean {
+  const unmasked = context.getExtension('WEBGL_debug_renderer_info');
+  const name = String(context.getParameter(unmasked ? unmasked.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+export interface GlEvents {
+  lost(): void;
+  restored(): void;
+}
+
+export class GlCanvas {
+  private context: WebGL2RenderingContext | null = null;
+  private is_software = false;
+
+  constructor(
+    private readonly module: Module,
+    readonly canvas: OffscreenCanvas,
+    events: GlEvents,
+  ) {
+    this.context = canvas.getContext('webgl2', attributes);
+    this.is_software = this.context !== null && is_software(this.context);
+    if (this.context) this.register();
+    canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault(); // else it never comes back
+      events.lost();
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.register();
+      events.restored();
+    });
+  }
+
+  get here(): boolean {
+    return this.context !== null && !this.context.isContextLost();
+  }
+
+  /** Drawn by the processor. */
+  get software(): boolean {
+    return this.is_software;
+  }
+
+  state(description: string): GpuState {
+    return { here: this.here, software: this.is_software, description };
+  }
+
+  // Anew after a loss too: extensions are asked for again, and names of lost objects forgotten.
+  private register(): void {
+    const handle = this.module.GL.registerContext(this.context!, {
+      majorVersion: 2,
+      minorVersion: 0,
+      enableExtensionsByDefault: true,
+    });
+    this.module.GL.makeContextCurrent(handle);
+  }
+}

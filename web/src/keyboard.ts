@@ -1,0 +1,41 @@
+// The picture by keys.
+import type { EngineName, Move, ViewName } from './protocol';
+
+const step_px = 24; // of the page
+const zoom_step = 1.15;
+const views: ViewName[] = ['shaded', 'recursion', 'traversal', 'normal', 'distance', 'id', 'tree'];
+const arrows: Record<string, [number, number]> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+
+export interface KeyActions {
+  scale(): number;
+  size(): { width: number; height: number };
+  move(move: Move): void;
+  view(view: ViewName): void;
+  engine(): EngineName;
+  set_engine(engine: EngineName): void;
+}
+
+export function listen_for_keys(picture: HTMLElement, actions: KeyActions): void {
+  picture.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const arrow = arrows[event.key];
+    const zoom = { '+': zoom_step, '=': zoom_step, '-': 1 / zoom_step, _: 1 / zoom_step }[event.key];
+    const view = views[Number(event.key) - 1];
+    if (arrow) {
+      const px = step_px * actions.scale();
+      actions.move({ kind: event.shiftKey ? 'pan' : 'orbit', dx: arrow[0] * px, dy: arrow[1] * px });
+    } else if (zoom) {
+      const { width, height } = actions.size();
+      actions.move({ kind: 'zoom', factor: zoom, x: width / 2, y: height / 2 });
+    } else if (event.key === 'Home') actions.move({ kind: 'home' });
+    else if (view) actions.view(view);
+    else if (event.key === 'e' || event.key === 'E') actions.set_engine(actions.engine() === 'gpu' ? 'cpu' : 'gpu');
+    else return;
+    event.preventDefault();
+  });
+}

@@ -1,0 +1,47 @@
+// The whole state as a link: scene and settings in the address behind "#".
+import type { Settings, Source } from './protocol';
+
+export interface State {
+  source: Source;
+  settings: Partial<Settings> | null;
+}
+
+const prefix = '#state=';
+
+export function link_of(state: State): string {
+  const bytes = new TextEncoder().encode(JSON.stringify(state));
+  let binary = '';
+  for (const byte of bytes) binary += String.fromCharCode(byte);
+  const text = btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+  return new URL(prefix + text, location.href).href;
+}
+
+function is_source(value: unknown): value is Source {
+  if (typeof value !== 'object' || value === null) return false;
+  const source = value as Record<string, unknown>;
+  if (typeof source['built_in'] === 'string') return ['undefined', 'number'].includes(typeof source['count']);
+  return typeof source['url'] === 'string';
+}
+
+/** A state as a document gives it; null where it is none. The module checks the settings. */
+export function state_from(document: unknown): State | null {
+  if (typeof document !== 'object' || document === null) return null;
+  const { source, settings } = document as Record<string, unknown>;
+  if (!is_source(source)) return null;
+  return { source, settings: typeof settings === 'object' ? (settings as Partial<Settings> | null) : null };
+}
+
+/** That of an address; null where it has none; throws where it is damaged. */
+export function state_of(hash: string): State | null {
+  if (!hash.startsWith(prefix)) return null;
+  try {
+    const binary = atob(hash.slice(prefix.length).replaceAll('-', '+').replaceAll('_', '/'));
+    const state = state_from(
+      JSON.parse(new TextDecoder().decode(Uint8Array.from(binary, (character) => character.charCodeAt(0)))),
+    );
+    if (state) return state;
+  } catch {
+    // said below
+  }
+  throw new Error('The link is damaged: it does not hold a scene');
+}

@@ -1,0 +1,271 @@
+// The page: starts the worker, shows what it says, and hands on what the user does.
+import { Controls } from './controls';
+import { element, grouped } from './dom';
+import { save } from './download';
+import { Engine } from './engine';
+import { listen_for_keys } from './keyboard';
+import { link_of, state_from, state_of, type State } from './link';
+import { busy, clear_errors, fail, note } from './messages';
+import { start_panel } from './panel';
+import { listen_for_pointers } from './pointer';
+import type { EngineName, Facts, FrameReport, GpuState, Settings, Source } from './protocol';
+import { listen_for_sources, show_source, wanted_file, wanted_source, type Wanted } from './sources';
+import { show_statistics } from './statistics';
+import { start_theme } from './theme';
+import { ThesisDialog } from './thesis';
+
+const most_pixels = 2560 * 1600; // of a picture on the screen
+const finest_ratio = 2; // more of a phone's pixels than this nobody sees
+
+const picture = element('picture');
+const gpu_canvas = element<HTMLCanvasElement>('gpu_canvas');
+const cpu_canvas = element<HTMLCanvasElement>('cpu_canvas');
+
+let source: Source = { built_in: 'demo' };
+let settings: Settings | null = null;
+let facts: Facts | null = null;
+let gpu: GpuState = { here: false, software: false, description: '' };
+let serial = 0;
+let loading = 0; // id of the load that is awaited
+let saving = 0;
+let scale = 1;
+let size = { width: 1, height: 1 };
+
+const engine = new Engine(
+  {
+    ready: ({ version, threads, gpu: found }) => {
+      gpu = found;
+      show_gpu();
+      element('about').textContent =
+        `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. No request leaves this page's server.`;
+    },
+    loaded: (answer) => {
+      if (answer.id === loading) busy(null);
+      source = answer.source;
+      show_facts(answer.facts);
+      show_source(source);
+      show_settings(answer.settings);
+      controls.show(answer.settings);
+      for (const text of answer.notes) note(text);
+    },
+    failed: ({ id, message }) => {
+      busy(null);
+      if (id === saving) element<HTMLButtonElement>('save').disabled = false;
+      if (id === loading) show_source(source);
+      fail(message);
+    },
+    note: ({ message }) => note(message),
+    gpu: ({ gpu: found }) => {
+      gpu = found;
+      show_gpu();
+    },
+    settings: (answer) => {
+      show_settings(answer.settings);
+      if (answer.serial === serial) controls.show(answer.settings);
+    },
+    frame: (answer) => {
+      show_settings(answer.settings);
+      if (answer.serial === serial) controls.show(answer.settings);
+      show_engine(answer.settings.engine);
+      show_frame(answer.report, answer.width_px, answer.height_px);
+    },
+    statistics: ({ json }) => show_statistics(json),
+    picture: ({ picture: file }) => {
+      busy(null);
+      element<HTMLButtonElement>('save').disabled = false;
+      save(file, `${(facts?.name ?? 'picture').replace(/.*\//, '').replace(/\.[^.]*$/, '')}.png`);
+    },
+    thesis_progress: ({ progress }) => thesis.progress(progress),
+    thesis_failed: ({ message }) => thesis.failed(message),
+    thesis_done: ({ cancelled, result, charts }) => thesis.done(cancelled, result, charts),
+  },
+  (message) => {
+    busy(null);
+    fail(`The C++ module could not be started: ${message}`);
+  },
+);
+
+function change(changes: Partial<Settings>): void {
+  engine.send({ type: 'set', serial: ++serial, changes });
+}
+
+const controls = new Controls({ change, move: (move) => engine.send({ type: 'move', move }) });
+const thesis = new ThesisDialog({
+  run: (quick) => engine.send({ type: 'thesis', quick, device: device_words() }),
+  cancel: () => engine.send({ type: 'thesis_cancel' }),
+});
+
+function device_words(): string {
+  const drawn_by = settings?.engine === 'gpu' ? gpu.description : `${navigator.hardwareConcurrency} threads`;
+  return `${drawn_by}; ${navigator.userAgent}`;
+}
+
+// What the worker says.
+
+function show_settings(now: Settings): void {
+  settings = now;
+}
+
+function show_engine(name: EngineName): void {
+  gpu_canvas.hidden = name !== 'gpu';
+  cpu_canvas.hidden = name !== 'cpu';
+}
+
+function show_gpu(): void {
+  const words = element('engine_note');
+  words.hidden = gpu.here && !gpu.software;
+  words.textContent = gpu.here
+    ? 'WebGL2 is drawn by software here: the CPU engine is faster.'
+    : 'This browser has no WebGL2: the CPU engine draws.';
+  for (const button of document.querySelectorAll<HTMLInputElement>('#engine input[value=gpu]'))
+    button.disabled = !gpu.here;
+}
+
+function show_facts(now: Facts): void {
+  facts = now;
+  const name = now.name.replace(/.*\//, '');
+  element('badge_name').textContent = name;
+  document.title = `${name} · bihive`;
+  element('facts').textContent =
+    `${name}: ${grouped(now.spheres)} ${now.spheres === 1 ? 'sphere' : 'spheres'}, ${now.format}` +
+    (now.frames > 1 ? `, the first of ${grouped(now.frames)} frames` : '');
+  picture.setAttribute('aria-label', `${name}, ${grouped(now.spheres)} spheres`);
+  element('rules_box').hidden = now.rules.length === 0;
+  element('rules').replaceChildren(
+    ...now.rules.map((rule) => Object.assign(document.createElement('li'), { textContent: rule })),
+  );
+}
+
+function show_frame(report: FrameReport, width: number, height: number): void {
+  const words = [];
+  if (report.fps > 0) words.push(`${report.fps < 10 ? report.fps.toFixed(1) : report.fps.toFixed(0)} fps`);
+  words.push(`${report.mray_per_s < 10 ? report.mray_per_s.toFixed(1) : report.mray_per_s.toFixed(0)} Mray/s`);
+  element('frame_rate').textContent = words.join(' · ');
+  element('badge_frame').textContent = report.settled
+    ? `${width} × ${height}`
+    : `${width} × ${height}${report.divisor > 1 ? ` / ${report.divisor}` : ''} · ${Math.floor(100 * report.done)} %`;
+  picture.dataset['settled'] = String(report.settled);
+  // For whoever measures how long the page takes.
+  if (report.drawn && performance.getEntriesByName('first picture').length === 0) performance.mark('first picture');
+}
+
+// What the user does.
+
+async function open(what: Promise<Wanted>, name: string, wanted: Partial<Settings> | null = null): Promise<void> {
+  const id = (loading = engine.new_id());
+  clear_errors();
+  picture.dataset['settled'] = 'false';
+  busy(`Loading ${name}`);
+  try {
+    const { source: from, bytes, name: called } = await what;
+    if (id !== loading) return; // another one was asked for meanwhile
+    engine.send({ type: 'load', id, source: from, bytes, name: called, settings: wanted }, bytes ? [bytes] : []);
+  } catch (error) {
+    busy(null);
+    show_source(source);
+    fail((error as Error).message);
+  }
+}
+
+const open_source = (from: Source, wanted: Partial<Settings> | null = null) =>
+  open(wanted_source(from), 'built_in' in from ? from.built_in : 'url' in from ? from.url : from.file, wanted);
+const open_file = (file: File) => open(wanted_file(file), file.name);
+
+function watch_size(): void {
+  const save_width = element<HTMLInputElement>('save_width'), save_height = element<HTMLInputElement>('save_height');
+  const fit = () => {
+    const box = picture.getBoundingClientRect();
+    if (box.width < 1 || box.height < 1) return;
+    const ratio = Math.min(devicePixelRatio || 1, finest_ratio);
+    scale = Math.min(ratio, Math.sqrt(most_pixels / (box.width * box.height)));
+    size = { width: Math.max(1, Math.round(box.width * scale)), height: Math.max(1, Math.round(box.height * scale)) };
+    picture.dataset['settled'] = 'false';
+    engine.send({ type: 'resize', width_px: size.width, height_px: size.height });
+    save_width.value = String(size.width);
+    save_height.value = String(size.height);
+  };
+  new ResizeObserver(fit).observe(picture);
+  fit();
+}
+
+function save_picture(): void {
+  const width = element<HTMLInputElement>('save_width'), height = element<HTMLInputElement>('save_height');
+  if (!settings || !width.reportValidity() || !height.reportValidity()) return;
+  element<HTMLButtonElement>('save').disabled = true;
+  busy('Drawing the picture');
+  saving = engine.new_id();
+  engine.send({
+    type: 'picture',
+    id: saving,
+    width_px: Number(width.value),
+    height_px: Number(height.value),
+    samples_per_pixel: settings.samples_per_pixel,
+  });
+}
+
+async function copy_link(): Promise<void> {
+  if (!settings) return;
+  const is_file = 'file' in source;
+  const link = link_of({ source: is_file ? { built_in: 'demo' } : source, settings });
+  history.replaceState(null, '', link);
+  const words = is_file ? `The file ${(source as { file: string }).file} itself is not in it.` : '';
+  try {
+    await navigator.clipboard.writeText(link);
+    note(`The link is copied. ${words}`);
+  } catch {
+    note(`The link is in the address bar: this browser does not let the page copy it. ${words}`);
+  }
+}
+
+// The state of the address, of `bihive web FILE`, or the molecule.
+async function first_state(): Promise<State> {
+  const linked = state_of(location.hash);
+  if (linked) return linked;
+  const started = await fetch(new URL('start.json', document.baseURI))
+    .then((response) => (response.ok ? response.json() : null))
+    .catch(() => null);
+  return state_from(started) ?? { source: { built_in: 'demo' }, settings: null };
+}
+
+async function start(): Promise<void> {
+  start_theme();
+  start_panel();
+  const asked = new URLSearchParams(location.search).get('threads');
+  const threads = globalThis.crossOriginIsolated && typeof SharedArrayBuffer !== 'undefined' && asked !== '0';
+  const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
+  busy('Starting');
+  engine.send(
+    { type: 'start', threads, base: document.baseURI, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
+    [...canvases],
+  );
+  watch_size();
+
+  const move = (what: Parameters<typeof controls.move>[0]) => controls.move(what);
+  listen_for_pointers(picture, () => scale, move);
+  listen_for_keys(picture, {
+    scale: () => scale,
+    size: () => size,
+    move,
+    view: (view) => controls.set_view(view),
+    engine: () => settings?.engine ?? 'cpu',
+    set_engine: (name) => controls.set_engine(name),
+  });
+  listen_for_sources((from) => void open_source(from), (file) => void open_file(file));
+  element('save').addEventListener('click', save_picture);
+  element('copy_link').addEventListener('click', () => void copy_link());
+
+  const open_state = async () => {
+    try {
+      const state = await first_state();
+      await open_source(state.source, state.settings);
+    } catch (error) {
+      const opened = open_source({ built_in: 'demo' });
+      fail((error as Error).message);
+      await opened;
+    }
+  };
+  addEventListener('hashchange', () => void open_state());
+  await open_state();
+}
+
+void start();

@@ -1,0 +1,66 @@
+// The C++ module: which of its two builds is loaded, and what it offers (bindings/wasm/page.h).
+
+export interface Page {
+  room(bytes: number): Uint8Array;
+  load(name: string): string;
+  load_built_in(name: string, count: number): string;
+  settings(): string;
+  set(changes: string): string;
+  resize(width_px: number, height_px: number): void;
+  orbit(dx_px: number, dy_px: number): void;
+  pan(dx_px: number, dy_px: number): void;
+  zoom(factor: number, x_px: number, y_px: number): void;
+  look_from(side: string): string;
+  home(): void;
+  attach_gl(): string;
+  detach_gl(lost: boolean): void;
+  frame(budget_ms: number): string;
+  take_image(): string;
+  pixels(): Uint8Array;
+  show(width_px: number, height_px: number): void;
+  picture(width_px: number, height_px: number, samples_per_pixel: number): string;
+  statistics(): string;
+  begin_thesis(quick: boolean): string;
+  step_thesis(): string;
+  end_thesis(device: string): string;
+}
+
+/** Emscripten's list of contexts: what the C++ side calls WebGL through. */
+export interface GlContexts {
+  registerContext(context: WebGL2RenderingContext, attributes: Record<string, unknown>): number;
+  makeContextCurrent(handle: number): boolean;
+}
+
+export interface Module {
+  Page: new () => Page;
+  GL: GlContexts;
+  version(): string;
+  threads(): number;
+}
+
+/** `base`: the page's own address. Throws where the module cannot be loaded. */
+export async function load_module(base: string, threads: boolean): Promise<Module> {
+  const address = new URL(`wasm/${threads ? 'threads' : 'single'}/bihive.js`, base).href;
+  const { default: create } = (await import(/* @vite-ignore */ address)) as { default: () => Promise<Module> };
+  return create();
+}
+
+interface Failure {
+  message: string;
+  file: string;
+  line: number;
+  column: number;
+  hint: string;
+}
+
+/** What is wrong with what the user gave; the page shows its message. */
+export class BadInput extends Error {}
+
+/** An answer of the module as a value; throws BadInput where it is an error, saying what was wrong and where. */
+export function value_of<T>(answer: string): T {
+  const value = JSON.parse(answer) as T & { error?: Failure };
+  if (!value.error) return value;
+  const { message, file, line, column, hint } = value.error;
+  const place = [file, line > 0 ? `line ${line}` : '', column > 0 ? `column ${column}` : ''].filter(Boolean).join(', ');
+  throw new BadInput(`${place ? `${place}: ` : ''}${message}${hint ? `; ${hint}` : ''}`);
+}

@@ -1,0 +1,100 @@
+// What the page and its worker say to each other. The worker owns the C++ module and both canvases; the page owns the
+// controls. Numbers and names of settings are those of the C++ library.
+
+export type EngineName = 'cpu' | 'gpu';
+export type ViewName = 'shaded' | 'recursion' | 'traversal' | 'normal' | 'distance' | 'id' | 'tree';
+export type SideName = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom' | 'iso';
+
+export interface Camera {
+  eye: [number, number, number];
+  look_at: [number, number, number];
+  up: [number, number, number];
+  fov_deg: number;
+}
+
+/** As ViewerSettings of the library; a limit of the tree that is null leaves the choice to the engine. */
+export interface Settings {
+  engine: EngineName;
+  view: ViewName;
+  recursion: number;
+  samples_per_pixel: number;
+  shadows: boolean;
+  max_prims: number | 'unlimited' | null;
+  max_depth: number | 'unlimited' | null;
+  camera: Camera;
+}
+
+/** Where a scene comes from. A dropped file has no address, so that no link can bring it back. */
+export type Source =
+  | { built_in: string; count?: number }
+  | { url: string }
+  | { file: string };
+
+export interface Facts {
+  name: string;
+  format: string;
+  spheres: number;
+  frames: number;
+  rules: string[];
+  warnings: string[];
+}
+
+export interface FrameReport {
+  drawn: boolean;
+  settled: boolean;
+  done: number;
+  divisor: number;
+  frame_ms: number;
+  fps: number;
+  mray_per_s: number;
+}
+
+export interface ThesisProgress {
+  finished: boolean;
+  done: number;
+  seconds_left: number;
+  configurations_done: number;
+  configurations: number;
+  scenario: number;
+  spheres: number;
+}
+
+/** One step of the pointer or a key, in pixels of the picture. */
+export type Move =
+  | { kind: 'orbit' | 'pan'; dx: number; dy: number }
+  | { kind: 'zoom'; factor: number; x: number; y: number }
+  | { kind: 'look_from'; side: SideName }
+  | { kind: 'home' };
+
+/** To the worker. `id` comes back with the answer. */
+export type Request =
+  | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
+  | { type: 'load'; id: number; source: Source; bytes: ArrayBuffer | null; name: string; settings: Partial<Settings> | null }
+  | { type: 'set'; serial: number; changes: Partial<Settings> }
+  | { type: 'resize'; width_px: number; height_px: number }
+  | { type: 'move'; move: Move }
+  | { type: 'picture'; id: number; width_px: number; height_px: number; samples_per_pixel: number }
+  | { type: 'thesis'; quick: boolean; device: string }
+  | { type: 'thesis_cancel' };
+
+/** From the worker. `serial`: of the last request to set something that is in these settings. */
+export type Answer =
+  | { type: 'ready'; version: string; threads: number; gpu: GpuState }
+  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; notes: string[] }
+  | { type: 'failed'; id: number | null; message: string }
+  | { type: 'note'; message: string }
+  | { type: 'gpu'; gpu: GpuState }
+  | { type: 'settings'; serial: number; settings: Settings }
+  | { type: 'frame'; report: FrameReport; serial: number; settings: Settings; width_px: number; height_px: number }
+  | { type: 'statistics'; json: string }
+  | { type: 'picture'; id: number; picture: Blob }
+  | { type: 'thesis_progress'; progress: ThesisProgress }
+  | { type: 'thesis_failed'; message: string }
+  | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
+
+/** What there is to draw with. */
+export interface GpuState {
+  here: boolean;
+  software: boolean; // drawn by the processor: slower than the CPU engine
+  description: string;
+}

@@ -1,0 +1,105 @@
+// Where scenes come from: built-in names, files that are picked or dropped, addresses on this server.
+import { element } from './dom';
+import { busy } from './messages';
+import type { Source } from './protocol';
+
+/** A scene to be loaded, and its bytes where it is not built in. */
+export interface Wanted {
+  source: Source;
+  bytes: ArrayBuffer | null;
+  name: string;
+}
+
+/** Fetches an address of this origin. Throws with words for the user. */
+async function fetched(url: string): Promise<Wanted> {
+  let address: URL;
+  try {
+    address = new URL(url, document.baseURI);
+  } catch {
+    throw new Error(`"${url}" is not an address`);
+  }
+  if (address.origin !== location.origin)
+    throw new Error(`${address.origin} is another server: this page only loads files of its own (${location.origin})`);
+  const name = decodeURIComponent(address.pathname.split('/').pop() || address.pathname);
+  const response = await fetch(address).catch(() => {
+    throw new Error(`${address.href} could not be fetched`);
+  });
+  if (!response.ok) throw new Error(`${address.href}: the server answered ${response.status} ${response.statusText}`);
+  return { source: { url }, bytes: await with_progress(response, name), name };
+}
+
+async function with_progress(response: Response, name: string): Promise<ArrayBuffer> {
+  // A packed answer is longer than the server says.
+  const length = response.headers.get('Content-Encoding') ? 0 : Number(response.headers.get('Content-Length') ?? 0);
+  if (!response.body || length === 0) return response.arrayBuffer();
+  const bytes = new Uint8Array(length);
+  let at = 0;
+  const reader = response.body.getReader();
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return at === length ? bytes.buffer : bytes.slice(0, at).buffer;
+    if (at + value.byteLength > length) throw new Error(`${name}: the server sends more than it announced`);
+    bytes.set(value, at);
+    at += value.byteLength;
+    busy(`Fetching ${name}`, at / length);
+  }
+}
+
+export async function wanted_source(source: Source): Promise<Wanted> {
+  if ('built_in' in source) return { source, bytes: null, name: source.built_in };
+  if ('url' in source) return fetched(source.url);
+  throw new Error(`The file ${source.file} is not in the link: open it again`);
+}
+
+export async function wanted_file(file: File): Promise<Wanted> {
+  return { source: { file: file.name }, bytes: await file.arrayBuffer(), name: file.name };
+}
+
+/** Calls `open` with files that are picked or dropped anywhere, and with sources that are chosen in the panel. */
+export function listen_for_sources(open_source: (source: Source) => void, open_file: (file: File) => void): void {
+  const built_in = element<HTMLSelectElement>('built_in');
+  const count = element<HTMLInputElement>('count');
+  const choose = () => {
+    const scenario = built_in.value.startsWith('scenario');
+    element('count_row').hidden = !scenario;
+    if (scenario && !count.reportValidity()) return;
+    open_source(scenario ? { built_in: built_in.value, count: Number(count.value) } : { built_in: built_in.value });
+  };
+  built_in.addEventListener('change', choose);
+  count.addEventListener('change', choose);
+
+  const file = element<HTMLInputElement>('file');
+  file.addEventListener('change', () => {
+    if (file.files?.[0]) open_file(file.files[0]);
+    file.value = ''; // the same file may be picked again
+  });
+
+  element<HTMLFormElement>('url_form').addEventListener('submit', (event) => {
+    event.preventDefault();
+    const url = element<HTMLInputElement>('url').value.trim();
+    if (url !== '') open_source({ url });
+  });
+
+  const hint = element('drop_hint');
+  addEventListener('dragover', (event) => {
+    event.preventDefault();
+    hint.hidden = false;
+  });
+  addEventListener('dragleave', (event) => {
+    if (!event.relatedTarget) hint.hidden = true;
+  });
+  addEventListener('drop', (event) => {
+    event.preventDefault();
+    hint.hidden = true;
+    const dropped = event.dataTransfer?.files[0];
+    if (dropped) open_file(dropped);
+  });
+}
+
+/** Shows in the panel where the scene came from. */
+export function show_source(source: Source): void {
+  const name = 'built_in' in source ? source.built_in : '';
+  element<HTMLSelectElement>('built_in').value = name;
+  element('count_row').hidden = !name.startsWith('scenario');
+  if ('built_in' in source && source.count) element<HTMLInputElement>('count').value = String(source.count);
+}

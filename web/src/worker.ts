@@ -1,0 +1,296 @@
+// The worker: the C++ module, the loop of frames, and the answers to the page.
+import { BadInput, load_module, value_of, type Module, type Page } from './module';
+import { GlCanvas } from './gl_canvas';
+import { unpacked } from './gunzip';
+import type { Answer, Facts, FrameReport, Move, Request, Settings, ThesisProgress } from './protocol';
+
+const frame_budget_ms = 25;
+
+let module: Module;
+let page: Page;
+let gl: GlCanvas;
+let cpu_canvas: OffscreenCanvas;
+let cpu_context: OffscreenCanvasRenderingContext2D;
+
+let has_scene = false;
+let size_px = { width: 1, height: 1 };
+let wanted_changes: Partial<Settings> | null = null;
+let serial = 0; // of the last request in wanted_changes
+let moves: Move[] = [];
+let statistics_wanted = false;
+let frame_pending = false;
+let gl_lost = false;
+let gl_description = '';
+let gpu_again = false; // the engine of the settings when the context was lost
+let thesis: { device: string; cancelled: boolean } | null = null;
+
+function send(answer: Answer): void {
+  postMessage(answer);
+}
+
+function settings(): Settings {
+  return JSON.parse(page.settings()) as Settings;
+}
+
+// Runs what the user asked for; what is wrong with it becomes a message.
+async function attempt(id: number | null, work: () => void | Promise<void>): Promise<void> {
+  try {
+    await work();
+  } catch (error) {
+    if (!(error instanceof BadInput)) console.warn(error);
+    send({ type: 'failed', id, message: error instanceof Error ? error.message : String(error) });
+  }
+}
+
+// The graphics processor.
+
+function attach_gl(): void {
+  try {
+    gl_description = value_of<{ description: string }>(page.attach_gl()).description;
+  } catch (error) {
+    throw new BadInput(`The GPU engine is not available: ${(error as Error).message}`);
+  }
+}
+
+// Asked for only when somebody wants it where it is drawn by software: it takes a while there.
+function ensure_gl(): void {
+  if (gl_description !== '') return;
+  if (!gl.here) throw new BadInput('This browser has no WebGL2: the CPU engine draws instead');
+  attach_gl();
+  send({ type: 'gpu', gpu: gl.state(gl_description) });
+}
+
+// The C++ side goes on with the CPU engine.
+function on_lost(): void {
+  gl_lost = true;
+  if (thesis) thesis.cancelled = true;
+  if (gl_description === '') return;
+  gpu_again = settings().engine === 'gpu';
+  page.detach_gl(true);
+  gl_description = '';
+  send({ type: 'note', message: 'The browser took the graphics processor away; the CPU goes on until it is back.' });
+  if (gpu_again) ask_for_frame();
+}
+
+function on_restored(): void {
+  gl_lost = false;
+  void attempt(null, () => {
+    if (!gpu_again) return;
+    ensure_gl();
+    value_of(page.set(JSON.stringify({ engine: 'gpu' })));
+    send({ type: 'note', message: 'The graphics processor is back.' });
+    ask_for_frame();
+  });
+}
+
+// Frames.
+
+function ask_for_frame(): void {
+  if (frame_pending || !has_scene || thesis) return;
+  frame_pending = true;
+  // Not every browser has the clock of the display in workers.
+  if (typeof requestAnimationFrame === 'function') requestAnimationFrame(() => void next_frame());
+  else setTimeout(() => void next_frame(), 8);
+}
+
+function apply_moves(): void {
+  for (const move of moves) {
+    if (move.kind === 'orbit') page.orbit(move.dx, move.dy);
+    else if (move.kind === 'pan') page.pan(move.dx, move.dy);
+    else if (move.kind === 'zoom') page.zoom(move.factor, move.x, move.y);
+    else if (move.kind === 'look_from') value_of(page.look_from(move.side));
+    else page.home();
+  }
+  moves = [];
+}
+
+function apply_changes(): void {
+  if (!wanted_changes) return;
+  const changes = wanted_changes;
+  wanted_changes = null;
+  try {
+    if (changes.engine === 'gpu') ensure_gl();
+    value_of(page.set(JSON.stringify(changes)));
+  } finally {
+    send({ type: 'settings', serial, settings: settings() });
+  }
+  if ('max_prims' in changes || 'max_depth' in changes) statistics_wanted = true;
+}
+
+function show_cpu_image(): void {
+  const { width, height } = value_of<{ width: number; height: number }>(page.take_image());
+  if (width === 0 || height === 0) return;
+  if (cpu_canvas.width !== width) cpu_canvas.width = width;
+  if (cpu_canvas.height !== height) cpu_canvas.height = height;
+  cpu_context.putImageData(image_data(width, height), 0, 0);
+}
+
+// A copy of the module's pixels: the browser takes no shared memory for pictures.
+function image_data(width: number, height: number): ImageData {
+  return new ImageData(new Uint8ClampedArray(page.pixels()), width, height);
+}
+
+function show_gpu_image(): void {
+  if (gl.canvas.width !== size_px.width) gl.canvas.width = size_px.width;
+  if (gl.canvas.height !== size_px.height) gl.canvas.height = size_px.height;
+  page.show(size_px.width, size_px.height);
+}
+
+async function next_frame(): Promise<void> {
+  frame_pending = false;
+  if (thesis) return;
+  await attempt(null, () => {
+    apply_moves();
+    apply_changes();
+  });
+  await attempt(null, () => {
+    const now = settings();
+    if (now.engine === 'gpu' && gl_lost) return; // the event is on its way
+    const report = value_of<FrameReport>(page.frame(frame_budget_ms));
+    if (report.drawn) {
+      if (now.engine === 'gpu') show_gpu_image();
+      else show_cpu_image();
+    }
+    if (report.drawn || report.settled)
+      send({ type: 'frame', report, serial, settings: now, width_px: size_px.width, height_px: size_px.height });
+    if (!report.settled) ask_for_frame();
+  });
+  if (statistics_wanted) {
+    statistics_wanted = false;
+    setTimeout(() => send({ type: 'statistics', json: page.statistics() }));
+  }
+}
+
+// Scenes.
+
+interface Loaded {
+  facts: Facts;
+  settings: Settings;
+}
+
+let engine_chosen = false;
+
+// The settings of a link, or of the scene; the engine is the user's, at first the faster one. Returns what could not be
+// done.
+function choose_settings(wanted: Partial<Settings>): string[] {
+  const notes: string[] = [];
+  if (!engine_chosen && !wanted.engine && gl.here && !gl.software) wanted = { ...wanted, engine: 'gpu' };
+  engine_chosen = true;
+  if (wanted.engine === 'gpu') {
+    try {
+      ensure_gl();
+    } catch (error) {
+      wanted = { ...wanted, engine: 'cpu' };
+      notes.push((error as Error).message);
+    }
+  }
+  try {
+    value_of(page.set(JSON.stringify(wanted)));
+  } catch (error) {
+    notes.push(`Some settings do not fit this scene and were left out: ${(error as Error).message}`);
+  }
+  return notes;
+}
+
+async function load(request: Request & { type: 'load' }): Promise<void> {
+  let loaded: Loaded;
+  if ('built_in' in request.source) {
+    loaded = value_of(page.load_built_in(request.source.built_in, request.source.count ?? 0));
+  } else {
+    const bytes = await unpacked(new Uint8Array(request.bytes!), request.name);
+    page.room(bytes.byteLength).set(bytes);
+    loaded = value_of(page.load(request.name));
+  }
+  moves = [];
+  has_scene = true;
+  const notes = [...loaded.facts.warnings, ...choose_settings(request.settings ?? {})];
+  send({ type: 'loaded', id: request.id, source: request.source, facts: loaded.facts, settings: settings(), notes });
+  statistics_wanted = true;
+  ask_for_frame();
+}
+
+async function picture(request: Request & { type: 'picture' }): Promise<void> {
+  const { width_px, height_px, samples_per_pixel } = request;
+  const { width, height } = value_of<{ width: number; height: number }>(
+    page.picture(width_px, height_px, samples_per_pixel),
+  );
+  const canvas = new OffscreenCanvas(width, height);
+  canvas.getContext('2d')!.putImageData(image_data(width, height), 0, 0);
+  send({ type: 'picture', id: request.id, picture: await canvas.convertToBlob({ type: 'image/png' }) });
+  ask_for_frame();
+}
+
+// The thesis's measurements: frames rest meanwhile.
+
+function run_thesis(quick: boolean, device: string): void {
+  if (thesis) return;
+  try {
+    apply_changes();
+    value_of(page.begin_thesis(quick));
+    thesis = { device, cancelled: false };
+    setTimeout(step_thesis);
+  } catch (error) {
+    send({ type: 'thesis_failed', message: (error as Error).message });
+  }
+}
+
+function step_thesis(): void {
+  const run = thesis!;
+  try {
+    if (!run.cancelled) {
+      const progress = value_of<ThesisProgress>(page.step_thesis());
+      send({ type: 'thesis_progress', progress });
+      // Between two steps the page's messages are read: a cancel among them.
+      if (!progress.finished) return void setTimeout(step_thesis);
+    }
+    const { result, charts } = value_of<{ result: string; charts: string[] }>(page.end_thesis(run.device));
+    send({ type: 'thesis_done', cancelled: run.cancelled, result, charts });
+  } catch (error) {
+    send({ type: 'thesis_failed', message: (error as Error).message });
+  }
+  thesis = null;
+  ask_for_frame();
+}
+
+async function start(request: Request & { type: 'start' }): Promise<void> {
+  module = await load_module(request.base, request.threads);
+  page = new module.Page();
+  cpu_canvas = request.cpu_canvas;
+  cpu_context = cpu_canvas.getContext('2d', { alpha: false })!;
+  gl = new GlCanvas(module, request.gpu_canvas, { lost: on_lost, restored: on_restored });
+  send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state('') });
+}
+
+let started: Promise<void> | null = null;
+
+addEventListener('message', async (event: MessageEvent<Request>) => {
+  const request = event.data;
+  if (request.type === 'start') {
+    started = attempt(null, () => start(request));
+    return;
+  }
+  await started;
+  if (!page) return;
+  switch (request.type) {
+    case 'load':
+      return attempt(request.id, () => load(request));
+    case 'set':
+      wanted_changes = { ...wanted_changes, ...request.changes };
+      serial = request.serial;
+      return ask_for_frame();
+    case 'resize':
+      size_px = { width: request.width_px, height: request.height_px };
+      page.resize(size_px.width, size_px.height);
+      return ask_for_frame();
+    case 'move':
+      moves.push(request.move);
+      return ask_for_frame();
+    case 'picture':
+      return attempt(request.id, () => picture(request));
+    case 'thesis':
+      return attempt(null, () => run_thesis(request.quick, request.device));
+    case 'thesis_cancel':
+      if (thesis) thesis.cancelled = true;
+      return;
+  }
+});
