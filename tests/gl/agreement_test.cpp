@@ -26,7 +26,7 @@ Scene molecule_scene() {
   Scene scene;
   scene.spheres = std::move(read_spheres_from_memory(bundled_molecule(), "1hpv.pdb", {})->spheres);
   colour_spheres(scene.spheres);
-  scene.camera = frame_spheres(scene.spheres, ViewFrom::front, 30, 481, 300);
+  scene.camera = frame_spheres(scene.spheres, ViewFrom::front, 30, 480, 300);
   scene.lights = {light_behind(scene.camera)};
   return scene;
 }
@@ -37,7 +37,7 @@ Scene scene_of(const std::string& name) {
   return scenario_scene(static_cast<Scenario>(name.back() - '0'), {}).value();
 }
 
-RenderSettings settings_of(const Scene& scene, int width_px = 481, int height_px = 300) {
+RenderSettings settings_of(const Scene& scene, int width_px = 480, int height_px = 300) {
   RenderSettings settings = settings_from(scene.picture);
   settings.width_px = width_px;
   settings.height_px = height_px;
@@ -133,7 +133,7 @@ TEST(Agreement, hostile_sets) {
 
 TEST(Agreement, brute_force) {
   const Scene scene = scenario_scene(Scenario::mixed, {200, 2, 1}).value();
-  RenderSettings settings = settings_of(scene, 241, 150);
+  RenderSettings settings = settings_of(scene, 240, 150);
   settings.shadows = true;
   expect_agreement(compare(scene, settings, Structure::brute), kAtDepth5);
   settings.view = View::id;
@@ -142,7 +142,7 @@ TEST(Agreement, brute_force) {
 
 TEST(Agreement, leaves_of_every_size) {
   const Scene scene = scenario_scene(Scenario::corners, {300, 1, 1}).value();
-  const RenderSettings settings = settings_of(scene, 241, 150);
+  const RenderSettings settings = settings_of(scene, 240, 150);
   for (const BuildParameters parameters : {BuildParameters{1, kUnlimited}, BuildParameters{300, 1}}) {
     const Tree tree = build_reference_tree(scene.spheres, parameters);
     const Tracer tracer(scene.spheres, std::make_shared<const Tree>(tree));
@@ -168,8 +168,8 @@ TEST(Agreement, several_samples_and_lights) {
 
 TEST(Agreement, little_of_everything) {
   RenderSettings settings;
-  settings.width_px = 121;
-  settings.height_px = 76;
+  settings.width_px = 120;
+  settings.height_px = 75;
   settings.samples_per_pixel = 1;
   const auto expect = [&](const Scene& scene) {
     for (const View view : {View::shaded, View::traversal, View::normal, View::distance, View::id}) {
@@ -197,7 +197,7 @@ TEST(Agreement, powers_of_highlights) {
     Scene scene = four_spheres_scene();
     scene.plane.reset();
     for (Material& material : scene.materials) material.power = power, material.specular = 1;
-    RenderSettings settings = settings_of(scene, 161, 100);
+    RenderSettings settings = settings_of(scene, 160, 100);
     settings.recursion = 1;
     expect_agreement(compare(scene, settings), kAtDepth1);
   }

@@ -67,19 +67,28 @@ Result<CameraUniforms> CameraUniforms::from(const Camera& camera, double scale, 
   if (length(eye) > kFarthestEye)
     return Error{"camera: the eye is too far away from the spheres for the graphics processor's single precision", "",
                  0, 0, "choose an engine of the CPU"};
-  return CameraUniforms{to_float(eye),
-                        to_float(rays.forward()),
-                        to_float(rays.right()),
-                        to_float(rays.down()),
-                        static_cast<float>(rays.half_width()),
-                        static_cast<float>(rays.half_height())};
+  const auto rest_of = [](Vec3d number) { return to_float(number - to_double(to_float(number))); };
+  CameraUniforms uniforms;
+  uniforms.eye = to_float(eye);
+  uniforms.forward = to_float(rays.forward());
+  uniforms.forward_lower = rest_of(rays.forward());
+  uniforms.right = to_float(rays.right());
+  uniforms.right_lower = rest_of(rays.right());
+  uniforms.down = to_float(rays.down());
+  uniforms.down_lower = rest_of(rays.down());
+  uniforms.half_width = static_cast<float>(rays.half_width());
+  uniforms.half_height = static_cast<float>(rays.half_height());
+  return uniforms;
 }
 
 void CameraUniforms::put(GlProgram& program) const {
   program.set("eye", eye);
   program.set("forward", forward);
+  program.set("forward_lower", forward_lower);
   program.set("right", right);
+  program.set("right_lower", right_lower);
   program.set("down", down);
+  program.set("down_lower", down_lower);
   program.set("half_size", half_width, half_height);
 }
 

@@ -26,6 +26,7 @@ struct SceneUniforms {
 
 struct CameraUniforms {
   Vec3f eye, forward, right, down;
+  Vec3f forward_lower, right_lower, down_lower;  // what binary32 leaves of them
   float half_width = 0, half_height = 0;
 
   /// Error: as check_camera(), or an eye so far away (1e15 times the extent of the spheres) that squares leave

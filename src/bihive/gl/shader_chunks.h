@@ -16,6 +16,7 @@ namespace bihive {
   X(film)                       \
   X(hit)                        \
   X(integrator)                 \
+  X(pairs)                      \
   X(ray)                        \
   X(scene_hit)                  \
   X(shading)                    \

@@ -1,14 +1,20 @@
 // Twin of scene/camera.h's PixelRays.
+#include "pairs"
 #include "ray"
 
 uniform vec3 eye;
 uniform vec3 forward;
+uniform vec3 forward_lower;
 uniform vec3 right;
+uniform vec3 right_lower;
 uniform vec3 down;
+uniform vec3 down_lower;
 uniform vec2 half_size;
 
-// The ray through a picture position in pixels from the top left corner.
+// The ray through a picture position in pixels from the top left corner. Its direction is the CPU's to the last bit,
+// nearly always: edges of a checker that pass through the centres of many pixels lie where that bit says.
 Ray camera_ray(vec2 position) {
   vec2 steps = position - half_size;
-  return make_ray(eye, normalized(forward + steps.x * right + steps.y * down));
+  Pair3 across = sum_of(Pair3(forward, forward_lower), product_of(vec3(steps.x), Pair3(right, right_lower)));
+  return make_ray(eye, normalized(sum_of(across, product_of(vec3(steps.y), Pair3(down, down_lower)))));
 }

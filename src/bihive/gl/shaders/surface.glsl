@@ -1,4 +1,5 @@
 // Twin of render/surface.h.
+#include "pairs"
 #include "scene_hit"
 
 uniform bool has_checker;
@@ -36,9 +37,21 @@ Material material_of(int look) {
   return Material(a.xyz, a.w, b.x, b.y, b.z, b.w, c.x, c.y);
 }
 
-vec3 checker_colour(vec3 first, vec3 point) {
+// The number of whole squares along an axis of the plane. Close to an edge the ray itself decides: the edges of a checker
+// may pass through the centres of many pixels, and there the hit point's rounding would show.
+float squares_along(vec3 axis, Ray ray, vec3 point) {
+  float squares = dot(point, axis) / checker_size;
+  float edge = floor(squares + 0.5);
+  if (abs(squares - edge) > 1.0e-5 * max(1.0, abs(edge))) return floor(squares);
+  float height = plane_offset - dot(plane_normal, ray.origin);
+  float speed = dot(plane_normal, ray.direction);
+  float beyond = sum_of_products(dot(ray.origin, axis) - edge * checker_size, speed, height, dot(ray.direction, axis));
+  return (beyond < 0.0) == (speed > 0.0) && beyond != 0.0 ? edge - 1.0 : edge;
+}
+
+vec3 checker_colour(vec3 first, Ray ray, vec3 point) {
   if (dot(point, point) > fade_distance * fade_distance) return 0.5 * (first + second_colour);
-  float squares = floor(dot(point, plane_u) / checker_size) + floor(dot(point, plane_v) / checker_size);
+  float squares = squares_along(plane_u, ray, point) + squares_along(plane_v, ray, point);
   return squares - 2.0 * floor(squares / 2.0) != 0.0 ? second_colour : first;
 }
 
@@ -74,6 +87,6 @@ Surface surface_at(Ray ray, Hit hit) {
   Surface surface = shape_at(ray, hit);
   bool plane = hit.sphere == kPlane;
   surface.material = material_of(plane ? 0 : int(texelFetch(sphere_info, texel(hit.sphere), 0).y));
-  if (plane && has_checker) surface.material.colour = checker_colour(surface.material.colour, surface.origin);
+  if (plane && has_checker) surface.material.colour = checker_colour(surface.material.colour, ray, surface.origin);
   return surface;
 }
