@@ -158,7 +158,8 @@ std::string frame_rates_json(const FrameRateRun& run, std::string_view values_js
                              {"max_prims", gain.max_prims},
                              {"percent", gain.percent}});
   json["stated"] = ordered_json::object();
-  for (const auto& [name, entry] : Stated(values_json).all().items())
+  const Stated stated(values_json);
+  for (const auto& [name, entry] : stated.all().items())
     if (!entry.contains("chosen")) json["stated"][name] = entry;
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
