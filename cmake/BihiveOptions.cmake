@@ -9,9 +9,15 @@ option(BIHIVE_WERROR "Treat warnings as errors" OFF)
 set(BIHIVE_SANITIZE "" CACHE STRING "Sanitizers: empty, asan (address and undefined behaviour) or tsan (threads)")
 set_property(CACHE BIHIVE_SANITIZE PROPERTY STRINGS "" asan tsan)
 
+# Builds for another machine have no libraries of that machine's: header-only ones are enough for pictures in memory.
+set(BIHIVE_BARE OFF)
+if(EMSCRIPTEN OR CMAKE_CROSSCOMPILING)
+  set(BIHIVE_BARE ON)
+endif()
+
 # oneTBB does not link under WebAssembly, and ThreadSanitizer reports it because it is not instrumented.
 set(BIHIVE_OWN_POOL_DEFAULT OFF)
-if(EMSCRIPTEN OR BIHIVE_SANITIZE STREQUAL "tsan")
+if(BIHIVE_BARE OR BIHIVE_SANITIZE STREQUAL "tsan")
   set(BIHIVE_OWN_POOL_DEFAULT ON)
 endif()
 option(BIHIVE_OWN_POOL "Use the library's own threads instead of oneTBB" ${BIHIVE_OWN_POOL_DEFAULT})
@@ -38,7 +44,16 @@ if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}" MATCHES "-ffast-math|-Ofast|-
 endif()
 
 # Instruction sets that no machine of the last ten years needs of its own (src/bihive/kernels/target.h).
-target_compile_definitions(bihive_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  # NEON, which every such machine has, and nothing to choose between. Vectors whose length is known only when the program
+  # runs (SVE) cannot be kept in arrays, as the kernels do. Without the second macro Highway would compile for NEON with
+  # cryptography, and a Raspberry Pi 4 has none.
+  target_compile_definitions(
+    bihive_options INTERFACE "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)"
+                             TOOLCHAIN_MISS_SYS_AUXV_H)
+else()
+  target_compile_definitions(bihive_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+endif()
 
 target_compile_options(bihive_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

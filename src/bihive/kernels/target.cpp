@@ -8,6 +8,9 @@
 
 #include "bihive/kernels/dispatch.h"
 
+// WebAssembly and AArch64 have one: nothing to choose, and no need of Highway's compiled part.
+#define BIHIVE_ONE_TARGET (HWY_TARGETS == HWY_STATIC_TARGET)
+
 namespace bihive {
 namespace {
 
@@ -15,22 +18,32 @@ struct NamedTarget {
   std::int64_t bit;
   const char* name;
 };
-// Best first. `scalar` is Highway's emulation of vectors, where nothing better is compiled.
+// Best first. `scalar` is whatever the compiler has without asking, where it has no better name: Highway's emulation of
+// vectors.
 constexpr NamedTarget kNames[] = {{HWY_AVX3, "avx512"}, {HWY_AVX2, "avx2"}, {HWY_SSE4, "sse4"},
                                   {HWY_NEON, "neon"},   {HWY_WASM, "wasm"}, {HWY_STATIC_TARGET, "scalar"}};
 
 // Targets that are compiled and that this machine can run, as Highway's bits.
 std::int64_t runnable() {
-#if defined(__EMSCRIPTEN__)
+#if BIHIVE_ONE_TARGET
   return HWY_STATIC_TARGET;
 #else
   return (hwy::SupportedTargets() & HWY_TARGETS) | HWY_STATIC_TARGET;
 #endif
 }
 
+// Whether this machine can run it, and no better name means the same.
+bool is_available(const NamedTarget& target) {
+  for (const NamedTarget& better : kNames) {
+    if (&better == &target) break;
+    if (better.bit == target.bit) return false;
+  }
+  return (runnable() & target.bit) != 0;
+}
+
 std::int64_t bit_of(const std::string& name) {
   for (const NamedTarget& target : kNames)
-    if (name == target.name && (runnable() & target.bit) != 0) return target.bit;
+    if (name == target.name && is_available(target)) return target.bit;
   return 0;
 }
 
@@ -44,7 +57,7 @@ bool choose(const std::string& name) {
   const std::string wanted = name.empty() ? available_targets().front() : name;
   const std::int64_t bit = bit_of(wanted);
   if (bit == 0) return false;
-#if !defined(__EMSCRIPTEN__)
+#if !BIHIVE_ONE_TARGET
   hwy::GetChosenTarget().Update(bit);
 #endif
   current_name() = wanted;
@@ -65,7 +78,7 @@ bool choose_first_target() {
 std::vector<std::string> available_targets() {
   std::vector<std::string> names;
   for (const NamedTarget& target : kNames)
-    if ((runnable() & target.bit) != 0 && (names.empty() || names.back() != target.name)) names.push_back(target.name);
+    if (is_available(target)) names.push_back(target.name);
   return names;
 }
 
