@@ -1,6 +1,5 @@
 #include "app.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui_stdlib.h>

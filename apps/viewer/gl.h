@@ -21,6 +21,7 @@ namespace bihive::window {
   X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
 
 struct Gl {
+// NOLINTNEXTLINE(bugprone-macro-parentheses): they are parts of declarations
 #define BIHIVE_WINDOW_GL_MEMBER(type, name, parameters) type(GL_APIENTRY* name) parameters = nullptr;
   BIHIVE_WINDOW_GL_FUNCTIONS(BIHIVE_WINDOW_GL_MEMBER)
 #undef BIHIVE_WINDOW_GL_MEMBER

@@ -35,6 +35,7 @@ class PictureTexture {
   /// Behind everything, in ImGui's units.
   void draw(ImVec2 size) const {
     if (!filled_) return;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): ImGui's backend keeps names of textures so
     const auto name = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture_));
     ImGui::GetBackgroundDrawList()->AddImage(name, {0, 0}, size);
   }

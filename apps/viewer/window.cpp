@@ -1,6 +1,5 @@
 #include "window.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -26,11 +25,13 @@ Error no_window(const std::string& what, const std::string& hint) {
 Result<Gl> load_gl() {
   Gl gl;
   const char* missing = nullptr;
+  // NOLINTBEGIN(bugprone-macro-parentheses): they are parts of a type
 #define BIHIVE_WINDOW_GL_LOAD(type, name, parameters)                                        \
   gl.name = reinterpret_cast<type(GL_APIENTRY*) parameters>(glfwGetProcAddress("gl" #name)); \
   if (gl.name == nullptr) missing = "gl" #name;
   BIHIVE_WINDOW_GL_FUNCTIONS(BIHIVE_WINDOW_GL_LOAD)
 #undef BIHIVE_WINDOW_GL_LOAD
+  // NOLINTEND(bugprone-macro-parentheses)
   if (missing != nullptr) return Error{std::string("OpenGL here has no ") + missing, "", 0, 0, ""};
   return gl;
 }

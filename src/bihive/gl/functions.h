@@ -59,6 +59,7 @@ namespace bihive {
 
 /// One context's functions. gl.GetError() is glGetError().
 struct GlFunctions {
+// NOLINTNEXTLINE(bugprone-macro-parentheses): they are parts of declarations
 #define BIHIVE_GL_MEMBER(type, name, parameters) type(GL_APIENTRY* name) parameters = nullptr;
   BIHIVE_GL_FUNCTIONS(BIHIVE_GL_MEMBER)
 #undef BIHIVE_GL_MEMBER
