@@ -159,7 +159,7 @@ Result<double> FrameRateRun::frame_ms() {
   }
   double all_ms = 0;
   int frames = 0;
-  for (; all_ms < plan_.least_ms; ++frames) {
+  for (; frames == 0 || all_ms < plan_.least_ms; ++frames) {
     const Timer timer;
     if (Status status = draw_frame(film_); !status) return status.error();
     all_ms += timer.elapsed_ms();
