@@ -13,12 +13,8 @@
 
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
-#include "bihive/io/bundled.h"
-#include "bihive/io/read_spheres.h"
 #include "bihive/scene/framing.h"
-#include "bihive/scene/generators.h"
-#include "bihive/scene/palette.h"
-#include "bihive/scene/scene_file.h"
+#include "bihive/scene/load_scene.h"
 #include "support/picture_agreement.h"
 
 namespace bihive {
@@ -43,22 +39,8 @@ Vec3d vector_of(const std::string& text) {
 }
 
 LoadedScene load(const std::string& name, std::int64_t count) {
-  LoadedScene loaded;
-  loaded.has_camera = loaded.has_lights = true;
-  if (name == "four-spheres") {
-    loaded.scene = four_spheres_scene();
-    return loaded;
-  }
-  if (name == "scenario1" || name == "scenario2" || name == "scenario3") {
-    loaded.scene = must(scenario_scene(static_cast<Scenario>(name.back() - '0'), {count, 1, 1}));
-    return loaded;
-  }
-  const std::string bytes = name == "demo" ? std::string(bundled_molecule()) : must(read_file(name));
-  if (looks_like_scene(bytes)) return must(parse_scene(bytes, name, {}));
-  loaded.has_camera = loaded.has_lights = false;
-  loaded.scene.spheres = must(read_spheres_from_memory(bytes, name == "demo" ? "1hpv.pdb" : name, {})).spheres;
-  colour_spheres(loaded.scene.spheres);
-  return loaded;
+  if (is_built_in_scene(name)) return must(built_in_scene(name, {count, 1, 1}));
+  return must(load_scene(must(read_file(name)), name));
 }
 
 int run(int argc, char** argv) {

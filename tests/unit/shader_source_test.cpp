@@ -23,9 +23,11 @@ TEST(ShaderSource, each_chunk_comes_once_where_it_is_wanted_first) {
       assemble({{"main", "one\n#include \"a\"\n#include \"b\"\nfour\n"}, {"a", "#include \"b\"\nA\n"}, {"b", "B\n"}},
                "main", {"N 3", "TREE"})
           .value();
-  EXPECT_EQ(source.text,
-            "#version 300 es\n#define N 3\n#define TREE\n"
-            "#line 1 0\none\n#line 1 1\n#line 1 2\nB\n#line 2 1\nA\n#line 3 0\n#line 4 0\nfour\n");
+  EXPECT_EQ(source.text, "#version 300 es\n#define N 3\n#define TREE\none\nB\nA\nfour\n");
+  std::string origins;
+  for (const ShaderSource::Origin& origin : source.lines)
+    origins += origin.chunk + ":" + std::to_string(origin.line) + " ";
+  EXPECT_EQ(origins, ":0 :0 :0 main.glsl:1 b.glsl:1 a.glsl:2 main.glsl:4 ");
   EXPECT_EQ(source.chunks, (std::vector<std::string>{"main.glsl", "a.glsl", "b.glsl"}));
 }
 
@@ -38,15 +40,15 @@ TEST(ShaderSource, an_unknown_chunk_is_an_error_with_its_place) {
 }
 
 TEST(ShaderSource, messages_of_every_driver_name_the_chunk) {
-  ShaderSource source;
-  source.chunks = {"main.glsl", "a.glsl", "sphere.glsl"};
-  EXPECT_EQ(source.with_names("2:13(7): error: `x' undeclared\n1:4(1): warning: 0:1\n"),
-            "sphere.glsl:13(7): error: `x' undeclared\na.glsl:4(1): warning: 0:1\n");
-  EXPECT_EQ(source.with_names("ERROR: 2:13: 'x' : undeclared identifier\n"),
-            "ERROR: sphere.glsl:13: 'x' : undeclared identifier\n");
-  EXPECT_EQ(source.with_names("1(13) : error C1008: undefined variable"),
-            "a.glsl(13) : error C1008: undefined variable");
-  EXPECT_EQ(source.with_names("7:13: who knows"), "7:13: who knows");
+  const ShaderSource source =
+      assemble({{"main", "#include \"a\"\none\ntwo\n"}, {"a", "A\nB\n"}}, "main", {"N 3"}).value();
+  EXPECT_EQ(source.with_names("0:4(7): error: `x' undeclared\n0:6(1): warning: 0:4\n"),
+            "a.glsl:2(7): error: `x' undeclared\nmain.glsl:3(1): warning: 0:4\n");
+  EXPECT_EQ(source.with_names("ERROR: 0:5: 'x' : undeclared identifier\n"),
+            "ERROR: main.glsl:2: 'x' : undeclared identifier\n");
+  EXPECT_EQ(source.with_names("0(3) : error C1008: undefined variable"), "a.glsl(1) : error C1008: undefined variable");
+  EXPECT_EQ(source.with_names("0:2: of no chunk"), "0:2: of no chunk");
+  EXPECT_EQ(source.with_names("0:99999999999999999999: who knows"), "0:99999999999999999999: who knows");
 }
 
 TEST(ShaderSource, every_chunk_of_the_library_assembles) {

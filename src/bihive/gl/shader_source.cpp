@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 
 #include "bihive/gl/shader_chunks.h"
 
@@ -15,8 +14,9 @@ std::string file_of(std::string_view chunk) {
   return std::string(chunk) + ".glsl";
 }
 
-std::string line_directive(std::size_t line, std::size_t chunk) {
-  return "#line " + std::to_string(line) + " " + std::to_string(chunk) + "\n";
+void add_line(ShaderSource& source, std::string_view line, const std::string& chunk, std::int64_t number) {
+  source.text += std::string(line) + "\n";
+  source.lines.push_back({chunk, number});
 }
 
 class Assembler {
@@ -24,29 +24,26 @@ class Assembler {
   explicit Assembler(const ChunkFinder& find) : find_(find) {}
 
   // Appends a chunk that is not there yet; `from` and `line` say who wants it.
-  Status append(std::string_view name, const std::string& from, std::size_t line, ShaderSource& source) {
+  Status append(std::string_view name, const std::string& from, std::int64_t line, ShaderSource& source) {
     const std::optional<std::string_view> text = find_(name);
     if (!text)
       return Error{"there is no shader chunk '" + std::string(name) + "'", from, static_cast<std::int64_t>(line), 0,
                    ""};
-    const std::size_t number = source.chunks.size();
     source.chunks.push_back(file_of(name));
-    source.text += line_directive(1, number);
 
-    std::size_t line_number = 1;
-    for (std::string_view rest = *text; !rest.empty(); ++line_number) {
+    std::int64_t number = 1;
+    for (std::string_view rest = *text; !rest.empty(); ++number) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
       const std::string_view here = rest.substr(0, end);
       rest.remove_prefix(std::min(end + 1, rest.size()));
       if (here.substr(0, kInclude.size()) != kInclude) {
-        source.text += std::string(here) + "\n";
+        add_line(source, here, file_of(name), number);
         continue;
       }
       const std::string_view other = here.substr(kInclude.size(), here.rfind('"') - kInclude.size());
       const bool there = std::find(source.chunks.begin(), source.chunks.end(), file_of(other)) != source.chunks.end();
-      if (!there)
-        if (Status status = append(other, file_of(name), line_number, source); !status) return status;
-      source.text += line_directive(line_number + 1, number);
+      if (there) continue;
+      if (Status status = append(other, file_of(name), number, source); !status) return status;
     }
     return Done{};
   }
@@ -62,20 +59,20 @@ bool is_digit(char c) {
 }  // namespace
 
 std::string ShaderSource::with_names(std::string_view log) const {
-  // A number between two colons, or before the first colon or bracket of a line, and a number behind it.
+  // The first "0:LINE" or "0(LINE)" of each line of the log.
   std::string named;
   bool named_in_line = false;
   for (std::size_t i = 0; i < log.size();) {
-    std::size_t end = i;
-    while (end < log.size() && is_digit(log[end])) ++end;
     const bool starts = i == 0 || log[i - 1] == '\n' || log[i - 1] == ' ';
-    const bool place = end > i && starts && !named_in_line && end + 1 < log.size() &&
-                       (log[end] == ':' || log[end] == '(') && is_digit(log[end + 1]);
+    const bool place = starts && !named_in_line && i + 2 < log.size() && log[i] == '0' &&
+                       (log[i + 1] == ':' || log[i + 1] == '(') && is_digit(log[i + 2]);
     if (place) {
-      const auto number =
-          static_cast<std::size_t>(std::strtoul(std::string(log.substr(i, end - i)).c_str(), nullptr, 10));
-      if (number < chunks.size()) {
-        named += chunks[number];
+      std::size_t end = i + 2;
+      std::size_t line = 0;
+      while (end < log.size() && is_digit(log[end]) && line <= lines.size())
+        line = 10 * line + static_cast<std::size_t>(log[end++] - '0');
+      if (line >= 1 && line <= lines.size() && !lines[line - 1].chunk.empty()) {
+        named += lines[line - 1].chunk + log[i + 1] + std::to_string(lines[line - 1].line);
         named_in_line = true;
         i = end;
         continue;
@@ -90,8 +87,8 @@ std::string ShaderSource::with_names(std::string_view log) const {
 Result<ShaderSource> assemble_shader(std::string_view name, const std::vector<std::string>& defines,
                                      const ChunkFinder& find) {
   ShaderSource source;
-  source.text = "#version 300 es\n";
-  for (const std::string& define : defines) source.text += "#define " + define + "\n";
+  add_line(source, "#version 300 es", "", 0);
+  for (const std::string& define : defines) add_line(source, "#define " + define, "", 0);
   if (const Status status = Assembler(find).append(name, "", 0, source); !status) return status.error();
   return source;
 }

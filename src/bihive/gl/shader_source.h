@@ -1,6 +1,7 @@
 // One shader's text, assembled from chunks that include each other by name.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,11 +13,17 @@
 namespace bihive {
 
 struct ShaderSource {
+  /// Where a line of the text comes from, counted from 1; an empty chunk: from no chunk.
+  struct Origin {
+    std::string chunk;
+    std::int64_t line = 0;
+  };
   std::string text;
-  std::vector<std::string> chunks;  ///< in the order of the numbers that #line gives them
+  std::vector<Origin> lines;        ///< of the text
+  std::vector<std::string> chunks;  ///< in the order in which they begin
 
-  /// A compiler's messages with the chunk's name in the place of its number: "2:13(7): error" becomes
-  /// "sphere.glsl:13(7): error".
+  /// A compiler's messages with chunk and its line in the place of the text's line: "0:213(7): error" becomes
+  /// "sphere.glsl:13(7): error". (#line would do the same if drivers kept to it: Mesa forgets the chunk's number.)
   std::string with_names(std::string_view log) const;
 };
 
