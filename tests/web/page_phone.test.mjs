@@ -41,6 +41,7 @@ for (const scheme of ['light', 'dark'])
       if ((await page.getAttribute('#panel_toggle', 'aria-expanded')) === 'false') await page.tap('#panel_toggle');
       const found = await link_state(page);
       await page.tap('#panel_toggle');
+      await page.waitForTimeout(350); // until the sheet is down
       return found.settings.camera;
     };
     const away = ({ eye, look_at }) => Math.hypot(...eye.map((value, i) => value - look_at[i]));
