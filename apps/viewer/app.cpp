@@ -172,15 +172,18 @@ void App::on_key(int key, int action, int mods) {
   }
 }
 
+// By the pointer's place as of the event at hand: ImGui knows that of the last frame only, and GLFW that of now.
+bool App::over_picture() const {
+  const bool over_message = (asked_file_ || !message_.empty()) && ImGui::GetIO().WantCaptureMouse;
+  return x_ * window_->pixels_per_unit() < picture_size().x && !over_message;
+}
+
 void App::on_button(int button, int action, int mods) {
   if (action == GLFW_RELEASE) {
     drag_ = Drag::none;
     return;
   }
-  glfwGetCursorPos(window_->handle(), &x_, &y_);
-  const ImVec2 size = picture_size();
-  const double scale = window_->pixels_per_unit();
-  if (x_ * scale >= size.x || ImGui::GetIO().WantCaptureMouse) return;
+  if (!over_picture()) return;
   const bool shifts = button != GLFW_MOUSE_BUTTON_LEFT || (mods & GLFW_MOD_SHIFT) != 0;
   drag_ = shifts ? Drag::pan : Drag::orbit;
 }
@@ -196,9 +199,8 @@ void App::on_cursor(double x, double y) {
 }
 
 void App::on_wheel(double dy) {
+  if (!over_picture()) return;
   const double scale = window_->pixels_per_unit();
-  const ImVec2 size = picture_size();
-  if (x_ * scale >= size.x || ImGui::GetIO().WantCaptureMouse) return;
   viewer_.zoom(std::pow(kZoomOfNotch, std::clamp(dy, -10.0, 10.0)), x_ * scale, y_ * scale);
 }
 

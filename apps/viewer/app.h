@@ -36,6 +36,7 @@ class App {
   void on_button(int button, int action, int mods);
   void on_cursor(double x, double y);
   void on_wheel(double dy);
+  bool over_picture() const;
   void on_drop(std::vector<std::string> paths);
   void wake() { frames_to_draw_ = 3; }
 

@@ -90,7 +90,7 @@ class WrongUsage(ProgramTest):
             "--count": ["0", "-1", "1e3", "0x10"],
             "--seed": ["-1", "18446744073709551616", "x"],
             "--view": ["pretty", ""],
-            "--engine": ["gpu"],
+            "--engine": ["tpu"],
             "--transfer": ["gamma"],
             "--view-from": ["inside"],
             "--background": ["reddish", "#fff", "#12345g", "1,2", "0,0,1.5", "0,0,nan"],
