@@ -26,7 +26,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
 using boost::system::error_code;
-using tcp = asio::ip::tcp;
+using Tcp = asio::ip::tcp;
 
 // A client that says nothing, or takes nothing, for so long is gone.
 constexpr std::chrono::seconds kPatience{30};
@@ -69,10 +69,10 @@ Question question_from(const http::request_parser<http::empty_body>& parser) {
 // One connection: reads a request, says the answer, and so on. It lives as long as something is under way.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(tcp::socket socket, const std::function<Answer(const Question&)>& handler, std::function<void()> at_end)
+  Connection(Tcp::socket socket, const std::function<Answer(const Question&)>& handler, std::function<void()> at_end)
       : stream_(std::move(socket)), handler_(handler), at_end_(std::move(at_end)) {
     error_code ignored;
-    stream_.socket().set_option(tcp::no_delay(true), ignored);
+    stream_.socket().set_option(Tcp::no_delay(true), ignored);
   }
   ~Connection() { at_end_(); }
   Connection(const Connection&) = delete;
@@ -146,7 +146,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void end() {
     error_code ignored;
-    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
     stream_.expires_after(kPatienceAtTheEnd);
     discard(0);
   }
@@ -199,7 +199,7 @@ struct HttpServer::State {
       full = true;
       return;
     }
-    acceptor.async_accept([this](error_code code, tcp::socket socket) {
+    acceptor.async_accept([this](error_code code, Tcp::socket socket) {
       if (code == asio::error::operation_aborted) return;
       if (code) {  // no more descriptors, say
         pause.expires_after(kRestAfterAnError);
@@ -225,7 +225,7 @@ struct HttpServer::State {
   // Last, so that it goes first: connections that are under way end with it, and count themselves out above.
   asio::io_context context{1};
   asio::signal_set signals{context};
-  tcp::acceptor acceptor{context};
+  Tcp::acceptor acceptor{context};
   asio::steady_timer pause{context};
 };
 
@@ -241,11 +241,11 @@ Result<int> HttpServer::listen(const std::string& address, const std::vector<int
   int last = 0;
   for (const int port : ports) {
     last = port;
-    const tcp::endpoint place(ip, static_cast<unsigned short>(port));
-    tcp::acceptor& acceptor = state_->acceptor;
+    const Tcp::endpoint place(ip, static_cast<unsigned short>(port));
+    Tcp::acceptor& acceptor = state_->acceptor;
     acceptor.close(code);
     acceptor.open(place.protocol(), code);
-    if (!code) acceptor.set_option(tcp::acceptor::reuse_address(true), code);
+    if (!code) acceptor.set_option(Tcp::acceptor::reuse_address(true), code);
     if (!code && ip.is_v6() && ip.is_unspecified()) acceptor.set_option(asio::ip::v6_only(false), code);
     if (!code) acceptor.bind(place, code);
     if (!code) acceptor.listen(asio::socket_base::max_listen_connections, code);
