@@ -2,7 +2,6 @@
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +93,10 @@ void App::listen(GLFWwindow* window) {
     app_of(w).wake();
     app_of(w).on_wheel(dy);
   });
-  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { app_of(w).wake(); });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+    app_of(w).wake();
+    app_of(w).on_character(character);
+  });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { app_of(w).wake(); });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { app_of(w).wake(); });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { app_of(w).wake(); });
@@ -107,7 +109,9 @@ void App::listen(GLFWwindow* window) {
 // --- What the window tells --------------------------------------------------------------------------------------
 
 void App::on_key(int key, int action, int mods) {
-  if (action == GLFW_RELEASE || asked_file_ || ImGui::GetIO().WantTextInput) return;
+  if (action == GLFW_RELEASE) return;
+  if (asked_file_) return on_prompt_key(key, mods);
+  if (ImGui::GetIO().WantTextInput) return;
   const bool again = action == GLFW_REPEAT;
   const double step = kTurnOfKeyPx * window_->pixels_per_unit() * window_->text_scale();
   const auto turn = [&](double dx, double dy) {
@@ -170,6 +174,42 @@ void App::on_key(int key, int action, int mods) {
     default:
       if (key == GLFW_KEY_ESCAPE) message_.clear();
   }
+}
+
+// The name of a file is typed event by event, not frame by frame: nothing is lost while a picture is being made.
+void App::on_prompt_key(int key, int mods) {
+  prompt_is_new_ = false;
+  if (key == GLFW_KEY_BACKSPACE) {
+    // A character of UTF-8 ends before the last byte that is no continuation.
+    while (!asked_file_->empty() && (static_cast<unsigned char>(asked_file_->back()) & 0xC0) == 0x80)
+      asked_file_->pop_back();
+    if (!asked_file_->empty()) asked_file_->pop_back();
+  } else if (key == GLFW_KEY_V && (mods & GLFW_MOD_CONTROL) != 0) {
+    if (const char* pasted = glfwGetClipboardString(window_->handle())) *asked_file_ += pasted;
+  } else if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) {
+    if (!asked_file_->empty()) file_to_open_ = *asked_file_;
+    asked_file_.reset();
+  } else if (key == GLFW_KEY_ESCAPE) {
+    asked_file_.reset();
+  }
+}
+
+void App::on_character(unsigned character) {
+  // The letter of the key that opened the prompt comes after it.
+  if (!asked_file_ || std::exchange(prompt_is_new_, false)) return;
+  const auto put = [&](unsigned byte) { *asked_file_ += static_cast<char>(byte); };
+  if (character < 0x80) return put(character);
+  if (character < 0x800) {
+    put(0xC0 | character >> 6);
+  } else if (character < 0x10000) {
+    put(0xE0 | character >> 12);
+    put(0x80 | (character >> 6 & 0x3F));
+  } else {
+    put(0xF0 | character >> 18);
+    put(0x80 | (character >> 12 & 0x3F));
+    put(0x80 | (character >> 6 & 0x3F));
+  }
+  put(0x80 | (character & 0x3F));
 }
 
 // By the pointer's place as of the event at hand: ImGui knows that of the last frame only, and GLFW that of now.
@@ -379,11 +419,9 @@ void App::draw_message() {
 void App::draw_prompt() {
   const float width = begin_overlay("open");
   ImGui::TextColored(kDim, "a file of spheres or a scene file; Enter opens it, Esc does not");
-  ImGui::SetNextItemWidth(width - 2 * ImGui::GetStyle().WindowPadding.x);
-  if (std::exchange(prompt_is_new_, false)) ImGui::SetKeyboardFocusHere();
-  if (ImGui::InputText("##path", &*asked_file_, ImGuiInputTextFlags_EnterReturnsTrue) && !asked_file_->empty())
-    file_to_open_ = *asked_file_;
-  if (file_to_open_ || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE)) asked_file_.reset();
+  ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
+  ImGui::TextUnformatted((*asked_file_ + "_").c_str());
+  ImGui::PopTextWrapPos();
   end_overlay();
 }
 

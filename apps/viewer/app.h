@@ -33,6 +33,8 @@ class App {
   // What the window tells.
   static void listen(GLFWwindow* window);
   void on_key(int key, int action, int mods);
+  void on_prompt_key(int key, int mods);
+  void on_character(unsigned character);
   void on_button(int button, int action, int mods);
   void on_cursor(double x, double y);
   void on_wheel(double dy);

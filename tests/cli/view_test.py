@@ -216,7 +216,6 @@ class Window(ProgramTest):
         # A file that is wrong leaves the scene; another takes its place.
         def open_file(name):
             self.press("o")
-            time.sleep(1)
             self.tool("type", "--delay", "20", name)
             self.press("Return")
             time.sleep(1)
