@@ -322,6 +322,38 @@ def wasm(report, _reports):
     return lines + table(["scene", "native ms", "WebAssembly ms", "times as long", "", "same picture"], rows), {}
 
 
+def gpu(report, _reports):
+    found = {}
+    for run in report["runs"]:
+        scene = run["command"].split(" render ")[1].split(" --engine ")[0]
+        found.setdefault(scene, {}).setdefault(run["result"]["engine"], []).append(run["result"])
+    rows, devices = [], set()
+    for scene, engines in found.items():
+        ours = {name: sorted(results, key=lambda r: r["render_ms"])[len(results) // 2] for name, results in engines.items()}
+        graphics, processor = ours["gpu"], ours["wide"]
+        devices.add(graphics["gpu"])
+        rows.append(
+            [
+                scene,
+                f"{graphics['spheres']:,}",
+                number(graphics["render_ms"]),
+                number(1000 / graphics["render_ms"]),
+                number(graphics["mray_per_s"]),
+                number(processor["render_ms"]),
+            ]
+        )
+    lines = [
+        "## The graphics processor",
+        "",
+        f"One frame of 640 x 360 pixels, one sample each, with what the scene says of recursion and shadows, by {', '.join(sorted(devices))}.",
+        "With `llvmpipe` the graphics processor is this machine's CPU, pretending: what is seen is that the shader works and what it costs",
+        "there. Beside it the CPU engine on the same cores.",
+        "",
+    ]
+    heads = ["scene", "spheres", "GPU ms", "frames a second", "Mray/s of all kinds", "CPU ms"]
+    return lines + table(heads, rows), {}
+
+
 SECTIONS = [
     ("scenes", scenes),
     ("avx2", avx2),
@@ -330,4 +362,5 @@ SECTIONS = [
     ("growth", growth),
     ("rebuild", rebuild),
     ("wasm", wasm),
+    ("gpu", gpu),
 ]
