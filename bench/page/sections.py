@@ -354,6 +354,35 @@ def gpu(report, _reports):
     return lines + table(heads, rows), {}
 
 
+def page(report, _reports):
+    sizes, measured = (run["result"] for run in report["runs"])
+    rows = []
+    for variant, (raw, gzip, brotli) in sizes.items():
+        name = "with threads" if variant == "threads" else "without threads"
+        cells = [f"{size / 1e6:.2f}" for size in (raw, gzip, brotli)]
+        rows.append([name, *cells, verdict(gzip / 1e6, targets.PAGE_MB, at_most=True)])
+    first = sorted(measured["first_picture_ms"])[len(measured["first_picture_ms"]) // 2]
+    lines = [
+        "## The page",
+        "",
+        f"What a visitor downloads, in MB, molecule and all; at most {targets.PAGE_MB} compressed.",
+        "",
+        *table(["module", "raw", "gzip", "brotli", ""], rows),
+        f"The first picture of the molecule is on the screen of Chromium {measured['chromium']} after {number(first)} ms, the median of",
+        f"{len(measured['first_picture_ms'])} visits with nothing cached ({targets.FIRST_PICTURE_MS} allowed: {verdict(first, targets.FIRST_PICTURE_MS, at_most=True)}).",
+        "",
+        "After a key press the scene turns. How long until every pixel is drawn again, with one sample, and what the page says while keys",
+        "are pressed all the time (it then draws fewer pixels, so that a frame keeps to its budget). WebGL2 is SwiftShader's: drawn by the",
+        "CPU, and the GPU engine works as it would on a graphics processor.",
+        "",
+    ]
+    rows = [
+        [name.upper(), " x ".join(f"{side:g}" for side in facts["size"]), number(facts["at_rest_ms"]), facts["while_turning"]["rate"], facts["while_turning"]["size"]]
+        for name, facts in measured["engines"].items()
+    ]
+    return lines + table(["engine", "pixels", "ms until at rest", "while turning", "with pixels"], rows), {}
+
+
 SECTIONS = [
     ("scenes", scenes),
     ("avx2", avx2),
@@ -363,4 +392,5 @@ SECTIONS = [
     ("rebuild", rebuild),
     ("wasm", wasm),
     ("gpu", gpu),
+    ("page", page),
 ]

@@ -29,6 +29,8 @@ AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4}
 PICTURE = (4, 8)  # times as fast as Tachyon
 THESIS_FPS = (240, 500)
 WASM = 4  # times the native time, at most
+PAGE_MB = 2  # what a visitor downloads, compressed with gzip, at most
+FIRST_PICTURE_MS = 2000  # until it is on the screen, at most
 
 
 def ratio_target(scene, kind):
