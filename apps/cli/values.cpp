@@ -7,7 +7,6 @@
 
 #include "bihive/bih/tree.h"
 #include "bihive/scene/colour_text.h"
-#include "web/addresses.h"
 
 namespace bihive::cli {
 namespace {
@@ -101,11 +100,6 @@ Result<Vec3d> colour_from(const std::string& text, Transfer transfer) {
   const std::optional<Vec3d> v = three_numbers(text);
   if (v && v->x >= 0 && v->y >= 0 && v->z >= 0 && v->x <= 1 && v->y <= 1 && v->z <= 1) return *v;
   return unexpected("#rrggbb, r,g,b with numbers from 0 to 1, or one of " + std::string(kColourNames), text);
-}
-
-Result<std::string> address_from(const std::string& text) {
-  if (const std::optional<std::string> address = usual_spelling(text)) return *address;
-  return unexpected("a numeric address such as 0.0.0.0 or 192.168.1.5", text);
 }
 
 }  // namespace bihive::cli

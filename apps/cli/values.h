@@ -36,9 +36,6 @@ Result<PictureSize> size_from(const std::string& text);
 /// A name, "#rrggbb" (both as seen on the screen under the transfer), or "r,g,b" (linear, each 0 to 1).
 Result<Vec3d> colour_from(const std::string& text, Transfer transfer);
 
-/// A numeric IPv4 or IPv6 address, in its usual spelling.
-Result<std::string> address_from(const std::string& text);
-
 /// One of the names, by position.
 template <class T>
 Result<T> choice_from(const std::string& text, const std::vector<std::pair<std::string, T>>& choices) {

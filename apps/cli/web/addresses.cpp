@@ -28,6 +28,11 @@ std::optional<std::string> usual_spelling(const std::string& address) {
   return std::nullopt;
 }
 
+Result<std::string> address_from(const std::string& text) {
+  if (const std::optional<std::string> address = usual_spelling(text)) return *address;
+  return Error{"expected a numeric address such as 0.0.0.0 or 192.168.1.5, found \"" + text + "\"", "", 0, 0, ""};
+}
+
 bool is_loopback(const std::string& address) {
   // "127.0.0.1.example" is a name.
   return address == "::1" || (address.rfind("127.", 0) == 0 && usual_spelling(address));

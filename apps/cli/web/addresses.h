@@ -5,11 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/result.h"
+
 namespace bihive::cli {
 
 /// An IPv4 or IPv6 address in the one spelling that all functions here use ("::1" for "0:0::1"); nothing for any other
 /// text.
 std::optional<std::string> usual_spelling(const std::string& address);
+/// The same of an option's text; an error says what was expected.
+Result<std::string> address_from(const std::string& text);
 
 /// 127.x.y.z or ::1: only this machine reaches it.
 bool is_loopback(const std::string& address);
