@@ -5,6 +5,7 @@
 #include "bihive/base/version.h"
 #include "failure.h"
 #include "names.h"
+#include "web/addresses.h"
 
 namespace bihive::cli {
 namespace {
