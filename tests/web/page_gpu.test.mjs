@@ -37,8 +37,10 @@ const choose_gpu = (page) =>
   });
 
 test('the GPU engine agrees with the program within the tolerance', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url);
+  // A small window: software draws slowly.
+  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
   for (const [scene, count] of [['four-spheres'], ['scenario2', '256']]) {
+    if (scene !== 'four-spheres') await and_settle(page, () => page.click('#engine input[value=cpu] + span'));
     await and_settle(page, () => page.selectOption('#built_in', scene));
     if (count) await and_settle(page, () => set_value(page, '#count', count));
     await choose_gpu(page);
