@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "bihive/bih/tree.h"
+
 namespace bihive {
 namespace {
 
