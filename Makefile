@@ -13,7 +13,7 @@ web: ## install what the page needs, build it into build-web/page
 	scripts/setup web
 	scripts/build-web
 
-test: ## install what the tests need, run every test (over half an hour on two cores)
+test: ## install what the tests need, run every test (about an hour on two cores)
 	scripts/setup all
 	scripts/test
 
