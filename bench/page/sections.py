@@ -377,7 +377,13 @@ def page(report, _reports):
         "",
     ]
     rows = [
-        [name.upper(), " x ".join(f"{side:g}" for side in facts["size"]), number(facts["at_rest_ms"]), facts["while_turning"]["rate"], facts["while_turning"]["size"]]
+        [
+            name.upper(),
+            " x ".join(f"{side:g}" for side in facts["size"]),
+            number(facts["at_rest_ms"]),
+            facts["while_turning"]["rate"],
+            facts["while_turning"]["size"].rsplit(" · ", 1)[0],
+        ]
         for name, facts in measured["engines"].items()
     ]
     return lines + table(["engine", "pixels", "ms until at rest", "while turning", "with pixels"], rows), {}
