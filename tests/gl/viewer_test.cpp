@@ -153,6 +153,40 @@ TEST(GpuViewer, a_picture_to_be_saved_does_not_disturb) {
   EXPECT_GT(share_off(shown(viewer), before), 0.05);
 }
 
+TEST(GpuViewer, a_picture_to_be_saved_comes_in_steps_and_may_be_dropped) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose(viewer, ViewerEngine::gpu);
+  settle(viewer);
+  const Image before = shown(viewer);
+  const Result<Image> whole = viewer.picture(300, 200, 2);
+  ASSERT_TRUE(whole);
+  ASSERT_TRUE(viewer.begin_picture(300, 200, 2));
+  for (double last = 0; last < 1;) {
+    const Result<double> done = viewer.advance_picture(1e-3);
+    ASSERT_TRUE(done) << done.error().to_string();
+    ASSERT_GT(*done, last);
+    last = *done;
+  }
+  const Result<Image> in_steps = viewer.take_picture();
+  ASSERT_TRUE(in_steps);
+  EXPECT_EQ(picture_hash(*in_steps), picture_hash(*whole));
+
+  ASSERT_TRUE(viewer.begin_picture(300, 200, 2));
+  ASSERT_LT(*viewer.advance_picture(1e-3), 1);
+  viewer.drop_picture();
+  EXPECT_EQ(picture_hash(shown(viewer)), picture_hash(before));
+  viewer.orbit(30, 0);
+  settle(viewer);
+  EXPECT_GT(share_off(shown(viewer), before), 0.05);
+  ASSERT_TRUE(viewer.begin_picture(300, 200, 2));
+  viewer.detach_gl(true);
+  EXPECT_FALSE(viewer.advance_picture(1));
+  settle(viewer);
+}
+
 TEST(GpuViewer, a_lost_context_comes_back) {
   Viewer viewer;
   viewer.resize(kWidth, kHeight);

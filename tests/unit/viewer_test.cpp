@@ -266,6 +266,53 @@ TEST(Viewer, a_picture_to_be_saved_has_any_size_and_does_not_disturb) {
   EXPECT_EQ(picture_hash(viewer.image()), picture_hash(rendered(viewer, Engine::wide, settings_of(viewer, 64, 36))));
 }
 
+TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
+  Viewer viewer;
+  viewer.resize(64, 36);
+  EXPECT_FALSE(viewer.begin_picture(20, 10, 1));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  settle(viewer);
+  EXPECT_FALSE(viewer.advance_picture(1));
+  const Result<Image> whole = viewer.picture(300, 200, 1);
+  ASSERT_TRUE(whole);
+
+  // Moves on the way do not show in it.
+  ASSERT_TRUE(viewer.begin_picture(300, 200, 1));
+  EXPECT_FALSE(viewer.take_picture()) << "it is not finished";
+  double before = 0;
+  int steps = 0;
+  for (; before < 1; ++steps) {
+    const Result<double> done = viewer.advance_picture(1e-3);
+    ASSERT_TRUE(done) << done.error().to_string();
+    ASSERT_GT(*done, before);
+    before = *done;
+    viewer.orbit(3, 1);
+  }
+  EXPECT_GT(steps, 3);
+  const Result<Image> in_steps = viewer.take_picture();
+  ASSERT_TRUE(in_steps);
+  EXPECT_EQ(picture_hash(*in_steps), picture_hash(*whole));
+  EXPECT_FALSE(viewer.take_picture()) << "once";
+
+  // What draws something else drops it.
+  const auto expect_dropped = [&](const char* by, const auto& act) {
+    ASSERT_TRUE(viewer.begin_picture(300, 200, 1)) << by;
+    ASSERT_TRUE(viewer.advance_picture(1e-3)) << by;
+    act();
+    EXPECT_FALSE(viewer.advance_picture(1)) << by;
+  };
+  expect_dropped("drop_picture", [&] { viewer.drop_picture(); });
+  expect_dropped("frame", [&] { ASSERT_TRUE(viewer.frame(1)); });
+  expect_dropped("set", [&] {
+    ViewerSettings settings = viewer.settings();
+    settings.max_prims = 2;
+    ASSERT_TRUE(viewer.set(settings));
+  });
+  expect_dropped("load", [&] { ASSERT_TRUE(viewer.load_built_in("four-spheres")); });
+  settle(viewer);
+  EXPECT_EQ(picture_hash(viewer.image()), picture_hash(rendered(viewer, Engine::wide, settings_of(viewer, 64, 36))));
+}
+
 TEST(SlicedPicture, is_the_same_picture_as_in_one_go) {
   const Result<LoadedScene> demo = built_in_scene("scenario3");
   ASSERT_TRUE(demo);

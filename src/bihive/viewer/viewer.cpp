@@ -11,6 +11,7 @@
 #include "bihive/viewer/gpu_pictures.h"
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/pacing.h"
+#include "bihive/viewer/picture_to_save.h"
 #include "bihive/viewer/scene_trees.h"
 
 namespace bihive {
@@ -99,6 +100,7 @@ class Viewer::Implementation {
     next->trees = std::make_unique<SceneTrees>(next->scene.spheres, tree_parameters(settings));
     if (Status status = make_ready(*next, *next->trees, settings, /*upload=*/true); !status) return status.error();
 
+    drop_picture();
     picture_.reset();
     shown_ = std::move(next);
     settings_ = settings;
@@ -130,6 +132,7 @@ class Viewer::Implementation {
 
   void detach_gl(bool lost) {
     if (!gpu_) return;
+    drop_picture();
     if (lost) gpu_->abandon();
     gpu_.reset();
     if (settings_.engine != ViewerEngine::gpu) return;
@@ -146,6 +149,7 @@ class Viewer::Implementation {
 
   Status set(ViewerSettings settings) {
     if (Status status = check_ranges(settings); !status) return status;
+    drop_picture();
 
     // A camera that shows the whole set does so in the new view too.
     const bool keeps_side = framed_from_ && same_camera(settings.camera, settings_.camera);
@@ -202,6 +206,7 @@ class Viewer::Implementation {
 
   Result<FrameReport> frame(double budget_ms) {
     const Timer timer;
+    drop_picture();
     FrameReport report;
     if (shown_ && (restart_ || !settled_)) {
       if (Status status = go_on(budget_ms, report.drawn); !status) {
@@ -226,29 +231,49 @@ class Viewer::Implementation {
     if (gpu_) gpu_->show(framebuffer, viewport);
   }
 
-  Result<Image> picture(int width_px, int height_px, int samples_per_pixel) {
+  // --- A picture to be saved ----------------------------------------------------------------------------------
+
+  Status begin_picture(int width_px, int height_px, int samples_per_pixel) {
     if (!shown_) return bad_setting("there is no scene yet");
     RenderSettings settings = render_settings({1, samples_per_pixel});
     settings.width_px = width_px;
     settings.height_px = height_px;
 
     // What is on the way to the screen gives way.
+    drop_picture();
     drop_step();
     prepare_scene();
-    const Transfer transfer = shown_->scene.picture.transfer;
-    if (settings_.engine == ViewerEngine::cpu) {
-      const Result<const Tracer*> tracer = tracer_for(*shown_->trees, settings_);
-      if (!tracer) return tracer.error();
-      const Result<Rendered> rendered = render(shown_->scene, **tracer, settings);
-      if (!rendered) return rendered.error();
-      return image_from_film(rendered->film, settings.view, transfer);
-    }
-    if (Status status = begin_gpu(settings); !status) return status.error();
-    while (!gpu_->renderer().finished())
-      if (Status status = gpu_->renderer().advance(kGpuSliceMs); !status) return status.error();
-    const Result<GlRenderer::Picture> picture = gpu_->renderer().read();
+    Result<PictureToSave> picture = begun_to_save(settings);
     if (!picture) return picture.error();
-    return image_from_film(picture->film, settings.view, transfer);
+    to_save_ = std::move(*picture);
+    return Done{};
+  }
+
+  Result<double> advance_picture(double budget_ms) {
+    if (!to_save_) return bad_setting("no picture to be saved is in the making");
+    if (Status status = to_save_->advance(budget_ms); !status) {
+      drop_picture();
+      return status.error();
+    }
+    return to_save_->done();
+  }
+
+  Result<Image> take_picture() {
+    if (!to_save_ || !to_save_->finished()) return bad_setting("no picture to be saved is finished");
+    Result<Image> image = to_save_->take();
+    drop_picture();
+    return image;
+  }
+
+  void drop_picture() { to_save_.reset(); }
+
+  Result<Image> picture(int width_px, int height_px, int samples_per_pixel) {
+    if (Status status = begin_picture(width_px, height_px, samples_per_pixel); !status) return status.error();
+    for (;;) {
+      const Result<double> done = advance_picture(kSliceMs);
+      if (!done) return done.error();
+      if (*done >= 1) return take_picture();
+    }
   }
 
   std::string statistics_json() {
@@ -258,7 +283,7 @@ class Viewer::Implementation {
   }
 
  private:
-  static constexpr double kGpuSliceMs = 100;
+  static constexpr double kSliceMs = 100;
 
   // --- Readiness ----------------------------------------------------------------------------------------------
 
@@ -362,10 +387,21 @@ class Viewer::Implementation {
     return Done{};
   }
 
+  Status set_gpu_lights() { return shown_->has_lights ? Status(Done{}) : gpu_->renderer().set_lights(shown_->scene); }
+
   Status begin_gpu(const RenderSettings& settings) {
-    if (!shown_->has_lights)
-      if (Status status = gpu_->renderer().set_lights(shown_->scene); !status) return status;
+    if (Status status = set_gpu_lights(); !status) return status;
     return gpu_->begin(shown_->scene, settings);
+  }
+
+  Result<PictureToSave> begun_to_save(const RenderSettings& settings) {
+    if (settings_.engine == ViewerEngine::gpu) {
+      if (Status status = set_gpu_lights(); !status) return status.error();
+      return PictureToSave::by_gpu(*gpu_, shown_->scene, settings);
+    }
+    const Result<const Tracer*> tracer = tracer_for(*shown_->trees, settings_);
+    if (!tracer) return tracer.error();
+    return PictureToSave::by_cpu(shown_->scene, **tracer, settings);
   }
 
   // One step, or a part of it.
@@ -460,6 +496,7 @@ class Viewer::Implementation {
   std::optional<SlicedPicture> picture_;  // on the CPU
   Film film_;                             // whose memory the next picture takes
   Image image_;
+  std::optional<PictureToSave> to_save_;
   int shown_samples_ = 0;  // on the graphics processor
   double spent_ms_ = 0;
 
@@ -537,6 +574,18 @@ const Image& Viewer::image() const {
 }
 void Viewer::show(std::uint32_t framebuffer, const GlViewport& viewport) {
   implementation_->show(framebuffer, viewport);
+}
+Status Viewer::begin_picture(int width_px, int height_px, int samples_per_pixel) {
+  return implementation_->begin_picture(width_px, height_px, samples_per_pixel);
+}
+Result<double> Viewer::advance_picture(double budget_ms) {
+  return implementation_->advance_picture(budget_ms);
+}
+Result<Image> Viewer::take_picture() {
+  return implementation_->take_picture();
+}
+void Viewer::drop_picture() {
+  implementation_->drop_picture();
 }
 Result<Image> Viewer::picture(int width_px, int height_px, int samples_per_pixel) {
   return implementation_->picture(width_px, height_px, samples_per_pixel);

@@ -101,7 +101,18 @@ class Viewer {
   /// The last picture of the GPU engine, stretched to the viewport. Nothing where there is none. A framebuffer of
   /// several samples a pixel (antialiasing) is not for this.
   void show(std::uint32_t framebuffer, const GlViewport& viewport);
-  /// All of it at once at any size, by the engine of the settings: to be saved.
+
+  // A picture to be saved, of any size, by the engine of the settings. Made in steps it may be dropped in between;
+  // meanwhile the pointer may move, but frame(), set(), load() and a change of the graphics processor drop it too.
+
+  Status begin_picture(int width_px, int height_px, int samples_per_pixel);
+  /// Draws for about `budget_ms`; the share that is done, 1 where all is. Error: there is none in the making (any
+  /// more), or the graphics processor's.
+  Result<double> advance_picture(double budget_ms);
+  /// Once it is done. Error: it is not, or the graphics processor's.
+  Result<Image> take_picture();
+  void drop_picture();
+  /// All of it at once.
   Result<Image> picture(int width_px, int height_px, int samples_per_pixel);
 
   /// Both trees' statistics as in `bihive stats --json`, with the bytes and the build time, of the current parameters;

@@ -1,0 +1,47 @@
+#include "bihive/viewer/picture_to_save.h"
+
+#include <utility>
+
+#include "bihive/base/check.h"
+
+namespace bihive {
+
+Result<PictureToSave> PictureToSave::by_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+  Result<SlicedPicture> sliced = SlicedPicture::begin(scene, tracer, settings);
+  if (!sliced) return sliced.error();
+  PictureToSave picture(settings.view, scene.picture.transfer);
+  picture.sliced_ = std::move(*sliced);
+  return picture;
+}
+
+Result<PictureToSave> PictureToSave::by_gpu(GpuPictures& gpu, const Scene& scene, const RenderSettings& settings) {
+  if (Status status = gpu.begin(scene, settings); !status) return status.error();
+  PictureToSave picture(settings.view, scene.picture.transfer);
+  picture.gpu_ = &gpu;
+  return picture;
+}
+
+Status PictureToSave::advance(double budget_ms) {
+  if (gpu_ != nullptr) return gpu_->renderer().advance(budget_ms);
+  sliced_->advance(budget_ms);
+  return Done{};
+}
+
+bool PictureToSave::finished() const {
+  return gpu_ != nullptr ? gpu_->renderer().finished() : sliced_->finished();
+}
+
+double PictureToSave::done() const {
+  if (finished()) return 1;
+  return gpu_ != nullptr ? gpu_->renderer().done() : sliced_->done();
+}
+
+Result<Image> PictureToSave::take() {
+  BIHIVE_CHECK(finished());
+  if (gpu_ == nullptr) return image_from_film(sliced_->take().film, view_, transfer_);
+  const Result<GlRenderer::Picture> picture = gpu_->renderer().read();
+  if (!picture) return picture.error();
+  return image_from_film(picture->film, view_, transfer_);
+}
+
+}  // namespace bihive

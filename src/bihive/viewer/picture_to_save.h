@@ -1,0 +1,40 @@
+// A picture of any size that somebody wants to keep, made in steps so that whoever waits sees how far it is and may
+// stop.
+#pragma once
+
+#include <optional>
+
+#include "bihive/base/result.h"
+#include "bihive/image/image.h"
+#include "bihive/image/transfer.h"
+#include "bihive/render/renderer.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+#include "bihive/viewer/gpu_pictures.h"
+
+namespace bihive {
+
+class PictureToSave {
+ public:
+  /// Scene and tracer must outlive it and stay as they are.
+  static Result<PictureToSave> by_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings);
+  /// Scene and lights must have been set; any other picture that `gpu` begins meanwhile ends this one.
+  static Result<PictureToSave> by_gpu(GpuPictures& gpu, const Scene& scene, const RenderSettings& settings);
+
+  /// Draws for about `budget_ms`, at least a tile.
+  Status advance(double budget_ms);
+  bool finished() const;
+  double done() const;  ///< share of the picture, 0 to 1; 1 where it is finished
+  /// The finished picture, once: display values.
+  Result<Image> take();
+
+ private:
+  PictureToSave(View view, Transfer transfer) : view_(view), transfer_(transfer) {}
+
+  View view_;
+  Transfer transfer_;
+  std::optional<SlicedPicture> sliced_;  // on the CPU
+  GpuPictures* gpu_ = nullptr;
+};
+
+}  // namespace bihive
