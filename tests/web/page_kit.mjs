@@ -1,9 +1,9 @@
 // What the tests of the page share: the browser, a page that notes what goes wrong, pictures compared pixel by pixel.
-// Environment: PAGE, the folder that scripts/build-web made; BIHIVE, the program; CHROMIUM, the browser; SOURCE, the
-// project; SCRATCH, a folder to write to.
+// Environment: PAGE, the folder that scripts/build-web made; BIHIVE and GL_COMPARE, the programs; CHROMIUM, the browser;
+// SOURCE, the project; SCRATCH, a folder to write to.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
 
@@ -20,7 +20,7 @@ const flags = [
   '--enable-unsafe-swiftshader',
 ];
 
-export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM, args: flags });
+export const launch = (...more) => chromium.launch({ executablePath: process.env.CHROMIUM, args: [...flags, ...more] });
 
 /** Opens the page and waits for the first whole picture. `complaints` fills with whatever the browser complains of. */
 export async function open_page(browser, url, options = {}) {
@@ -61,6 +61,20 @@ export function native_picture(input, name, ...options) {
   const file = join(scratch, `${name}.png`);
   execFileSync(process.env.BIHIVE, ['render', input, '-o', file, ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
   return readFileSync(file);
+}
+
+/** How far a picture of the page is from the CPU's, pixel by pixel, and whether each that differs lies on an edge: what
+ * gl_compare (tests/gl) prints. `settings`: those of the page's link. */
+export function agreement(input, name, png, settings, ...options) {
+  const file = join(scratch, `${name}.png`);
+  writeFileSync(file, png);
+  const { eye, look_at, up, fov_deg } = settings.camera;
+  const text = execFileSync(process.env.GL_COMPARE, [
+    input, file, '--recursion', String(settings.recursion), '--samples', String(settings.samples_per_pixel),
+    '--shadows', settings.shadows ? '1' : '0', '--view', settings.view, '--eye', eye.join(), '--look-at', look_at.join(),
+    '--up', up.join(), '--fov', String(fov_deg), '--cpu', join(scratch, `${name}-cpu.png`), ...options,
+  ]);
+  return JSON.parse(text);
 }
 
 /** Saves a picture by the page's own button. */
