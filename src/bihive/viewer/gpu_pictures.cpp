@@ -24,7 +24,9 @@ void GpuPictures::abandon() {
   renderer_.abandon();
 }
 
-Status GpuPictures::begin(const Scene& scene, const RenderSettings& settings) {
+Status GpuPictures::begin(const Scene& scene, bool new_lights, const RenderSettings& settings) {
+  if (new_lights)
+    if (Status status = renderer_.set_lights(scene); !status) return status;
   settings_ = settings;
   transfer_ = scene.picture.transfer;
   return renderer_.begin(scene.camera, settings);

@@ -26,8 +26,9 @@ class GpuPictures {
   GlRenderer& renderer() { return renderer_; }
   const GlRenderer& renderer() const { return renderer_; }
 
-  /// Starts a picture of the scene that was set, with its camera and transfer as they are in `scene`.
-  Status begin(const Scene& scene, const RenderSettings& settings);
+  /// Starts a picture of the scene that was set, with its camera and transfer as they are in `scene`, and its lights
+  /// too where they are new.
+  Status begin(const Scene& scene, bool new_lights, const RenderSettings& settings);
 
   /// Copies the passes that are complete: the picture that show() draws from now on. Error: no room for it.
   Status keep();

@@ -14,8 +14,9 @@ Result<PictureToSave> PictureToSave::by_cpu(const Scene& scene, const Tracer& tr
   return picture;
 }
 
-Result<PictureToSave> PictureToSave::by_gpu(GpuPictures& gpu, const Scene& scene, const RenderSettings& settings) {
-  if (Status status = gpu.begin(scene, settings); !status) return status.error();
+Result<PictureToSave> PictureToSave::by_gpu(GpuPictures& gpu, const Scene& scene, bool new_lights,
+                                            const RenderSettings& settings) {
+  if (Status status = gpu.begin(scene, new_lights, settings); !status) return status.error();
   PictureToSave picture(settings.view, scene.picture.transfer);
   picture.gpu_ = &gpu;
   return picture;

@@ -18,8 +18,10 @@ class PictureToSave {
  public:
   /// Scene and tracer must outlive it and stay as they are.
   static Result<PictureToSave> by_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings);
-  /// Scene and lights must have been set; any other picture that `gpu` begins meanwhile ends this one.
-  static Result<PictureToSave> by_gpu(GpuPictures& gpu, const Scene& scene, const RenderSettings& settings);
+  /// The scene must have been set, but for its lights where they are new; any other picture that `gpu` begins meanwhile
+  /// ends this one.
+  static Result<PictureToSave> by_gpu(GpuPictures& gpu, const Scene& scene, bool new_lights,
+                                      const RenderSettings& settings);
 
   /// Draws for about `budget_ms`, at least a tile.
   Status advance(double budget_ms);

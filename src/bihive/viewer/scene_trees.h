@@ -8,6 +8,7 @@
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/render/tracer.h"
 #include "bihive/viewer/statistics_json.h"
+#include "bihive/viewer/viewer_settings.h"
 
 namespace bihive {
 
@@ -19,6 +20,10 @@ class SceneTrees {
   /// Error: not enough memory, or too many spheres. The tracers live as long as this object.
   Result<const Tracer*> wide();
   Result<const Tracer*> reference();
+  /// The one that these settings need.
+  Result<const Tracer*> needed_by(const ViewerSettings& settings) {
+    return needs_reference_tree(settings) ? reference() : wide();
+  }
   /// Whichever there is already, for single rays; null where there is none.
   const Tracer* any() const;
 

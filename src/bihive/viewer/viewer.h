@@ -20,27 +20,11 @@
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/scene.h"
+#include "bihive/viewer/frame_report.h"
+#include "bihive/viewer/shown_scene.h"
 #include "bihive/viewer/viewer_settings.h"
 
 namespace bihive {
-
-/// What frame() did.
-struct FrameReport {
-  bool drawn = false;     ///< there is something new to show
-  bool settled = false;   ///< all is drawn: frame() does nothing until something changes
-  double done = 0;        ///< of the picture at rest, 0 to 1
-  int divisor = 1;        ///< of width and height: 1 is every pixel
-  double frame_ms = 0;    ///< of this call
-  double fps = 0;         ///< over the last second of frames that moved; 0: none yet
-  double mray_per_s = 0;  ///< rays of all kinds
-};
-
-/// What a scene is, for titles and messages.
-struct SceneFacts {
-  std::string name, format;
-  std::int64_t spheres = 0, frames = 1;
-  std::vector<std::string> rules, warnings;  ///< as io/read_spheres.h
-};
 
 class Viewer {
  public:

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/result.h"
+#include "bihive/render/tracer.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/names.h"
 #include "bihive/scene/render_settings.h"
@@ -30,5 +32,14 @@ struct ViewerSettings {
   std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
   Camera camera;
 };
+
+/// Error: out of range, or a camera that sees nothing (check_camera).
+Status check_settings(const ViewerSettings& settings);
+bool same_tree(const ViewerSettings& a, const ViewerSettings& b);
+TreeParameters tree_parameters(const ViewerSettings& settings);
+/// The engine or the view walks the reference tree, not the wide one.
+bool needs_reference_tree(const ViewerSettings& settings);
+/// For a picture of that size.
+RenderSettings render_settings(const ViewerSettings& settings, int width_px, int height_px, int samples_per_pixel);
 
 }  // namespace bihive

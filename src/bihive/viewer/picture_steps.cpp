@@ -1,0 +1,145 @@
+#include "bihive/viewer/picture_steps.h"
+
+#include <cstdint>
+#include <utility>
+
+namespace bihive {
+namespace {
+
+// A picture of something that moves may overrun the budget that often, rather than never be seen.
+constexpr double kMostBudgets = 4;
+
+// Pixels of a picture of that step.
+std::int64_t pixels_of(PictureStep step, PictureSizePx size) {
+  return std::int64_t{divided(size.width, step.divisor)} * divided(size.height, step.divisor);
+}
+
+}  // namespace
+
+void PictureSteps::drop_step() {
+  picture_.reset();
+  begun_ = false;
+}
+
+void PictureSteps::start_anew() {
+  drop_step();
+  restart_ = true;
+}
+
+Result<FrameReport> PictureSteps::frame(const PictureSubject& subject, double budget_ms) {
+  const Timer timer;
+  FrameReport report;
+  if (!at_rest()) {
+    if (Status status = go_on(subject, budget_ms, report.drawn); !status) {
+      // Not again and again.
+      drop_step();
+      restart_ = false;
+      settled_ = true;
+      return status.error();
+    }
+    if (report.drawn && moving_) rate_.moved(clock_.elapsed_ms());
+  }
+  const StepShare share = share_of_step(step_, subject.settings.samples_per_pixel);
+  report.settled = at_rest();
+  report.done = report.settled ? 1 : share.before + share.own * done_of_step(subject);
+  report.divisor = step_.divisor;
+  report.frame_ms = timer.elapsed_ms();
+  report.fps = rate_.fps();
+  report.mray_per_s = mray_per_s_;
+  return report;
+}
+
+// One step, or a part of it.
+Status PictureSteps::go_on(const PictureSubject& subject, double budget_ms, bool& drawn) {
+  const PictureSizePx size = subject.size;
+  if (restart_ && !(begun_ && moving_)) {
+    drop_step();
+    restart_ = false;
+    settled_ = false;
+    moving_ = true;
+    step_ = {divisor_for(size.width, size.height, cost(subject).ms_per_pixel(), budget_ms), 1};
+    if (Status status = begin_step(subject); !status) return status;
+  } else if (!begun_) {
+    moving_ = false;
+    step_ = finer_step(step_, subject.settings.samples_per_pixel);
+    if (Status status = begin_step(subject); !status) return status;
+  }
+
+  const Timer timer;
+  const double limit_ms = moving_ ? kMostBudgets * budget_ms : budget_ms;
+  if (subject.settings.engine == ViewerEngine::gpu) {
+    if (Status status = subject.gpu->renderer().advance(limit_ms); !status) return status;
+    spent_ms_ += timer.elapsed_ms();
+    return take_gpu(subject, drawn);
+  }
+  picture_->advance(limit_ms);
+  spent_ms_ += timer.elapsed_ms();
+  take_cpu(subject, drawn);
+  return Done{};
+}
+
+Status PictureSteps::begin_step(const PictureSubject& subject) {
+  ShownScene& shown = subject.shown;
+  shown.look_by(subject.settings.camera);
+  spent_ms_ = 0;
+  shown_samples_ = 0;
+  begun_ = true;
+  const RenderSettings settings = render_settings(subject.settings, divided(subject.size.width, step_.divisor),
+                                                  divided(subject.size.height, step_.divisor), step_.samples);
+  if (subject.settings.engine == ViewerEngine::gpu)
+    return subject.gpu->begin(shown.scene, /*new_lights=*/!shown.has_lights, settings);
+  const Result<const Tracer*> tracer = shown.trees->needed_by(subject.settings);
+  if (!tracer) return tracer.error();
+  Result<SlicedPicture> picture = SlicedPicture::begin(shown.scene, **tracer, settings, std::move(film_));
+  film_ = {};
+  if (!picture) return picture.error();
+  picture_ = std::move(*picture);
+  return Done{};
+}
+
+void PictureSteps::take_cpu(const PictureSubject& subject, bool& drawn) {
+  if (!picture_->finished()) return;
+  Rendered rendered = picture_->take();
+  image_ = image_from_film(rendered.film, subject.settings.view, subject.shown.scene.picture.transfer);
+  const RenderCounts& rays = rendered.rays;
+  const auto all = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.transmitted);
+  if (rendered.render_ms > 0) mray_per_s_ = all / rendered.render_ms / 1000;
+  film_ = std::move(rendered.film);
+  picture_.reset();
+  drawn = true;
+  finish_step(subject);
+}
+
+Status PictureSteps::take_gpu(const PictureSubject& subject, bool& drawn) {
+  GpuPictures& gpu = *subject.gpu;
+  drawn = gpu.renderer().samples_done() > shown_samples_;
+  if (drawn)
+    if (Status status = gpu.keep(); !status) return status;
+  shown_samples_ = gpu.renderer().samples_done();
+  if (!gpu.renderer().finished()) return Done{};
+  const double primary = static_cast<double>(pixels_of(step_, subject.size)) * step_.samples;
+  finish_step(subject);
+
+  // How many rays of other kinds a pixel sends out is asked at rest only: it takes reading the picture back.
+  if (settled_) {
+    const Result<GlRenderer::Picture> picture = gpu.renderer().read();
+    if (!picture) return picture.error();
+    rays_per_primary_ = static_cast<double>(picture->primary + picture->others) / primary;
+  }
+  if (spent_ms_ > 0) mray_per_s_ = primary * rays_per_primary_ / spent_ms_ / 1000;
+  return Done{};
+}
+
+void PictureSteps::finish_step(const PictureSubject& subject) {
+  if (step_.samples == 1) cost(subject).measured(spent_ms_, pixels_of(step_, subject.size));
+  begun_ = false;
+  settled_ = step_ == PictureStep{1, subject.settings.samples_per_pixel};
+}
+
+double PictureSteps::done_of_step(const PictureSubject& subject) const {
+  if (!begun_) return 1;
+  if (subject.settings.engine == ViewerEngine::gpu) return subject.gpu->renderer().done();
+  return picture_ ? picture_->done() : 0;
+}
+
+}  // namespace bihive

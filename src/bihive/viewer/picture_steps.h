@@ -1,0 +1,77 @@
+// Frame after frame: a picture in steps, coarse while something moves, finer and finer at rest, by either engine.
+#pragma once
+
+#include <optional>
+
+#include "bihive/base/result.h"
+#include "bihive/base/timer.h"
+#include "bihive/image/film.h"
+#include "bihive/image/image.h"
+#include "bihive/render/renderer.h"
+#include "bihive/viewer/frame_report.h"
+#include "bihive/viewer/gpu_pictures.h"
+#include "bihive/viewer/orbit.h"
+#include "bihive/viewer/pacing.h"
+#include "bihive/viewer/shown_scene.h"
+#include "bihive/viewer/viewer_settings.h"
+
+namespace bihive {
+
+/// What the pictures are of, and who makes them.
+struct PictureSubject {
+  ShownScene& shown;
+  const ViewerSettings& settings;
+  PictureSizePx size;
+  GpuPictures* gpu;  ///< of ViewerEngine::gpu; null: none is attached
+};
+
+class PictureSteps {
+ public:
+  /// The subject is another, or another size: what was begun is dropped.
+  void start_anew();
+  /// The camera moved: the first picture after the last move is finished before the next is begun, or a fast hand would
+  /// never see one.
+  void moved() { restart_ = true; }
+  /// The scene, its trees or the GPU's renderer are about to go or to be used for something else: what was begun lets
+  /// go of them, and the next call of go_on() begins a step anew.
+  void drop_step();
+  void forget_image() { image_ = {}; }
+
+  bool at_rest() const { return settled_ && !restart_; }
+  /// As Viewer::frame(). After an Error it is at rest until something changes.
+  Result<FrameReport> frame(const PictureSubject& subject, double budget_ms);
+  /// The last picture of the CPU engine.
+  const Image& image() const { return image_; }
+
+ private:
+  Status go_on(const PictureSubject& subject, double budget_ms, bool& drawn);
+  Status begin_step(const PictureSubject& subject);
+  void take_cpu(const PictureSubject& subject, bool& drawn);
+  Status take_gpu(const PictureSubject& subject, bool& drawn);
+  void finish_step(const PictureSubject& subject);
+  double done_of_step(const PictureSubject& subject) const;
+  PixelCost& cost(const PictureSubject& subject) {
+    return costs_[subject.settings.engine == ViewerEngine::gpu ? 1 : 0];
+  }
+
+  // The picture in the making.
+  bool restart_ = false;  // something has changed since the step was begun
+  bool settled_ = true;
+  bool moving_ = false;  // the step is the first after a change
+  bool begun_ = false;
+  PictureStep step_;
+  std::optional<SlicedPicture> picture_;  // on the CPU
+  Film film_;                             // whose memory the next picture takes
+  Image image_;
+  int shown_samples_ = 0;  // on the graphics processor
+  double spent_ms_ = 0;
+
+  // Paces.
+  Timer clock_;
+  FrameRate rate_;
+  PixelCost costs_[2];  // CPU, GPU
+  double rays_per_primary_ = 1;
+  double mray_per_s_ = 0;
+};
+
+}  // namespace bihive

@@ -1,0 +1,34 @@
+#include "bihive/viewer/shown_scene.h"
+
+#include <utility>
+
+#include "bihive/render/tree_picture.h"
+
+namespace bihive {
+
+SceneFacts facts_of(const LoadedScene& loaded) {
+  return {loaded.scene.name, loaded.format, loaded.scene.spheres.size(), loaded.frames, loaded.rules, loaded.warnings};
+}
+
+ShownScene::ShownScene(Scene shown, SceneFacts said, bool with_camera, bool with_lights)
+    : scene(std::move(shown)),
+      facts(std::move(said)),
+      has_camera(with_camera),
+      has_lights(with_lights),
+      own_camera(scene.camera) {
+  const SphereSet::Bounds bounds = scene.spheres.bounds();
+  diagonal = length(bounds.hi - bounds.lo);
+}
+
+Camera ShownScene::framed(ViewFrom side, View view, PictureSizePx size) const {
+  const double fov_deg = own_camera.fov_deg;
+  return view == View::tree ? frame_tree(scene.spheres, side, fov_deg, size.width, size.height)
+                            : frame_spheres(scene.spheres, side, fov_deg, size.width, size.height);
+}
+
+void ShownScene::look_by(const Camera& camera) {
+  scene.camera = camera;
+  if (!has_lights) scene.lights = {light_behind(camera)};
+}
+
+}  // namespace bihive
