@@ -2,7 +2,6 @@
 #include "bihive/kernels/wide_builder.h"
 
 #include <gtest/gtest.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,7 @@
 
 #include "bihive/kernels/wide_validate.h"
 #include "support/hostile_sets.h"
+#include "support/thread_time.h"
 
 namespace bihive {
 namespace {
@@ -113,17 +113,12 @@ TreePointer built(WideBuilder& builder, const SphereSet& spheres, const WidePara
 // The work of the least of three builds on one thread, as this thread's processor time: what else the machine does does
 // not count.
 double build_ms(const SphereSet& spheres) {
-  const auto now_ms = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  };
   WideBuilder builder;
   double shortest = 1e9;
   for (int i = 0; i < 3; ++i) {
-    const double start = now_ms();
+    const double start = test::thread_time_ms();
     EXPECT_TRUE(builder.build(spheres, {}, 1).ok());
-    shortest = std::min(shortest, now_ms() - start);
+    shortest = std::min(shortest, test::thread_time_ms() - start);
   }
   return shortest;
 }
