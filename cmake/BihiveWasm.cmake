@@ -10,6 +10,10 @@ if(BIHIVE_WASM_THREADS)
   add_link_options(-pthread)
 endif()
 
+# wasm-opt would put every function that is called from one place into its caller. The kernels and the steps of a wave
+# would become a single function, in which V8 keeps next to nothing in registers.
+add_link_options(-sBINARYEN_EXTRA_PASSES=--one-caller-inline-max-function-size=1)
+
 # Debian keeps the JavaScript modules that em++ needs for linking here.
 if(IS_DIRECTORY /usr/share/nodejs)
   set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")

@@ -17,4 +17,13 @@ inline constexpr std::array<std::uint64_t, 256> kCompressPlaces = [] {
   return places;
 }();
 
+/// The same for four lanes, byte by byte: where each of the sixteen bytes comes from.
+alignas(16) inline constexpr std::array<std::array<std::uint8_t, 16>, 16> kCompressBytes = [] {
+  std::array<std::array<std::uint8_t, 16>, 16> bytes{};
+  for (unsigned mask = 0; mask < 16; ++mask)
+    for (unsigned byte = 0; byte < 16; ++byte)
+      bytes[mask][byte] = static_cast<std::uint8_t>((kCompressPlaces[mask] >> (8 * (byte / 4)) & 0xFF) * 4 + byte % 4);
+  return bytes;
+}();
+
 }  // namespace bihive

@@ -13,6 +13,7 @@
 
 #include "bihive/kernels/compress_table.h"
 #include "bihive/kernels/wasm_float64-inl.h"
+#include "bihive/kernels/wasm_lanes-inl.h"
 #include "bihive/kernels/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -90,6 +91,10 @@ HWY_INLINE void store_four(V v, T* to) {
 /// own Compress copies a table to the stack at every call where GCC 12 compiles it for narrower vectors.)
 template <class V, class M>
 HWY_INLINE V compress(V values, M mask) {
+#if HWY_TARGET == HWY_WASM
+  const std::uint32_t bits = mask_bits(mask);
+  return V{wasm_i8x16_swizzle(values.raw, wasm_v128_load(kCompressBytes[bits].data()))};
+#else
   if constexpr (kFloatLanes == 8 || kFloatLanes == 4) {
     const hn::DFromV<V> d;
     const hn::Rebind<std::uint8_t, WordTag> bytes;
@@ -100,6 +105,7 @@ HWY_INLINE V compress(V values, M mask) {
   } else {
     return hn::Compress(values, mask);
   }
+#endif
 }
 
 /// kFloatLanes words with `Compress`ed lanes in front, all of them stored: what follows the last one is overwritten.

@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include "bihive/kernels/wasm_float64-inl.h"
+#include "bihive/kernels/wasm_lanes-inl.h"
 #include "bihive/math/elementary.h"
 #include "bihive/math/vec3.h"
 #include "bihive/render/wave.h"
@@ -173,6 +174,17 @@ class Compressor {
 
  private:
   const std::int32_t* halves_;
+#elif HWY_TARGET == HWY_WASM
+  // The first lane stays where it is, or the second takes its place.
+  HWY_INLINE explicit Compressor(LaneMask mask)
+      : first_stays_(hn::MaskFromVec(hn::InterleaveLower(hn::VecFromMask(Tag(), mask), hn::VecFromMask(Tag(), mask)))) {
+  }
+  HWY_INLINE Lanes operator()(Lanes v) const {
+    return hn::IfThenElse(first_stays_, v, hn::InterleaveUpper(Tag(), v, v));
+  }
+
+ private:
+  LaneMask first_stays_;
 #else
   HWY_INLINE explicit Compressor(LaneMask mask) {
     hn::StoreMaskBits(Tag(), mask, bits_);
