@@ -139,6 +139,64 @@ TEST(GlRenderer, a_scene_that_is_refused_leaves_the_one_before) {
   for (std::size_t i = 0; i < before.radiance.size(); ++i) ASSERT_EQ(before.radiance[i], after.radiance[i]);
 }
 
+// A context that draws into no texture of floating point, on request.
+GLint g_last_format = 0;
+void GL_APIENTRY remembering_format(GLenum target, GLint level, GLint format, GLsizei width, GLsizei height,
+                                    GLint border, GLenum layout, GLenum type, const void* texels) {
+  g_last_format = format;
+  GlPictures::get().functions().TexImage2D(target, level, format, width, height, border, layout, type, texels);
+}
+GLenum GL_APIENTRY no_floats(GLenum target) {
+  const bool of_floats = g_last_format == GL_RGBA32F || g_last_format == GL_RGBA16F;
+  return of_floats ? GL_FRAMEBUFFER_UNSUPPORTED : GlPictures::get().functions().CheckFramebufferStatus(target);
+}
+GLenum GL_APIENTRY nothing_at_all(GLenum) {
+  return GL_FRAMEBUFFER_UNSUPPORTED;
+}
+
+TEST(GlRenderer, draws_the_same_bits_without_textures_of_floating_point) {
+  GlFunctions functions = GlPictures::get().functions();
+  functions.TexImage2D = remembering_format;
+  functions.CheckFramebufferStatus = no_floats;
+  GlRenderer of_bits = GlPictures::must(GlRenderer::create(functions));
+  EXPECT_EQ(g_last_format, GL_RGBA32UI);
+  GlRenderer& of_numbers = GlPictures::get().renderer();
+  Scene scene = scenario_scene(Scenario::mixed, {200, 1, 1}).value();
+  scene.background = {0.5, 0.25, 0};
+  const Tree tree = build_reference_tree(scene.spheres, {});
+  RenderSettings settings = small();
+  settings.samples_per_pixel = 3;
+  settings.recursion = 5;
+  for (const View view : {View::shaded, View::recursion, View::traversal, View::normal, View::distance, View::id}) {
+    SCOPED_TRACE(static_cast<int>(view));
+    settings.view = view;
+    std::vector<GlRenderer::Picture> pictures;
+    std::vector<std::array<int, 3>> shown[2];
+    for (GlRenderer* renderer : {&of_numbers, &of_bits}) {
+      ASSERT_TRUE(renderer->set_scene(scene, &tree).ok());
+      ASSERT_TRUE(renderer->begin(scene.camera, settings).ok());
+      Screen screen(functions, 64, 48);
+      const auto look = [&] {
+        renderer->show(screen.framebuffer(), {0, 0, 64, 48}, Transfer::srgb);
+        for (int x = 0; x < 64; ++x) shown[pictures.size()].push_back(screen.at(x, x % 48));
+      };
+      look();  // the background
+      while (!renderer->finished()) ASSERT_TRUE(renderer->advance(1000).ok());
+      look();
+      pictures.push_back(GlPictures::must(renderer->read()));
+    }
+    EXPECT_EQ(shown[0], shown[1]);
+    EXPECT_EQ(pictures[0].others, pictures[1].others);
+    for (std::size_t i = 0; i < pictures[0].film.radiance.size(); ++i)
+      ASSERT_EQ(pictures[0].film.radiance[i], pictures[1].film.radiance[i]);
+  }
+
+  functions.CheckFramebufferStatus = nothing_at_all;
+  const Result<GlRenderer> none = GlRenderer::create(functions);
+  ASSERT_FALSE(none.ok());
+  EXPECT_NE(none.error().message.find("128 bits"), std::string::npos);
+}
+
 TEST(GlRenderer, shows_the_background_then_the_picture) {
   GlRenderer& renderer = GlPictures::get().renderer();
   Scene scene = four_spheres_scene();

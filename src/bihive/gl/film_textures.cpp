@@ -1,5 +1,7 @@
 #include "bihive/gl/film_textures.h"
 
+#include <cstring>
+
 namespace bihive {
 
 GLuint make_texture(const GlFunctions& gl) {
@@ -15,11 +17,12 @@ GLuint make_texture(const GlFunctions& gl) {
 
 bool FilmTextures::make(GLint format, int width_px, int height_px) {
   destroy();
-  const GLenum type = format == GL_RGBA32F ? GL_FLOAT : GL_HALF_FLOAT;
+  const bool bits = format == GL_RGBA32UI;
   bool complete = true;
   for (std::size_t i = 0; i < 2; ++i) {
     textures_[i] = make_texture(*gl_);
-    gl_->TexImage2D(GL_TEXTURE_2D, 0, format, width_px, height_px, 0, GL_RGBA, type, nullptr);
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, format, width_px, height_px, 0, bits ? GL_RGBA_INTEGER : GL_RGBA,
+                    bits ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
     gl_->GenFramebuffers(1, &framebuffers_[i]);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[i]);
     gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, textures_[i], 0);
@@ -33,13 +36,13 @@ bool FilmTextures::make(GLint format, int width_px, int height_px) {
 
 Status FilmTextures::choose_format() {
   bool found = false;
-  for (const GLint format : {GL_RGBA32F, GL_RGBA16F}) {
+  for (const GLint format : {GL_RGBA32F, GL_RGBA32UI}) {
     format_ = format;
     if ((found = make(format, 4, 4))) break;
   }
   destroy();
   if (found) return Done{};
-  return Error{"this graphics processor cannot draw into textures of floating point", "", 0, 0,
+  return Error{"this graphics processor cannot draw into textures of 128 bits a texel", "", 0, 0,
                "choose an engine of the CPU"};
 }
 
@@ -68,20 +71,32 @@ void FilmTextures::draw_into(int index) const {
 void FilmTextures::fill(int index, Vec3f colour) const {
   draw_into(index);
   gl_->Disable(GL_SCISSOR_TEST);
-  gl_->ClearColor(colour.x, colour.y, colour.z, 0);
-  gl_->Clear(GL_COLOR_BUFFER_BIT);
+  if (of_bits()) {
+    const std::array<float, 4> texel{colour.x, colour.y, colour.z, 0};
+    std::array<GLuint, 4> bits{};
+    std::memcpy(bits.data(), texel.data(), sizeof(bits));
+    gl_->ClearBufferuiv(GL_COLOR, 0, bits.data());
+  } else {
+    gl_->ClearColor(colour.x, colour.y, colour.z, 0);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
+  }
 }
 
 void FilmTextures::read(int index, int y0, int y1, std::vector<float>& rgba) const {
   rgba.resize(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(y1 - y0));
   gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[static_cast<std::size_t>(index)]);
-  gl_->ReadPixels(0, y0, width_, y1 - y0, GL_RGBA, GL_FLOAT, rgba.data());
+  read_pixels(y0, width_, y1 - y0, rgba.data());
 }
 
 void FilmTextures::wait(int index) const {
   std::array<float, 4> pixel{};
   gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[static_cast<std::size_t>(index)]);
-  gl_->ReadPixels(0, 0, 1, 1, GL_RGBA, GL_FLOAT, pixel.data());
+  read_pixels(0, 1, 1, pixel.data());
+}
+
+void FilmTextures::read_pixels(int y0, int width, int height, float* rgba) const {
+  gl_->ReadPixels(0, y0, width, height, of_bits() ? GL_RGBA_INTEGER : GL_RGBA, of_bits() ? GL_UNSIGNED_INT : GL_FLOAT,
+                  rgba);
 }
 
 }  // namespace bihive

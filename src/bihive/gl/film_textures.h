@@ -1,4 +1,8 @@
 // The film on the graphics processor: two textures of the same size, so that a pass reads what the pass before wrote.
+//
+// A texel is four numbers of binary32. Where a context draws into no textures of floating point (WebGL2 without
+// EXT_color_buffer_float, some phones), it holds their bits as integers, which every context draws into: pictures are
+// the same to the last bit, which binary16 could not promise. Shaders know by FILM_OF_BITS (shaders/film_texel.glsl).
 #pragma once
 
 #include <array>
@@ -15,7 +19,7 @@ class FilmTextures {
  public:
   explicit FilmTextures(const GlFunctions& gl) : gl_(&gl) {}
 
-  /// Finds out what the context can draw into: binary32, else binary16. Error: neither.
+  /// Finds out what the context can draw into: numbers, else their bits. Error: neither.
   Status choose_format();
   /// Error: the context has no room for it.
   Status resize(int width_px, int height_px);
@@ -23,7 +27,7 @@ class FilmTextures {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  bool has_single_precision() const { return format_ == GL_RGBA32F; }
+  bool of_bits() const { return format_ == GL_RGBA32UI; }
 
   /// Draws go into texture `index` (0 or 1) from now on; all of it is seen.
   void draw_into(int index) const;
@@ -36,6 +40,7 @@ class FilmTextures {
 
  private:
   bool make(GLint format, int width_px, int height_px);
+  void read_pixels(int y0, int width, int height, float* rgba) const;
 
   const GlFunctions* gl_;
   GLint format_ = GL_RGBA32F;

@@ -18,6 +18,7 @@ namespace bihive {
   X(void, BlitFramebuffer, (GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLbitfield, GLenum)) \
   X(GLenum, CheckFramebufferStatus, (GLenum))                                                            \
   X(void, Clear, (GLbitfield))                                                                           \
+  X(void, ClearBufferuiv, (GLenum, GLint, const GLuint*))                                                \
   X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                              \
   X(void, ColorMask, (GLboolean, GLboolean, GLboolean, GLboolean))                                       \
   X(void, CompileShader, (GLuint))                                                                       \

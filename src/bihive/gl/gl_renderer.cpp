@@ -51,7 +51,9 @@ class GlRenderer::Implementation {
     description_ = text_of(gl_, GL_VENDOR) + ", " + text_of(gl_, GL_RENDERER) + ", " + text_of(gl_, GL_VERSION);
     gl_.GenVertexArrays(1, &vertices_);
     if (Status status = film_.choose_format(); !status) return status;
-    Result<GlProgram> shower = GlProgram::link(gl_, "show", {});
+    scene_.set_film_of_bits(film_.of_bits());
+    Result<GlProgram> shower = GlProgram::link(
+        gl_, "show", film_.of_bits() ? std::vector<std::string>{"FILM_OF_BITS"} : std::vector<std::string>{});
     if (!shower) return shower.error();
     shower_ = std::move(*shower);
     return Done{};

@@ -29,7 +29,7 @@ struct GlViewport {
 /// abandon() and create another renderer. Not to be used from two threads.
 class GlRenderer {
  public:
-  /// Error: the context is too old, or cannot draw into textures of floating point.
+  /// Error: the context is too old, or cannot draw into textures of 128 bits a texel.
   static Result<GlRenderer> create(const GlFunctions& functions);
   GlRenderer(GlRenderer&& other) noexcept;
   GlRenderer& operator=(GlRenderer&& other) noexcept;

@@ -100,6 +100,7 @@ Result<GlProgram*> SceneOnGpu::program(const std::string& chunk, int pending_ray
   if (has_tree_) defines = {"TREE", "STACK_SIZE " + std::to_string(stack_size_)};
   if (pending_rays > 0) defines.push_back("PENDING_RAYS " + std::to_string(pending_rays));
   if (counting) defines.emplace_back("COUNTING");
+  if (film_of_bits_) defines.emplace_back("FILM_OF_BITS");
   std::string name = chunk;
   for (const std::string& define : defines) name += " " + define;
   const auto known = programs_.find(name);

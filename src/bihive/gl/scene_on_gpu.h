@@ -19,6 +19,9 @@ class SceneOnGpu {
  public:
   explicit SceneOnGpu(const GlFunctions& gl) : gl_(&gl) {}
 
+  /// What programs draw into from now on holds bits (gl/film_textures.h).
+  void set_film_of_bits(bool film_of_bits) { film_of_bits_ = film_of_bits; }
+
   /// As GlRenderer::set_scene().
   Status set(const Scene& scene, const Tree* tree);
   /// As GlRenderer::set_lights().
@@ -43,7 +46,7 @@ class SceneOnGpu {
   const GlFunctions* gl_;
   std::array<GLuint, 5> textures_{};
   SceneUniforms uniforms_;
-  bool has_tree_ = false;
+  bool has_tree_ = false, film_of_bits_ = false;
   int stack_size_ = 0;
   double scale_ = 1;
   std::map<std::string, GlProgram> programs_;  // by chunk and defines

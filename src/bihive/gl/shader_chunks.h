@@ -14,6 +14,7 @@ namespace bihive {
   X(distance_range)             \
   X(elementary)                 \
   X(film)                       \
+  X(film_texel)                 \
   X(hit)                        \
   X(integrator)                 \
   X(pairs)                      \

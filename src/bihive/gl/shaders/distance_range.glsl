@@ -8,8 +8,8 @@ void main() {
   float distance = hit.t * length(ray.direction);
   vec2 range = hit.sphere == kNothing ? vec2(kNever, -kNever) : vec2(distance);
   if (sample_index > 0) {
-    vec2 before = texelFetch(film_before, ivec2(gl_FragCoord.xy), 0).xy;
+    vec2 before = numbers_before().xy;
     range = vec2(min(before.x, range.x), max(before.y, range.y));
   }
-  film_after = vec4(range, 0.0, 0.0);
+  film_after = film_texel(vec4(range, 0.0, 0.0));
 }

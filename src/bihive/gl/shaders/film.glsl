@@ -1,17 +1,21 @@
 // One sample of every pixel: the film before and what the sample adds. Rows count from the top. Alpha adds up the rays
 // that were traced besides primary ones.
 #include "camera"
+#include "film_texel"
 
-uniform sampler2D film_before;
+uniform FILM_SAMPLER film_before;
 uniform int sample_index;  // 0: there is no film before
 uniform vec2 sample_place;
-out vec4 film_after;
+out FILM_TEXEL film_after;
 
 Ray sample_ray() {
   return camera_ray(floor(gl_FragCoord.xy) + sample_place);
 }
 
+vec4 numbers_before() {
+  return film_numbers(texelFetch(film_before, ivec2(gl_FragCoord.xy), 0));
+}
+
 void add_to_film(vec4 value) {
-  vec4 before = sample_index > 0 ? texelFetch(film_before, ivec2(gl_FragCoord.xy), 0) : vec4(0.0);
-  film_after = before + value;
+  film_after = film_texel(sample_index > 0 ? numbers_before() + value : value);
 }
