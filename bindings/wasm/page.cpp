@@ -143,9 +143,20 @@ void Page::show(int width_px, int height_px) {
   viewer_.show(0, {0, 0, width_px, height_px});
 }
 
-std::string Page::picture(int width_px, int height_px, int samples_per_pixel) {
+std::string Page::begin_picture(int width_px, int height_px, int samples_per_pixel) {
+  return with_memory([&] { return done_or(viewer_.begin_picture(width_px, height_px, samples_per_pixel)); });
+}
+
+std::string Page::step_picture(double budget_ms) {
   return with_memory([&] {
-    const Result<Image> image = viewer_.picture(width_px, height_px, samples_per_pixel);
+    const Result<double> done = viewer_.advance_picture(budget_ms);
+    return done ? text_of({{"done", *done}}) : failure(done.error());
+  });
+}
+
+std::string Page::take_picture() {
+  return with_memory([&] {
+    const Result<Image> image = viewer_.take_picture();
     if (!image) return failure(image.error());
     take_pixels(*image);
     return text_of({{"width", image->width}, {"height", image->height}});
@@ -230,7 +241,10 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("take_image", &Page::take_image)
       .function("pixels", &Page::pixels)
       .function("show", &Page::show)
-      .function("picture", &Page::picture)
+      .function("begin_picture", &Page::begin_picture)
+      .function("step_picture", &Page::step_picture)
+      .function("take_picture", &Page::take_picture)
+      .function("drop_picture", &Page::drop_picture)
       .function("statistics", &Page::statistics)
       .function("begin_thesis", &Page::begin_thesis)
       .function("step_thesis", &Page::step_thesis)

@@ -52,9 +52,14 @@ class Page {
   emscripten::val pixels() const;
   /// The GPU engine's, into the whole canvas.
   void show(int width_px, int height_px);
-  /// A whole picture; afterwards as after take_image().
-  std::string picture(int width_px, int height_px, int samples_per_pixel);
   std::string statistics() const { return viewer_.statistics_json(); }
+
+  // A picture to be saved, a step a call. frame() and set() drop it.
+
+  std::string begin_picture(int width_px, int height_px, int samples_per_pixel);
+  std::string step_picture(double budget_ms);  ///< {"done": 0 to 1}
+  std::string take_picture();                  ///< of what is done; as take_image()
+  void drop_picture() { viewer_.drop_picture(); }
 
   // Figure 4.4, a step a call.
 

@@ -1,9 +1,11 @@
 // The page in a real browser, as a desktop's user meets it: pictures, controls, files, links, errors.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
+import { made_files, ways_in } from './page_files.mjs';
 import {
   and_settle, compare, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture, scratch,
   set_value, settled, shown_error, source,
@@ -12,8 +14,8 @@ import { serve } from './page_server.mjs';
 
 let browser, server, plain;
 before(async () => {
-  const files = { '/file/points.csv': join(scratch, 'points.csv') };
-  writeFileSync(files['/file/points.csv'], 'x,y,z,r\n0,0,0,1\n2,0,0,0.5\n0,2,0,0.25\n');
+  const files = {};
+  for (const { name, bytes } of made_files) writeFileSync((files[`/file/${name}`] = join(scratch, name)), bytes);
   browser = await launch();
   server = await serve(folder, { files });
   plain = await serve(folder, { isolated: false, files });
@@ -162,47 +164,38 @@ test('mouse, wheel and keys move the camera', async () => {
   await context.close();
 });
 
-test('files by picker, drop and address, packed or not', async () => {
+for (const [way, put] of Object.entries(ways_in))
+  test(`files of every format, by ${way}`, async () => {
+    const { page, context, complaints } = await open_page(browser, server.url);
+    for (const file of made_files) {
+      const { name, spheres, format } = file;
+      await and_settle(page, () => put(page, file));
+      const words = `${name}: ${spheres} ${spheres === 1 ? 'sphere' : 'spheres'}, ${format}`;
+      assert.equal(await page.textContent('#facts'), words);
+      assert.equal(await page.getAttribute('#picture', 'aria-label'), words.slice(0, words.lastIndexOf(',')).replace(':', ','));
+      const { source: from } = await link_state(page);
+      assert.deepEqual(from, way === 'address' ? { url: `file/${name}` } : { built_in: 'demo' }, 'no link holds a file');
+      // A built-in scene in between, so that a file that is not taken shows.
+      if (name === 'four.xyz') await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
+    }
+    no_complaints(complaints);
+    await context.close();
+  });
+
+test('a molecule packed and not, as large as they are', async () => {
   const { page, context, complaints } = await open_page(browser, server.url);
-  const facts = () => page.textContent('#facts');
-  const pick = (name, buffer) =>
-    and_settle(page, () => page.setInputFiles('#file', { name, mimeType: 'application/octet-stream', buffer }));
-  const data = (name) => readFileSync(join(source, name));
+  const bytes = readFileSync(join(source, 'data/1hpv.pdb'));
+  const { spheres } = JSON.parse(execFileSync(process.env.BIHIVE, ['info', join(source, 'data/1hpv.pdb'), '--json']));
+  for (const file of [{ name: '1hpv.pdb', bytes }, { name: '1hpv.pdb.gz', bytes: gzipSync(bytes) }]) {
+    await and_settle(page, () => ways_in.picker(page, file));
+    assert.equal(await page.textContent('#facts'), `${file.name}: ${spheres.toLocaleString('en')} spheres, PDB`);
+  }
+  no_complaints(complaints);
+  await context.close();
+});
 
-  await pick('atoms.xyz', Buffer.from('3\nwater\nO 0 0 0\nH 0.76 0.59 0\nH -0.76 0.59 0\n'));
-  assert.equal(await facts(), 'atoms.xyz: 3 spheres, XYZ');
-  await pick('1hpv.pdb.gz', gzipSync(data('data/1hpv.pdb')));
-  assert.match(await facts(), /1hpv\.pdb\.gz: 1,\d+ spheres, PDB/);
-  await pick('little_f4_C.npy', data('tests/data/io/little_f4_C.npy'));
-  assert.match(await facts(), /NPY/);
-  await pick(
-    'dump.lammpstrj',
-    Buffer.from(
-      'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 4\n0 4\n0 4\n' +
-        'ITEM: ATOMS id type x y z\n1 1 1 1 1\n2 1 3 1 1\n',
-    ),
-  );
-  assert.equal(await facts(), 'dump.lammpstrj: 2 spheres, LAMMPS dump');
-  await pick('scene.json', Buffer.from('{"bihive_scene": 1, "spheres": [[0, 0, 0, 1], [1, 1, 0, 0.7]]}'));
-  assert.match(await facts(), /scene\.json: 2 spheres, scene file/);
-
-  // A drop.
-  const drop = await page.evaluateHandle(() => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File(['x,y,z,r\n0,0,0,1\n'], 'one.csv'));
-    return transfer;
-  });
-  await and_settle(page, async () => {
-    await page.dispatchEvent('#picture', 'dragover', { dataTransfer: drop });
-    await page.dispatchEvent('#picture', 'drop', { dataTransfer: drop });
-  });
-  assert.equal(await facts(), 'one.csv: 1 sphere, CSV');
-  assert.match((await link_state(page)).source.built_in, /demo/, 'no link holds a file');
-
-  // An address on this server; one elsewhere is refused before anything is sent.
-  await page.fill('#url', 'file/points.csv');
-  await and_settle(page, () => page.press('#url', 'Enter'));
-  assert.equal(await facts(), 'points.csv: 3 spheres, CSV');
+test('addresses: one elsewhere is refused before anything is sent, one of nothing is said', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url);
   await page.fill('#url', 'http://example.com/a.pdb');
   await page.click('#url_form button');
   assert.match(await shown_error(page), /another server/);
@@ -210,6 +203,46 @@ test('files by picker, drop and address, packed or not', async () => {
   await page.fill('#url', 'file/nothing.pdb');
   await page.click('#url_form button');
   await page.waitForFunction(() => /404/.test(document.querySelector('#errors').textContent));
+  await context.close();
+});
+
+test('a picture to be saved says how far it is, and can be cancelled', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url);
+  await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
+  let downloads = 0;
+  page.on('download', () => ++downloads);
+  const bar = () => page.$eval('#busy_bar', ({ value }) => value);
+  await set_value(page, '#samples', 64);
+  await page.fill('#save_width', '3000');
+  await page.fill('#save_height', '2000');
+  await page.focus('#save');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => document.querySelector('#busy_bar').value > 0 && !document.querySelector('#busy').hidden);
+  assert.match(await page.textContent('#busy_text'), /Drawing the picture: \d+ %/);
+  const before = await bar();
+  assert.ok(before < 0.9, 'it takes a while');
+  await page.waitForFunction((value) => document.querySelector('#busy_bar').value > value, before);
+  assert.ok(await page.isHidden('#save'));
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'save_cancel', 'the focus stays at hand');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => /cancelled/.test(document.querySelector('#messages').textContent));
+  assert.ok(await page.isHidden('#busy'));
+  assert.ok(await page.isHidden('#save_cancel'));
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'save');
+
+  // Everything goes on; another scene ends a picture too.
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  await set_value(page, '#samples', 64);
+  await page.click('#save');
+  await page.waitForFunction(() => document.querySelector('#busy_bar').value > 0);
+  await and_settle(page, () => page.selectOption('#built_in', 'demo'));
+  await page.waitForSelector('#save:not([hidden])');
+  assert.equal(downloads, 0);
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  const native = native_picture('demo', 'after-cancel', '--size', '568x600', '--samples', '1');
+  assert.equal((await compare(page, native, await saved_picture(page, 568, 600), 0)).share, 0);
+  assert.equal(downloads, 1);
+  no_complaints(complaints);
   await context.close();
 });
 

@@ -4,7 +4,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import {
-  agreement, and_settle, compare, folder, launch, link_state, no_complaints, open_page, saved_picture, set_value, settled,
+  agreement, and_settle, compare, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
+  set_value, settled, shown_error,
 } from './page_kit.mjs';
 import { serve } from './page_server.mjs';
 
@@ -80,6 +81,92 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
   }
   no_complaints(complaints);
   await context.close();
+});
+
+// Before the worker's script: a browser whose WebGL2 draws into no textures of floating point.
+const without_floats = `{
+  const hidden = /^EXT_color_buffer_(half_)?float$/;
+  const { getExtension, getSupportedExtensions } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.getSupportedExtensions = function () {
+    return getSupportedExtensions.call(this).filter((name) => !hidden.test(name));
+  };
+  WebGL2RenderingContext.prototype.getExtension = function (name) {
+    return hidden.test(name) ? null : getExtension.call(this, name);
+  };
+  const texImage2D = WebGL2RenderingContext.prototype.texImage2D;
+  self.formats = new Set();
+  WebGL2RenderingContext.prototype.texImage2D = function (...all) {
+    self.formats.add(all[2]);
+    return texImage2D.apply(this, all);
+  };
+}
+`;
+
+test('without textures of floating point the GPU engine draws the very same pictures', async () => {
+  const poor = await serve(folder, { before: [/\/worker-.*\.js$/, without_floats] });
+  const pictures = [];
+  for (const { url } of [server, poor]) {
+    const { page, context, complaints } = await open_page(browser, url, { viewport: { width: 780, height: 240 } });
+    await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
+    await choose_gpu(page);
+    await and_settle(page, () => set_value(page, '#samples', 2));
+    const mine = [];
+    for (const view of ['shaded', 'distance']) {
+      await and_settle(page, () => page.selectOption('#view', view));
+      mine.push(await saved_picture(page, 160, 100), await shown_picture(page));
+    }
+    assert.equal((await link_state(page)).settings.engine, 'gpu');
+    pictures.push(mine);
+    if (url === poor.url) {
+      const formats = await Promise.all(page.workers().map((worker) => worker.evaluate(() => [...(self.formats ?? [])])));
+      assert.ok(formats.flat().includes(0x8d70), 'the film is one of RGBA32UI');
+    }
+    no_complaints(complaints);
+    await context.close();
+  }
+  const judge = await browser.newPage();
+  for (const i of pictures[0].keys())
+    assert.equal((await compare(judge, pictures[0][i], pictures[1][i], 0)).share, 0, `picture ${i}`);
+  await judge.close();
+  poor.close();
+});
+
+test('without WebGL2 the CPU draws, and the page says why', async () => {
+  const without = await launch('--disable-gpu', '--disable-software-rasterizer');
+  try {
+    const { page, context, complaints } = await open_page(without, server.url);
+    const check = async () => {
+      assert.ok(await page.isVisible('#cpu_canvas'));
+      assert.ok(await page.isHidden('#gpu_canvas'));
+      assert.ok(await page.isDisabled('#engine input[value=gpu]'));
+      assert.ok(await page.isChecked('#engine input[value=cpu]'));
+      assert.match(await page.textContent('#engine_note'), /no WebGL2, so the GPU engine cannot be chosen/);
+      assert.ok(await page.isVisible('#engine_note'));
+    };
+    await check();
+    await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
+    await and_settle(page, () => set_value(page, '#samples', 1));
+    const native = native_picture('four-spheres', 'no-webgl', '--size', '320x200', '--samples', '1');
+    assert.equal((await compare(page, native, await saved_picture(page, 320, 200), 0)).share, 0);
+
+    // Asked for by a key, and by a link.
+    await page.press('#picture', 'e');
+    assert.match(await shown_error(page), /no WebGL2/);
+    await settled(page);
+    await check();
+    const state = await link_state(page);
+    assert.equal(state.settings.engine, 'cpu');
+    state.settings.engine = 'gpu';
+    no_complaints(complaints);
+    await context.close();
+    const link = `${server.url}#state=${Buffer.from(JSON.stringify(state)).toString('base64url')}`;
+    const linked = await open_page(without, link);
+    assert.match(await linked.page.textContent('#messages'), /no WebGL2/);
+    assert.equal((await link_state(linked.page)).settings.engine, 'cpu');
+    no_complaints(linked.complaints);
+  } finally {
+    await without.close();
+  }
 });
 
 test('a context that is lost comes back with the picture', async () => {

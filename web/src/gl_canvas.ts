@@ -26,12 +26,16 @@ export interface GlEvents {
 export class GlCanvas {
   private context: WebGL2RenderingContext | null = null;
   private is_software = false;
+  private why_not = '';
 
   constructor(
     private readonly module: Module,
     readonly canvas: OffscreenCanvas,
     events: GlEvents,
   ) {
+    canvas.addEventListener('webglcontextcreationerror', (event) => {
+      this.why_not = (event as WebGLContextEvent).statusMessage;
+    });
     this.context = canvas.getContext('webgl2', attributes);
     this.is_software = this.context !== null && is_software(this.context);
     if (this.context) this.register();
@@ -55,7 +59,7 @@ export class GlCanvas {
   }
 
   state(description: string): GpuState {
-    return { here: this.here, software: this.is_software, description };
+    return { here: this.here, software: this.is_software, why_not: this.why_not, description };
   }
 
   // Anew after a loss too: extensions are asked for again, and names of lost objects forgotten.

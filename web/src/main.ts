@@ -1,7 +1,6 @@
 // The page: starts the worker, shows what it says, and hands on what the user does.
 import { Controls } from './controls';
 import { element, grouped } from './dom';
-import { save } from './download';
 import { Engine } from './engine';
 import { listen_for_keys } from './keyboard';
 import { link_of, state_from, state_of, type State } from './link';
@@ -9,6 +8,7 @@ import { busy, clear_errors, fail, note } from './messages';
 import { start_panel } from './panel';
 import { listen_for_pointers } from './pointer';
 import type { EngineName, Facts, FrameReport, GpuState, Settings, Source } from './protocol';
+import { Saving } from './saving';
 import { listen_for_sources, show_source, wanted_file, wanted_source, type Wanted } from './sources';
 import { show_statistics } from './statistics';
 import { start_theme } from './theme';
@@ -24,10 +24,9 @@ const cpu_canvas = element<HTMLCanvasElement>('cpu_canvas');
 let source: Source = { built_in: 'demo' };
 let settings: Settings | null = null;
 let facts: Facts | null = null;
-let gpu: GpuState = { here: false, software: false, description: '' };
+let gpu: GpuState = { here: false, software: false, why_not: '', description: '' };
 let serial = 0;
 let loading = 0; // id of the load that is awaited
-let saving = 0;
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -50,7 +49,7 @@ const engine = new Engine(
     },
     failed: ({ id, message }) => {
       busy(null);
-      if (id === saving) element<HTMLButtonElement>('save').disabled = false;
+      saving.failed(id);
       if (id === loading) show_source(source);
       fail(message);
     },
@@ -70,11 +69,8 @@ const engine = new Engine(
       show_frame(answer.report, answer.width_px, answer.height_px);
     },
     statistics: ({ json }) => show_statistics(json),
-    picture: ({ picture: file }) => {
-      busy(null);
-      element<HTMLButtonElement>('save').disabled = false;
-      save(file, `${(facts?.name ?? 'picture').replace(/.*\//, '').replace(/\.[^.]*$/, '')}.png`);
-    },
+    picture_progress: ({ done }) => saving.progress(done),
+    picture: ({ picture: file }) => saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => thesis.failed(message),
     thesis_done: ({ cancelled, result, charts }) => thesis.done(cancelled, result, charts),
@@ -90,6 +86,14 @@ function change(changes: Partial<Settings>): void {
 }
 
 const controls = new Controls({ change, move: (move) => engine.send({ type: 'move', move }) });
+const saving = new Saving({
+  draw: (width_px, height_px) => {
+    const id = engine.new_id();
+    engine.send({ type: 'picture', id, width_px, height_px });
+    return id;
+  },
+  cancel: () => engine.send({ type: 'picture_cancel' }),
+});
 const thesis = new ThesisDialog({
   run: (quick) => engine.send({ type: 'thesis', quick, device: device_words() }),
   cancel: () => engine.send({ type: 'thesis_cancel' }),
@@ -116,7 +120,8 @@ function show_gpu(): void {
   words.hidden = gpu.here && !gpu.software;
   words.textContent = gpu.here
     ? 'WebGL2 is drawn by software here: the CPU engine is faster.'
-    : 'This browser has no WebGL2: the CPU engine draws.';
+    : 'This browser gives the page no WebGL2, so the GPU engine cannot be chosen: the CPU engine draws.';
+  words.title = gpu.why_not;
   for (const button of document.querySelectorAll<HTMLInputElement>('#engine input[value=gpu]'))
     button.disabled = !gpu.here;
 }
@@ -126,10 +131,11 @@ function show_facts(now: Facts): void {
   const name = now.name.replace(/.*\//, '');
   element('badge_name').textContent = name;
   document.title = `${name} · bihive`;
+  const spheres = `${grouped(now.spheres)} ${now.spheres === 1 ? 'sphere' : 'spheres'}`;
   element('facts').textContent =
-    `${name}: ${grouped(now.spheres)} ${now.spheres === 1 ? 'sphere' : 'spheres'}, ${now.format}` +
+    `${name}: ${spheres}, ${now.format}` +
     (now.frames > 1 ? `, the first of ${grouped(now.frames)} frames` : '');
-  picture.setAttribute('aria-label', `${name}, ${grouped(now.spheres)} spheres`);
+  picture.setAttribute('aria-label', `${name}, ${spheres}`);
   element('rules_box').hidden = now.rules.length === 0;
   element('rules').replaceChildren(
     ...now.rules.map((rule) => Object.assign(document.createElement('li'), { textContent: rule })),
@@ -172,7 +178,6 @@ const open_source = (from: Source, wanted: Partial<Settings> | null = null) =>
 const open_file = (file: File) => open(wanted_file(file), file.name);
 
 function watch_size(): void {
-  const save_width = element<HTMLInputElement>('save_width'), save_height = element<HTMLInputElement>('save_height');
   const fit = () => {
     const box = picture.getBoundingClientRect();
     if (box.width < 1 || box.height < 1) return;
@@ -181,26 +186,10 @@ function watch_size(): void {
     size = { width: Math.max(1, Math.round(box.width * scale)), height: Math.max(1, Math.round(box.height * scale)) };
     picture.dataset['settled'] = 'false';
     engine.send({ type: 'resize', width_px: size.width, height_px: size.height });
-    save_width.value = String(size.width);
-    save_height.value = String(size.height);
+    saving.propose(size.width, size.height);
   };
   new ResizeObserver(fit).observe(picture);
   fit();
-}
-
-function save_picture(): void {
-  const width = element<HTMLInputElement>('save_width'), height = element<HTMLInputElement>('save_height');
-  if (!settings || !width.reportValidity() || !height.reportValidity()) return;
-  element<HTMLButtonElement>('save').disabled = true;
-  busy('Drawing the picture');
-  saving = engine.new_id();
-  engine.send({
-    type: 'picture',
-    id: saving,
-    width_px: Number(width.value),
-    height_px: Number(height.value),
-    samples_per_pixel: settings.samples_per_pixel,
-  });
 }
 
 async function copy_link(): Promise<void> {
@@ -251,7 +240,6 @@ async function start(): Promise<void> {
     set_engine: (name) => controls.set_engine(name),
   });
   listen_for_sources((from) => void open_source(from), (file) => void open_file(file));
-  element('save').addEventListener('click', save_picture);
   element('copy_link').addEventListener('click', () => void copy_link());
 
   const open_state = async () => {

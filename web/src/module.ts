@@ -18,7 +18,10 @@ export interface Page {
   take_image(): string;
   pixels(): Uint8Array;
   show(width_px: number, height_px: number): void;
-  picture(width_px: number, height_px: number, samples_per_pixel: number): string;
+  begin_picture(width_px: number, height_px: number, samples_per_pixel: number): string;
+  step_picture(budget_ms: number): string;
+  take_picture(): string;
+  drop_picture(): void;
   statistics(): string;
   begin_thesis(quick: boolean): string;
   step_thesis(): string;

@@ -73,7 +73,8 @@ export type Request =
   | { type: 'set'; serial: number; changes: Partial<Settings> }
   | { type: 'resize'; width_px: number; height_px: number }
   | { type: 'move'; move: Move }
-  | { type: 'picture'; id: number; width_px: number; height_px: number; samples_per_pixel: number }
+  | { type: 'picture'; id: number; width_px: number; height_px: number }
+  | { type: 'picture_cancel' }
   | { type: 'thesis'; quick: boolean; device: string }
   | { type: 'thesis_cancel' };
 
@@ -87,7 +88,8 @@ export type Answer =
   | { type: 'settings'; serial: number; settings: Settings }
   | { type: 'frame'; report: FrameReport; serial: number; settings: Settings; width_px: number; height_px: number }
   | { type: 'statistics'; json: string }
-  | { type: 'picture'; id: number; picture: Blob }
+  | { type: 'picture_progress'; done: number }
+  | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }
   | { type: 'thesis_failed'; message: string }
   | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
@@ -96,5 +98,6 @@ export type Answer =
 export interface GpuState {
   here: boolean;
   software: boolean; // drawn by the processor: slower than the CPU engine
+  why_not: string; // there is none, in the browser's words; may be empty
   description: string;
 }

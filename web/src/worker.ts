@@ -2,6 +2,7 @@
 import { BadInput, load_module, value_of, type Module, type Page } from './module';
 import { GlCanvas } from './gl_canvas';
 import { unpacked } from './gunzip';
+import { PictureRun } from './picture_run';
 import type { Answer, Facts, FrameReport, Move, Request, Settings, ThesisProgress } from './protocol';
 
 const frame_budget_ms = 25;
@@ -22,6 +23,7 @@ let frame_pending = false;
 let gl_lost = false;
 let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
+let saving: PictureRun | null = null;
 let thesis: { device: string; cancelled: boolean } | null = null;
 
 function send(answer: Answer): void {
@@ -66,6 +68,8 @@ function on_lost(): void {
   if (thesis) thesis.cancelled = true;
   if (gl_description === '') return;
   gpu_again = settings().engine === 'gpu';
+  if (gpu_again)
+    saving?.cancel(new BadInput('The browser took the graphics processor away before the picture was complete'));
   page.detach_gl(true);
   gl_description = '';
   send({ type: 'note', message: 'The browser took the graphics processor away; the CPU goes on until it is back.' });
@@ -86,7 +90,7 @@ function on_restored(): void {
 // Frames.
 
 function ask_for_frame(): void {
-  if (frame_pending || !has_scene || thesis) return;
+  if (frame_pending || !has_scene || thesis || saving) return;
   frame_pending = true;
   // Not every browser has the clock of the display in workers.
   if (typeof requestAnimationFrame === 'function') requestAnimationFrame(() => void next_frame());
@@ -138,7 +142,7 @@ function show_gpu_image(): void {
 
 async function next_frame(): Promise<void> {
   frame_pending = false;
-  if (thesis) return;
+  if (thesis || saving) return;
   await attempt(null, () => {
     apply_moves();
     apply_changes();
@@ -201,6 +205,7 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
     page.room(bytes.byteLength).set(bytes);
     loaded = value_of(page.load(request.name));
   }
+  saving?.cancel();
   moves = [];
   has_scene = true;
   const notes = [...loaded.facts.warnings, ...choose_settings(request.settings ?? {})];
@@ -209,15 +214,19 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   ask_for_frame();
 }
 
+// A picture to be saved: frames rest meanwhile.
 async function picture(request: Request & { type: 'picture' }): Promise<void> {
-  const { width_px, height_px, samples_per_pixel } = request;
-  const { width, height } = value_of<{ width: number; height: number }>(
-    page.picture(width_px, height_px, samples_per_pixel),
-  );
-  const canvas = new OffscreenCanvas(width, height);
-  canvas.getContext('2d')!.putImageData(image_data(width, height), 0, 0);
-  send({ type: 'picture', id: request.id, picture: await canvas.convertToBlob({ type: 'image/png' }) });
-  ask_for_frame();
+  if (!has_scene || thesis || saving) throw new BadInput('There is no picture to be saved just now');
+  apply_moves();
+  apply_changes();
+  saving = new PictureRun(page, image_data, (done) => send({ type: 'picture_progress', done }));
+  try {
+    const { samples_per_pixel } = settings();
+    send({ type: 'picture', picture: await saving.draw({ ...request, samples_per_pixel }) });
+  } finally {
+    saving = null;
+    ask_for_frame();
+  }
 }
 
 // The thesis's measurements: frames rest meanwhile.
@@ -225,6 +234,7 @@ async function picture(request: Request & { type: 'picture' }): Promise<void> {
 function run_thesis(quick: boolean, device: string): void {
   if (thesis) return;
   try {
+    if (saving) throw new BadInput('A picture is being drawn to be saved: wait for it, or cancel it');
     apply_changes();
     value_of(page.begin_thesis(quick));
     thesis = { device, cancelled: false };
@@ -287,6 +297,9 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return ask_for_frame();
     case 'picture':
       return attempt(request.id, () => picture(request));
+    case 'picture_cancel':
+      saving?.cancel();
+      return;
     case 'thesis':
       return attempt(null, () => run_thesis(request.quick, request.device));
     case 'thesis_cancel':

@@ -84,7 +84,7 @@ class Viewer::Implementation {
 
   void detach_gl(bool lost) {
     if (!gpu_) return;
-    drop_picture();
+    if (settings_.engine == ViewerEngine::gpu) drop_picture();
     if (lost) gpu_->abandon();
     gpu_.reset();
     if (settings_.engine != ViewerEngine::gpu) return;

@@ -87,7 +87,7 @@ class Viewer {
   void show(std::uint32_t framebuffer, const GlViewport& viewport);
 
   // A picture to be saved, of any size, by the engine of the settings. Made in steps it may be dropped in between;
-  // meanwhile the pointer may move, but frame(), set(), load() and a change of the graphics processor drop it too.
+  // meanwhile the pointer may move, but frame(), set(), load() and the loss of its graphics processor drop it too.
 
   Status begin_picture(int width_px, int height_px, int samples_per_pixel);
   /// Draws for about `budget_ms`; the share that is done, 1 where all is. Error: there is none in the making (any

@@ -1,0 +1,50 @@
+// In the worker: a picture to be saved, drawn in steps between which messages are read, a cancel among them.
+import { value_of, type BadInput, type Page } from './module';
+
+const step_ms = 50;
+
+export interface PictureSize {
+  width_px: number;
+  height_px: number;
+  samples_per_pixel: number;
+}
+
+interface Size {
+  width: number;
+  height: number;
+}
+
+export class PictureRun {
+  private ended = false;
+  private reason: BadInput | null = null;
+
+  constructor(
+    private readonly page: Page,
+    private readonly image_data: (width: number, height: number) => ImageData,
+    private readonly progress: (done: number) => void,
+  ) {}
+
+  /** The picture as a PNG file, or null where it was cancelled. Throws BadInput where it cannot be drawn. */
+  async draw({ width_px, height_px, samples_per_pixel }: PictureSize): Promise<Blob | null> {
+    value_of(this.page.begin_picture(width_px, height_px, samples_per_pixel));
+    for (let done = 0; done < 1; ) {
+      done = value_of<{ done: number }>(this.page.step_picture(step_ms)).done;
+      this.progress(done);
+      await new Promise((resolve) => setTimeout(resolve));
+      if (!this.ended) continue;
+      this.page.drop_picture();
+      if (this.reason) throw this.reason;
+      return null;
+    }
+    const { width, height } = value_of<Size>(this.page.take_picture());
+    const canvas = new OffscreenCanvas(width, height);
+    canvas.getContext('2d')!.putImageData(this.image_data(width, height), 0, 0);
+    return canvas.convertToBlob({ type: 'image/png' });
+  }
+
+  /** Ends it before the next step; with a reason it is an error. */
+  cancel(reason: BadInput | null = null): void {
+    this.ended = true;
+    this.reason = reason;
+  }
+}
