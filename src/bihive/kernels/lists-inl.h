@@ -57,6 +57,12 @@ class ListWalk {
   static constexpr std::uint32_t kShortList = 4;
   static constexpr std::uint32_t kAhead = 8;  // rays to fetch before they are needed
   static constexpr std::uint32_t kShortLeafList = 16;
+  // Where sixteen boxes or spheres take several steps, what costs more: to spread a ray to all lanes once more for each
+  // step, or to load the boxes or spheres again for each ray?
+  static constexpr bool kRayAfterRay = kFloatLanes == 4;
+
+  using Floats = hn::VFromD<FloatTag>;
+  static HWY_INLINE Floats in_all(float value) { return hn::Set(FloatTag(), value); }
 
   // ---- Making rays ready ----
 
@@ -210,6 +216,47 @@ class ListWalk {
     }
   }
 
+  // Boxes of a node: their sides that rays of the octant come to first and last.
+  struct BoxLanes {
+    Floats near_x, near_y, near_z, far_x, far_y, far_z;
+    HWY_INLINE BoxLanes(const float* const near[3], const float* const far[3], int lane)
+        : near_x(hn::Load(FloatTag(), near[0] + lane)),
+          near_y(hn::Load(FloatTag(), near[1] + lane)),
+          near_z(hn::Load(FloatTag(), near[2] + lane)),
+          far_x(hn::Load(FloatTag(), far[0] + lane)),
+          far_y(hn::Load(FloatTag(), far[1] + lane)),
+          far_z(hn::Load(FloatTag(), far[2] + lane)) {}
+  };
+
+  // A ray in all lanes, and where it enters and leaves boxes.
+  struct BoxRay {
+    Floats ix, iy, iz, near_x, near_y, near_z, far_x, far_y, far_z, s_min, s_best;
+    HWY_INLINE BoxRay(const FilterRay& ray, float best)
+        : ix(in_all(ray.inverse[0])),
+          iy(in_all(ray.inverse[1])),
+          iz(in_all(ray.inverse[2])),
+          near_x(in_all(ray.near_offset[0])),
+          near_y(in_all(ray.near_offset[1])),
+          near_z(in_all(ray.near_offset[2])),
+          far_x(in_all(ray.far_offset[0])),
+          far_y(in_all(ray.far_offset[1])),
+          far_z(in_all(ray.far_offset[2])),
+          s_min(in_all(ray.s_min)),
+          s_best(in_all(best)) {}
+    HWY_INLINE Floats entry(const BoxLanes& boxes) const {
+      const auto x = hn::MulAdd(boxes.near_x, ix, near_x);
+      const auto y = hn::MulAdd(boxes.near_y, iy, near_y);
+      const auto z = hn::MulAdd(boxes.near_z, iz, near_z);
+      return hn::Max(hn::Max(x, y), hn::Max(z, s_min));
+    }
+    HWY_INLINE Floats exit(const BoxLanes& boxes) const {
+      const auto x = hn::MulAdd(boxes.far_x, ix, far_x);
+      const auto y = hn::MulAdd(boxes.far_y, iy, far_y);
+      const auto z = hn::MulAdd(boxes.far_z, iz, far_z);
+      return hn::Min(hn::Min(x, y), hn::Min(z, s_best));
+    }
+  };
+
   // Every listed ray against sixteen boxes: a mask and the distances of entry each. Returns the union of the masks.
   std::uint32_t test_boxes(const WideNode& node, const std::uint32_t* list, std::uint32_t count,
                            const NodeMemory& memory) const {
@@ -222,42 +269,43 @@ class ListWalk {
       near[axis] = negative_[axis] ? node.hi[axis] : node.lo[axis];
       far[axis] = negative_[axis] ? node.lo[axis] : node.hi[axis];
     }
-    for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
-      const auto near_x = hn::Load(d, near[0] + lane);
-      const auto near_y = hn::Load(d, near[1] + lane);
-      const auto near_z = hn::Load(d, near[2] + lane);
-      const auto far_x = hn::Load(d, far[0] + lane);
-      const auto far_y = hn::Load(d, far[1] + lane);
-      const auto far_z = hn::Load(d, far[2] + lane);
+    if constexpr (kRayAfterRay) {
       for (std::uint32_t i = 0; i < count; ++i) {
-        const FilterRay& ray = tile_.rays[list[i]];
-        __builtin_prefetch(&tile_.rays[list[std::min(i + kAhead, count - 1)]]);
-        const auto ix = hn::Set(d, ray.inverse[0]);
-        const auto iy = hn::Set(d, ray.inverse[1]);
-        const auto iz = hn::Set(d, ray.inverse[2]);
-        const auto in_x = hn::MulAdd(near_x, ix, hn::Set(d, ray.near_offset[0]));
-        const auto in_y = hn::MulAdd(near_y, iy, hn::Set(d, ray.near_offset[1]));
-        const auto in_z = hn::MulAdd(near_z, iz, hn::Set(d, ray.near_offset[2]));
-        const auto out_x = hn::MulAdd(far_x, ix, hn::Set(d, ray.far_offset[0]));
-        const auto out_y = hn::MulAdd(far_y, iy, hn::Set(d, ray.far_offset[1]));
-        const auto out_z = hn::MulAdd(far_z, iz, hn::Set(d, ray.far_offset[2]));
-        const auto s_in = hn::Max(hn::Max(in_x, in_y), hn::Max(in_z, hn::Set(d, ray.s_min)));
-        const auto s_out = hn::Min(hn::Min(out_x, out_y), hn::Min(out_z, hn::Set(d, tile_.s_best[list[i]])));
-        const auto enters = hn::Le(s_in, s_out);
-        const std::uint32_t bits = mask_bits(enters) << lane;
-        if constexpr (kAnyHit) {
-          // Distances do not matter.
-          memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
-        } else if constexpr (kFloatLanes == kWidth) {
-          hn::StoreU(compress(s_in, enters), d, memory.s_near + stored);
-          memory.offsets[i] = stored;
-          stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
-          memory.masks[i] = static_cast<std::uint16_t>(bits);
-        } else {
-          hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
-          memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
+        const std::uint32_t number = list[i];
+        const BoxRay ray(tile_.rays[number], tile_.s_best[number]);
+        std::uint32_t bits = 0;
+        for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
+          const BoxLanes boxes(near, far, lane);
+          const auto s_in = ray.entry(boxes);
+          bits |= mask_bits(hn::Le(s_in, ray.exit(boxes))) << lane;
+          if constexpr (!kAnyHit) hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
         }
+        memory.masks[i] = static_cast<std::uint16_t>(bits);
         any |= bits;
+      }
+    } else {
+      for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
+        const BoxLanes boxes(near, far, lane);
+        for (std::uint32_t i = 0; i < count; ++i) {
+          __builtin_prefetch(&tile_.rays[list[std::min(i + kAhead, count - 1)]]);
+          const BoxRay ray(tile_.rays[list[i]], tile_.s_best[list[i]]);
+          const auto s_in = ray.entry(boxes);
+          const auto enters = hn::Le(s_in, ray.exit(boxes));
+          const std::uint32_t bits = mask_bits(enters) << lane;
+          if constexpr (kAnyHit) {
+            // Distances do not matter.
+            memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
+          } else if constexpr (kFloatLanes == kWidth) {
+            hn::StoreU(compress(s_in, enters), d, memory.s_near + stored);
+            memory.offsets[i] = stored;
+            stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
+            memory.masks[i] = static_cast<std::uint16_t>(bits);
+          } else {
+            hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
+            memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
+          }
+          any |= bits;
+        }
       }
     }
     // Masks past the end are read too.
@@ -345,7 +393,7 @@ class ListWalk {
     finish_candidates();
   }
 
-  // The first look: up to sixteen spheres, kept in registers, against a list of rays.
+  // The first look: up to sixteen spheres against a list of rays.
   void test_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list, std::uint32_t count) {
     if (leaves_some_)
       test_leaf_of<true>(slot, spheres, list, count);
@@ -356,6 +404,109 @@ class ListWalk {
   template <bool kLeaves>
   HWY_INLINE void test_leaf_of(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list,
                                std::uint32_t count) {
+    if constexpr (kRayAfterRay)
+      test_rays_at_leaf<kLeaves>(slot, spheres, list, count);
+    else
+      test_spheres_of_leaf<kLeaves>(slot, spheres, list, count);
+  }
+
+  // How a ray lies to spheres, in units of distance along it.
+  struct Meeting {
+    Floats b, dp;
+  };
+
+  // A ray in all lanes.
+  struct LeafRay {
+    Floats nx, ny, nz, ox, oy, oz;
+    HWY_INLINE explicit LeafRay(const FilterRay& ray)
+        : nx(in_all(ray.direction[0])),
+          ny(in_all(ray.direction[1])),
+          nz(in_all(ray.direction[2])),
+          ox(in_all(ray.origin[0])),
+          oy(in_all(ray.origin[1])),
+          oz(in_all(ray.origin[2])) {}
+    HWY_INLINE Meeting meet(Floats x, Floats y, Floats z, Floats r_squared) const {
+      const auto cx = hn::Sub(x, ox);
+      const auto cy = hn::Sub(y, oy);
+      const auto cz = hn::Sub(z, oz);
+      const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
+      const auto px = hn::NegMulAdd(b, nx, cx);
+      const auto py = hn::NegMulAdd(b, ny, cy);
+      const auto pz = hn::NegMulAdd(b, nz, cz);
+      return {b, hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)))};
+    }
+  };
+
+  // (r + e)^2 of spheres from `slot` on; lanes past the leaf can never pass.
+  HWY_INLINE Floats padded_squares(std::uint32_t slot, std::uint32_t spheres) const {
+    const FloatTag d;
+    const auto r = hn::Add(load_radii(tree_.spheres, slot), hn::Set(d, bounds_.e));
+    return hn::IfThenElse(hn::FirstN(d, spheres), hn::Mul(r, r), hn::Set(d, -1.0F));
+  }
+
+  HWY_INLINE auto ids_at(std::uint32_t slot) const {
+    const WordTag words;
+    return hn::And(hn::LoadU(words, tree_.spheres.word + slot), hn::Set(words, tree_.spheres.id_mask()));
+  }
+
+  // A ray after the other against all the spheres.
+  template <bool kLeaves>
+  HWY_INLINE void test_rays_at_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list,
+                                    std::uint32_t count) {
+    const FloatTag d;
+    const WordTag words;
+    alignas(64) float r_squared[kWidth];
+    alignas(64) std::uint32_t ids[kWidth];
+    for (std::uint32_t lane = 0; lane < spheres; lane += kFloatLanes) {
+      hn::Store(padded_squares(slot + lane, spheres - lane), d, r_squared + lane);
+      if constexpr (kLeaves) hn::Store(ids_at(slot + lane), words, ids + lane);
+    }
+    const float* const x = tree_.spheres.x + slot;
+    const float* const y = tree_.spheres.y + slot;
+    const float* const z = tree_.spheres.z + slot;
+    CandidateQueue& queue = tile_.queue;
+    int queued = queue.count;
+    alignas(64) float b[kWidth];
+    alignas(64) float dp[kWidth];
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t number = list[i];
+      const LeafRay ray(tile_.rays[number]);
+      std::uint32_t bits = 0;
+      for (std::uint32_t lane = 0; lane < spheres; lane += kFloatLanes) {
+        const Meeting met = ray.meet(hn::LoadU(d, x + lane), hn::LoadU(d, y + lane), hn::LoadU(d, z + lane),
+                                     hn::Load(d, r_squared + lane));
+        auto passes = hn::Ge(met.dp, hn::Zero(d));
+        // Going outward a ray never meets the sphere that it leaves.
+        if constexpr (kLeaves) {
+          const auto own = hn::Eq(hn::Load(words, ids + lane), hn::Set(words, tile_.outward_id[number]));
+          passes = hn::AndNot(hn::RebindMask(d, own), passes);
+        }
+        bits |= mask_bits(passes) << lane;
+        hn::Store(met.b, d, b + lane);
+        hn::Store(met.dp, d, dp + lane);
+      }
+      for (; bits != 0; bits &= bits - 1) {
+        const int k = __builtin_ctz(bits);
+        queue.b[queued] = b[k];
+        queue.dp[queued] = dp[k];
+        queue.r_squared[queued] = r_squared[k];
+        queue.slot[queued] = slot + static_cast<std::uint32_t>(k);
+        queue.ray[queued] = number;
+        ++queued;
+      }
+      if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
+        queue.count = queued;
+        finish_candidates();
+        queued = 0;
+      }
+    }
+    queue.count = queued;
+  }
+
+  // Some spheres after the others, in registers, against all rays.
+  template <bool kLeaves>
+  HWY_INLINE void test_spheres_of_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list,
+                                       std::uint32_t count) {
     const FloatTag d;
     const WordTag words;
     CandidateQueue& queue = tile_.queue;
@@ -364,33 +515,17 @@ class ListWalk {
       const auto x = hn::LoadU(d, tree_.spheres.x + slot + lane);
       const auto y = hn::LoadU(d, tree_.spheres.y + slot + lane);
       const auto z = hn::LoadU(d, tree_.spheres.z + slot + lane);
-      const auto r = hn::Add(load_radii(tree_.spheres, slot + lane), hn::Set(d, bounds_.e));
-      // Lanes past the leaf can never pass.
-      const auto r_squared = hn::IfThenElse(hn::FirstN(d, spheres - lane), hn::Mul(r, r), hn::Set(d, -1.0F));
+      const auto r_squared = padded_squares(slot + lane, spheres - lane);
       const auto slots = iota_words(slot + lane);
-      const auto ids =
-          hn::And(hn::LoadU(words, tree_.spheres.word + slot + lane), hn::Set(words, tree_.spheres.id_mask()));
+      const auto ids = ids_at(slot + lane);
       for (std::uint32_t i = 0; i < count; ++i) {
-        const FilterRay& ray = tile_.rays[list[i]];
-        const auto nx = hn::Set(d, ray.direction[0]);
-        const auto ny = hn::Set(d, ray.direction[1]);
-        const auto nz = hn::Set(d, ray.direction[2]);
-        const auto cx = hn::Sub(x, hn::Set(d, ray.origin[0]));
-        const auto cy = hn::Sub(y, hn::Set(d, ray.origin[1]));
-        const auto cz = hn::Sub(z, hn::Set(d, ray.origin[2]));
-        const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
-        const auto px = hn::NegMulAdd(b, nx, cx);
-        const auto py = hn::NegMulAdd(b, ny, cy);
-        const auto pz = hn::NegMulAdd(b, nz, cz);
-        const auto dp = hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)));
+        const LeafRay ray(tile_.rays[list[i]]);
+        const auto [b, dp] = ray.meet(x, y, z, r_squared);
         // Without a branch: whether some of many spheres passes cannot be foreseen.
         auto passes = hn::Ge(dp, hn::Zero(d));
         // Going outward a ray never meets the sphere that it leaves.
         if constexpr (kLeaves)
           passes = hn::And(passes, hn::RebindMask(d, hn::Ne(ids, hn::Set(words, tile_.outward_id[list[i]]))));
-        // Of four spheres seldom one passes, and moving lanes is slow on these targets.
-        if constexpr (kFloatLanes == 4)
-          if (HWY_LIKELY(mask_bits(passes) == 0)) continue;
         const int passing = static_cast<int>(hn::CountTrue(d, passes));
         const auto some_b = compress(b, passes);
         const auto some_dp = compress(dp, passes);

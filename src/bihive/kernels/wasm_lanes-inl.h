@@ -36,6 +36,27 @@ HWY_API std::size_t StoreMaskBits(Full128<double> /* tag */, Mask128<double> mas
   return 1;
 }
 
+/// Half vectors by one load or store.
+template <class T, HWY_IF_LANE_SIZE(T, 4)>
+HWY_API Vec128<T, 2> LoadU(Simd<T, 2, 0> /* tag */, const T* from) {
+  return Vec128<T, 2>{wasm_v128_load64_zero(from)};
+}
+template <class T, HWY_IF_LANE_SIZE(T, 4)>
+HWY_API Vec128<T, 2> Load(Simd<T, 2, 0> /* tag */, const T* from) {
+  return Vec128<T, 2>{wasm_v128_load64_zero(from)};
+}
+template <class T, HWY_IF_LANE_SIZE(T, 4)>
+HWY_API void StoreU(Vec128<T, 2> v, Simd<T, 2, 0> /* tag */, T* to) {
+  wasm_v128_store64_lane(to, v.raw, 0);
+}
+template <class T, HWY_IF_LANE_SIZE(T, 4)>
+HWY_API void Store(Vec128<T, 2> v, Simd<T, 2, 0> /* tag */, T* to) {
+  wasm_v128_store64_lane(to, v.raw, 0);
+}
+HWY_API Vec128<std::uint16_t, 4> LoadU(Simd<std::uint16_t, 4, 0> /* tag */, const std::uint16_t* from) {
+  return Vec128<std::uint16_t, 4>{wasm_v128_load64_zero(from)};
+}
+
 /// Four loads into lanes: what is stored lane by lane and loaded whole has to wait until it is written.
 template <class T, HWY_IF_LANE_SIZE(T, 4)>
 HWY_API Vec128<T> GatherIndex(Full128<T> /* tag */, const T* from, Vec128<std::int32_t> index) {
