@@ -1,11 +1,14 @@
 #include "bihive/viewer/pacing.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace bihive {
 namespace {
 
 constexpr int kDivisors[] = {1, 2, 3, 4, 6, 8, 12, kCoarsestDivisor};
+// Up to here pixels are hardly seen while something moves.
+constexpr int kFineDivisor = 3;
 constexpr double kWindowMs = 1000;
 
 double cost_of(PictureStep step) {
@@ -14,10 +17,11 @@ double cost_of(PictureStep step) {
 
 }  // namespace
 
-int divisor_for(int width_px, int height_px, double ms_per_pixel, double budget_ms) {
+int divisor_for(int width_px, int height_px, const PictureCost& cost, double budget_ms) {
   for (const int divisor : kDivisors) {
-    const double pixels = static_cast<double>(divided(width_px, divisor)) * divided(height_px, divisor);
-    if (pixels * ms_per_pixel <= budget_ms) return divisor;
+    const std::int64_t pixels = std::int64_t{divided(width_px, divisor)} * divided(height_px, divisor);
+    const double allowed_ms = divisor <= kFineDivisor ? budget_ms : 2 * std::max(budget_ms, cost.fixed_ms());
+    if (cost.ms_for(pixels) <= allowed_ms) return divisor;
   }
   return kCoarsestDivisor;
 }
@@ -42,13 +46,6 @@ StepShare share_of_step(PictureStep step, int samples_per_pixel) {
   }
   const double end = step == last ? all : before_next;
   return {before / all, (end - before) / all};
-}
-
-void PixelCost::measured(double ms, std::int64_t pixels) {
-  if (pixels < 1) return;
-  const double now = ms / static_cast<double>(pixels);
-  ms_per_pixel_ = guess_ ? now : 0.5 * ms_per_pixel_ + 0.5 * now;
-  guess_ = false;
 }
 
 void FrameRate::moved(double now_ms) {

@@ -1,8 +1,9 @@
 // How fine the next picture may be: coarse enough for the budget while something moves, finer and finer at rest.
 #pragma once
 
-#include <cstdint>
 #include <deque>
+
+#include "bihive/viewer/picture_cost.h"
 
 namespace bihive {
 
@@ -21,9 +22,10 @@ inline int divided(int side_px, int divisor) {
   return (side_px + divisor - 1) / divisor;
 }
 
-/// The smallest of the divisors 1, 2, 3, 4, 6, 8, 12, 16 at which a picture of one sample a pixel is made within the
-/// budget; the last where none is small enough.
-int divisor_for(int width_px, int height_px, double ms_per_pixel, double budget_ms);
+/// How coarse a picture of one sample a pixel has to be while something moves: the smallest of the divisors 1, 2, 3, 4,
+/// 6, 8, 12, 16 that keeps to the budget. Above 3 it may take twice the budget, and always twice what the smallest
+/// picture takes: coarser ones would be seen more than gained. The last where none is small enough.
+int divisor_for(int width_px, int height_px, const PictureCost& cost, double budget_ms);
 
 /// The step after one at rest: half the divisor (to 4, 2, 1), then all samples. The last one is followed by itself.
 PictureStep finer_step(PictureStep step, int samples_per_pixel);
@@ -34,19 +36,6 @@ struct StepShare {
   double before, own;
 };
 StepShare share_of_step(PictureStep step, int samples_per_pixel);
-
-/// What a pixel of one sample took lately.
-class PixelCost {
- public:
-  /// A step of one sample a pixel took so long. Follows the truth quickly, and forgets single slow pictures.
-  void measured(double ms, std::int64_t pixels);
-  double ms_per_pixel() const { return ms_per_pixel_; }
-
- private:
-  static constexpr double kFirstGuess = 5e-4;
-  double ms_per_pixel_ = kFirstGuess;
-  bool guess_ = true;
-};
 
 /// Frames a second over the last second of frames that moved.
 class FrameRate {

@@ -57,7 +57,7 @@ Status PictureSteps::go_on(const PictureSubject& subject, double budget_ms, bool
     restart_ = false;
     settled_ = false;
     moving_ = true;
-    step_ = {divisor_for(size.width, size.height, cost(subject).ms_per_pixel(), budget_ms), 1};
+    step_ = {divisor_for(size.width, size.height, cost(subject), budget_ms), 1};
     if (Status status = begin_step(subject); !status) return status;
   } else if (!begun_) {
     moving_ = false;

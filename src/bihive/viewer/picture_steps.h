@@ -50,7 +50,7 @@ class PictureSteps {
   Status take_gpu(const PictureSubject& subject, bool& drawn);
   void finish_step(const PictureSubject& subject);
   double done_of_step(const PictureSubject& subject) const;
-  PixelCost& cost(const PictureSubject& subject) {
+  PictureCost& cost(const PictureSubject& subject) {
     return costs_[subject.settings.engine == ViewerEngine::gpu ? 1 : 0];
   }
 
@@ -69,7 +69,7 @@ class PictureSteps {
   // Paces.
   Timer clock_;
   FrameRate rate_;
-  PixelCost costs_[2];  // CPU, GPU
+  PictureCost costs_[2];  // CPU, GPU
   double rays_per_primary_ = 1;
   double mray_per_s_ = 0;
 };
