@@ -1,18 +1,11 @@
 #include "input.h"
 
-#include <unistd.h>
-
 #include "bihive/base/write_file.h"
-#include "bihive/bih/memory.h"
-#include "bihive/kernels/wide_builder.h"
 #include "failure.h"
 #include "messages.h"
 
 namespace bihive::cli {
 namespace {
-
-// Bytes a sphere of a generated scene: three growing arrays and radii, the set itself, materials.
-constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
 
 void only_for(bool given, const std::string& option, const std::string& what, const std::string& input) {
   if (given) fail_usage(option + " is for " + what + ", not for " + input);
@@ -62,7 +55,7 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
     parameters.count = options.count.value_or(parameters.count);
     if (options.radius) parameters.radius = static_cast<float>(*options.radius);
     parameters.seed = options.seed.value_or(parameters.seed);
-    check_memory(static_cast<double>(parameters.count) * kBytesPerGeneratedSphere, "so many spheres");
+    value_or_fail(check_scenario_memory(parameters));
   }
   Result<LoadedScene> loaded = built_in_scene(name, parameters);
   if (!loaded) fail_usage(name + ": " + loaded.error().message, loaded.error().hint);
@@ -85,27 +78,6 @@ Input load_input(const InputOptions& options) {
                                   : load_scene(value_or_fail(read_file(options.input)), options.input, reading));
   warn(input.warnings);
   return input;
-}
-
-void check_memory(double bytes, const std::string& what) {
-  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (bytes > machine)
-    fail({what + " would take about " + readable_bytes(bytes) + " of memory, and this machine has " +
-              readable_bytes(machine),
-          "", 0, 0, ""});
-}
-
-void check_tree_memory(const SphereSet& spheres, const BuildParameters& parameters) {
-  const MemoryPrediction prediction = predict_tree_memory(spheres.size(), parameters);
-  check_memory(static_cast<double>(prediction.allocated_bytes.low),
-               "the tree of " + grouped(spheres.size()) + " spheres");
-}
-
-void check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters) {
-  if (engine == Engine::brute) return;
-  if (engine == Engine::reference) return check_tree_memory(spheres, parameters.for_reference());
-  const WideMemoryPrediction prediction = predict_wide_memory(spheres.size(), parameters.for_wide(spheres.size()));
-  check_memory(static_cast<double>(prediction.low_bytes), "the tree of " + grouped(spheres.size()) + " spheres");
 }
 
 }  // namespace bihive::cli

@@ -35,11 +35,4 @@ Input load_input(const InputOptions& options);
 /// The scene of a name that `bihive scene` knows: scenario1, scenario2, scenario3 or four-spheres; nothing otherwise.
 std::optional<Scene> generated_scene(const InputOptions& options);
 
-/// Fails if the tree cannot fit this machine's memory: the reference tree, or what an engine builds.
-void check_tree_memory(const SphereSet& spheres, const BuildParameters& parameters);
-void check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters);
-
-/// Fails if `bytes` exceed this machine's memory: "what needs about 77 GB, ...".
-void check_memory(double bytes, const std::string& what);
-
 }  // namespace bihive::cli

@@ -55,23 +55,6 @@ void finish_output() {
   fail({"writing to the standard output failed: " + std::string(std::strerror(code)), "", 0, 0, ""});
 }
 
-std::string grouped(std::int64_t value) {
-  std::string digits = std::to_string(value);
-  const std::size_t first = value < 0 ? 1 : 0;
-  for (std::size_t i = digits.size(); i > first + 3; i -= 3) digits.insert(i - 3, ",");
-  return digits;
-}
-
-std::string readable_bytes(double bytes) {
-  const char* const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
-  std::size_t unit = 0;
-  while (bytes >= 999.5 && unit + 1 < std::size(units)) {
-    bytes /= 1000;
-    ++unit;
-  }
-  return unit == 0 ? fmt::format("{:.0f} bytes", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
-}
-
 std::string readable_ms(double ms) {
   if (ms < 999.5) return fmt::format("{:.3g} ms", ms);
   if (ms < 120e3) return fmt::format("{:.3g} s", ms / 1000);

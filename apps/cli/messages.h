@@ -1,11 +1,11 @@
 // What the program says on stderr, and results on stdout.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bihive/base/readable.h"
 #include "bihive/base/timer.h"
 
 namespace bihive::cli {
@@ -21,10 +21,6 @@ void print(const std::string& text);
 /// Flushes stdout; fails if something did not arrive (a full disk).
 void finish_output();
 
-/// 4096 as "4,096".
-std::string grouped(std::int64_t value);
-/// 1536 as "1.5 kB"; powers of 1000.
-std::string readable_bytes(double bytes);
 /// 1234.5 as "1.23 s", 12.34 as "12.3 ms".
 std::string readable_ms(double ms);
 

@@ -10,6 +10,7 @@
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
 #include "bihive/kernels/target.h"
+#include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
 #include "commands.h"
 #include "failure.h"
@@ -226,9 +227,8 @@ void run_render(const RenderOptions& options) {
   if (options.background) scene.background = *colour_from(*options.background, scene.picture.transfer);
   scene.camera = choose_camera(input, options, settings);
   if (!input.has_lights) scene.lights = {light_behind(scene.camera)};
-  const double pixels = double(settings.width_px) * double(settings.height_px);
-  check_memory(pixels * (sizeof(Vec3f) + 2 * 3), "so large a picture");
-  check_tree_memory(scene.spheres, structure_of(engine), options.tree);
+  value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
+  value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
 
   // Build, render, write.
   const Tracer tracer =

@@ -5,6 +5,7 @@
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/kernels/target.h"
+#include "bihive/render/memory.h"
 #include "bihive/viewer/statistics_json.h"
 #include "commands.h"
 #include "failure.h"
@@ -98,8 +99,8 @@ void print_table(const Scene& scene, const ReferenceFacts& reference, const Wide
 void run_stats(const StatsOptions& options) {
   const Input input = load_input(options.input);
   const SphereSet& spheres = input.scene.spheres;
-  check_tree_memory(spheres, options.tree.for_reference());
-  check_tree_memory(spheres, Engine::wide, options.tree);
+  for (const Engine engine : {Engine::reference, Engine::wide})
+    value_or_fail(check_tree_memory(spheres, engine, options.tree));
   const WideFacts wide = wide_facts(value_or_fail(build_wide_tree(spheres, options.tree)));
   const Timer timer;
   const Tree tree = build_reference_tree(spheres, options.tree.for_reference());

@@ -14,6 +14,7 @@
 #include "bihive/geometry/plane.h"
 #include "bihive/io/npy.h"
 #include "bihive/kernels/target.h"
+#include "bihive/render/memory.h"
 #include "bihive/scene/generators.h"
 #include "commands.h"
 #include "failure.h"
@@ -139,7 +140,7 @@ void run_trace(const TraceOptions& options) {
 
   const RayFile rays(options.rays);
   const Input input = load_input(options.input);
-  check_tree_memory(input.scene.spheres, options.engine, options.tree);
+  value_or_fail(check_tree_memory(input.scene.spheres, options.engine, options.tree));
   const Tracer tracer = value_or_fail(
       Tracer::build(input.scene.spheres, options.engine, options.tree, static_cast<int>(options.threads)));
   const Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;

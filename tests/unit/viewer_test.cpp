@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -311,6 +312,40 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
   expect_dropped("load", [&] { ASSERT_TRUE(viewer.load_built_in("four-spheres")); });
   settle(viewer);
   EXPECT_EQ(picture_hash(viewer.image()), picture_hash(rendered(viewer, Engine::wide, settings_of(viewer, 64, 36))));
+}
+
+TEST(Viewer, what_does_not_fit_into_memory_is_refused_and_the_scene_stays) {
+  Viewer viewer;
+  viewer.resize(64, 36);
+  ASSERT_TRUE(viewer.load_built_in("four-spheres"));
+  settle(viewer);
+  const std::uint64_t before = picture_hash(viewer.image());
+
+  ASSERT_EQ(setenv("BIHIVE_MEMORY", "20000", 1), 0);
+  const auto expect_refused = [](const auto& result, const char* what) {
+    ASSERT_FALSE(result);
+    EXPECT_THAT(result.error().message, HasSubstr(what));
+    EXPECT_THAT(result.error().message, HasSubstr("of memory, and this machine has 20 kB"));
+  };
+  expect_refused(viewer.load_built_in("demo"), "the tree of 1,631 spheres would take about");
+  expect_refused(viewer.load_built_in("scenario1"), "so many spheres would take about");
+  expect_refused(viewer.picture(100, 100, 1), "so large a picture would take about 180 kB");
+  EXPECT_EQ(viewer.facts().name, "four-spheres");
+
+  // Enough for the tree that is drawn, not for the other one.
+  Viewer small;
+  ViewerSettings settings = small.settings();
+  settings.view = View::traversal;
+  ASSERT_TRUE(small.set(settings));
+  ASSERT_EQ(setenv("BIHIVE_MEMORY", "25000", 1), 0);
+  EXPECT_TRUE(small.load_built_in("demo"));
+  EXPECT_THAT(small.statistics_json(), HasSubstr("the tree of 1,631 spheres would take about"));
+  ASSERT_EQ(unsetenv("BIHIVE_MEMORY"), 0);
+
+  viewer.orbit(1, 1);
+  viewer.home();
+  settle(viewer);
+  EXPECT_EQ(picture_hash(viewer.image()), before);
 }
 
 TEST(SlicedPicture, is_the_same_picture_as_in_one_go) {

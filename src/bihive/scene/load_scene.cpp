@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "bihive/base/memory.h"
 #include "bihive/io/bundled.h"
 #include "bihive/scene/palette.h"
 
 namespace bihive {
 namespace {
+
+// Bytes a sphere of a generated scene: three growing arrays and radii, the set itself, materials.
+constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
 
 Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& name) {
   if (!file) return file.error();
@@ -37,6 +41,10 @@ bool is_built_in_scene(const std::string& name) {
   return std::find(kBuiltInScenes.begin(), kBuiltInScenes.end(), name) != kBuiltInScenes.end();
 }
 
+Status check_scenario_memory(const ScenarioParameters& parameters) {
+  return check_memory(static_cast<double>(parameters.count) * kBytesPerGeneratedSphere, "so many spheres");
+}
+
 Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters,
                                    const ReadOptions& options) {
   if (name == "demo") return from_spheres(read_spheres_from_memory(bundled_molecule(), name, options), name);
@@ -46,6 +54,7 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
     for (const char* one : kBuiltInScenes) known += (known.empty() ? "" : ", ") + std::string(one);
     return Error{"there is no built-in scene \"" + name + "\"", "", 0, 0, "there are " + known};
   }
+  if (Status status = check_scenario_memory(parameters); !status) return status.error();
   Result<Scene> scene = scenario_scene(static_cast<Scenario>(name.back() - '0'), parameters);
   if (!scene) {
     Error error = scene.error();

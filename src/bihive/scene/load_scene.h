@@ -15,8 +15,12 @@ namespace bihive {
 constexpr std::array<const char*, 5> kBuiltInScenes{"demo", "scenario1", "scenario2", "scenario3", "four-spheres"};
 bool is_built_in_scene(const std::string& name);
 
+/// Error: so many spheres do not fit this machine's memory.
+Status check_scenario_memory(const ScenarioParameters& parameters);
+
 /// One of kBuiltInScenes. The parameters are the scenarios', the options the demo's; others ignore them. Error: an
-/// unknown name (its message lists them), or parameters out of range.
+/// unknown name (its message lists them), or parameters out of range, or so many
+/// spheres that they do not fit.
 Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters = {},
                                    const ReadOptions& options = {});
 

@@ -1,9 +1,12 @@
 #include "bihive/viewer/scene_trees.h"
 
+#include "bihive/render/memory.h"
+
 namespace bihive {
 
 Result<const Tracer*> SceneTrees::wide() {
   if (!wide_) {
+    if (Status status = check_tree_memory(spheres_, Engine::wide, parameters_); !status) return status.error();
     Result<BuiltWideTree> built = build_wide_tree(spheres_, parameters_);
     if (!built) return built.error();
     built_ = std::move(*built);
@@ -14,6 +17,7 @@ Result<const Tracer*> SceneTrees::wide() {
 
 Result<const Tracer*> SceneTrees::reference() {
   if (!reference_) {
+    if (Status status = check_tree_memory(spheres_, Engine::reference, parameters_); !status) return status.error();
     Result<Tracer> built = Tracer::build(spheres_, Engine::reference, parameters_);
     if (!built) return built.error();
     reference_ = std::move(*built);

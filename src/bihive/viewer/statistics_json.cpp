@@ -97,4 +97,8 @@ std::string statistics_json(const ReferenceFacts& reference, const WideFacts& wi
   return json.dump(2);
 }
 
+std::string statistics_error(const Error& error) {
+  return ordered_json{{"error", error.to_string()}}.dump();
+}
+
 }  // namespace bihive

@@ -51,5 +51,7 @@ WideFacts wide_facts(const BuiltWideTree& built);
 
 /// One object over several lines, without a line break at the end. `seed`: of a generated scene.
 std::string statistics_json(const ReferenceFacts& reference, const WideFacts& wide, std::optional<std::uint64_t> seed);
+/// Why there are none: {"error": "..."}.
+std::string statistics_error(const Error& error);
 
 }  // namespace bihive

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bihive/base/check.h"
+#include "bihive/render/memory.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/viewer/gpu_pictures.h"
 #include "bihive/viewer/orbit.h"
@@ -175,6 +176,7 @@ class Viewer::Implementation {
 
   Status begin_picture(int width_px, int height_px, int samples_per_pixel) {
     if (!shown_) return bad_setting("there is no scene yet");
+    if (Status status = check_picture_memory(width_px, height_px); !status) return status;
 
     // What is on the way to the screen gives way.
     drop_picture();
@@ -214,9 +216,9 @@ class Viewer::Implementation {
   }
 
   std::string statistics_json() {
-    if (!shown_) return R"({"error": "there is no scene yet"})";
+    if (!shown_) return statistics_error(bad_setting("there is no scene yet"));
     const Result<std::string> json = shown_->trees->statistics(shown_->scene.seed);
-    return json ? *json : R"({"error": "not enough memory for the trees"})";
+    return json ? *json : statistics_error(json.error());
   }
 
  private:

@@ -1,0 +1,23 @@
+#include "bihive/render/memory.h"
+
+#include "bihive/base/memory.h"
+#include "bihive/base/readable.h"
+#include "bihive/bih/memory.h"
+#include "bihive/kernels/wide_builder.h"
+
+namespace bihive {
+
+Status check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters) {
+  if (engine == Engine::brute) return Done{};
+  const std::int64_t bytes = engine == Engine::reference
+                                 ? predict_tree_memory(spheres.size(), parameters.for_reference()).allocated_bytes.low
+                                 : predict_wide_memory(spheres.size(), parameters.for_wide(spheres.size())).low_bytes;
+  return check_memory(static_cast<double>(bytes), "the tree of " + grouped(spheres.size()) + " spheres");
+}
+
+Status check_picture_memory(int width_px, int height_px) {
+  const double pixels = static_cast<double>(width_px) * height_px;
+  return check_memory(pixels * (sizeof(Vec3f) + 2 * 3), "so large a picture");
+}
+
+}  // namespace bihive
