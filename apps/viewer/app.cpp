@@ -245,7 +245,7 @@ void App::on_wheel(double dy) {
 }
 
 void App::on_drop(std::vector<std::string> paths) {
-  if (paths.size() > 1) say("several files were dropped; the first is shown", false);
+  dropped_several_ = paths.size() > 1;
   if (!paths.empty()) file_to_open_ = std::move(paths.front());
 }
 
@@ -356,6 +356,8 @@ Status App::run() {
     if (!file_to_open_) continue;
     const std::string path = *std::exchange(file_to_open_, std::nullopt);
     open_file(path);
+    if (std::exchange(dropped_several_, false) && message_.empty())
+      say("several files were dropped; this is the first", false);
     wake();
   }
   return Done{};

@@ -67,6 +67,7 @@ class App {
   std::string message_;
   bool message_is_bad_ = false;
   std::optional<std::string> file_to_open_;
+  bool dropped_several_ = false;
   std::optional<std::string> asked_file_;  // being typed
   bool prompt_is_new_ = false;
   int frames_to_draw_ = 3;  // of the window, however little happens

@@ -9,30 +9,11 @@ import time
 import unittest
 
 from program import BIHIVE, ProgramTest, main, png_pixels, png_size, png_text
+from screen import Screen
 
 HAS_WINDOW = "BIHIVE_VIEW" in os.environ
 PANEL_PX = 348
 PANEL_COLOUR = (27, 29, 33)
-
-
-class Screen:
-    """An X server without a screen, on a number that is free."""
-
-    def __init__(self, *options):
-        read, write = os.pipe()
-        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-nolisten", "tcp", *options]
-        self.server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
-        os.close(write)
-        with os.fdopen(read) as number:
-            self.display = ":" + number.readline().strip()
-
-    def environment(self):
-        environment = {key: value for key, value in os.environ.items() if key != "WAYLAND_DISPLAY"}
-        return {**environment, "DISPLAY": self.display, "LIBGL_ALWAYS_SOFTWARE": "1"}
-
-    def end(self):
-        self.server.terminate()
-        self.server.wait()
 
 
 def share_off(a, b, tolerance):
@@ -123,6 +104,19 @@ class Window(ProgramTest):
         screen = Screen("-extension", "GLX")
         self.addCleanup(screen.end)
         self.assertIn("OpenGL 3.3", self.fail_with(3, "view", "demo", env=screen.environment()))
+
+    def test_fine_pixels(self):
+        """A screen of 192 dots an inch: twice the pixels, with letters and panel twice as large."""
+        screen = Screen(dpi=192)
+        self.addCleanup(screen.end)
+        arguments = ["view", "demo", "--size", "620x420", "--samples", "1", "--screenshot", "window.png"]
+        done = self.run_bihive(*arguments, env=screen.environment())
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        rows = png_pixels(self.read("window.png"))
+        self.assertEqual((len(rows[0]), len(rows)), (2 * 620, 2 * 420))
+        picture = [row[: -2 * PANEL_PX] for row in rows]
+        self.assertEqual(picture, self.rendered("544x840", "demo", "--samples", "1"))
+        self.assert_is_panel([row[-2 * PANEL_PX :] for row in rows])
 
     # --- Keys and pointer ---------------------------------------------------------------------------------------
 
@@ -226,6 +220,33 @@ class Window(ProgramTest):
         pair = self.saved()
         self.assertEqual((pair["scene"], pair["name"]), ("pair.csv", "pair.png"))
 
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=20), 0)
+
+
+    def title(self, expected):
+        """Waits until the window has that name."""
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline:
+            title = self.tool("getwindowname", self.window).strip()
+            if title == expected:
+                return
+            time.sleep(0.05)
+        self.fail(f"the window is called {title!r}, not {expected!r}")
+
+    def test_files_are_dropped(self):
+        self.write("pair of 100 %.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        self.write("broken.csv", "x,y,z\n1,2,what\n")
+        self.write("one.xyz", "1\n\nC 0 0 0\n")
+        self.open_window("four-spheres", "--size", "600x300", "--samples", "1")
+        self.screen.drop(self.window, [self.path("pair of 100 %.csv")])
+        self.title("pair of 100 %.csv - bihive")
+        self.assertEqual(self.saved()["scene"], self.path("pair of 100 %.csv"))
+        # What is wrong leaves the scene; of several files the first is shown.
+        self.screen.drop(self.window, [self.path("broken.csv")])
+        self.title("pair of 100 %.csv - bihive")
+        self.screen.drop(self.window, [self.path("one.xyz"), self.path("broken.csv")])
+        self.title("one.xyz - bihive")
         self.press("q")
         self.assertEqual(self.program.wait(timeout=20), 0)
 

@@ -1,0 +1,97 @@
+"""A screen for windows to open on (Xvfb), with what xdotool cannot do: how fine its pixels are, and files that are
+dragged onto a window and dropped there, by the protocol that file managers use (XDND, version 5)."""
+
+import os
+import pathlib
+import subprocess
+import time
+
+import Xlib.display
+import Xlib.protocol.event
+import Xlib.X
+import Xlib.Xatom
+
+
+class Screen:
+    """An X server on a number that is free."""
+
+    def __init__(self, *options, dpi=None):
+        read, write = os.pipe()
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-nolisten", "tcp", *options]
+        self.server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as number:
+            self.display = ":" + number.readline().strip()
+        # The server starts anew when its last client goes; this one stays.
+        self.client = Xlib.display.Display(self.display)
+        if dpi is not None:
+            # Where desktops leave what their user has chosen.
+            resources = f"Xft.dpi:\t{dpi}\n".encode()
+            self.root().change_property(Xlib.Xatom.RESOURCE_MANAGER, Xlib.Xatom.STRING, 8, resources)
+            self.client.sync()
+
+    def root(self):
+        return self.client.screen().root
+
+    def environment(self):
+        environment = {key: value for key, value in os.environ.items() if key != "WAYLAND_DISPLAY"}
+        return {**environment, "DISPLAY": self.display, "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+    def end(self):
+        self.client.close()
+        self.server.terminate()
+        self.server.wait()
+
+    def drop(self, window, paths):
+        """Drags these files onto a window and drops them; returns when the window has taken them."""
+        Drag(self.client, window).drop(paths)
+
+
+class Drag:
+    SECONDS = 20
+
+    def __init__(self, client, window):
+        self.client = client
+        self.target = client.create_resource_object("window", int(window))
+        self.source = client.screen().root.create_window(0, 0, 1, 1, 0, Xlib.X.CopyFromParent)
+
+    def atom(self, name):
+        return self.client.intern_atom(name)
+
+    def say(self, name, *words):
+        data = (32, [self.source.id, *words, *[0] * (4 - len(words))])
+        message = Xlib.protocol.event.ClientMessage(window=self.target, client_type=self.atom(name), data=data)
+        self.target.send_event(message)
+        self.client.flush()
+
+    def drop(self, paths):
+        uris = "".join(pathlib.Path(path).as_uri() + "\r\n" for path in paths).encode()
+        self.source.set_selection_owner(self.atom("XdndSelection"), Xlib.X.CurrentTime)
+        self.say("XdndEnter", 5 << 24, self.atom("text/uri-list"))
+        self.say("XdndPosition", 0, 50 << 16 | 50, Xlib.X.CurrentTime, self.atom("XdndActionCopy"))
+        status = self.answer("XdndStatus", uris)
+        assert status[1] & 1, "the window does not take files"
+        self.say("XdndDrop", 0, Xlib.X.CurrentTime)
+        self.answer("XdndFinished", uris)
+        self.source.destroy()
+        self.client.sync()
+
+    def answer(self, name, uris):
+        """The words of the window's next message of that name; hands over the names of the files when they are asked for."""
+        deadline = time.monotonic() + self.SECONDS
+        while time.monotonic() < deadline:
+            if not self.client.pending_events():
+                time.sleep(0.01)
+                continue
+            event = self.client.next_event()
+            if event.type == Xlib.X.SelectionRequest:
+                self.hand_over(event, uris)
+            elif event.type == Xlib.X.ClientMessage and event.client_type == self.atom(name):
+                return event.data[1]
+        raise AssertionError(f"no {name} from the window")
+
+    def hand_over(self, request, uris):
+        request.requestor.change_property(request.property, request.target, 8, uris)
+        words = {name: getattr(request, name) for name in ("time", "requestor", "selection", "target", "property")}
+        request.requestor.send_event(Xlib.protocol.event.SelectionNotify(**words))
+        self.client.flush()
