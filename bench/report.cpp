@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bihive/base/readable.h"
 #include "bihive/base/version.h"
-#include "messages.h"
 
 namespace bihive::bench {
 namespace {
@@ -93,7 +93,7 @@ std::string text_report(const Measured& measured, const BenchOptions& options) {
   const BuildResult& build = measured.build;
   const bool peer = options.embree;
   std::string text = fmt::format("{}: {} spheres, {} thread{}, {}\n", measured.description,
-                                 cli::grouped(measured.spheres), options.threads, options.threads == 1 ? "" : "s",
+                                 grouped(measured.spheres), options.threads, options.threads == 1 ? "" : "s",
                                  measured.target);
   text += fmt::format("{:<16}{:>10}{:>14}", "", "rays", "bihive");
   if (peer) text += fmt::format("{:>14}{:>9}   {}", "Embree " + measured.peer_version, "ratio", "its mode");
@@ -114,7 +114,7 @@ std::string text_report(const Measured& measured, const BenchOptions& options) {
       build.peer_bytes_per_sphere / build.bytes_per_sphere, "B", "a sphere");
   std::int64_t wrong = 0, peer_wrong = 0;
   for (const KindResult& kind : measured.kinds) {
-    const std::string rays = cli::grouped(kind.rays);
+    const std::string rays = grouped(kind.rays);
     if (kind.rays == 0) continue;
     row(std::string(kind.facts.name), rays, kind.mray_per_s(), kind.peer_mray_per_s(), kind.peer_ms / kind.ms, "M/s",
         kind.peer_mode);
