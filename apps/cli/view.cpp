@@ -70,9 +70,10 @@ void run_view(const ViewOptions& options) {
   const int reason = beside.empty() ? ENOENT : errno;
   if (reason == ENOENT) execlp(kProgram, kProgram, request.c_str(), static_cast<char*>(nullptr));
   if (errno != ENOENT) throw Failure{kEnvironment, {std::string(std::strerror(errno)), beside, 0, 0, ""}};
-  throw Failure{kEnvironment,
-                {"the program with the window, bihive-view, is not installed", "", 0, 0,
-                 "it is built where GLFW and Dear ImGui are: scripts/setup view, then build again"}};
+  throw Failure{
+      kEnvironment,
+      {"the program with the window, bihive-view, is not installed", "", 0, 0,
+       "it is built where GLFW and Dear ImGui are: scripts/setup view, then make demo, or configure and build again"}};
 }
 
 }  // namespace bihive::cli
