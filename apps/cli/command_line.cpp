@@ -287,6 +287,9 @@ Request parse_command_line(int argc, const char* const* argv) {
     for (const CLI::App* command : app.get_subcommands()) return HelpText{command->help("bihive"), true};
     return HelpText{app.help(), true};
   } catch (const CLI::ParseError& error) {
+    const std::string first = argc > 1 ? argv[1] : "";
+    if (app.get_subcommands().empty() && !first.empty() && first.front() != '-')
+      fail_usage("there is no command '" + first + "'", "see bihive --help");
     std::string command = "bihive";
     for (const CLI::App* called : app.get_subcommands()) command += " " + called->get_name();
     // CLI11 speaks of "At Most 1 required" where an option is repeated.

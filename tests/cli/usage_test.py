@@ -66,6 +66,7 @@ class WrongUsage(ProgramTest):
         self.assertIn("paint", self.fail_usage("paint"))
         self.assertIn("--paint", self.render("--paint"))
         self.assertIn("extra", self.render("extra"))
+        self.assertIn("there is no command 'veiw'", self.fail_usage("veiw", "demo"))
 
     def test_what_is_required(self):
         self.assertIn("INPUT", self.fail_usage("render"))
