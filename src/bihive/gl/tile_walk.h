@@ -7,7 +7,8 @@
 
 namespace bihive {
 
-/// Learns from draw to draw how long a block takes, and keeps that from pass to pass and from picture to picture.
+/// Learns from draw to draw how long a block takes, and and how long any draw takes, however little it
+/// draws; keeps that from pass to pass and from picture to picture.
 class TileWalk {
  public:
   static constexpr int kBlockPx = 32;
@@ -28,8 +29,10 @@ class TileWalk {
 
   /// The next tile: some blocks of one row, or whole rows. It should take about `wanted_ms`.
   Tile next(double wanted_ms) {
+    // What any draw takes is not in vain if the blocks take as long, or all of what is wanted.
+    const double work_ms = std::max(wanted_ms - fixed_ms_, std::min(fixed_ms_, wanted_ms));
     // At most four times as many as the last time: behind an empty sky may come what takes seconds.
-    planned_ = block_ms_ > 0 ? std::min({wanted_ms / block_ms_, 4 * planned_, 1e6}) : kFirstBlocks;
+    planned_ = block_ms_ > 0 ? std::min({work_ms / block_ms_, 4 * planned_, 1e6}) : kFirstBlocks;
     const int column = next_ % columns_, row = next_ / columns_;
     planned_ = std::max(planned_, 1.0);
     int count = static_cast<int>(planned_);
@@ -46,18 +49,23 @@ class TileWalk {
             std::min(y1 * kBlockPx, height_)};
   }
 
-  /// How long the last tile took. One that was cheaper than those before is believed by half only.
+  /// How long the last tile took. Blocks cheaper than those before are believed by half only.
   void took(double ms) {
-    const double now = std::max(ms, 1e-3) / std::max(drawn_, 1);
+    // A draw takes no less than the quickest ones lately, most of which may be what any draw takes: waiting for a
+    // processor that is far away.
+    const double most_fixed_ms = kMostFixed * std::max(ms, 1e-3);
+    fixed_ms_ = block_ms_ > 0 ? std::min(kForget * fixed_ms_, most_fixed_ms) : most_fixed_ms;
+    const double now = (std::max(ms, 1e-3) - fixed_ms_) / std::max(drawn_, 1);
     block_ms_ = now > block_ms_ ? now : 0.5 * (block_ms_ + now);
   }
 
  private:
   static constexpr double kFirstBlocks = 2;
+  static constexpr double kMostFixed = 0.75, kForget = 1.02;
 
   int width_ = 0, height_ = 0, columns_ = 1, rows_ = 0;
   int next_ = 0, drawn_ = 0;
-  double block_ms_ = 0, planned_ = kFirstBlocks;
+  double fixed_ms_ = 0, block_ms_ = 0, planned_ = kFirstBlocks;
 };
 
 }  // namespace bihive
