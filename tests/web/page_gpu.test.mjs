@@ -169,6 +169,13 @@ test('without WebGL2 the CPU draws, and the page says why', async () => {
   }
 });
 
+async function begin_large_picture(page) {
+  await page.fill('#save_width', '4000');
+  await page.fill('#save_height', '4000');
+  await page.click('#save');
+  await page.waitForFunction(() => document.querySelector('#busy_bar').value > 0 && !document.querySelector('#busy').hidden);
+}
+
 test('a context that is lost comes back with the picture', async () => {
   const { page, context, complaints } = await open_page(browser, server.url);
   await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
@@ -179,6 +186,13 @@ test('a context that is lost comes back with the picture', async () => {
     page.workers().map(async (worker) => ((await worker.evaluate(() => !!self.caught_context)) ? worker : null)),
   );
   const worker = workers.find(Boolean);
+
+  // A picture to be saved that is cancelled, and one that is lost with the context.
+  await begin_large_picture(page);
+  await page.click('#save_cancel');
+  await page.waitForSelector('#save:not([hidden])');
+  assert.equal(await page.locator('#errors .message').count(), 0);
+  await begin_large_picture(page);
   await page.evaluate(() => (document.getElementById('picture').dataset.settled = 'false'));
   await worker.evaluate(() => {
     self.losing = self.caught_context.getExtension('WEBGL_lose_context');
@@ -186,12 +200,14 @@ test('a context that is lost comes back with the picture', async () => {
   });
   await page.waitForFunction(() => /took the graphics processor away/.test(document.querySelector('#messages').textContent));
   await page.waitForSelector('#cpu_canvas:not([hidden])');
+  assert.match(await shown_error(page), /before the picture was complete/);
+  await page.waitForSelector('#save:not([hidden])');
   await worker.evaluate(() => self.losing.restoreContext());
   await page.waitForFunction(() => /is back/.test(document.querySelector('#messages').textContent));
   await page.waitForSelector('#gpu_canvas:not([hidden])');
   await settled(page);
   assert.equal((await link_state(page)).settings.engine, 'gpu');
-  await page.evaluate(() => document.getElementById('messages').replaceChildren());
+  await page.evaluate(() => document.querySelectorAll('.message button').forEach((button) => button.click()));
   assert.ok((await compare(page, before, await look(), 2)).share < 0.01);
   no_complaints(complaints);
   await context.close();

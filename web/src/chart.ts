@@ -20,20 +20,42 @@ function with_looks(chart: SVGSVGElement): SVGSVGElement {
   return copy;
 }
 
-/** All charts, one below the other, under a heading; `width` in pixels. */
-export async function charts_as_png(charts: SVGSVGElement[], heading: string, width: number): Promise<Blob> {
-  const margin = 24, heading_height = 60;
+// Words in lines that are no wider than `width`, except for a word that is.
+function lines_of(context: CanvasRenderingContext2D, text: string, width: number): string[] {
+  const lines: string[] = [];
+  for (const word of text.split(' ')) {
+    const longer = lines.length > 0 ? `${lines[lines.length - 1]} ${word}` : word;
+    if (lines.length > 0 && context.measureText(longer).width <= width) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
+/** All charts, one below the other, under a heading and a smaller line about it; `width` in pixels. */
+export async function charts_as_png(
+  charts: SVGSVGElement[],
+  heading: string,
+  about: string,
+  width: number,
+): Promise<Blob> {
+  const margin = 24, line_height = 26;
   const heights = charts.map((chart) => (width - 2 * margin) * (chart.viewBox.baseVal.height / chart.viewBox.baseVal.width));
   const canvas = document.createElement('canvas');
-  canvas.width = width;
-  canvas.height = Math.ceil(heading_height + heights.reduce((sum, height) => sum + height + margin, 0));
   const context = canvas.getContext('2d')!;
+  const about_font = '18px system-ui, sans-serif';
+  context.font = about_font;
+  const lines = lines_of(context, about, width - 2 * margin);
+  const heading_height = 66 + line_height * lines.length;
+  canvas.width = width; // forgets the font
+  canvas.height = Math.ceil(heading_height + heights.reduce((sum, height) => sum + height + margin, 0));
   const style = getComputedStyle(document.body);
   context.fillStyle = style.backgroundColor;
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.fillStyle = style.color;
-  context.font = '20px system-ui, sans-serif';
-  context.fillText(heading, margin, 38, width - 2 * margin);
+  context.font = '600 24px system-ui, sans-serif';
+  context.fillText(heading, margin, 44);
+  context.font = about_font;
+  lines.forEach((line, i) => context.fillText(line, margin, 74 + line_height * i));
   let y = heading_height;
   for (const [i, chart] of charts.entries()) {
     const copy = with_looks(chart);

@@ -95,8 +95,8 @@ export class ThesisDialog {
   private async save_png(): Promise<void> {
     try {
       const { engine, device } = JSON.parse(this.result) as { engine: string; device: string };
-      const heading = `bihive, Figure 4.4, ${engine.toUpperCase()}: ${device}`;
-      save(await charts_as_png(this.charts, heading, png_width), 'bihive-figure-4.4.png');
+      const heading = `bihive: Figure 4.4 by the ${engine.toUpperCase()} engine`;
+      save(await charts_as_png(this.charts, heading, device, png_width), 'bihive-figure-4.4.png');
     } catch (error) {
       fail((error as Error).message);
     }

@@ -6,6 +6,7 @@ import { PictureRun } from './picture_run';
 import type { Answer, Facts, FrameReport, Move, Request, Settings, ThesisProgress } from './protocol';
 
 const frame_budget_ms = 25;
+const picture_lost = 'The browser took the graphics processor away before the picture was complete';
 
 let module: Module;
 let page: Page;
@@ -20,7 +21,6 @@ let serial = 0; // of the last request in wanted_changes
 let moves: Move[] = [];
 let statistics_wanted = false;
 let frame_pending = false;
-let gl_lost = false;
 let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
 let saving: PictureRun | null = null;
@@ -64,12 +64,10 @@ function ensure_gl(): void {
 
 // The C++ side goes on with the CPU engine.
 function on_lost(): void {
-  gl_lost = true;
   if (thesis) thesis.cancelled = true;
   if (gl_description === '') return;
   gpu_again = settings().engine === 'gpu';
-  if (gpu_again)
-    saving?.cancel(new BadInput('The browser took the graphics processor away before the picture was complete'));
+  if (gpu_again) saving?.cancel(new BadInput(picture_lost));
   page.detach_gl(true);
   gl_description = '';
   send({ type: 'note', message: 'The browser took the graphics processor away; the CPU goes on until it is back.' });
@@ -77,7 +75,6 @@ function on_lost(): void {
 }
 
 function on_restored(): void {
-  gl_lost = false;
   void attempt(null, () => {
     if (!gpu_again) return;
     ensure_gl();
@@ -140,6 +137,18 @@ function show_gpu_image(): void {
   page.show(size_px.width, size_px.height);
 }
 
+// Its context is lost, though the event may still be on its way.
+const on_lost_gpu = ({ engine }: Settings) => engine === 'gpu' && !gl.here;
+
+function report_or_loss(now: Settings): FrameReport | null {
+  try {
+    return value_of<FrameReport>(page.frame(frame_budget_ms));
+  } catch (error) {
+    if (on_lost_gpu(now)) return null;
+    throw error;
+  }
+}
+
 async function next_frame(): Promise<void> {
   frame_pending = false;
   if (thesis || saving) return;
@@ -149,8 +158,9 @@ async function next_frame(): Promise<void> {
   });
   await attempt(null, () => {
     const now = settings();
-    if (now.engine === 'gpu' && gl_lost) return; // the event is on its way
-    const report = value_of<FrameReport>(page.frame(frame_budget_ms));
+    if (on_lost_gpu(now)) return;
+    const report = report_or_loss(now);
+    if (!report) return;
     if (report.drawn) {
       if (now.engine === 'gpu') show_gpu_image();
       else show_cpu_image();
@@ -223,6 +233,8 @@ async function picture(request: Request & { type: 'picture' }): Promise<void> {
   try {
     const { samples_per_pixel } = settings();
     send({ type: 'picture', picture: await saving.draw({ ...request, samples_per_pixel }) });
+  } catch (error) {
+    throw on_lost_gpu(settings()) ? new BadInput(picture_lost) : error;
   } finally {
     saving = null;
     ask_for_frame();

@@ -163,7 +163,7 @@ class Chart {
     if (tilted_)
       left_ = std::max(left_, kCharacter * 0.87 * static_cast<double>(data_.categories.front().size()) - slot() / 2);
     bottom_ = top_ + kPlotHeight;
-    height_ = bottom_ + (tilted_ ? 8 + kCharacter * 0.5 * static_cast<double>(longest) : kLine) + kLine + 10;
+    height_ = bottom_ + (tilted_ ? kLine + kCharacter * 0.5 * static_cast<double>(longest) : kLine) + kLine + 10;
   }
 
   std::string bars() const {
