@@ -16,6 +16,14 @@ function time_left(seconds: number): string {
   return seconds < 90 ? `about ${Math.max(1, Math.round(seconds))} s left` : `about ${Math.round(seconds / 60)} min left`;
 }
 
+interface PictureSize {
+  width_px: number;
+  height_px: number;
+}
+
+// A quick run's frame rates are those of small pictures: it is said beside them.
+const pixels = ({ width_px, height_px }: PictureSize) => `pictures of ${width_px} × ${height_px}`;
+
 export class ThesisDialog {
   private readonly dialog = element<HTMLDialogElement>('thesis');
   private readonly quick = element<HTMLInputElement>('thesis_quick');
@@ -81,7 +89,7 @@ export class ThesisDialog {
     this.json.hidden = this.png.hidden = this.charts.length === 0;
     this.bar.value = cancelled ? this.bar.value : 1;
     this.text.textContent = !cancelled
-      ? 'All configurations are measured.'
+      ? `All configurations are measured, ${pixels(JSON.parse(result) as PictureSize)}.`
       : this.charts.length > 0
         ? 'Cancelled; what was complete is below.'
         : 'Cancelled before a configuration was complete.';
@@ -94,8 +102,8 @@ export class ThesisDialog {
 
   private async save_png(): Promise<void> {
     try {
-      const { engine, device } = JSON.parse(this.result) as { engine: string; device: string };
-      const heading = `bihive: Figure 4.4 by the ${engine.toUpperCase()} engine`;
+      const { engine, device, ...size } = JSON.parse(this.result) as { engine: string; device: string } & PictureSize;
+      const heading = `bihive: Figure 4.4 by the ${engine.toUpperCase()} engine, ${pixels(size)}`;
       save(await charts_as_png(this.charts, heading, device, png_width), 'bihive-figure-4.4.png');
     } catch (error) {
       fail((error as Error).message);
