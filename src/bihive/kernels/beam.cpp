@@ -62,12 +62,12 @@ void closest_hits_beams_on_target(const WideTree& tree, const RaySpan& rays, con
 // Blocks of a call after which its beams are judged.
 constexpr std::int64_t kTrialBlocks = 16;
 
-void occluded_beams_on_target(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
-  OcclusionBeam beam(tree, rays, hidden);
+void occluded_beams_on_target(const WideTree& tree, const RaySpan& rays, bool sorted, std::uint8_t* hidden) {
+  OcclusionBeam beam(tree, rays, sorted, hidden);
   LeftoverRays leftover(rays);
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
     // Where beams give most of their rays back, the lists do better with all of them in their order.
-    if (first == kTrialBlocks * kBeamRays && leftover.count() > first / 3) {
+    if (!sorted && first == kTrialBlocks * kBeamRays && leftover.count() > first / 3) {
       leftover.add(first, rays.count - first);
       break;
     }
@@ -79,7 +79,7 @@ void occluded_beams_on_target(const WideTree& tree, const RaySpan& rays, std::ui
     }
   }
   beam.flush();
-  leftover.occluded(tree, hidden);
+  leftover.occluded(tree, sorted, hidden);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -115,7 +115,16 @@ void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan
 void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   ensure_target();
   if (for_beams(tree, rays)) {
-    HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, hidden);
+    HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, false, hidden);
+  } else {
+    occluded_lists(tree, rays, hidden);
+  }
+}
+
+void occluded_sorted_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+  ensure_target();
+  if (for_beams(tree, rays)) {
+    HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, true, hidden);
   } else {
     occluded_lists(tree, rays, hidden);
   }

@@ -12,5 +12,7 @@ namespace bihive::kernels {
 /// Any rays may come; only blocks (counted from the first ray) that are close in origin and direction are fast.
 void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
 void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+/// Of rays in the order of kernels/converging_rays.h.
+void occluded_sorted_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
 
 }  // namespace bihive::kernels

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bihive/kernels/converging_rays.h"
 #include "bihive/kernels/lists.h"
 
 namespace bihive {
@@ -35,9 +36,10 @@ struct Tile {
   }
 };
 
-Tile& tile_of_thread() {
-  static thread_local Tile tile;
-  return tile;
+// While a tile is answered, some of its rays can be left over once more.
+Tile& tile_of_thread(bool again = false) {
+  static thread_local Tile tiles[2];
+  return tiles[again ? 1 : 0];
 }
 
 }  // namespace
@@ -60,9 +62,8 @@ float leaf_extent(const WideTree& tree) {
   return count > 0 ? sum / static_cast<float>(count) : 0;
 }
 
-template <class Direct, class Copied>
-void LeftoverRays::in_tiles(const Direct& direct, const Copied& copied) const {
-  Tile& tile = tile_of_thread();
+template <class Tile, class Direct, class Copied>
+void LeftoverRays::in_tiles(Tile& tile, const Direct& direct, const Copied& copied) const {
   tile.begin();
   std::vector<Run> in_tile;
   const auto finish = [&] {
@@ -83,12 +84,13 @@ void LeftoverRays::in_tiles(const Direct& direct, const Copied& copied) const {
 }
 
 void LeftoverRays::closest_hits(const WideTree& tree, const HitSpan& hits) const {
+  Tile& tile = tile_of_thread();
   in_tiles(
+      tile,
       [&](const Run& run) {
         kernels::closest_hits_lists(tree, rays_.part(run.first, run.count), hits.part(run.first));
       },
       [&](const std::vector<Run>& runs) {
-        Tile& tile = tile_of_thread();
         tile.hits.resize(tile.rays.size());
         kernels::closest_hits_lists(tree, tile.rays.span(), tile.hits.span());
         std::int64_t from = 0;
@@ -100,18 +102,20 @@ void LeftoverRays::closest_hits(const WideTree& tree, const HitSpan& hits) const
       });
 }
 
-void LeftoverRays::occluded(const WideTree& tree, std::uint8_t* hidden) const {
-  in_tiles([&](const Run& run) { kernels::occluded_lists(tree, rays_.part(run.first, run.count), hidden + run.first); },
-           [&](const std::vector<Run>& runs) {
-             Tile& tile = tile_of_thread();
-             tile.hidden.resize(static_cast<std::size_t>(tile.rays.size()));
-             kernels::occluded_lists(tree, tile.rays.span(), tile.hidden.data());
-             std::int64_t from = 0;
-             for (const Run& run : runs) {
-               std::copy_n(tile.hidden.data() + from, run.count, hidden + run.first);
-               from += run.count;
-             }
-           });
+void LeftoverRays::occluded(const WideTree& tree, bool sorted, std::uint8_t* hidden) const {
+  const auto answer = sorted ? kernels::occluded_lists : kernels::occluded_any;
+  Tile& tile = tile_of_thread(sorted);
+  in_tiles(
+      tile, [&](const Run& run) { answer(tree, rays_.part(run.first, run.count), hidden + run.first); },
+      [&](const std::vector<Run>& runs) {
+        tile.hidden.resize(static_cast<std::size_t>(tile.rays.size()));
+        answer(tree, tile.rays.span(), tile.hidden.data());
+        std::int64_t from = 0;
+        for (const Run& run : runs) {
+          std::copy_n(tile.hidden.data() + from, run.count, hidden + run.first);
+          from += run.count;
+        }
+      });
 }
 
 }  // namespace bihive

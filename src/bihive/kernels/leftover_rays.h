@@ -29,14 +29,15 @@ class LeftoverRays {
   std::int64_t count() const { return count_; }
 
   void closest_hits(const WideTree& tree, const HitSpan& hits) const;
-  void occluded(const WideTree& tree, std::uint8_t* hidden) const;
+  /// sorted: the rays are in the best order already.
+  void occluded(const WideTree& tree, bool sorted, std::uint8_t* hidden) const;
 
  private:
   struct Run {
     std::int64_t first, count;
   };
-  template <class Direct, class Copied>
-  void in_tiles(const Direct& direct, const Copied& copied) const;
+  template <class Tile, class Direct, class Copied>
+  void in_tiles(Tile& tile, const Direct& direct, const Copied& copied) const;
 
   RaySpan rays_;
   std::vector<Run> runs_;

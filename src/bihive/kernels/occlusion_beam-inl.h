@@ -83,6 +83,9 @@ class Occluders {
 /// flat from 0.7 to 4 on small scenes, the second loses above 2 on large ones.
 constexpr float kWidestInLeaves = 1;
 constexpr float kWidestPartInLeaves = 1.5F;
+/// Of sorted rays, which start at many depths, so that each sphere is in the way of few.
+constexpr float kWidestSortedInLeaves = 0.5F;
+constexpr float kWidestSortedPartInLeaves = 0.4F;
 /// Groups of fewer rays are left to ray lists; after some of them so are all rays.
 constexpr int kFewestOfGroup = 4;
 constexpr int kMostSmallGroups = 4;
@@ -90,11 +93,16 @@ constexpr int kMostSmallGroups = 4;
 /// Rays of a block and what hides them.
 class OcclusionBeam {
  public:
-  OcclusionBeam(const WideTree& tree, const RaySpan& span, std::uint8_t* hidden)
-      : tree_(tree), has_leaves_(span.leaves != nullptr), hidden_(hidden), doubts_(tree, span, hidden) {
+  /// sorted: neighbours start on any surfaces.
+  OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, std::uint8_t* hidden)
+      : tree_(tree),
+        has_leaves_(span.leaves != nullptr),
+        sorted_(sorted),
+        hidden_(hidden),
+        doubts_(tree, span, hidden) {
     const float leaf = leaf_extent(tree);
-    width_limit_ = kWidestInLeaves * leaf;
-    part_width_limit_ = kWidestPartInLeaves * leaf;
+    width_limit_ = (sorted ? kWidestSortedInLeaves : kWidestInLeaves) * leaf;
+    part_width_limit_ = (sorted ? kWidestSortedPartInLeaves : kWidestPartInLeaves) * leaf;
   }
 
   /// The rays of the next block go here, by set_up_beam(), before block().
@@ -123,7 +131,7 @@ class OcclusionBeam {
       make_frustum<kBeamRays>(tree_, rays, 0, frustum);
     }
     if (frustum.width > width_limit_) {
-      if (has_leaves_) {
+      if (has_leaves_ && !sorted_) {
         trace_groups(leftover);
       } else {
         trace_parts(leftover);
@@ -183,7 +191,7 @@ class OcclusionBeam {
   }
 
   const WideTree& tree_;
-  bool has_leaves_;
+  bool has_leaves_, sorted_;
   std::uint8_t* hidden_;
   std::int64_t first_ray_ = 0;
   float width_limit_, part_width_limit_;

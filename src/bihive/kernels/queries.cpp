@@ -1,6 +1,7 @@
 #include "bihive/kernels/queries.h"
 
 #include "bihive/kernels/beam.h"
+#include "bihive/kernels/converging_rays.h"
 #include "bihive/kernels/lists.h"
 #include "bihive/kernels/single.h"
 
@@ -26,7 +27,7 @@ void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::ui
   if (order == RayOrder::blocks) {
     kernels::occluded_beams(tree, rays, hidden);
   } else {
-    kernels::occluded_lists(tree, rays, hidden);
+    kernels::occluded_any(tree, rays, hidden);
   }
 }
 

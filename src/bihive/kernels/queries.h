@@ -27,7 +27,9 @@ enum class RayOrder { blocks, any };
 /// spheres) to 440 ns a ray (random rays, a million spheres): docs/performance.md.
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits);
 
-/// Is anything hit? 1 or 0 of ray i to hidden[i].
+/// Is anything hit? 1 or 0 of ray i to hidden[i]. Rays that lead to one point at t = 1, as shadow rays to a light do,
+/// are recognised in either order and sorted by where they come from, up to 262144 at a time: where there are
+/// thousands, that is up to twice as fast as other rays.
 void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden);
 
 /// One ray: for code that has no more at a time.

@@ -1,0 +1,21 @@
+// Rays that lead to one point, as shadow rays to a light do. Whichever surfaces they leave, those that are neighbours
+// seen from that point stay close together on their whole way: sorted so, they make narrow beams.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/kernels/ray_batch.h"
+#include "bihive/kernels/wide_tree.h"
+
+namespace bihive::kernels {
+
+/// Do all rays lead to one point at t = 1, nearly? False for few rays, with which sorting does not pay.
+bool converge(const RaySpan& rays);
+
+/// occluded() of rays that converge: sorted, and as beams.
+void occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+
+/// occluded() of rays in any order: that, if they converge, else lists.
+void occluded_any(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+
+}  // namespace bihive::kernels

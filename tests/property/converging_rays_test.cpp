@@ -1,0 +1,159 @@
+// Rays that lead to one light from surfaces everywhere get the reference traversal's answers on every target, and the
+// way that is made for them is the one that they take.
+#include "bihive/kernels/converging_rays.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/traversal.h"
+#include "bihive/kernels/beam.h"
+#include "bihive/kernels/queries.h"
+#include "bihive/kernels/target.h"
+#include "bihive/kernels/wide_builder.h"
+#include "support/edge_rays.h"
+#include "support/hostile_sets.h"
+#include "support/scenes.h"
+
+namespace bihive {
+namespace {
+
+constexpr int kRays = 2563;  // not a multiple of anything
+
+struct Box {
+  Vec3d middle;
+  double size = 1e-300;
+};
+
+Box box_of(const test::World& world) {
+  Vec3d lo{1e300, 1e300, 1e300};
+  Vec3d hi = lo * -1;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const double c[3] = {double(world.x[i]), double(world.y[i]), double(world.z[i])};
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = std::min(lo[axis], c[axis] - double(world.r[i]));
+      hi[axis] = std::max(hi[axis], c[axis] + double(world.r[i]));
+    }
+  }
+  return {(lo + hi) * 0.5, std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z, 1e-300})};
+}
+
+Vec3d unit(SplitMix64& rng) {
+  for (;;) {
+    const Vec3d v{test::uniform(rng, -1, 1), test::uniform(rng, -1, 1), test::uniform(rng, -1, 1)};
+    if (dot(v, v) <= 1 && dot(v, v) > 1e-4) return normalized(v);
+  }
+}
+
+// Far away, beside the set, in its middle (so that directions go everywhere), in the middle of a sphere.
+Vec3d some_light(const test::World& world, const Box& box, int which, SplitMix64& rng) {
+  switch (which) {
+    case 0:
+      return box.middle + unit(rng) * (box.size * 100);
+    case 1:
+      return box.middle + unit(rng) * (box.size * test::uniform(rng, 0.3, 2));
+    case 2:
+      return box.middle;
+    default: {
+      const auto i = static_cast<std::size_t>(rng.next_below(world.size()));
+      return {double(world.x[i]), double(world.y[i]), double(world.z[i])};
+    }
+  }
+}
+
+// From surfaces, some of them inward, some from nowhere, a few up to elsewhere than the light.
+RayBatch rays_to(Vec3d light, const test::World& world, const Box& box, bool plain, SplitMix64& rng) {
+  RayBatch rays;
+  for (int i = 0; i < kRays; ++i) {
+    const auto sphere = static_cast<std::size_t>(rng.next_below(world.size()));
+    const Vec3d centre{double(world.x[sphere]), double(world.y[sphere]), double(world.z[sphere])};
+    Ray ray;
+    ray.origin = to_float(centre + unit(rng) * double(world.r[sphere]));
+    ray.leaves = static_cast<std::int64_t>(sphere);
+    ray.t_max = 1;
+    if (!plain) {
+      ray.inside = rng.next_below(8) == 0;
+      if (rng.next_below(8) == 0) {
+        ray.origin = to_float(box.middle + unit(rng) * box.size);
+        ray.leaves = kNothing;
+        ray.inside = false;
+      }
+      if (rng.next_below(64) == 0) ray.origin = to_float(light);
+      if (rng.next_below(16) == 0) ray.t_max = test::uniform(rng, -0.1, 1.5);
+    }
+    ray.direction = to_float(light - to_double(ray.origin));
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+void check(const std::string& what, const WideTree& tree, const RayBatch& batch,
+           const std::vector<std::uint8_t>& expected) {
+  const RaySpan rays = batch.span();
+  const auto same = [&](const char* how, const auto& ask) {
+    std::vector<std::uint8_t> hidden(expected.size(), 2);
+    ask(hidden.data());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      ASSERT_EQ(hidden[i], expected[i]) << what << ", " << how << ", " << active_target() << ", ray " << i << ": "
+                                        << test::text_of(rays.at(static_cast<std::int64_t>(i)));
+  };
+  for (const std::string& target : available_targets()) {
+    ASSERT_TRUE(use_target(target).ok());
+    same("any order", [&](std::uint8_t* hidden) { occluded(tree, rays, RayOrder::any, hidden); });
+    same("blocks", [&](std::uint8_t* hidden) { occluded(tree, rays, RayOrder::blocks, hidden); });
+    // Beams also where nobody would choose them, and with neighbours that are none.
+    same("unsorted", [&](std::uint8_t* hidden) { kernels::occluded_sorted_beams(tree, rays, hidden); });
+    if (testing::Test::HasFatalFailure()) return;
+  }
+  ASSERT_TRUE(use_target("").ok());
+}
+
+TEST(ConvergingRays, AreAnsweredAsByTheReference) {
+  std::vector<test::World> worlds = test::degenerate_worlds();
+  for (test::World& world : test::hostile_worlds(2000, 2000)) worlds.push_back(std::move(world));
+  worlds.push_back(test::random_world("dense", 61, 3000, 5, 0.2, 1.0));
+  worlds.push_back(test::random_world("one radius", 62, 4000, 20, 1, 1));
+  SplitMix64 rng(63);
+  for (const test::World& world : worlds) {
+    if (world.size() == 0) continue;
+    const SphereSet spheres = test::sphere_set(world);
+    const Tree reference = build_reference_tree(spheres, {8, kUnlimited});
+    WideBuilder builder;
+    const auto tree = builder.build(spheres);
+    ASSERT_TRUE(tree.ok());
+    const Box box = box_of(world);
+    for (int which = 0; which < 4; ++which) {
+      const Vec3d light = some_light(world, box, which, rng);
+      const RayBatch rays = rays_to(light, world, box, which % 2 == 0, rng);
+      std::vector<std::uint8_t> expected;
+      for (std::int64_t i = 0; i < rays.size(); ++i)
+        expected.push_back(occluded(reference, spheres, rays.span().at(i)) ? 1 : 0);
+      check(world.name + ", light " + std::to_string(which), **tree, rays, expected);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(ConvergingRays, AreKnownAsSuch) {
+  const test::World world = test::random_world("one radius", 64, 4000, 20, 1, 1);
+  const Box box = box_of(world);
+  SplitMix64 rng(65);
+  RayBatch rays = rays_to(some_light(world, box, 1, rng), world, box, true, rng);
+  EXPECT_TRUE(kernels::converge(rays.span()));
+  EXPECT_FALSE(kernels::converge(rays.span().part(0, 100)));  // sorting would not pay
+  EXPECT_FALSE(kernels::converge({}));
+
+  // One that leads elsewhere is enough, wherever it is.
+  rays.direction[1][2001] += 1;
+  EXPECT_FALSE(kernels::converge(rays.span()));
+  rays.direction[1][2001] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(kernels::converge(rays.span()));
+}
+
+}  // namespace
+}  // namespace bihive
