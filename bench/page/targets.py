@@ -25,7 +25,7 @@ _COLUMN = {"primary": 0, "random": 1, "shadow": 2, "mirror1": 3, "mirror2": 3, "
 _COLUMN.update({"mirror_shadow2": 4, "mirror_shadow3": 4})
 
 BYTES = (19, 16.5)  # a sphere, at most
-AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4}
+AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4, "mirror2": 1.4, "mirror3": 1.4}
 PICTURE = (4, 8)  # times as fast as Tachyon
 THESIS_FPS = (240, 500)
 WASM = 4  # times the native time, at most
