@@ -15,18 +15,24 @@ export function start_panel(): void {
   set_open(!narrow.matches);
   // A finger on the sheet's handle opens and closes it too.
   let from_y: number | null = null;
-  toggle.addEventListener('pointerdown', (event) => (from_y = event.clientY));
+  let dragged = false;
+  toggle.addEventListener('pointerdown', (event) => {
+    from_y = event.clientY;
+    dragged = false;
+  });
   toggle.addEventListener('pointermove', (event) => {
     if (from_y === null || !narrow.matches || Math.abs(event.clientY - from_y) < 24) return;
     set_open(event.clientY < from_y);
     from_y = null;
+    dragged = true;
   });
-  // The click that ends a drag is none.
+  // The click that ends a drag is none. One that comes without a finger's down is.
   toggle.addEventListener(
     'click',
     (event) => {
-      if (from_y === null && event.detail > 0) event.stopImmediatePropagation();
+      if (dragged && event.detail > 0) event.stopImmediatePropagation();
       from_y = null;
+      dragged = false;
     },
     { capture: true },
   );
