@@ -101,6 +101,15 @@ bool for_beams(const WideTree& tree, const RaySpan& rays) {
          rays.count <= std::numeric_limits<std::uint32_t>::max();
 }
 
+void occluded_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, std::uint8_t* hidden) {
+  ensure_target();
+  if (for_beams(tree, rays)) {
+    HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, sorted, hidden);
+  } else {
+    occluded_lists(tree, rays, hidden);
+  }
+}
+
 }  // namespace
 
 void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
@@ -113,21 +122,11 @@ void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan
 }
 
 void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
-  ensure_target();
-  if (for_beams(tree, rays)) {
-    HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, false, hidden);
-  } else {
-    occluded_lists(tree, rays, hidden);
-  }
+  occluded_by_beams(tree, rays, false, hidden);
 }
 
 void occluded_sorted_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
-  ensure_target();
-  if (for_beams(tree, rays)) {
-    HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, true, hidden);
-  } else {
-    occluded_lists(tree, rays, hidden);
-  }
+  occluded_by_beams(tree, rays, true, hidden);
 }
 
 }  // namespace kernels
