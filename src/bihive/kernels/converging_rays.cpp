@@ -122,9 +122,10 @@ HWY_EXPORT(number_cells);
 namespace kernels {
 namespace {
 
-// Measured: fewer rays are spread too thinly for beams.
+// Of fewer rays blocks of 64 are hardly ever close. A guess, not measured.
 constexpr std::int64_t kFewest = 2048;
-// Rays over the cross-section of a leaf, that beams are narrow enough.
+// Rays over the cross-section of a leaf: sixteen of them must fit into a part that is kWidestSortedPartInLeaves (0.4)
+// wide (kernels/occlusion_beam-inl.h).
 constexpr double kFewestPerLeaf = 100;
 // Sorted at a time.
 constexpr std::int64_t kTile = 262144;
@@ -150,7 +151,7 @@ class SortedTile {
 
     // Rays that go into a sphere are not for beams: they come last.
     if (rays.inside != nullptr)
-      for (std::size_t i = 0; i < n; ++i) cells_[i] |= static_cast<std::uint32_t>(rays.inside[i]) << (2 * bits);
+      for (std::size_t i = 0; i < n; ++i) cells_[i] |= (rays.inside[i] != 0 ? 1U : 0U) << (2 * bits);
 
     // Count, then place.
     ends_.assign(std::size_t{2} << (2 * bits), 0);
