@@ -2,7 +2,7 @@
 //
 // All forms give the bits of the scalar reference (bih/traversal.h) on every instruction set. They may be called from
 // any number of threads at a time on one tree; each call works on its own thread, in memory that the thread keeps (up
-// to some 25 MiB). An invalid ray (geometry/ray.h) hits nothing. Hold the std::shared_ptr that the builder gave for as
+// to some 45 MiB). An invalid ray (geometry/ray.h) hits nothing. Hold the std::shared_ptr that the builder gave for as
 // long as a call runs.
 //
 // Which to use: the form for many rays is more than twice as fast a ray. Give it as many rays at a time as there are;
