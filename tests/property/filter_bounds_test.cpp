@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "bihive/geometry/sphere.h"
 #include "bihive/kernels/filter.h"
@@ -136,15 +137,17 @@ TEST(FilterBounds, ASureRootLiesInItsInterval) {
               0.25);
 }
 
-// How much of the padding of boxes is used where a ray enters a box, or leaves it, that its hit lies in.
-template <bool kNear, bool kFused>
+// How much of the padding of boxes is used where a ray enters a box, or leaves it, that its hit lies in. Lists move the
+// planes outward, single rays their offsets.
+template <bool kNear, bool kFused, bool kPlanesMoved>
 double box_padding_used(const Pair& pair, const LocalRay& local, const Truth& truth) {
   const ScaledRay scaled(pair.ray, 1.0);
   const SphereRoots roots = sphere_roots(scaled, to_double(pair.centre), double(pair.radius));
   if (std::isnan(roots.t_near)) return -HUGE_VAL;
   float farthest = 0;
   for (int k = 0; k < 3; ++k) farthest = std::max(farthest, std::abs(local.local.origin[k]));
-  const Real pad = Real(FilterBounds(farthest).box_pad);
+  const float box_pad = FilterBounds(farthest).box_pad;
+  const Real pad = Real(box_pad);
   Real most = -HUGE_VALL;
   for (const double t : {roots.t_near, roots.t_far}) {
     const Real s = Real(t) * truth.length - truth.shift;
@@ -152,8 +155,12 @@ double box_padding_used(const Pair& pair, const LocalRay& local, const Truth& tr
       const float lo = pair.centre[k] - pair.radius;
       const float hi = pair.centre[k] + pair.radius;
       const bool negative = std::signbit(local.local.inverse[k]);
-      const float plane = kNear != negative ? lo : hi;
-      const float offset = kNear ? local.local.near_offset[k] : local.local.far_offset[k];
+      float plane = kNear != negative ? lo : hi;
+      float offset = kNear ? local.near_offset[k] : local.far_offset[k];
+      if (kPlanesMoved) {
+        plane = kNear != negative ? plane - box_pad : plane + box_pad;
+        offset = local.local.offset[k];
+      }
       const Real distance = Real(Filtered::mul_add<kFused>(plane, local.local.inverse[k], offset));
       const Real room = (kNear ? s - distance : distance - s) * std::abs(1 / Real(local.local.inverse[k]));
       most = std::max(most, 1 - room / pad);
@@ -164,9 +171,13 @@ double box_padding_used(const Pair& pair, const LocalRay& local, const Truth& tr
 
 TEST(FilterBounds, BoxesKeepTheirHits) {
   const auto used = [](const Pair& pair, const LocalRay& local, const Truth& truth) {
-    return std::max(
-        {box_padding_used<true, true>(pair, local, truth), box_padding_used<true, false>(pair, local, truth),
-         box_padding_used<false, true>(pair, local, truth), box_padding_used<false, false>(pair, local, truth)});
+    const auto either_end = [&](auto fused, auto moved) {
+      return std::max(box_padding_used<true, fused, moved>(pair, local, truth),
+                      box_padding_used<false, fused, moved>(pair, local, truth));
+    };
+    constexpr std::true_type yes;
+    constexpr std::false_type no;
+    return std::max({either_end(yes, yes), either_end(yes, no), either_end(no, yes), either_end(no, no)});
   };
   expect_used("padding of boxes", most_used_of(used), 0.15);
 }

@@ -8,6 +8,10 @@
 
 namespace bihive {
 
+/// A block of at least `bytes`, for std::free(). Large ones start and end on borders of huge pages. Throws
+/// std::bad_alloc.
+void* allocate_aligned(std::size_t bytes);
+
 class AlignedBuffer {
  public:
   AlignedBuffer() = default;

@@ -67,11 +67,12 @@ struct alignas(64) FilterRay {
   float origin[3];
   float direction[3];
   float inverse[3];  ///< 1 / direction, finite
-  /// plane * inverse + near_offset: a lower bound of the distance to a plane where the ray enters; far_offset: an upper
-  /// bound where it leaves.
-  float near_offset[3], far_offset[3];
-  float s_min;  ///< lower bound of where the segment starts, by less than W / 2
+  float offset[3];   ///< plane * inverse + offset: the distance to a plane, which was moved outward before
+  float s_min;       ///< lower bound of where the segment starts, by less than W / 2
+  std::uint32_t outward_id;  ///< of the sphere that it leaves going outward; kNoSphere if there is none
+  std::uint32_t unused[2];
 };
+constexpr std::uint32_t kNoSphere = 0xFFFFFFFF;
 static_assert(sizeof(FilterRay) == 64);
 
 }  // namespace bihive

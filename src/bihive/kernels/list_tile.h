@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 #include "bihive/kernels/aligned_buffer.h"
@@ -46,10 +47,10 @@ struct ListTile {
   alignas(64) float s_best[kTileRays + 16];
   alignas(64) std::uint32_t winner[kTileRays + 16];
   alignas(64) float s_min[kTileRays + 16];
-  // Only if some ray leaves a sphere: its id, or kNoSlot, of rays that go outward and that go inward.
-  alignas(64) std::uint32_t outward_id[kTileRays + 16];
+  // Only if some ray goes into the sphere that it leaves: its id, or kNoSphere.
   alignas(64) std::uint32_t inward_id[kTileRays + 16];
-  alignas(64) std::uint32_t careful[kTileRays + 16];  // 1: the sphere that it leaves has equals
+  // Only if some spheres are equal. 1: the sphere that it leaves has equals.
+  alignas(64) std::uint32_t careful[kTileRays + 16];
   alignas(64) std::uint32_t by_octant[8][kTileRays + 16];
   std::uint32_t far_rays[kTileRays];  // for the scalar traversal
   Rival rivals[kMostRivals + 16];
@@ -58,6 +59,11 @@ struct ListTile {
   LeafPair pairs[kMostLeafPairs + 16];
   int pair_count;
   AlignedBuffer arena;
+  AlignedBuffer stream;
+
+  // Rays are looked up all over it.
+  static void* operator new(std::size_t bytes) { return allocate_aligned(bytes); }
+  static void operator delete(void* tile) { std::free(tile); }
 };
 
 }  // namespace bihive::kernels

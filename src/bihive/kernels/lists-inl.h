@@ -18,11 +18,12 @@
 
 #include "bihive/kernels/exact-inl.h"
 #include "bihive/kernels/filter.h"
+#include "bihive/kernels/first_look-inl.h"
 #include "bihive/kernels/lanes-inl.h"
 #include "bihive/kernels/list_tile.h"
 #include "bihive/kernels/ray_setup-inl.h"
 #include "bihive/kernels/scalar_traversal.h"
-#include "bihive/kernels/single-inl.h"
+#include "bihive/kernels/stream-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
@@ -53,16 +54,9 @@ class ListWalk {
   }
 
  private:
-  // Lists of fewer rays are walked ray by ray, and leaves with fewer wait for each other.
-  static constexpr std::uint32_t kShortList = 4;
-  static constexpr std::uint32_t kAhead = 8;  // rays to fetch before they are needed
+  // Shorter lists become streams, and leaves with fewer rays wait for each other.
+  static constexpr std::uint32_t kShortList = 16;
   static constexpr std::uint32_t kShortLeafList = 16;
-  // Where sixteen boxes or spheres take several steps, what costs more: to spread a ray to all lanes once more for each
-  // step, or to load the boxes or spheres again for each ray?
-  static constexpr bool kRayAfterRay = kFloatLanes == 4;
-
-  using Floats = hn::VFromD<FloatTag>;
-  static HWY_INLINE Floats in_all(float value) { return hn::Set(FloatTag(), value); }
 
   // ---- Making rays ready ----
 
@@ -105,14 +99,21 @@ class ListWalk {
     tile_.queue.count = 0;
     const FloatTag d;
     const auto nothing = hn::Set(WordTag(), kNoSlot);
+    auto least = in_all(std::numeric_limits<float>::infinity());
+    auto most = hn::Neg(least);
     for (std::int64_t first = 0; first < rays_.count; first += 16) {
       const int count = static_cast<int>(std::min<std::int64_t>(16, rays_.count - first));
       load_rays(first, local);
-      write_filter_rays(local, bounds_.box_pad, tile_.rays + first, count);
+      alignas(64) std::uint32_t outward_id[16];
+      set_up_left(first, count, outward_id);
+      write_filter_rays(local, outward_id, tile_.rays + first, count);
       std::uint32_t signs[3] = {};
       for (int lane = 0; lane < 16; lane += kFloatLanes) {
         hn::Store(hn::Load(d, local.s_max + lane), d, tile_.s_best + first + lane);
-        hn::Store(hn::Load(d, local.s_min + lane), d, tile_.s_min + first + lane);
+        const auto s_min = hn::Load(d, local.s_min + lane);
+        hn::Store(s_min, d, tile_.s_min + first + lane);
+        least = hn::Min(least, s_min);
+        most = hn::Max(most, s_min);
         hn::Store(nothing, WordTag(), tile_.winner + first + lane);
         for (int axis = 0; axis < 3; ++axis)
           signs[axis] |= mask_bits(hn::Lt(hn::Load(d, local.direction[axis] + lane), hn::Zero(d))) << lane;
@@ -127,23 +128,34 @@ class ListWalk {
       for (std::uint32_t far = local.far; far != 0; far &= far - 1)
         tile_.far_rays[far_count_++] = static_cast<std::uint32_t>(first + __builtin_ctz(far));
     }
-    if (rays_.leaves != nullptr) set_up_left();
+    common_start_ = hn::GetLane(hn::MinOfLanes(d, least)) == hn::GetLane(hn::MaxOfLanes(d, most));
     clear_answers();
   }
 
+  bool some_go_inward() const {
+    std::uint8_t any = 0;
+    for (std::int64_t i = 0; rays_.inside != nullptr && i < rays_.count; ++i) any |= rays_.inside[i];
+    return any != 0;
+  }
+
   // Which sphere does each ray leave? Of rays that leave one of several equal spheres nothing counts as sure.
-  void set_up_left() {
-    leaves_some_ = true;
-    inward_some_ = rays_.inside != nullptr;
-    careful_some_ = !tree_.repeated.empty();
-    for (std::int64_t i = 0; i < rays_.count; ++i) {
-      const std::int64_t leaves = rays_.leaves[i];
-      const std::uint32_t id = leaves >= 0 && leaves < tree_.size ? static_cast<std::uint32_t>(leaves) : kNoSlot;
-      const bool inward = inward_some_ && rays_.inside[i] != 0;
-      tile_.outward_id[i] = inward ? kNoSlot : id;
-      if (inward_some_) tile_.inward_id[i] = inward ? id : kNoSlot;
-      if (careful_some_) tile_.careful[i] = LeftSphere(tree_, leaves).is_repeated() ? 1 : 0;
+  HWY_INLINE void set_up_left(std::int64_t first, int count, std::uint32_t outward_id[16]) {
+    std::fill_n(outward_id, 16, kNoSphere);
+    if (!leaves_some_) return;
+    for (int k = 0; k < count; ++k) {
+      const std::uint64_t leaves = static_cast<std::uint64_t>(rays_.leaves[first + k]);
+      outward_id[k] = leaves < static_cast<std::uint64_t>(tree_.size) ? static_cast<std::uint32_t>(leaves) : kNoSphere;
     }
+    if (inward_some_) {
+      for (int k = 0; k < count; ++k) {
+        const bool inward = rays_.inside[first + k] != 0;
+        tile_.inward_id[first + k] = inward ? outward_id[k] : kNoSphere;
+        outward_id[k] = inward ? kNoSphere : outward_id[k];
+      }
+    }
+    if (careful_some_)
+      for (int k = 0; k < count; ++k)
+        tile_.careful[first + k] = LeftSphere(tree_, rays_.leaves[first + k]).is_repeated() ? 1 : 0;
   }
 
   void clear_answers() {
@@ -192,10 +204,7 @@ class ListWalk {
   // `list` may be read up to 16 entries beyond its end.
   void walk(std::int64_t node_number, const std::uint32_t* list, std::uint32_t count, std::size_t arena_used) {
     const std::size_t bytes = (NodeMemory::bytes(count) + 63) / 64 * 64;
-    if (count < kShortList || arena_used + bytes > kArenaBytes) {
-      for (std::uint32_t i = 0; i < count; ++i) walk_alone(node_number, list[i]);
-      return;
-    }
+    if (count < kShortList || arena_used + bytes > kArenaBytes) return walk_few(node_number, list, count);
     const WideNode& node = tree_.nodes[node_number];
     const NodeMemory memory(static_cast<char*>(tile_.arena.data()) + arena_used, count);
     const std::uint32_t any = test_boxes(node, list, count, memory);
@@ -219,7 +228,7 @@ class ListWalk {
   // Boxes of a node: their sides that rays of the octant come to first and last.
   struct BoxLanes {
     Floats near_x, near_y, near_z, far_x, far_y, far_z;
-    HWY_INLINE BoxLanes(const float* const near[3], const float* const far[3], int lane)
+    HWY_INLINE BoxLanes(const float near[3][kWidth], const float far[3][kWidth], int lane)
         : near_x(hn::Load(FloatTag(), near[0] + lane)),
           near_y(hn::Load(FloatTag(), near[1] + lane)),
           near_z(hn::Load(FloatTag(), near[2] + lane)),
@@ -230,30 +239,27 @@ class ListWalk {
 
   // A ray in all lanes, and where it enters and leaves boxes.
   struct BoxRay {
-    Floats ix, iy, iz, near_x, near_y, near_z, far_x, far_y, far_z, s_min, s_best;
+    Floats ix, iy, iz, x, y, z, s_min, s_best;
     HWY_INLINE BoxRay(const FilterRay& ray, float best)
         : ix(in_all(ray.inverse[0])),
           iy(in_all(ray.inverse[1])),
           iz(in_all(ray.inverse[2])),
-          near_x(in_all(ray.near_offset[0])),
-          near_y(in_all(ray.near_offset[1])),
-          near_z(in_all(ray.near_offset[2])),
-          far_x(in_all(ray.far_offset[0])),
-          far_y(in_all(ray.far_offset[1])),
-          far_z(in_all(ray.far_offset[2])),
+          x(in_all(ray.offset[0])),
+          y(in_all(ray.offset[1])),
+          z(in_all(ray.offset[2])),
           s_min(in_all(ray.s_min)),
           s_best(in_all(best)) {}
     HWY_INLINE Floats entry(const BoxLanes& boxes) const {
-      const auto x = hn::MulAdd(boxes.near_x, ix, near_x);
-      const auto y = hn::MulAdd(boxes.near_y, iy, near_y);
-      const auto z = hn::MulAdd(boxes.near_z, iz, near_z);
-      return hn::Max(hn::Max(x, y), hn::Max(z, s_min));
+      const auto s_x = hn::MulAdd(boxes.near_x, ix, x);
+      const auto s_y = hn::MulAdd(boxes.near_y, iy, y);
+      const auto s_z = hn::MulAdd(boxes.near_z, iz, z);
+      return hn::Max(hn::Max(s_x, s_y), hn::Max(s_z, s_min));
     }
     HWY_INLINE Floats exit(const BoxLanes& boxes) const {
-      const auto x = hn::MulAdd(boxes.far_x, ix, far_x);
-      const auto y = hn::MulAdd(boxes.far_y, iy, far_y);
-      const auto z = hn::MulAdd(boxes.far_z, iz, far_z);
-      return hn::Min(hn::Min(x, y), hn::Min(z, s_best));
+      const auto s_x = hn::MulAdd(boxes.far_x, ix, x);
+      const auto s_y = hn::MulAdd(boxes.far_y, iy, y);
+      const auto s_z = hn::MulAdd(boxes.far_z, iz, z);
+      return hn::Min(hn::Min(s_x, s_y), hn::Min(s_z, s_best));
     }
   };
 
@@ -263,50 +269,40 @@ class ListWalk {
     const FloatTag d;
     std::uint32_t any = 0;
     std::uint32_t stored = 0;
-    const float* near[3];
-    const float* far[3];
+    // Their planes, moved outward.
+    alignas(64) float near[3][kWidth];
+    alignas(64) float far[3][kWidth];
+    const auto pad = hn::Set(d, bounds_.box_pad);
     for (int axis = 0; axis < 3; ++axis) {
-      near[axis] = negative_[axis] ? node.hi[axis] : node.lo[axis];
-      far[axis] = negative_[axis] ? node.lo[axis] : node.hi[axis];
-    }
-    if constexpr (kRayAfterRay) {
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t number = list[i];
-        const BoxRay ray(tile_.rays[number], tile_.s_best[number]);
-        std::uint32_t bits = 0;
-        for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
-          const BoxLanes boxes(near, far, lane);
-          const auto s_in = ray.entry(boxes);
-          bits |= mask_bits(hn::Le(s_in, ray.exit(boxes))) << lane;
-          if constexpr (!kAnyHit) hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
-        }
-        memory.masks[i] = static_cast<std::uint16_t>(bits);
-        any |= bits;
+      float* const lower = negative_[axis] ? far[axis] : near[axis];
+      float* const upper = negative_[axis] ? near[axis] : far[axis];
+      for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
+        hn::Store(hn::Sub(hn::Load(d, node.lo[axis] + lane), pad), d, lower + lane);
+        hn::Store(hn::Add(hn::Load(d, node.hi[axis] + lane), pad), d, upper + lane);
       }
-    } else {
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      __builtin_prefetch(&tile_.rays[list[std::min(i + kAhead, count - 1)]]);
+      const BoxRay ray(tile_.rays[list[i]], tile_.s_best[list[i]]);
+      std::uint32_t bits = 0;
       for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
         const BoxLanes boxes(near, far, lane);
-        for (std::uint32_t i = 0; i < count; ++i) {
-          __builtin_prefetch(&tile_.rays[list[std::min(i + kAhead, count - 1)]]);
-          const BoxRay ray(tile_.rays[list[i]], tile_.s_best[list[i]]);
-          const auto s_in = ray.entry(boxes);
-          const auto enters = hn::Le(s_in, ray.exit(boxes));
-          const std::uint32_t bits = mask_bits(enters) << lane;
-          if constexpr (kAnyHit) {
-            // Distances do not matter.
-            memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
-          } else if constexpr (kFloatLanes == kWidth) {
-            hn::StoreU(compress(s_in, enters), d, memory.s_near + stored);
-            memory.offsets[i] = stored;
-            stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
-            memory.masks[i] = static_cast<std::uint16_t>(bits);
-          } else {
-            hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
-            memory.masks[i] = static_cast<std::uint16_t>(lane == 0 ? bits : memory.masks[i] | bits);
-          }
-          any |= bits;
-        }
+        const auto s_in = ray.entry(boxes);
+        const auto enters = hn::Le(s_in, ray.exit(boxes));
+        bits |= mask_bits(enters) << lane;
+        // If any hit does, distances do not matter.
+        if constexpr (kAnyHit) continue;
+        if constexpr (kFloatLanes == kWidth)
+          hn::StoreU(compress(s_in, enters), d, memory.s_near + stored);
+        else
+          hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
       }
+      if constexpr (!kAnyHit && kFloatLanes == kWidth) {
+        memory.offsets[i] = stored;
+        stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
+      }
+      memory.masks[i] = static_cast<std::uint16_t>(bits);
+      any |= bits;
     }
     // Masks past the end are read too.
     std::fill_n(memory.masks + count, kWidth, std::uint16_t{0});
@@ -343,30 +339,34 @@ class ListWalk {
     return kept;
   }
 
-  // One ray from a node on.
-  void walk_alone(std::int64_t node_number, std::uint32_t number) {
-    SingleRay ray;
-    ray.local = tile_.rays[number];
-    ray.s_best = tile_.s_best[number];
-    ray.sure_min = tile_.s_min[number] + bounds_.width;
-    ray.e = bounds_.e;
-    ray.width = bounds_.width;
-    ray.left_id = leaves_some_ ? tile_.outward_id[number] : kNoSlot;
-    ray.inward = inward_some_ && tile_.inward_id[number] != kNoSlot;
-    if (ray.inward) ray.left_id = tile_.inward_id[number];
-    if (careful_some_ && tile_.careful[number] != 0) ray.sure_min = std::numeric_limits<float>::infinity();
-    ray.winner = kNoSlot;
-    walk_single<kAnyHit>(tree_, static_cast<std::uint32_t>(node_number), ray, waiting_, [&](std::uint32_t slot) {
-      add_rival(number, slot);
-      return false;
-    });
-    if (ray.winner == kNoSlot) return;
-    if constexpr (kAnyHit) {
-      hide(number);
-    } else {
-      tile_.winner[number] = ray.winner;
-      tile_.s_best[number] = std::min(tile_.s_best[number], ray.s_best);
-    }
+  // The rays of a short list from a node on.
+  void walk_few(std::int64_t node_number, const std::uint32_t* list, std::uint32_t count) {
+    const auto start = [&](std::uint32_t i, SingleRay& ray) HWY_ATTR {
+      const std::uint32_t number = list[i];
+      ray.local = tile_.rays[number];
+      ray.s_best = tile_.s_best[number];
+      ray.sure_min = tile_.s_min[number] + bounds_.width;
+      ray.e = bounds_.e;
+      ray.width = bounds_.width;
+      ray.pad_offsets(bounds_.box_pad);
+      ray.left_id = ray.local.outward_id;
+      ray.inward = inward_some_ && tile_.inward_id[number] != kNoSphere;
+      if (ray.inward) ray.left_id = tile_.inward_id[number];
+      if (careful_some_ && tile_.careful[number] != 0) ray.sure_min = std::numeric_limits<float>::infinity();
+      ray.winner = kNoSlot;
+    };
+    const auto finish = [&](std::uint32_t i, const SingleRay& ray) HWY_ATTR {
+      if (ray.winner == kNoSlot) return;
+      const std::uint32_t number = list[i];
+      if constexpr (kAnyHit) {
+        hide(number);
+      } else {
+        tile_.winner[number] = ray.winner;
+        tile_.s_best[number] = std::min(tile_.s_best[number], ray.s_best);
+      }
+    };
+    walk_stream<kAnyHit>(tree_, node_number, count, stream_rays(tile_.stream), start, finish,
+                         [&](std::uint32_t i, std::uint32_t slot) HWY_ATTR { add_rival(list[i], slot); });
   }
 
   // ---- Leaves ----
@@ -395,165 +395,12 @@ class ListWalk {
 
   // The first look: up to sixteen spheres against a list of rays.
   void test_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list, std::uint32_t count) {
+    const LeafAndRays leaf{tree_, tile_, bounds_.e, slot, spheres, list, count};
+    const auto finish = [this]() HWY_ATTR { finish_candidates(); };
     if (leaves_some_)
-      test_leaf_of<true>(slot, spheres, list, count);
+      look_at_leaf<true>(leaf, finish);
     else
-      test_leaf_of<false>(slot, spheres, list, count);
-  }
-
-  template <bool kLeaves>
-  HWY_INLINE void test_leaf_of(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list,
-                               std::uint32_t count) {
-    if constexpr (kRayAfterRay)
-      test_rays_at_leaf<kLeaves>(slot, spheres, list, count);
-    else
-      test_spheres_of_leaf<kLeaves>(slot, spheres, list, count);
-  }
-
-  // How a ray lies to spheres, in units of distance along it.
-  struct Meeting {
-    Floats b, dp;
-  };
-
-  // A ray in all lanes.
-  struct LeafRay {
-    Floats nx, ny, nz, ox, oy, oz;
-    HWY_INLINE explicit LeafRay(const FilterRay& ray)
-        : nx(in_all(ray.direction[0])),
-          ny(in_all(ray.direction[1])),
-          nz(in_all(ray.direction[2])),
-          ox(in_all(ray.origin[0])),
-          oy(in_all(ray.origin[1])),
-          oz(in_all(ray.origin[2])) {}
-    HWY_INLINE Meeting meet(Floats x, Floats y, Floats z, Floats r_squared) const {
-      const auto cx = hn::Sub(x, ox);
-      const auto cy = hn::Sub(y, oy);
-      const auto cz = hn::Sub(z, oz);
-      const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
-      const auto px = hn::NegMulAdd(b, nx, cx);
-      const auto py = hn::NegMulAdd(b, ny, cy);
-      const auto pz = hn::NegMulAdd(b, nz, cz);
-      return {b, hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)))};
-    }
-  };
-
-  // (r + e)^2 of spheres from `slot` on; lanes past the leaf can never pass.
-  HWY_INLINE Floats padded_squares(std::uint32_t slot, std::uint32_t spheres) const {
-    const FloatTag d;
-    const auto r = hn::Add(load_radii(tree_.spheres, slot), hn::Set(d, bounds_.e));
-    return hn::IfThenElse(hn::FirstN(d, spheres), hn::Mul(r, r), hn::Set(d, -1.0F));
-  }
-
-  HWY_INLINE auto ids_at(std::uint32_t slot) const {
-    const WordTag words;
-    return hn::And(hn::LoadU(words, tree_.spheres.word + slot), hn::Set(words, tree_.spheres.id_mask()));
-  }
-
-  // A ray after the other against all the spheres.
-  template <bool kLeaves>
-  HWY_INLINE void test_rays_at_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list,
-                                    std::uint32_t count) {
-    const FloatTag d;
-    const WordTag words;
-    alignas(64) float r_squared[kWidth];
-    alignas(64) std::uint32_t ids[kWidth];
-    for (std::uint32_t lane = 0; lane < spheres; lane += kFloatLanes) {
-      hn::Store(padded_squares(slot + lane, spheres - lane), d, r_squared + lane);
-      if constexpr (kLeaves) hn::Store(ids_at(slot + lane), words, ids + lane);
-    }
-    const float* const x = tree_.spheres.x + slot;
-    const float* const y = tree_.spheres.y + slot;
-    const float* const z = tree_.spheres.z + slot;
-    CandidateQueue& queue = tile_.queue;
-    int queued = queue.count;
-    alignas(64) float b[kWidth];
-    alignas(64) float dp[kWidth];
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t number = list[i];
-      const LeafRay ray(tile_.rays[number]);
-      std::uint32_t bits = 0;
-      for (std::uint32_t lane = 0; lane < spheres; lane += kFloatLanes) {
-        const Meeting met = ray.meet(hn::LoadU(d, x + lane), hn::LoadU(d, y + lane), hn::LoadU(d, z + lane),
-                                     hn::Load(d, r_squared + lane));
-        auto passes = hn::Ge(met.dp, hn::Zero(d));
-        // Going outward a ray never meets the sphere that it leaves.
-        if constexpr (kLeaves) {
-          const auto own = hn::Eq(hn::Load(words, ids + lane), hn::Set(words, tile_.outward_id[number]));
-          passes = hn::AndNot(hn::RebindMask(d, own), passes);
-        }
-        bits |= mask_bits(passes) << lane;
-        hn::Store(met.b, d, b + lane);
-        hn::Store(met.dp, d, dp + lane);
-      }
-      for (; bits != 0; bits &= bits - 1) {
-        const int k = __builtin_ctz(bits);
-        queue.b[queued] = b[k];
-        queue.dp[queued] = dp[k];
-        queue.r_squared[queued] = r_squared[k];
-        queue.slot[queued] = slot + static_cast<std::uint32_t>(k);
-        queue.ray[queued] = number;
-        ++queued;
-      }
-      if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
-        queue.count = queued;
-        finish_candidates();
-        queued = 0;
-      }
-    }
-    queue.count = queued;
-  }
-
-  // Some spheres after the others, in registers, against all rays.
-  template <bool kLeaves>
-  HWY_INLINE void test_spheres_of_leaf(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list,
-                                       std::uint32_t count) {
-    const FloatTag d;
-    const WordTag words;
-    CandidateQueue& queue = tile_.queue;
-    int queued = queue.count;
-    for (std::uint32_t lane = 0; lane < spheres; lane += kFloatLanes) {
-      const auto x = hn::LoadU(d, tree_.spheres.x + slot + lane);
-      const auto y = hn::LoadU(d, tree_.spheres.y + slot + lane);
-      const auto z = hn::LoadU(d, tree_.spheres.z + slot + lane);
-      const auto r_squared = padded_squares(slot + lane, spheres - lane);
-      const auto slots = iota_words(slot + lane);
-      const auto ids = ids_at(slot + lane);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const LeafRay ray(tile_.rays[list[i]]);
-        const auto [b, dp] = ray.meet(x, y, z, r_squared);
-        // Without a branch: whether some of many spheres passes cannot be foreseen.
-        auto passes = hn::Ge(dp, hn::Zero(d));
-        // Going outward a ray never meets the sphere that it leaves.
-        if constexpr (kLeaves)
-          passes = hn::And(passes, hn::RebindMask(d, hn::Ne(ids, hn::Set(words, tile_.outward_id[list[i]]))));
-        const int passing = static_cast<int>(hn::CountTrue(d, passes));
-        const auto some_b = compress(b, passes);
-        const auto some_dp = compress(dp, passes);
-        const auto some_r_squared = compress(r_squared, passes);
-        const auto some_slots = compress(slots, hn::RebindMask(words, passes));
-        // More than four seldom pass, and short stores are quicker.
-        if (HWY_LIKELY(passing <= 4)) {
-          store_four(some_b, queue.b + queued);
-          store_four(some_dp, queue.dp + queued);
-          store_four(some_r_squared, queue.r_squared + queued);
-          store_four(some_slots, queue.slot + queued);
-          store_four(hn::Set(words, list[i]), queue.ray + queued);
-        } else {
-          hn::StoreU(some_b, d, queue.b + queued);
-          hn::StoreU(some_dp, d, queue.dp + queued);
-          hn::StoreU(some_r_squared, d, queue.r_squared + queued);
-          hn::StoreU(some_slots, words, queue.slot + queued);
-          hn::StoreU(hn::Set(words, list[i]), words, queue.ray + queued);
-        }
-        queued += passing;
-        if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
-          queue.count = queued;
-          finish_candidates();
-          queued = 0;
-        }
-      }
-    }
-    queue.count = queued;
+      look_at_leaf<false>(leaf, finish);
   }
 
   // The second look, many candidates at a time: is the near root surely in the segment and surely the nearest so far?
@@ -570,7 +417,7 @@ class ListWalk {
       const auto exists = hn::FirstN(d, static_cast<std::size_t>(std::min(queue.count - first, kFloatLanes)));
       const auto index = hn::IfThenElseZero(hn::RebindMask(ints, exists), ray);
       const auto s_best = hn::GatherIndex(d, tile_.s_best, index);
-      const auto s_min = hn::GatherIndex(d, tile_.s_min, index);
+      const auto s_min = common_start_ ? in_all(tile_.s_min[0]) : hn::GatherIndex(d, tile_.s_min, index);
       auto sure_min = hn::Add(s_min, hn::Set(d, bounds_.width));
       // Rays that go into the sphere that they leave, and those of which nothing is sure.
       auto inward = hn::MaskFromVec(hn::Zero(d));
@@ -756,12 +603,12 @@ class ListWalk {
   HitSpan hits_;
   std::uint8_t* hidden_;
   FilterBounds bounds_;
-  WaitingChildren waiting_;
   std::uint32_t octant_count_[8] = {};
   std::uint32_t far_count_ = 0;
-  bool leaves_some_ = false;  // what the arrays of the tile that say so hold
-  bool inward_some_ = false;
-  bool careful_some_ = false;
+  const bool leaves_some_ = rays_.leaves != nullptr;  // what the arrays of the tile that say so hold
+  const bool inward_some_ = leaves_some_ && some_go_inward();
+  const bool careful_some_ = leaves_some_ && !tree_.repeated.empty();
+  bool common_start_ = false;  // all rays have the same s_min
   bool settled_early_ = false;  // answers may hold rivals before the winners are confirmed
   bool negative_[3] = {};
   bool backwards_ = false;

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "bihive/kernels/filter.h"
@@ -171,15 +172,14 @@ HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, 
 }
 
 /// Adds what box tests need and writes `count` of the sixteen rays, rounded up to a multiple of four, to to[0], to[1],
-/// ... Directions within 1e-18 of an axis's plane are moved off it: over the 16 units to anything in the set that is
+/// ..., with their outward_id. Directions within 1e-18 of an axis's plane are moved off it: over the 16 units to anything in the set that is
 /// less than any padding.
-HWY_INLINE void write_filter_rays(const LocalRays& rays, float box_pad, FilterRay* to, int count) {
+HWY_INLINE void write_filter_rays(const LocalRays& rays, const std::uint32_t outward[16], FilterRay* to, int count) {
   using Tag = hn::CappedTag<float, 16>;
   const Tag d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
   alignas(64) float inverse[3][16];
-  alignas(64) float near_offset[3][16];
-  alignas(64) float far_offset[3][16];
+  alignas(64) float offset[3][16];
   const auto smallest = hn::Set(d, 1e-18F);
   for (int axis = 0; axis < 3; ++axis)
     for (int lane = 0; lane < 16; lane += kLanes) {
@@ -187,17 +187,17 @@ HWY_INLINE void write_filter_rays(const LocalRays& rays, float box_pad, FilterRa
       const auto n = hn::Add(hn::Load(d, rays.direction[axis] + lane), hn::Zero(d));
       const auto clamped = hn::CopySign(hn::Max(hn::Abs(n), smallest), n);
       const auto inv = hn::Div(hn::Set(d, 1.0F), clamped);
-      const auto start = hn::Mul(hn::Load(d, rays.origin[axis] + lane), inv);
-      const auto pad = hn::Mul(hn::Set(d, box_pad), hn::Abs(inv));
       hn::Store(inv, d, inverse[axis] + lane);
-      hn::Store(hn::Neg(hn::Add(start, pad)), d, near_offset[axis] + lane);
-      hn::Store(hn::Sub(pad, start), d, far_offset[axis] + lane);
+      hn::Store(hn::Neg(hn::Mul(hn::Load(d, rays.origin[axis] + lane), inv)), d, offset[axis] + lane);
     }
-  // Sixteen components of four rays at a time, from arrays to structures.
+  // Sixteen components of four rays at a time, from arrays to structures; ids as the bits that they are.
+  alignas(64) float outward_id[16];
+  std::memcpy(outward_id, outward, sizeof(outward_id));
+  const float* const unused = rays.s_min;
   const float* const components[16] = {rays.origin[0],    rays.origin[1],    rays.origin[2], rays.direction[0],
                                        rays.direction[1], rays.direction[2], inverse[0],     inverse[1],
-                                       inverse[2],        near_offset[0],    near_offset[1], near_offset[2],
-                                       far_offset[0],     far_offset[1],     far_offset[2],  rays.s_min};
+                                       inverse[2],        offset[0],         offset[1],      offset[2],
+                                       rays.s_min,        outward_id,        unused,         unused};
   static_assert(sizeof(FilterRay) == sizeof(float) * 16);
 #if HWY_TARGET == HWY_SCALAR
   for (int i = 0; i < count; ++i)

@@ -30,12 +30,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// A local ray on its way, and what it has found.
 struct SingleRay {
   FilterRay local;
+  float near_offset[3];   ///< local.offset for planes where it enters boxes, as they are: a lower bound of the distance
+  float far_offset[3];    ///< and for those where it leaves them
   float s_best;           ///< upper bound of the best hit so far; the segment's end at first
   float sure_min;         ///< roots from here on lie surely in the segment
   float e, width;         ///< FilterBounds
   std::uint32_t left_id;  ///< of the sphere that it leaves
   bool inward;            ///< into it
   std::uint32_t winner;   ///< slot of the nearest sure hit
+
+  HWY_INLINE void pad_offsets(float box_pad) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float pad = box_pad * std::abs(local.inverse[axis]);
+      near_offset[axis] = local.offset[axis] - pad;
+      far_offset[axis] = local.offset[axis] + pad;
+    }
+  }
 };
 constexpr std::uint32_t kNoWinner = std::numeric_limits<std::uint32_t>::max();
 
@@ -69,9 +79,9 @@ class WaitingChildren {
       for (int axis = 0; axis < 3; ++axis) {
         const auto inverse = hn::Set(d, ray.local.inverse[axis]);
         s_in =
-            hn::Max(s_in, hn::MulAdd(hn::Load(d, near[axis] + lane), inverse, hn::Set(d, ray.local.near_offset[axis])));
+            hn::Max(s_in, hn::MulAdd(hn::Load(d, near[axis] + lane), inverse, hn::Set(d, ray.near_offset[axis])));
         s_out =
-            hn::Min(s_out, hn::MulAdd(hn::Load(d, far[axis] + lane), inverse, hn::Set(d, ray.local.far_offset[axis])));
+            hn::Min(s_out, hn::MulAdd(hn::Load(d, far[axis] + lane), inverse, hn::Set(d, ray.far_offset[axis])));
       }
       return hn::Le(s_in, s_out);
     };
@@ -206,7 +216,7 @@ HWY_INLINE bool test_leaf_single(const WideTree& tree, std::int64_t slot, std::i
 
     const auto none = hn::MaskFromVec(hn::Zero(d));
     auto own = none;
-    if (ray.left_id != kNoWinner) {
+    if (ray.left_id != kNoSphere) {
       const auto id =
           hn::And(hn::LoadU(words, tree.spheres.word + slot + lane), hn::Set(words, tree.spheres.id_mask()));
       own = hn::RebindMask(d, hn::Eq(id, hn::Set(words, ray.left_id)));
@@ -280,15 +290,15 @@ HWY_INLINE bool set_up_single(const ScaledRay& scaled, SingleRay& ray, double& l
     ray.local.origin[axis] = origin;
     ray.local.direction[axis] = direction;
     ray.local.inverse[axis] = inverse;
-    ray.local.near_offset[axis] = -(origin * inverse + bounds.box_pad * std::abs(inverse));
-    ray.local.far_offset[axis] = bounds.box_pad * std::abs(inverse) - origin * inverse;
+    ray.local.offset[axis] = -(origin * inverse);
   }
+  ray.pad_offsets(bounds.box_pad);
   const double start = std::clamp(scaled.t_min * length, -1e30, 1e30) - shift;
   const double lower = start - std::abs(start) * 0x1p-22 - std::abs(shift) * 0x1p-46;
   ray.local.s_min = static_cast<float>(std::clamp(lower, -double(kFarthestEnd), double(kFarthestEnd)));
   ray.sure_min = ray.local.s_min + ray.width;
   ray.s_best = upper_distance(scaled.t_max, length, shift);
-  ray.left_id = kNoWinner;
+  ray.left_id = kNoSphere;
   ray.inward = false;
   ray.winner = kNoWinner;
   return true;
@@ -306,7 +316,7 @@ HWY_INLINE Hit answer_single(const WideTree& tree, const Ray& world) {
   double length = 0;
   double shift = 0;
   if (!set_up_single(scaled, ray, length, shift)) return {};
-  if (world.leaves >= 0 && world.leaves < std::int64_t{kNoWinner}) {
+  if (world.leaves >= 0 && world.leaves < std::int64_t{kNoSphere}) {
     ray.left_id = static_cast<std::uint32_t>(world.leaves);
     ray.inward = world.inside;
     if (left.is_repeated()) ray.sure_min = std::numeric_limits<float>::infinity();
