@@ -18,9 +18,9 @@
 // With r = 0 that never holds. A far root lies at s <= b + e + sqrt(dp).
 //
 // Boxes: a plane's distance (plane - o) / n is wrong by less than 7 u F in plane's place (2 u F for 1 / n, u F for the
-// product o / n, u F for its padding, u F for the fused sum, u F for n, u F for a moved origin), and a hit lies up to
-// 2^-25 + 52 2^-53 F beyond its box (docs/precision.md, "Padding"). All planes are moved outward by kBoxUnits u F = 10
-// u F.
+// product o / n, u F for the moved plane, u F for the fused sum, u F for n, u F for a moved origin), and a hit lies up
+// to 2^-25 + 52 2^-53 F beyond its box (docs/precision.md, "Padding"). All planes are moved outward by kBoxUnits u F =
+// 10 u F.
 #pragma once
 
 #include <algorithm>
@@ -66,9 +66,9 @@ inline float upper_distance(double t, double length, double shift) {
 struct alignas(64) FilterRay {
   float origin[3];
   float direction[3];
-  float inverse[3];  ///< 1 / direction, finite
-  float offset[3];   ///< plane * inverse + offset: the distance to a plane, which was moved outward before
-  float s_min;       ///< lower bound of where the segment starts, by less than W / 2
+  float inverse[3];          ///< 1 / direction, finite
+  float offset[3];           ///< plane * inverse + offset: the distance to a plane, which was moved outward before
+  float s_min;               ///< lower bound of where the segment starts, by less than W / 2
   std::uint32_t outward_id;  ///< of the sphere that it leaves going outward; kNoSphere if there is none
   std::uint32_t unused[2];
 };

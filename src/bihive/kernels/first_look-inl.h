@@ -244,6 +244,25 @@ HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& fin
   queue.count = queued;
 }
 
+/// One ray. The queue must have room for two vectors.
+template <bool kLeaves>
+HWY_INLINE void look_at_pair(const LeafAndRays& leaf) {
+  const FloatTag d;
+  const WideSpheres& spheres = leaf.tree.spheres;
+  const LeafRay ray(leaf.ray(0));
+  kernels::CandidateQueue& queue = leaf.tile.queue;
+  int queued = queue.count;
+  for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
+    const std::uint32_t slot = leaf.slot + lane;
+    const auto r_squared = leaf.padded_squares(lane);
+    const Meeting met = ray.meet(spheres.x + slot, spheres.y + slot, spheres.z + slot, r_squared);
+    auto passes = hn::Ge(met.dp, hn::Zero(d));
+    if constexpr (kLeaves) passes = without_own(passes, leaf.ids(lane), leaf.ray(0).outward_id);
+    queued = queue_candidates(queue, queued, passes, met, r_squared, leaf.slots(lane), leaf.list[0]);
+  }
+  queue.count = queued;
+}
+
 /// The rays against the spheres; finish() empties the queue of the tile. With kLeaves some ray may leave a sphere.
 template <bool kLeaves, class Finish>
 HWY_INLINE void look_at_leaf(const LeafAndRays& leaf, const Finish& finish) {

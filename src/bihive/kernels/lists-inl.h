@@ -387,7 +387,12 @@ class ListWalk {
   void test_leaf_pairs() {
     for (int i = 0; i < tile_.pair_count; ++i) {
       const kernels::LeafPair pair = tile_.pairs[i];
-      test_leaf(pair.first, pair.count, &pair.ray, 1);
+      const LeafAndRays leaf{tree_, tile_, bounds_.e, pair.first, pair.count, &pair.ray, 1};
+      if (leaves_some_)
+        look_at_pair<true>(leaf);
+      else
+        look_at_pair<false>(leaf);
+      if (HWY_UNLIKELY(tile_.queue.count >= kernels::kQueue)) finish_candidates();
     }
     tile_.pair_count = 0;
     finish_candidates();
@@ -608,7 +613,7 @@ class ListWalk {
   const bool leaves_some_ = rays_.leaves != nullptr;  // what the arrays of the tile that say so hold
   const bool inward_some_ = leaves_some_ && some_go_inward();
   const bool careful_some_ = leaves_some_ && !tree_.repeated.empty();
-  bool common_start_ = false;  // all rays have the same s_min
+  bool common_start_ = false;   // all rays have the same s_min
   bool settled_early_ = false;  // answers may hold rivals before the winners are confirmed
   bool negative_[3] = {};
   bool backwards_ = false;

@@ -172,8 +172,8 @@ HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, 
 }
 
 /// Adds what box tests need and writes `count` of the sixteen rays, rounded up to a multiple of four, to to[0], to[1],
-/// ..., with their outward_id. Directions within 1e-18 of an axis's plane are moved off it: over the 16 units to anything in the set that is
-/// less than any padding.
+/// ..., with their outward_id. Directions within 1e-18 of an axis's plane are moved off it: over the 16 units to
+/// anything in the set that is less than any padding.
 HWY_INLINE void write_filter_rays(const LocalRays& rays, const std::uint32_t outward[16], FilterRay* to, int count) {
   using Tag = hn::CappedTag<float, 16>;
   const Tag d;

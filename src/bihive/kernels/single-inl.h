@@ -78,10 +78,8 @@ class WaitingChildren {
       auto s_out = hn::Set(d, ray.s_best);
       for (int axis = 0; axis < 3; ++axis) {
         const auto inverse = hn::Set(d, ray.local.inverse[axis]);
-        s_in =
-            hn::Max(s_in, hn::MulAdd(hn::Load(d, near[axis] + lane), inverse, hn::Set(d, ray.near_offset[axis])));
-        s_out =
-            hn::Min(s_out, hn::MulAdd(hn::Load(d, far[axis] + lane), inverse, hn::Set(d, ray.far_offset[axis])));
+        s_in = hn::Max(s_in, hn::MulAdd(hn::Load(d, near[axis] + lane), inverse, hn::Set(d, ray.near_offset[axis])));
+        s_out = hn::Min(s_out, hn::MulAdd(hn::Load(d, far[axis] + lane), inverse, hn::Set(d, ray.far_offset[axis])));
       }
       return hn::Le(s_in, s_out);
     };

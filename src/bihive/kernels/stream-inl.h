@@ -62,6 +62,7 @@ struct StreamRay {
   }
 };
 
+/// kStreamRays of them, in memory that is kept.
 HWY_INLINE StreamRay* stream_rays(AlignedBuffer& memory) {
   if (HWY_UNLIKELY(memory.capacity() < kStreamRays * sizeof(StreamRay))) {
     memory.reserve(kStreamRays * sizeof(StreamRay));

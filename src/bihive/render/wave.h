@@ -158,19 +158,20 @@ void hit_plane(const WaveScene& scene, const WavePart& rays, double* t, std::int
 void find_surfaces(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
                    WaveSurfaces& surfaces, WaveSums& sums);
 
-/// The shadow rays of surfaces first to before last towards one light, as local_light() makes them; added to `shadows`.
-void find_shadow_rays(const WaveSurfaces& surfaces, const PointLight& light, ShadowWave& shadows);
+/// The shadow rays of the surfaces from number `first` on towards one light, as local_light() makes them; added to
+/// `shadows`.
+void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light, ShadowWave& shadows);
 
 /// What surfaces do with light. `hidden`: for each light a row of one byte a surface, 1 where a sphere is between;
 /// null: no shadows. Adds local_light() times weight to the owners.
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums);
 
-/// reflected_ray() and transmitted_ray() where the material has any, in the order of the surfaces, of one surface the
-/// reflected first; added to `next`, which must have room for two a surface.
+/// reflected_ray() and transmitted_ray() of the surfaces from number `first` on where the material has any, in the
+/// order of the surfaces, of one surface the reflected first; added to `next`, which must have room for two a surface.
 struct SentOn {
   std::int64_t reflected = 0, transmitted = 0;
 };
-SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, Wave& next);
+SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
 
 /// What owners 0 to count - 1 received, rounded to binary32: owner i's to the film at pixel[i].
 void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);

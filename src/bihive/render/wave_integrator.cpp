@@ -7,7 +7,8 @@ namespace {
 
 // Without vectors there is nothing to gain from long spans, and a wish to stop should be heard soon.
 constexpr std::int64_t kRaysBetweenLooks = 64;
-// Without shadows nothing is asked of a whole generation but its hits: shade what fits the nearest cache.
+// What is asked of a whole generation is its hits and its shadows; everything between them is done for as many rays as
+// fit the nearest cache.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
 
 }  // namespace
@@ -46,29 +47,17 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
   if (next != nullptr) next->reset(2 * rays.count());
-  const std::int64_t step = settings_.light && settings_.shadows ? rays.count() : kRaysShadedAtOnce;
-  buffers.surfaces.reset(std::min(step, rays.count()));
-  for (std::int64_t i = 0; i < rays.count(); i += step) {
-    const WavePart part{rays.wave, rays.first + i, std::min(rays.first + i + step, rays.last)};
-    double* const t = buffers.t.data() + i;
-    std::int64_t* const id = buffers.id.data() + i;
-    buffers.surfaces.count = 0;
-    steps::hit_plane(scene_, part, t, id);
-    steps::find_surfaces(scene_, part, t, id, buffers.surfaces, buffers.sums);
-    if (settings_.depth)
-      for (std::int64_t k = 0; k < buffers.surfaces.count; ++k)
-        deepest_hit_[static_cast<std::size_t>(buffers.surfaces.owner[k])] = static_cast<std::uint8_t>(depth);
-    if (settings_.light) {
-      if (settings_.shadows) find_shadows(depth, buffers);
-      steps::add_local_light(scene_, buffers.surfaces, settings_.shadows ? buffers.hidden.data() : nullptr,
-                             buffers.sums);
-    }
-    if (next == nullptr) continue;
-    const steps::SentOn sent = steps::send_on(scene_, buffers.surfaces, *next);
-    rays_.reflected += sent.reflected;
-    rays_.transmitted += sent.transmitted;
+  buffers.surfaces.reset(with_shadows() ? rays.count() : std::min(kRaysShadedAtOnce, rays.count()));
+  if (with_shadows()) begin_shadows(rays.count(), buffers);
+  for (std::int64_t i = 0; i < rays.count(); i += kRaysShadedAtOnce) {
+    const WavePart part{rays.wave, rays.first + i, std::min(rays.first + i + kRaysShadedAtOnce, rays.last)};
+    shade(part, depth, HitSpan{buffers.t.data(), buffers.id.data()}.part(i), next, buffers);
   }
-
+  if (with_shadows()) {
+    find_shadows(depth, buffers);
+    if (cancelled()) return;
+    steps::add_local_light(scene_, buffers.surfaces, buffers.hidden.data(), buffers.sums);
+  }
   buffers.sums.empty = false;
 
   // Follow them, cut between owners where they are too many.
@@ -86,16 +75,41 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   }
 }
 
+void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers) {
+  // Shadows need the surfaces of the whole generation.
+  WaveSurfaces& surfaces = buffers.surfaces;
+  if (!with_shadows()) surfaces.count = 0;
+  const std::int64_t known = surfaces.count;
+  steps::hit_plane(scene_, rays, hits.t, hits.sphere_id);
+  steps::find_surfaces(scene_, rays, hits.t, hits.sphere_id, surfaces, buffers.sums);
+  if (settings_.depth)
+    for (std::int64_t k = known; k < surfaces.count; ++k)
+      deepest_hit_[static_cast<std::size_t>(surfaces.owner[k])] = static_cast<std::uint8_t>(depth);
+  if (with_shadows())
+    for (std::size_t l = 0; l < scene_.scene->lights.size(); ++l)
+      steps::find_shadow_rays(surfaces, known, scene_.scene->lights[l], buffers.shadows[l]);
+  else if (settings_.light)
+    steps::add_local_light(scene_, surfaces, nullptr, buffers.sums);
+  if (next == nullptr) return;
+  const steps::SentOn sent = steps::send_on(scene_, surfaces, known, *next);
+  rays_.reflected += sent.reflected;
+  rays_.transmitted += sent.transmitted;
+}
+
+void WaveIntegrator::begin_shadows(std::int64_t rays, WaveBuffers& buffers) const {
+  const std::size_t lights = scene_.scene->lights.size();
+  if (buffers.shadows.size() < lights) buffers.shadows.resize(lights);
+  for (std::size_t l = 0; l < lights; ++l) buffers.shadows[l].reset(rays);
+}
+
 void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   const std::int64_t surfaces = buffers.surfaces.count;
-  const std::vector<PointLight>& lights = scene_.scene->lights;
-  const std::int64_t all = surfaces * static_cast<std::int64_t>(lights.size());
+  const std::size_t lights = scene_.scene->lights.size();
+  const std::int64_t all = surfaces * static_cast<std::int64_t>(lights);
   buffers.hidden.reserve(all);
   std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
-  ShadowWave& shadows = buffers.shadows;
-  for (std::size_t l = 0; l < lights.size(); ++l) {
-    shadows.reset(surfaces);
-    steps::find_shadow_rays(buffers.surfaces, lights[l], shadows);
+  for (std::size_t l = 0; l < lights; ++l) {
+    ShadowWave& shadows = buffers.shadows[l];
     rays_.shadow += shadows.count;
 
     // Those of the first generation are neighbours as the pixels are.

@@ -28,9 +28,10 @@ struct LightLanes {
   }
 };
 
-void find_shadow_rays_on_target(const WaveSurfaces& surfaces, const PointLight& light, ShadowWave& shadows) {
+void find_shadow_rays_on_target(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light,
+                                ShadowWave& shadows) {
   const WordTag w;
-  for (std::int64_t i = 0; i < surfaces.count; i += kLanes) {
+  for (std::int64_t i = first; i < surfaces.count; i += kLanes) {
     const Lanes3 origin = load(surfaces.origin, i);
     const LightLanes to_light(light, origin, load(surfaces.normal, i));
     const LaneMask lit = hn::And(to_light.in_front, first_lanes(surfaces.count - i));
@@ -123,9 +124,9 @@ HWY_EXPORT(add_local_light_on_target);
 
 namespace steps {
 
-void find_shadow_rays(const WaveSurfaces& surfaces, const PointLight& light, ShadowWave& shadows) {
+void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light, ShadowWave& shadows) {
   ensure_target();
-  HWY_DYNAMIC_DISPATCH(find_shadow_rays_on_target)(surfaces, light, shadows);
+  HWY_DYNAMIC_DISPATCH(find_shadow_rays_on_target)(surfaces, first, light, shadows);
 }
 
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums) {

@@ -80,10 +80,10 @@ HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMa
     }
 }
 
-steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surfaces, Wave& next) {
+steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next) {
   const WordTag w;
   steps::SentOn sent;
-  for (std::int64_t i = 0; i < surfaces.count; i += kLanes) {
+  for (std::int64_t i = first; i < surfaces.count; i += kLanes) {
     // A share of exactly 0 makes no ray.
     const LaneMask there = first_lanes(surfaces.count - i);
     const Words id = load(surfaces.id, i);
@@ -138,9 +138,9 @@ HWY_EXPORT(send_on_on_target);
 
 namespace steps {
 
-SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, Wave& next) {
+SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next) {
   ensure_target();
-  return HWY_DYNAMIC_DISPATCH(send_on_on_target)(scene, surfaces, next);
+  return HWY_DYNAMIC_DISPATCH(send_on_on_target)(scene, surfaces, first, next);
 }
 
 }  // namespace steps
