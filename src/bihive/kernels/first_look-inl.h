@@ -44,7 +44,6 @@ struct LeafAndRays {
   std::uint32_t count;
 
   HWY_INLINE const FilterRay& ray(std::uint32_t i) const { return tile.rays[list[i]]; }
-  HWY_INLINE void fetch_ahead_of(std::uint32_t i) const { __builtin_prefetch(&ray(std::min(i + kAhead, count - 1))); }
 
   /// Of the spheres from `lane` on: (r + e)^2, which nothing reaches past the leaf; ids; slots.
   HWY_INLINE Floats padded_squares(std::uint32_t lane) const {
@@ -129,6 +128,24 @@ HWY_INLINE int queue_candidates(kernels::CandidateQueue& queue, int queued, Floa
   return queued + passing;
 }
 
+/// Calls look(i, queued) for each ray of the list, which returns the new length of the queue; finish() empties a queue
+/// that is full.
+template <class Look, class Finish>
+HWY_INLINE void for_each_ray(const LeafAndRays& leaf, const Finish& finish, const Look& look) {
+  kernels::CandidateQueue& queue = leaf.tile.queue;
+  int queued = queue.count;
+  for (std::uint32_t i = 0; i < leaf.count; ++i) {
+    __builtin_prefetch(&leaf.ray(std::min(i + kAhead, leaf.count - 1)));
+    queued = look(i, queued);
+    if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
+      queue.count = queued;
+      finish();
+      queued = 0;
+    }
+  }
+  queue.count = queued;
+}
+
 /// All the spheres in one vector, which stays in registers while the rays come.
 template <bool kLeaves, class Finish>
 HWY_INLINE void look_at_one_vector(const LeafAndRays& leaf, const Finish& finish) {
@@ -139,92 +156,72 @@ HWY_INLINE void look_at_one_vector(const LeafAndRays& leaf, const Finish& finish
   const auto r_squared = leaf.padded_squares(0);
   const auto slots = leaf.slots(0);
   const auto ids = leaf.ids(0);
-  kernels::CandidateQueue& queue = leaf.tile.queue;
-  int queued = queue.count;
-  for (std::uint32_t i = 0; i < leaf.count; ++i) {
-    leaf.fetch_ahead_of(i);
+  for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
     const Meeting met = LeafRay(leaf.ray(i)).meet(x, y, z, r_squared);
     auto passes = hn::Ge(met.dp, hn::Zero(d));
     if constexpr (kLeaves) passes = without_own(passes, ids, leaf.ray(i).outward_id);
-    queued = queue_candidates(queue, queued, passes, met, r_squared, slots, leaf.list[i]);
-    if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
-      queue.count = queued;
-      finish();
-      queued = 0;
-    }
-  }
-  queue.count = queued;
+    return queue_candidates(leaf.tile.queue, queued, passes, met, r_squared, slots, leaf.list[i]);
+  });
 }
 
 /// What the ways below keep of a leaf: loads of these cost less than to spread each ray over the lanes once more.
 struct alignas(64) LeafInMemory {
-  float r_squared[kWidth];
-  std::uint32_t ids[kWidth], slots[kWidth];
+  const float *x, *y, *z;
+  alignas(64) float r_squared[kWidth];
+  alignas(64) std::uint32_t ids[kWidth], slots[kWidth];
 
-  HWY_INLINE explicit LeafInMemory(const LeafAndRays& leaf) {
+  HWY_INLINE explicit LeafInMemory(const LeafAndRays& leaf)
+      : x(leaf.tree.spheres.x + leaf.slot), y(leaf.tree.spheres.y + leaf.slot), z(leaf.tree.spheres.z + leaf.slot) {
     for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
       hn::Store(leaf.padded_squares(lane), FloatTag(), r_squared + lane);
       hn::Store(leaf.ids(lane), WordTag(), ids + lane);
       hn::Store(leaf.slots(lane), WordTag(), slots + lane);
     }
   }
+
+  /// How a ray lies to the spheres from `lane` on, and which of them it may hit.
+  template <bool kLeaves>
+  HWY_INLINE Meeting meet(const LeafRay& ray, std::uint32_t outward_id, std::uint32_t lane, FloatMask& passes) const {
+    const FloatTag d;
+    const Meeting met = ray.meet(x + lane, y + lane, z + lane, hn::Load(d, r_squared + lane));
+    passes = hn::Ge(met.dp, hn::Zero(d));
+    if constexpr (kLeaves) passes = without_own(passes, hn::Load(WordTag(), ids + lane), outward_id);
+    return met;
+  }
 };
 
 /// Ray after ray against one vector of spheres, or two.
-template <bool kLeaves, int kVectors, class Finish>
+template <bool kLeaves, std::uint32_t kVectors, class Finish>
 HWY_INLINE void look_at_few_vectors(const LeafAndRays& leaf, const Finish& finish) {
-  const FloatTag d;
   const LeafInMemory memory(leaf);
-  const float* const x = leaf.tree.spheres.x + leaf.slot;
-  const float* const y = leaf.tree.spheres.y + leaf.slot;
-  const float* const z = leaf.tree.spheres.z + leaf.slot;
-  kernels::CandidateQueue& queue = leaf.tile.queue;
-  int queued = queue.count;
-  for (std::uint32_t i = 0; i < leaf.count; ++i) {
-    leaf.fetch_ahead_of(i);
+  for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
     const LeafRay ray(leaf.ray(i));
-    for (int lane = 0; lane < kVectors * kFloatLanes; lane += kFloatLanes) {
-      const auto r_squared = hn::Load(d, memory.r_squared + lane);
-      const Meeting met = ray.meet(x + lane, y + lane, z + lane, r_squared);
-      auto passes = hn::Ge(met.dp, hn::Zero(d));
-      if constexpr (kLeaves)
-        passes = without_own(passes, hn::Load(WordTag(), memory.ids + lane), leaf.ray(i).outward_id);
-      queued = queue_candidates(queue, queued, passes, met, r_squared, hn::Load(WordTag(), memory.slots + lane),
-                                leaf.list[i]);
+    for (std::uint32_t lane = 0; lane < kVectors * kFloatLanes; lane += kFloatLanes) {
+      FloatMask passes;
+      const Meeting met = memory.meet<kLeaves>(ray, leaf.ray(i).outward_id, lane, passes);
+      queued = queue_candidates(leaf.tile.queue, queued, passes, met, hn::Load(FloatTag(), memory.r_squared + lane),
+                                hn::Load(WordTag(), memory.slots + lane), leaf.list[i]);
     }
-    if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
-      queue.count = queued;
-      finish();
-      queued = 0;
-    }
-  }
-  queue.count = queued;
+    return queued;
+  });
 }
 
 /// Ray after ray against several short vectors of spheres, whose candidates are picked one by one.
 template <bool kLeaves, class Finish>
 HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& finish) {
-  const FloatTag d;
   const LeafInMemory memory(leaf);
-  const float* const x = leaf.tree.spheres.x + leaf.slot;
-  const float* const y = leaf.tree.spheres.y + leaf.slot;
-  const float* const z = leaf.tree.spheres.z + leaf.slot;
   kernels::CandidateQueue& queue = leaf.tile.queue;
-  int queued = queue.count;
   alignas(64) float b[kWidth];
   alignas(64) float dp[kWidth];
-  for (std::uint32_t i = 0; i < leaf.count; ++i) {
+  for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
     const LeafRay ray(leaf.ray(i));
     std::uint32_t bits = 0;
     for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
-      const Meeting met = ray.meet(hn::LoadU(d, x + lane), hn::LoadU(d, y + lane), hn::LoadU(d, z + lane),
-                                   hn::Load(d, memory.r_squared + lane));
-      auto passes = hn::Ge(met.dp, hn::Zero(d));
-      if constexpr (kLeaves)
-        passes = without_own(passes, hn::Load(WordTag(), memory.ids + lane), leaf.ray(i).outward_id);
+      FloatMask passes;
+      const Meeting met = memory.meet<kLeaves>(ray, leaf.ray(i).outward_id, lane, passes);
       bits |= mask_bits(passes) << lane;
-      hn::Store(met.b, d, b + lane);
-      hn::Store(met.dp, d, dp + lane);
+      hn::Store(met.b, FloatTag(), b + lane);
+      hn::Store(met.dp, FloatTag(), dp + lane);
     }
     for (; bits != 0; bits &= bits - 1) {
       const int k = __builtin_ctz(bits);
@@ -235,13 +232,8 @@ HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& fin
       queue.ray[queued] = leaf.list[i];
       ++queued;
     }
-    if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
-      queue.count = queued;
-      finish();
-      queued = 0;
-    }
-  }
-  queue.count = queued;
+    return queued;
+  });
 }
 
 /// One ray. The queue must have room for two vectors.
