@@ -172,6 +172,20 @@ TEST(WideTraversal, DeepTreesAndLongLists) {
   wide.check(rays, 200);
   wide.check(query_rays(world, wide, 72, 4000 / kShare), 200);
   EXPECT_GT(wide.hits(), 2000 / kShare);
+
+  // All of one octant, from deep inside towards the corner: no list gets shorter on the way to where they start, until
+  // there is no more room for another, and a stream of all of them goes on.
+  rays.clear();
+  for (std::int64_t i = 0; i < 32768 / kShare; ++i) {
+    const double near = std::ldexp(1, -60 - static_cast<int>(rng.next_below(50)));
+    Ray ray;
+    ray.origin = to_float(Vec3d{test::uniform(rng, 1, 2), test::uniform(rng, 1, 2), test::uniform(rng, 1, 2)} * near);
+    ray.direction = to_float(Vec3d{0, 0, 0} - to_double(ray.origin) / near);
+    rays.push_back(ray);
+  }
+  const std::int64_t hits_before = wide.hits();
+  wide.check(rays, 200);
+  EXPECT_GT(wide.hits() - hits_before, 10000 / kShare);
 }
 
 TEST(WideTraversal, LargeSets) {

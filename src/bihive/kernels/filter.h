@@ -18,9 +18,9 @@
 // With r = 0 that never holds. A far root lies at s <= b + e + sqrt(dp).
 //
 // Boxes: a plane's distance (plane - o) / n is wrong by less than 7 u F in plane's place (2 u F for 1 / n, u F for the
-// product o / n, u F for the moved plane, u F for the fused sum, u F for n, u F for a moved origin), and a hit lies up
-// to 2^-25 + 52 2^-53 F beyond its box (docs/precision.md, "Padding"). All planes are moved outward by kBoxUnits u F =
-// 10 u F.
+// product o / n, u F for the moved plane or offset, u F for the fused sum, u F for n, u F for a moved origin), and a
+// hit lies up to 2^-25 + 52 2^-53 F beyond its box (docs/precision.md, "Padding"). All planes are moved outward by
+// kBoxUnits u F = 10 u F; single rays move their offsets by as much instead.
 #pragma once
 
 #include <algorithm>

@@ -236,7 +236,7 @@ HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& fin
   });
 }
 
-/// One ray. The queue must have room for two vectors.
+/// One ray. The queue must have room for sixteen more.
 template <bool kLeaves>
 HWY_INLINE void look_at_pair(const LeafAndRays& leaf) {
   const FloatTag d;

@@ -61,7 +61,7 @@ struct ListTile {
   AlignedBuffer arena;
   AlignedBuffer stream;
 
-  // Rays are looked up all over it.
+  // On huge pages: rays are looked up all over it.
   static void* operator new(std::size_t bytes) { return allocate_aligned(bytes); }
   static void operator delete(void* tile) { std::free(tile); }
 };

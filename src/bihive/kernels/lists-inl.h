@@ -290,7 +290,7 @@ class ListWalk {
         const auto s_in = ray.entry(boxes);
         const auto enters = hn::Le(s_in, ray.exit(boxes));
         bits |= mask_bits(enters) << lane;
-        // If any hit does, distances do not matter.
+        // Where any hit is as good as the closest, nobody asks for distances.
         if constexpr (kAnyHit) continue;
         if constexpr (kFloatLanes == kWidth)
           hn::StoreU(compress(s_in, enters), d, memory.s_near + stored);
@@ -353,10 +353,10 @@ class ListWalk {
       ray.inward = inward_some_ && tile_.inward_id[number] != kNoSphere;
       if (ray.inward) ray.left_id = tile_.inward_id[number];
       if (careful_some_ && tile_.careful[number] != 0) ray.sure_min = std::numeric_limits<float>::infinity();
-      ray.winner = kNoSlot;
+      ray.winner = kNoWinner;
     };
     const auto finish = [&](std::uint32_t i, const SingleRay& ray) HWY_ATTR {
-      if (ray.winner == kNoSlot) return;
+      if (ray.winner == kNoWinner) return;
       const std::uint32_t number = list[i];
       if constexpr (kAnyHit) {
         hide(number);
@@ -610,10 +610,10 @@ class ListWalk {
   FilterBounds bounds_;
   std::uint32_t octant_count_[8] = {};
   std::uint32_t far_count_ = 0;
-  const bool leaves_some_ = rays_.leaves != nullptr;  // what the arrays of the tile that say so hold
-  const bool inward_some_ = leaves_some_ && some_go_inward();
-  const bool careful_some_ = leaves_some_ && !tree_.repeated.empty();
-  bool common_start_ = false;   // all rays have the same s_min
+  const bool leaves_some_ = rays_.leaves != nullptr;                   // some ray may leave a sphere
+  const bool inward_some_ = leaves_some_ && some_go_inward();          // inward_id of the tile is filled
+  const bool careful_some_ = leaves_some_ && !tree_.repeated.empty();  // careful of the tile is filled
+  bool common_start_ = false;                                          // all rays have the same s_min
   bool settled_early_ = false;  // answers may hold rivals before the winners are confirmed
   bool negative_[3] = {};
   bool backwards_ = false;

@@ -200,8 +200,11 @@ HWY_INLINE void write_filter_rays(const LocalRays& rays, const std::uint32_t out
                                        rays.s_min,        outward_id,        unused,         unused};
   static_assert(sizeof(FilterRay) == sizeof(float) * 16);
 #if HWY_TARGET == HWY_SCALAR
-  for (int i = 0; i < count; ++i)
-    for (int k = 0; k < 16; ++k) reinterpret_cast<float*>(to + i)[k] = components[k][i];
+  for (int i = 0; i < count; ++i) {
+    float row[16];
+    for (int k = 0; k < 16; ++k) std::memcpy(row + k, components[k] + i, sizeof(float));
+    std::memcpy(to + i, row, sizeof(row));
+  }
 #else
   const hn::Full128<float> quad;
   const hn::Full128<double> two;

@@ -48,7 +48,7 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
   if (next != nullptr) next->reset(2 * rays.count());
   buffers.surfaces.reset(with_shadows() ? rays.count() : std::min(kRaysShadedAtOnce, rays.count()));
-  if (with_shadows()) begin_shadows(rays.count(), buffers);
+  if (with_shadows()) buffers.shadows.reset(rays.count());
   for (std::int64_t i = 0; i < rays.count(); i += kRaysShadedAtOnce) {
     const WavePart part{rays.wave, rays.first + i, std::min(rays.first + i + kRaysShadedAtOnce, rays.last)};
     shade(part, depth, HitSpan{buffers.t.data(), buffers.id.data()}.part(i), next, buffers);
@@ -85,31 +85,31 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
   if (settings_.depth)
     for (std::int64_t k = known; k < surfaces.count; ++k)
       deepest_hit_[static_cast<std::size_t>(surfaces.owner[k])] = static_cast<std::uint8_t>(depth);
-  if (with_shadows())
-    for (std::size_t l = 0; l < scene_.scene->lights.size(); ++l)
-      steps::find_shadow_rays(surfaces, known, scene_.scene->lights[l], buffers.shadows[l]);
-  else if (settings_.light)
+  if (with_shadows()) {
+    const std::vector<PointLight>& lights = scene_.scene->lights;
+    if (!lights.empty()) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
+  } else if (settings_.light) {
     steps::add_local_light(scene_, surfaces, nullptr, buffers.sums);
+  }
   if (next == nullptr) return;
   const steps::SentOn sent = steps::send_on(scene_, surfaces, known, *next);
   rays_.reflected += sent.reflected;
   rays_.transmitted += sent.transmitted;
 }
 
-void WaveIntegrator::begin_shadows(std::int64_t rays, WaveBuffers& buffers) const {
-  const std::size_t lights = scene_.scene->lights.size();
-  if (buffers.shadows.size() < lights) buffers.shadows.resize(lights);
-  for (std::size_t l = 0; l < lights; ++l) buffers.shadows[l].reset(rays);
-}
-
 void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   const std::int64_t surfaces = buffers.surfaces.count;
-  const std::size_t lights = scene_.scene->lights.size();
-  const std::int64_t all = surfaces * static_cast<std::int64_t>(lights);
+  const std::vector<PointLight>& lights = scene_.scene->lights;
+  const std::int64_t all = surfaces * static_cast<std::int64_t>(lights.size());
   buffers.hidden.reserve(all);
   std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
-  for (std::size_t l = 0; l < lights; ++l) {
-    ShadowWave& shadows = buffers.shadows[l];
+  ShadowWave& shadows = buffers.shadows;
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    // Those towards the first light are there already.
+    if (l > 0) {
+      shadows.reset(surfaces);
+      steps::find_shadow_rays(buffers.surfaces, 0, lights[l], shadows);
+    }
     rays_.shadow += shadows.count;
 
     // Those of the first generation are neighbours as the pixels are.

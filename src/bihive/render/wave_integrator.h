@@ -21,7 +21,7 @@ struct WaveBuffers {
   Column<double> t;
   Column<std::int64_t> id;
   WaveSurfaces surfaces;
-  std::vector<ShadowWave> shadows;  ///< one a light
+  ShadowWave shadows;
   Column<std::uint8_t> hidden;
   WaveSums sums;
   Column<double> x, y;  ///< picture positions of primary rays
@@ -60,7 +60,6 @@ class WaveIntegrator {
   void find_sphere_hits(const WavePart& rays, WaveBuffers& buffers) const;
   void trace_part(const WavePart& rays, int depth, WaveBuffers& buffers);
   void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
-  void begin_shadows(std::int64_t rays, WaveBuffers& buffers) const;
   void find_shadows(int depth, WaveBuffers& buffers);
   bool with_shadows() const { return settings_.light && settings_.shadows; }
   bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }
