@@ -62,6 +62,9 @@ inline float upper_distance(double t, double length, double shift) {
   return static_cast<float>(std::clamp(upper, -double(kFarthestEnd), double(kFarthestEnd)));
 }
 
+/// No sphere's id.
+constexpr std::uint32_t kNoSphere = 0xFFFFFFFF;
+
 /// One local ray, a cache line.
 struct alignas(64) FilterRay {
   float origin[3];
@@ -72,7 +75,6 @@ struct alignas(64) FilterRay {
   std::uint32_t outward_id;  ///< of the sphere that it leaves going outward; kNoSphere if there is none
   std::uint32_t unused[2];
 };
-constexpr std::uint32_t kNoSphere = 0xFFFFFFFF;
 static_assert(sizeof(FilterRay) == 64);
 
 }  // namespace bihive

@@ -1,5 +1,5 @@
 // The first look at a leaf: which of its spheres may a list of rays hit? What passes waits in the queue of candidates.
-// One of three ways, by how many spheres a vector holds: they were measured, and each loses on the others' targets.
+// One of three ways, by how many spheres a vector holds (what was measured: docs/performance_notes.md).
 
 #if defined(BIHIVE_KERNELS_FIRST_LOOK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_KERNELS_FIRST_LOOK_INL_H_
