@@ -107,7 +107,11 @@ void check(const std::string& what, const WideTree& tree, const RayBatch& batch,
     same("any order", [&](std::uint8_t* hidden) { occluded(tree, rays, RayOrder::any, hidden); });
     same("blocks", [&](std::uint8_t* hidden) { occluded(tree, rays, RayOrder::blocks, hidden); });
     // Beams also where nobody would choose them, and with neighbours that are none.
-    same("unsorted", [&](std::uint8_t* hidden) { kernels::occluded_sorted_beams(tree, rays, hidden); });
+    std::vector<std::uint8_t> probe(expected.size());
+    if (kernels::occluded_sorted_beams(tree, rays, false, probe.data()))
+      same("unsorted", [&](std::uint8_t* hidden) { kernels::occluded_sorted_beams(tree, rays, false, hidden); });
+    if (kernels::occluded_sorted_beams(tree, rays, true, probe.data()))
+      same("unsorted, judged", [&](std::uint8_t* hidden) { kernels::occluded_sorted_beams(tree, rays, true, hidden); });
     if (testing::Test::HasFatalFailure()) return;
   }
   ASSERT_TRUE(use_target("").ok());
@@ -153,6 +157,43 @@ TEST(ConvergingRays, AreKnownAsSuch) {
   EXPECT_FALSE(kernels::converge(rays.span()));
   rays.direction[1][2001] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(kernels::converge(rays.span()));
+}
+
+// Beams pay where a few spheres hide all, and not where each ray has its own way through many.
+TEST(ConvergingRays, AreJudgedBySomeOfThem) {
+  SplitMix64 rng(66);
+  const auto pays = [&](const test::World& world, bool judge) {
+    const SphereSet spheres = test::sphere_set(world);
+    WideBuilder builder;
+    const auto tree = builder.build(spheres);
+    EXPECT_TRUE(tree.ok());
+    const Box box = box_of(world);
+    const RayBatch rays = rays_to(some_light(world, box, 0, rng), world, box, true, rng);
+    std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.size()));
+    return kernels::occluded_sorted_beams(**tree, rays.span(), judge, hidden.data());
+  };
+  const test::World few = test::random_world("few", 67, 40, 1, 1, 1);
+  const test::World many = test::random_world("many", 68, 20000, 100, 0.1, 0.1);
+  EXPECT_TRUE(pays(few, true));
+  EXPECT_FALSE(pays(many, true));  // 64 rays that are no neighbours
+  EXPECT_TRUE(pays(many, false));
+
+  // Narrow enough, but past a hundred small spheres of which none is in the way of more than a ray or two.
+  const test::World small = test::random_world("small", 69, 20000, 100, 0.01, 0.01);
+  const SphereSet spheres = test::sphere_set(small);
+  WideBuilder builder;
+  const auto tree = builder.build(spheres);
+  ASSERT_TRUE(tree.ok());
+  RayBatch rays;
+  for (int i = 0; i < kRays; ++i) {
+    Ray ray;
+    ray.origin = to_float(Vec3d{test::uniform(rng, -8, 8), test::uniform(rng, -8, 8), -110});
+    ray.direction = to_float(Vec3d{0, 0, 1e4} - to_double(ray.origin));
+    rays.push_back(ray);
+  }
+  std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.size()));
+  EXPECT_FALSE(kernels::occluded_sorted_beams(**tree, rays.span(), true, hidden.data()));
+  EXPECT_TRUE(kernels::occluded_sorted_beams(**tree, rays.span(), false, hidden.data()));
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace bihive::kernels {
 /// Any rays may come; only blocks (counted from the first ray) that are close in origin and direction are fast.
 void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
 void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
-/// Of rays in the order of kernels/converging_rays.h.
-void occluded_sorted_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+/// Of rays in the order of kernels/converging_rays.h. False: nothing is answered, since they are not for beams, or, if
+/// asked to `judge`, since some of them have shown that ray lists are faster.
+bool occluded_sorted_beams(const WideTree& tree, const RaySpan& rays, bool judge, std::uint8_t* hidden);
 
 }  // namespace bihive::kernels

@@ -124,9 +124,9 @@ namespace {
 
 // Of fewer rays blocks of 64 are hardly ever close. A guess, not measured.
 constexpr std::int64_t kFewest = 2048;
-// Rays over the cross-section of a leaf: sixteen of them must fit into a part that is kWidestSortedPartInLeaves (0.4)
-// wide (kernels/occlusion_beam-inl.h).
-constexpr double kFewestPerLeaf = 100;
+// Rays over the cross-section of a leaf: sixteen of them must fit into a part that is kWidestSortedPartInLeaves wide
+// (kernels/occlusion_beam-inl.h).
+constexpr double kFewestPerLeaf = 25;
 // Sorted at a time.
 constexpr std::int64_t kTile = 262144;
 constexpr std::int64_t kRaysPerCell = 4;
@@ -168,10 +168,12 @@ class SortedTile {
     return true;
   }
 
-  void occluded(const WideTree& tree, std::uint8_t* hidden) {
+  /// False: beams are of no use here, and nothing is answered.
+  bool occluded(const WideTree& tree, std::uint8_t* hidden) {
     hidden_.resize(order_.size());
-    occluded_sorted_beams(tree, rays_.span(), hidden_.data());
+    if (!occluded_sorted_beams(tree, rays_.span(), true, hidden_.data())) return false;
     for (std::size_t i = 0; i < order_.size(); ++i) hidden[order_[i]] = hidden_[i];
+    return true;
   }
 
  private:
@@ -285,11 +287,7 @@ void occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t
   SortedTile& tile = tile_of_this_thread();
   for (std::int64_t first = 0; first < rays.count; first += kTile) {
     const RaySpan part = rays.part(first, std::min(kTile, rays.count - first));
-    if (tile.sort(tree, part)) {
-      tile.occluded(tree, hidden + first);
-    } else {
-      occluded_lists(tree, part, hidden + first);
-    }
+    if (!tile.sort(tree, part) || !tile.occluded(tree, hidden + first)) occluded_lists(tree, part, hidden + first);
   }
 }
 

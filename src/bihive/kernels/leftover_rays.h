@@ -16,7 +16,7 @@ class LeftoverRays {
  public:
   explicit LeftoverRays(const RaySpan& rays) : rays_(rays) {}
 
-  /// Rays first to first + count - 1, after those added before.
+  /// Rays first to first + count - 1, which were not added before.
   void add(std::int64_t first, std::int64_t count) {
     count_ += count;
     if (!runs_.empty() && runs_.back().first + runs_.back().count == first) {

@@ -1,6 +1,6 @@
 // A tile of rays walks the wide tree as lists: at each node every listed ray tests the sixteen boxes, and each child
-// gets the list of the rays that enter it, near to far. What a single ray loses to branches that nobody can foresee, a
-// list does without branches.
+// gets the list of the rays that enter it, near to far (from the far end where any hit will do). What a single ray
+// loses to branches that nobody can foresee, a list does without branches.
 
 #if defined(BIHIVE_KERNELS_LISTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_KERNELS_LISTS_INL_H_
@@ -169,9 +169,10 @@ class ListWalk {
 
   // ---- Walking ----
 
+  // To the closest hit from near to far, to any hit from the far end: docs/decisions/0013-any-hit-from-the-far-end.md.
   void walk_octant(int octant) {
     for (int axis = 0; axis < 3; ++axis) negative_[axis] = (octant >> axis & 1) != 0;
-    backwards_ = octant >= 4;
+    backwards_ = (octant >= 4) != kAnyHit;
     order_ = octant >= 4 ? 7 - octant : octant;
     tile_.arena.reserve(kArenaBytes);
     walk(0, tile_.by_octant[octant], octant_count_[octant], 0);
@@ -209,7 +210,7 @@ class ListWalk {
     const NodeMemory memory(static_cast<char*>(tile_.arena.data()) + arena_used, count);
     const std::uint32_t any = test_boxes(node, list, count, memory);
 
-    // Child after child, near to far: list the rays that still want to enter it.
+    // Child after child: list the rays that still want to enter it.
     const std::uint64_t order = node.order[order_];
     const int children = node.child_count;
     for (int k = 0; k < children; ++k) {

@@ -1,5 +1,6 @@
-// Is anything hit by each of a block's 64 neighbouring rays? Made for shadow rays towards a light: rays that are surely
-// hidden leave the beam, and spheres that hid the last blocks are tried first.
+// Is anything hit by each of a block's 64 neighbouring rays? Made for shadow rays towards a light: the tree is walked
+// from their far ends, rays that are surely hidden leave the beam, and spheres that hid the last blocks are tried
+// first.
 
 #if defined(BIHIVE_KERNELS_OCCLUSION_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_KERNELS_OCCLUSION_BEAM_INL_H_
@@ -59,7 +60,7 @@ class Doubts {
 /// The spheres that hid rays last, the latest first.
 class Occluders {
  public:
-  static constexpr int kMost = 4;
+  static constexpr int kMost = 8;
   int count() const { return count_; }
   std::uint32_t slot(int i) const { return slots_[i]; }
 
@@ -83,9 +84,9 @@ class Occluders {
 /// flat from 0.7 to 4 on small scenes, the second loses above 2 on large ones.
 constexpr float kWidestInLeaves = 1;
 constexpr float kWidestPartInLeaves = 1.5F;
-/// Of sorted rays, which start at many depths, so that each sphere is in the way of few. Tried from 0 to 1.5.
-constexpr float kWidestSortedInLeaves = 0.5F;
-constexpr float kWidestSortedPartInLeaves = 0.4F;
+/// Of sorted rays. Tried from 0.35 to 3: flat on most scenes.
+constexpr float kWidestSortedInLeaves = 1;
+constexpr float kWidestSortedPartInLeaves = 1;
 /// Groups of fewer rays are left to ray lists; after some of them so are all rays.
 constexpr int kFewestOfGroup = 4;
 constexpr int kMostSmallGroups = 4;
@@ -117,8 +118,12 @@ class OcclusionBeam {
 
   void flush() { doubts_.flush(); }
 
+  /// Spheres that met beams so far, each times the rays of the beam.
+  std::int64_t met() const { return met_; }
+
  private:
   HWY_INLINE void trace_block(LeftoverRays& leftover) {
+    find_open_vectors();
     Frustum frustum;
     if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return;
 
@@ -174,6 +179,7 @@ class OcclusionBeam {
         hn::Store(hn::IfThenElse(in_group, s, hn::Set(d, -1.0F)), d, rays.s_best + lane);
         group |= std::uint64_t{mask_bits(in_group)} << lane;
       }
+      find_open_vectors();
       const bool small = __builtin_popcountll(group) < kFewestOfGroup;
       if (small && ++small_groups == kMostSmallGroups) group = pending;
       Frustum frustum;
@@ -194,6 +200,8 @@ class OcclusionBeam {
   bool has_leaves_, sorted_;
   std::uint8_t* hidden_;
   std::int64_t first_ray_ = 0;
+  std::int64_t met_ = 0;
+  std::uint64_t open_vectors_ = 0;  ///< a bit for each vector with rays that are not hidden yet
   float width_limit_, part_width_limit_;
   Doubts doubts_;
   Occluders occluders_;
@@ -212,13 +220,23 @@ class OcclusionBeam {
     for (int i = 0; i < rays.count; ++i) hidden_[first_ray_ + i] |= static_cast<std::uint8_t>(lanes >> i & 1);
   }
 
+  HWY_INLINE void find_open_vectors() {
+    const FloatTag d;
+    open_vectors_ = 0;
+    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
+      if (!hn::AllTrue(d, hn::Lt(hn::Load(d, rays.s_best + lane), hn::Zero(d))))
+        open_vectors_ |= std::uint64_t{1} << (lane / kFloatLanes);
+  }
+
+  // Of kRays rays from lane `begin` on.
+  template <int kRays>
+  HWY_INLINE std::uint64_t open_vectors(int begin) const {
+    constexpr std::uint64_t kVectors = ~std::uint64_t{0} >> (64 - kRays / kFloatLanes);
+    return open_vectors_ & kVectors << (begin / kFloatLanes);
+  }
   template <int kRays>
   HWY_INLINE bool done(int begin) const {
-    const FloatTag d;
-    auto best = hn::Load(d, rays.s_best + begin);
-    for (int lane = begin + kFloatLanes; lane < begin + kRays; lane += kFloatLanes)
-      best = hn::Max(best, hn::Load(d, rays.s_best + lane));
-    return hn::AllTrue(d, hn::Lt(best, hn::Zero(d)));
+    return open_vectors<kRays>(begin) == 0;
   }
 
   // Has the sphere hidden any more rays?
@@ -236,8 +254,10 @@ class OcclusionBeam {
     const auto sure_above = hn::Set(d, kSureShare * rays.e * padded);
     const auto spread = hn::Set(d, kWidthShare * rays.e * padded);
     if (HWY_UNLIKELY(doubts_.full())) doubts_.flush();
+    met_ += kRays;
     bool any = false;
-    for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
+    for (std::uint64_t vectors = open_vectors<kRays>(begin); vectors != 0; vectors &= vectors - 1) {
+      const int lane = __builtin_ctzll(vectors) * kFloatLanes;
       // Which rays are not hidden yet, and do not leave the sphere?
       const auto best = hn::Load(d, rays.s_best + lane);
       auto open = hn::Ge(best, zero);
@@ -260,7 +280,11 @@ class OcclusionBeam {
       const auto sure = hn::And(hn::And(candidate, hn::Gt(m.dp, sure_above)),
                                 hn::And(hn::Gt(lower, zero), hn::Lt(upper, hn::Load(d, rays.s_sure + lane))));
       hn::Store(hn::IfThenElse(sure, hn::Set(d, -1.0F), best), d, rays.s_best + lane);
-      any |= !hn::AllFalse(d, sure);
+      if (!hn::AllFalse(d, sure)) {
+        any = true;
+        if (hn::AllTrue(d, hn::Or(sure, hn::Lt(best, zero))))
+          open_vectors_ &= ~(std::uint64_t{1} << (lane / kFloatLanes));
+      }
       for (std::uint32_t bits = mask_bits(hn::AndNot(sure, candidate)); bits != 0; bits &= bits - 1) {
         const int ray = lane + __builtin_ctz(bits);
         if (ray < rays.count) doubts_.add(first_ray_ + ray, slot);
@@ -311,6 +335,7 @@ class OcclusionBeam {
     return any && done<kRays>(begin);
   }
 
+  // From the far end: why, says docs/decisions/0013-any-hit-from-the-far-end.md.
   template <int kRays>
   HWY_INLINE void trace(int begin, const Frustum& frustum) {
     beam::Waiting waiting[kMostLevels * kWidth];
@@ -327,7 +352,7 @@ class OcclusionBeam {
       const std::uint32_t bits = boxes_in(node, frustum, w_near);
       if (bits == 0) continue;
       std::uint64_t order = 0;
-      for (std::uint32_t places = near_to_far(node, frustum.octant, bits, order); places != 0;) {
+      for (std::uint32_t places = near_to_far(node, 7 - frustum.octant, bits, order); places != 0;) {
         const int place = 31 - __builtin_clz(places);
         places ^= 1U << place;
         const int slot = static_cast<int>(order >> (4 * place) & 15);

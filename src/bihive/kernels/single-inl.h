@@ -63,9 +63,11 @@ class WaitingChildren {
   void clear() { count_ = 0; }
   std::uint32_t pop() { return child_[--count_]; }
 
-  /// Lets the children wait that the ray may enter before s_best.
+  /// Lets the children wait that the ray may enter before s_best; the next is the nearest, or the farthest.
+  template <bool kFarthestFirst>
   HWY_INLINE void push_entered(const WideNode& node, std::uint32_t number, const SingleRay& ray, int octant) {
     const FloatTag d;
+    const bool backwards = (octant >= 4) != kFarthestFirst;
     const float* near[3];
     const float* far[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -85,9 +87,9 @@ class WaitingChildren {
     };
     const std::uint64_t order = node.order[octant >= 4 ? 7 - octant : octant];
     if constexpr (kFloatLanes == kWidth) {
-      push_ordered(node, number, order, octant >= 4, test);
+      push_ordered(node, number, order, backwards, test);
     } else {
-      // Sixteen children in several steps, then one after the other from far to near.
+      // Sixteen children in several steps, then one after the other from the last to the first.
       alignas(64) float s_near[kWidth];
       std::uint32_t bits = 0;
       for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
@@ -97,7 +99,7 @@ class WaitingChildren {
       }
       if (bits == 0) return;
       for (int k = node.child_count - 1; k >= 0; --k) {
-        const int place = octant >= 4 ? node.child_count - 1 - k : k;
+        const int place = backwards ? node.child_count - 1 - k : k;
         const auto slot = static_cast<std::uint32_t>(order >> (4 * place) & 15);
         child_[count_] = number * kWidth + slot;
         s_near_[count_] = s_near[slot];
@@ -123,7 +125,7 @@ class WaitingChildren {
   }
 
  private:
-  // All sixteen at once: lanes from far to near, those that are entered moved to the front.
+  // All sixteen at once: lanes from the last to the first, those that are entered moved to the front.
   template <class Test>
   HWY_INLINE void push_ordered(const WideNode& node, std::uint32_t number, std::uint64_t order, bool backwards,
                                const Test& test) {
@@ -243,20 +245,20 @@ HWY_INLINE bool test_leaf_single(const WideTree& tree, std::int64_t slot, std::i
   return false;
 }
 
-/// Walks from a node on.
+/// Walks from a node on. To any hit from the far end: docs/decisions/0013-any-hit-from-the-far-end.md.
 template <bool kAnyHit, class Rival>
 HWY_INLINE void walk_single(const WideTree& tree, std::uint32_t number, SingleRay& ray, WaitingChildren& waiting,
                             const Rival& rival) {
   const int octant = octant_of(ray.local);
   waiting.clear();
-  waiting.push_entered(tree.nodes[number], number, ray, octant);
+  waiting.push_entered<kAnyHit>(tree.nodes[number], number, ray, octant);
   while (!waiting.empty()) {
     const std::uint32_t child = waiting.pop();
     const WideNode& node = tree.nodes[child / kWidth];
     const auto slot = static_cast<int>(child % kWidth);
     if (!node.is_leaf(slot)) {
       const auto next = static_cast<std::uint32_t>(node.child_node(slot));
-      waiting.push_entered(tree.nodes[next], next, ray, octant);
+      waiting.push_entered<kAnyHit>(tree.nodes[next], next, ray, octant);
       continue;
     }
     const float before = ray.s_best;

@@ -86,7 +86,8 @@ HWY_INLINE void walk_stream(const WideTree& tree, std::int64_t from, std::uint32
   };
   const auto step = [&](StreamRay& ray) HWY_ATTR {
     if (ray.next_spheres == 0) {
-      ray.waiting.push_entered(tree.nodes[ray.next], static_cast<std::uint32_t>(ray.next), ray.ray, ray.octant);
+      ray.waiting.push_entered<kAnyHit>(tree.nodes[ray.next], static_cast<std::uint32_t>(ray.next), ray.ray,
+                                        ray.octant);
     } else {
       const float before = ray.ray.s_best;
       const auto to_rivals = [&](std::uint32_t slot) HWY_ATTR {
