@@ -174,7 +174,8 @@ TEST(BeamBounds, FrustumsKeepSpheres) {
       const here::FloatTag d;
       const hn::VFromD<here::FloatTag> centre[3] = {hn::Set(d, pair.centre.x), hn::Set(d, pair.centre.y),
                                                     hn::Set(d, pair.centre.z)};
-      return (here::spheres_in(frustum, centre, hn::Set(d, pair.radius + rays.e)) & 1) != 0;
+      const auto inside = here::spheres_in(frustum, centre, hn::Set(d, pair.radius + rays.e));
+      return (here::mask_bits(inside) & 1) != 0;
     });
   };
   // Radii are enlarged by e besides, so less than nothing of the padding is needed.

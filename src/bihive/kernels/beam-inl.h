@@ -1,5 +1,5 @@
 // The closest hits of a block of 64 neighbouring rays: its frustum against sixteen boxes or spheres at a time, and the
-// spheres that lie in it against all rays.
+// spheres that lie in it against all rays, or against the runs of sixteen rays in whose own frusta they lie.
 
 #if defined(BIHIVE_KERNELS_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_KERNELS_BEAM_INL_H_
@@ -13,20 +13,18 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "bihive/kernels/beam_meet-inl.h"
 #include "bihive/kernels/beam_rays-inl.h"
 #include "bihive/kernels/frustum-inl.h"
 #include "bihive/kernels/lanes-inl.h"
 #include "bihive/kernels/rivals-inl.h"
+#include "bihive/kernels/waiting_spheres-inl.h"
 #include "bihive/kernels/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// A block is also taken in runs of this many neighbours.
-constexpr int kPartRays = 16;
-static_assert(kBeamRays == 4 * kPartRays);
 
 namespace beam {
 
@@ -41,88 +39,6 @@ HWY_INLINE Waiting child_of(const WideNode& node, int slot, float w_near) {
   if (!node.is_leaf(slot)) return {static_cast<std::uint32_t>(node.child_node(slot)), 0, w_near};
   return {static_cast<std::uint32_t>(node.sphere_begin(slot)), static_cast<std::uint32_t>(node.sphere_count(slot)),
           w_near};
-}
-
-// One sphere, ready to meet the rays.
-struct Candidate {
-  std::uint32_t slot;
-  std::uint32_t id;
-  float centre[3];
-  float padded;  // r + e
-  float padded_squared;
-};
-
-// How rays lie to a sphere, in units of distance along them.
-struct Meeting {
-  hn::VFromD<FloatTag> b, dp;
-};
-
-template <bool kCommonOrigin>
-HWY_INLINE Meeting meet(const BeamRays& rays, const Candidate& sphere, int lane) {
-  const FloatTag d;
-  auto cx = hn::Set(d, sphere.centre[0]);
-  auto cy = hn::Set(d, sphere.centre[1]);
-  auto cz = hn::Set(d, sphere.centre[2]);
-  if (!kCommonOrigin) {
-    cx = hn::Sub(cx, hn::Load(d, rays.origin[0] + lane));
-    cy = hn::Sub(cy, hn::Load(d, rays.origin[1] + lane));
-    cz = hn::Sub(cz, hn::Load(d, rays.origin[2] + lane));
-  }
-  const auto nx = hn::Load(d, rays.direction[0] + lane);
-  const auto ny = hn::Load(d, rays.direction[1] + lane);
-  const auto nz = hn::Load(d, rays.direction[2] + lane);
-  const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
-  const auto px = hn::NegMulAdd(b, nx, cx);
-  const auto py = hn::NegMulAdd(b, ny, cy);
-  const auto pz = hn::NegMulAdd(b, nz, cz);
-  const auto pp = hn::MulAdd(pz, pz, hn::MulAdd(py, py, hn::Mul(px, px)));
-  return {b, hn::Sub(hn::Set(d, sphere.padded_squared), pp)};
-}
-
-// kRays rays from lane `begin` on against one sphere. True if a winner changed.
-template <bool kCommonOrigin, bool kLeaves, int kRays>
-HWY_INLINE bool meet_sphere(BeamRays& rays, int begin, std::int64_t first_ray, const Candidate& sphere,
-                            const WideSpheres& spheres, Winners& winners, Rivals& rivals) {
-  const FloatTag d;
-  const auto zero = hn::Zero(d);
-  const auto e = hn::Set(d, rays.e);
-  const auto sure_above = hn::Set(d, kSureShare * rays.e * sphere.padded);
-  const auto spread = hn::Set(d, kWidthShare * rays.e * sphere.padded);
-  const auto number = hn::Set(WordTag(), winners.next());
-  std::uint32_t won = 0;
-  for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
-    const Meeting m = meet<kCommonOrigin>(rays, sphere, lane);
-    auto near_enough = hn::Ge(m.dp, zero);
-    if (kLeaves) {
-      const auto own = hn::Eq(hn::Load(WordTag(), rays.leaves + lane), hn::Set(WordTag(), sphere.id));
-      near_enough = hn::AndNot(hn::RebindMask(d, own), near_enough);
-    }
-    if (hn::AllFalse(d, near_enough)) continue;
-
-    // Bounds of the roots.
-    const auto chord = hn::Sqrt(hn::Max(m.dp, zero));
-    const auto lower = hn::Sub(hn::Sub(m.b, e), chord);
-    const auto far_upper = hn::Add(hn::Add(m.b, e), chord);
-    const auto best = hn::Load(d, rays.s_best + lane);
-    const auto candidate = hn::And(near_enough, hn::And(hn::Le(lower, best), hn::Ge(far_upper, zero)));
-    const auto width = hn::MulAdd(spread, hn::ApproximateReciprocalSqrt(m.dp), hn::Add(e, e));
-    const auto upper = hn::Add(lower, width);
-    const auto sure_end = hn::Load(d, rays.s_sure + lane);
-    const auto winner =
-        hn::And(hn::And(candidate, hn::Gt(m.dp, sure_above)), hn::And(hn::Gt(lower, zero), hn::Lt(upper, sure_end)));
-    hn::Store(hn::IfThenElse(winner, upper, best), d, rays.s_best + lane);
-    hn::Store(hn::IfThenElse(winner, lower, sure_end), d, rays.s_sure + lane);
-    const auto others = hn::Load(WordTag(), rays.winner + lane);
-    hn::Store(hn::IfThenElse(hn::RebindMask(WordTag(), winner), number, others), WordTag(), rays.winner + lane);
-    won |= mask_bits(winner);
-    for (std::uint32_t bits = mask_bits(hn::AndNot(winner, candidate)); bits != 0; bits &= bits - 1) {
-      const int ray = lane + __builtin_ctz(bits);
-      if (ray < rays.count) rivals.add(first_ray + ray, sphere.slot);
-    }
-  }
-  if (won == 0) return false;
-  winners.add(spheres, sphere.slot);
-  return true;
 }
 
 // Radii of all, where there is only one; otherwise loaded.
@@ -147,126 +63,209 @@ HWY_INLINE float end_of(const BeamRays& rays, int begin) {
 
 }  // namespace beam
 
-/// One block, set up in `rays`, whose hits are written. Where spheres are small to the beam, kParts lets each meet only
-/// those runs of kPartRays rays in whose own frustum it lies.
-template <bool kCommonOrigin, bool kLeaves, bool kParts>
-HWY_INLINE void closest_hits_in_beam(const WideTree& tree, BeamRays& rays, Frustum& frustum, const RaySpan& span,
-                                     std::int64_t first_ray, const HitSpan& hits, Winners& winners, Rivals& rivals) {
-  const FloatTag d;
-  winners.clear();
-  const auto e = hn::Set(d, rays.e);
-  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
-    hn::Store(hn::Set(WordTag(), kNoWinner), WordTag(), rays.winner + lane);
-  bool flushed = false;
+/// One block, set up in `rays`, whose hits are written. Where spheres are small to the beam, kInParts lets each meet
+/// only those runs of kPartRays rays in whose own frustum it lies.
+template <bool kCommonOrigin, bool kLeaves, bool kInParts>
+class ClosestBeam {
+ public:
+  ClosestBeam(const WideTree& tree, BeamRays& rays, Frustum& frustum, const RaySpan& span, std::int64_t first_ray,
+              const HitSpan& hits, Winners& winners, Rivals& rivals)
+      : tree_(tree),
+        rays_(rays),
+        frustum_(frustum),
+        span_(span),
+        first_ray_(first_ray),
+        hits_(hits),
+        winners_(winners),
+        rivals_(rivals) {}
 
-  // Frustums of the runs. One that meets nothing ends before it begins.
-  Frustum parts[kBeamRays / kPartRays];
-  if (kParts)
-    for (int i = 0; i < kBeamRays / kPartRays; ++i)
-      if (!make_frustum<kPartRays>(tree, rays, i * kPartRays, parts[i])) parts[i].w_end = -2 * kFarthestEnd;
+  HWY_INLINE void run() {
+    winners_.clear();
+    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
+      hn::Store(hn::Set(WordTag(), kNoWinner), WordTag(), rays_.winner + lane);
+    // A run that meets nothing ends before it begins.
+    if (kInParts)
+      for (int i = 0; i < kParts; ++i)
+        if (!make_frustum<kPartRays>(tree_, rays_, i * kPartRays, parts_[i])) parts_[i].w_end = -2 * kFarthestEnd;
+    walk();
+    if (kInParts && !spheres_.empty()) meet_waiting();
+    write();
+  }
 
-  const auto make_room = [&]() HWY_ATTR {
-    if (HWY_UNLIKELY(rivals.full())) {
-      if (!flushed) write_misses(hits, first_ray, rays.count);
-      flushed = true;
-      rivals.flush();
+ private:
+  HWY_INLINE void walk() {
+    // Each level leaves at most fifteen children waiting.
+    beam::Waiting waiting[kMostLevels * kWidth];
+    int waiting_count = 0;
+    waiting[waiting_count++] = {0, 0, frustum_.w_begin};
+    alignas(64) float w_near[kWidth];
+    while (waiting_count > 0) {
+      const beam::Waiting top = waiting[--waiting_count];
+      if (top.w_near > frustum_.w_end) continue;
+      if (top.count != 0) {
+        meet_leaf(top.node, top.count);
+        continue;
+      }
+
+      // Let the children that rays may enter wait, the nearest on top.
+      const WideNode& node = tree_.nodes[top.node];
+      const std::uint32_t bits = boxes_in(node, frustum_, w_near);
+      if (bits == 0) continue;
+      std::uint64_t order = 0;
+      for (std::uint32_t places = near_to_far(node, frustum_.octant, bits, order); places != 0;) {
+        const int place = 31 - __builtin_clz(places);
+        places ^= 1U << place;
+        const int slot = static_cast<int>(order >> (4 * place) & 15);
+        waiting[waiting_count++] = beam::child_of(node, slot, w_near[slot]);
+      }
     }
-    winners.make_room(rays);
-  };
+  }
 
-  const auto meet_leaf = [&](std::int64_t begin, std::int64_t count) HWY_ATTR {
+  void meet_leaf(std::int64_t begin, std::int64_t count) {
+    const FloatTag d;
     bool won = false;
     for (std::int64_t first = 0; first < count; first += kFloatLanes) {
       const std::int64_t slot = begin + first;
-      const hn::VFromD<FloatTag> centre[3] = {hn::LoadU(d, tree.spheres.x + slot), hn::LoadU(d, tree.spheres.y + slot),
-                                              hn::LoadU(d, tree.spheres.z + slot)};
-      const auto padded = hn::Add(beam::radii_at(tree.spheres, slot), e);
-      std::uint32_t bits = spheres_in(frustum, centre, padded);
-      if (count - first < kFloatLanes) bits &= (1U << (count - first)) - 1;
+      const hn::VFromD<FloatTag> centre[3] = {hn::LoadU(d, tree_.spheres.x + slot),
+                                              hn::LoadU(d, tree_.spheres.y + slot),
+                                              hn::LoadU(d, tree_.spheres.z + slot)};
+      const auto padded = hn::Add(beam::radii_at(tree_.spheres, slot), hn::Set(d, rays_.e));
+      auto inside = spheres_in(frustum_, centre, padded);
+      if (count - first < kFloatLanes) inside = hn::And(inside, hn::FirstN(d, static_cast<std::size_t>(count - first)));
+      std::uint32_t bits = mask_bits(inside);
       if (bits == 0) continue;
-      alignas(64) float centres[3][kFloatLanes];
-      alignas(64) float radii[kFloatLanes];
-      for (int axis = 0; axis < 3; ++axis) {
-        auto c = centre[axis];
-        if (kCommonOrigin) c = hn::Sub(c, hn::Set(d, rays.origin[axis][0]));
-        hn::Store(c, d, centres[axis]);
-      }
-      hn::Store(padded, d, radii);
-      const auto sphere_at = [&](int k) HWY_ATTR {
-        return beam::Candidate{static_cast<std::uint32_t>(slot + k),
-                               kLeaves ? static_cast<std::uint32_t>(tree.spheres.id(slot + k)) : 0,
-                               {centres[0][k], centres[1][k], centres[2][k]},
-                               radii[k],
-                               radii[k] * radii[k]};
-      };
-      if (kParts) {
-        for (int i = 0; i < kBeamRays / kPartRays; ++i) {
-          bool part_won = false;
-          for (std::uint32_t left = bits & spheres_in(parts[i], centre, padded); left != 0; left &= left - 1) {
-            make_room();
-            part_won |= beam::meet_sphere<kCommonOrigin, kLeaves, kPartRays>(
-                rays, i * kPartRays, first_ray, sphere_at(__builtin_ctz(left)), tree.spheres, winners, rivals);
-          }
-          if (part_won) parts[i].w_end = std::min(parts[i].w_end, beam::end_of<kPartRays>(rays, i * kPartRays));
-          won |= part_won;
-        }
+      if (kInParts) {
+        spheres_.add(slot, centre, padded, inside);
+        if (spheres_.fill_a_vector()) meet_waiting();
         continue;
       }
+      store_local(centre);
+      alignas(64) float radii[kFloatLanes];
+      hn::Store(padded, d, radii);
       for (; bits != 0; bits &= bits - 1) {
-        make_room();
-        won |= beam::meet_sphere<kCommonOrigin, kLeaves, kBeamRays>(rays, 0, first_ray, sphere_at(__builtin_ctz(bits)),
-                                                                    tree.spheres, winners, rivals);
+        const int k = __builtin_ctz(bits);
+        won |= meet_sphere<kBeamRays>(0, candidate(k, static_cast<std::uint32_t>(slot + k), radii[k]));
       }
     }
-    if (!won) return;
-    if (kParts) {
-      frustum.w_end = std::max(std::max(parts[0].w_end, parts[1].w_end), std::max(parts[2].w_end, parts[3].w_end));
-    } else {
-      frustum.w_end = std::min(frustum.w_end, beam::end_of<kBeamRays>(rays, 0));
-    }
-  };
-
-  // Each level leaves at most fifteen children waiting.
-  beam::Waiting waiting[kMostLevels * kWidth];
-  int waiting_count = 0;
-  waiting[waiting_count++] = {0, 0, frustum.w_begin};
-  alignas(64) float w_near[kWidth];
-  while (waiting_count > 0) {
-    const beam::Waiting top = waiting[--waiting_count];
-    if (top.w_near > frustum.w_end) continue;
-    if (top.count != 0) {
-      meet_leaf(top.node, top.count);
-      continue;
-    }
-
-    // Let the children that rays may enter wait, the nearest on top.
-    const WideNode& node = tree.nodes[top.node];
-    const std::uint32_t bits = boxes_in(node, frustum, w_near);
-    if (bits == 0) continue;
-    std::uint64_t order = 0;
-    for (std::uint32_t places = near_to_far(node, frustum.octant, bits, order); places != 0;) {
-      const int place = 31 - __builtin_clz(places);
-      places ^= 1U << place;
-      const int slot = static_cast<int>(order >> (4 * place) & 15);
-      waiting[waiting_count++] = beam::child_of(node, slot, w_near[slot]);
-    }
+    if (won) frustum_.w_end = std::min(frustum_.w_end, beam::end_of<kBeamRays>(rays_, 0));
   }
 
-  if (winners.none() && !flushed) {
-    write_misses(hits, first_ray, rays.count);
-    return;
+  // The first of the waiting spheres, each against the runs that it may meet.
+  void meet_waiting() {
+    const FloatTag d;
+    const hn::VFromD<FloatTag> centre[3] = {hn::Load(d, spheres_.centre(0)), hn::Load(d, spheres_.centre(1)),
+                                            hn::Load(d, spheres_.centre(2))};
+    const auto padded = hn::Load(d, spheres_.padded());
+    const auto exist = hn::FirstN(d, static_cast<std::size_t>(spheres_.first_count()));
+    std::uint64_t pairs = 0;
+    for (int i = 0; i < kParts; ++i)
+      pairs |= std::uint64_t{mask_bits(hn::And(exist, spheres_in(parts_[i], centre, padded)))} << (i * kFloatLanes);
+    store_local(centre);
+    for (; pairs != 0; pairs &= pairs - 1) {
+      const int pair = __builtin_ctzll(pairs);
+      const int k = pair % kFloatLanes;
+      meet_sphere<kPartRays>(pair / kFloatLanes * kPartRays, candidate(k, spheres_.slot(k), spheres_.padded()[k]));
+    }
+    float end = -2 * kFarthestEnd;
+    for (int i = 0; i < kParts; ++i) {
+      parts_[i].w_end = std::min(parts_[i].w_end, beam::end_of<kPartRays>(rays_, i * kPartRays));
+      end = std::max(end, parts_[i].w_end);
+    }
+    frustum_.w_end = end;
+    spheres_.drop_first();
   }
-  if (HWY_LIKELY(!flushed)) {
-    write_winners(tree, span, first_ray, rays, winners, hits);
-    return;
+
+  // Centres from the common origin, if there is one.
+  HWY_INLINE void store_local(const hn::VFromD<FloatTag> centre[3]) {
+    const FloatTag d;
+    for (int axis = 0; axis < 3; ++axis)
+      hn::Store(kCommonOrigin ? hn::Sub(centre[axis], hn::Set(d, rays_.origin[axis][0])) : centre[axis], d,
+                local_centre_[axis]);
   }
-  // Rivals have been decided already: the winners must be nearer.
-  for (int i = 0; i < rays.count; ++i) {
-    if (rays.winner[i] == kNoWinner) continue;
-    if (rivals.full()) rivals.flush();
-    rivals.add(first_ray + i, winners.slot(rays.winner[i]));
+  HWY_INLINE beam::Candidate candidate(int k, std::uint32_t slot, float padded) const {
+    return {slot,
+            kLeaves ? static_cast<std::uint32_t>(tree_.spheres.id(slot)) : 0,
+            {local_centre_[0][k], local_centre_[1][k], local_centre_[2][k]},
+            padded,
+            padded * padded};
   }
-}
+
+  // kRays rays from lane `begin` on against one sphere, run after run: what one vector needs does not wait for the
+  // other, and the only branch is whether any of the run comes near. True if a winner changed.
+  template <int kRays>
+  HWY_INLINE bool meet_sphere(int begin, const beam::Candidate& sphere) {
+    const FloatTag d;
+    make_room();
+    const beam::RootBounds bounds(rays_, sphere);
+    const auto number = hn::Set(WordTag(), winners_.next());
+    std::uint32_t won = 0;
+    for (int run = begin; run < begin + kRays; run += kPartRays) {
+      beam::Meeting met[kPartVectors];
+      auto largest = hn::Set(d, -1.0F);
+      for (int v = 0; v < kPartVectors; ++v) {
+        met[v] = beam::meet<kCommonOrigin>(rays_, sphere, run + v * kFloatLanes);
+        largest = hn::Max(largest, met[v].dp);
+      }
+      // A sphere in a run's own frustum nearly always does.
+      if (kRays > kPartRays && hn::AllTrue(d, hn::Lt(largest, hn::Zero(d)))) continue;
+      std::uint32_t doubts = 0;
+      for (int v = 0; v < kPartVectors; ++v) {
+        const int lane = run + v * kFloatLanes;
+        const auto near = beam::near_enough<kLeaves>(rays_, sphere, met[v], lane);
+        const auto best = hn::Load(d, rays_.s_best + lane);
+        const auto sure_end = hn::Load(d, rays_.s_sure + lane);
+        const beam::Roots roots = bounds.of(met[v], near, best, sure_end);
+        hn::Store(hn::IfThenElse(roots.sure, roots.upper, best), d, rays_.s_best + lane);
+        hn::Store(hn::IfThenElse(roots.sure, roots.lower, sure_end), d, rays_.s_sure + lane);
+        const auto others = hn::Load(WordTag(), rays_.winner + lane);
+        const auto wins = hn::RebindMask(WordTag(), roots.sure);
+        hn::Store(hn::IfThenElse(wins, number, others), WordTag(), rays_.winner + lane);
+        won |= mask_bits(roots.sure);
+        doubts |= mask_bits(hn::AndNot(roots.sure, roots.candidate)) << (v * kFloatLanes);
+      }
+      for (; HWY_UNLIKELY(doubts != 0); doubts &= doubts - 1) {
+        const int ray = run + __builtin_ctz(doubts);
+        if (ray < rays_.count) rivals_.add(first_ray_ + ray, sphere.slot);
+      }
+    }
+    winners_.add_if(won != 0, tree_.spheres, sphere.slot);
+    return won != 0;
+  }
+
+  // For what one sphere may add.
+  HWY_INLINE void make_room() {
+    if (HWY_UNLIKELY(rivals_.full())) {
+      if (!flushed_) write_misses(hits_, first_ray_, rays_.count);
+      flushed_ = true;
+      rivals_.flush();
+    }
+    winners_.make_room(rays_);
+  }
+
+  HWY_INLINE void write() {
+    if (winners_.none() && !flushed_) return write_misses(hits_, first_ray_, rays_.count);
+    if (HWY_LIKELY(!flushed_)) return write_winners(tree_, span_, first_ray_, rays_, winners_, hits_);
+    // Rivals have been decided already: the winners must be nearer.
+    for (int i = 0; i < rays_.count; ++i) {
+      if (rays_.winner[i] == kNoWinner) continue;
+      if (rivals_.full()) rivals_.flush();
+      rivals_.add(first_ray_ + i, winners_.slot(rays_.winner[i]));
+    }
+  }
+
+  const WideTree& tree_;
+  BeamRays& rays_;
+  Frustum& frustum_;
+  const RaySpan& span_;
+  const std::int64_t first_ray_;
+  const HitSpan& hits_;
+  Winners& winners_;
+  Rivals& rivals_;
+  bool flushed_ = false;                            // rivals were decided before all were found
+  alignas(64) float local_centre_[3][kFloatLanes];  // NOLINT: written before read
+  Frustum parts_[kParts];
+  WaitingSpheres spheres_;
+};
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE

@@ -190,9 +190,9 @@ HWY_INLINE std::uint32_t near_to_far(const WideNode& node, int octant, std::uint
   return places & ((1U << node.child_count) - 1);
 }
 
-/// Spheres `slot` to slot + kFloatLanes - 1, of padded radii `radius`, that some ray may hit before w_end: a bit each.
+/// Spheres `slot` to slot + kFloatLanes - 1, of padded radii `radius`, that some ray may hit before w_end.
 template <class V>
-HWY_INLINE std::uint32_t spheres_in(const Frustum& beam, const V centre[3], V radius) {
+HWY_INLINE hn::Mask<FloatTag> spheres_in(const Frustum& beam, const V centre[3], V radius) {
   const FloatTag d;
   const auto major = centre[beam.major];
   const auto w = hn::Mul(hn::Set(d, beam.sign), major);
@@ -207,7 +207,7 @@ HWY_INLINE std::uint32_t spheres_in(const Frustum& beam, const V centre[3], V ra
     inside = hn::And(inside, hn::Le(above, hn::MulAdd(radius, hn::Set(d, high.norm), hn::Set(d, high.limit))));
     inside = hn::And(inside, hn::Ge(below, hn::NegMulAdd(radius, hn::Set(d, low.norm), hn::Set(d, low.limit))));
   }
-  return mask_bits(inside);
+  return inside;
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "bihive/kernels/beam-inl.h"
+#include "bihive/kernels/beam_meet-inl.h"
 #include "bihive/kernels/beam_rays-inl.h"
 #include "bihive/kernels/exact-inl.h"
 #include "bihive/kernels/frustum-inl.h"
@@ -243,49 +244,34 @@ class OcclusionBeam {
   template <int kRays>
   HWY_INLINE bool meet_sphere(int begin, std::uint32_t slot) {
     const FloatTag d;
-    const auto zero = hn::Zero(d);
-    const auto e = hn::Set(d, rays.e);
     const float padded = static_cast<float>(tree_.spheres.radius(slot)) + rays.e;
     const beam::Candidate sphere{slot,
                                  static_cast<std::uint32_t>(tree_.spheres.id(slot)),
                                  {tree_.spheres.x[slot], tree_.spheres.y[slot], tree_.spheres.z[slot]},
                                  padded,
                                  padded * padded};
-    const auto sure_above = hn::Set(d, kSureShare * rays.e * padded);
-    const auto spread = hn::Set(d, kWidthShare * rays.e * padded);
+    const beam::RootBounds bounds(rays, sphere);
     if (HWY_UNLIKELY(doubts_.full())) doubts_.flush();
     met_ += kRays;
     bool any = false;
     for (std::uint64_t vectors = open_vectors<kRays>(begin); vectors != 0; vectors &= vectors - 1) {
       const int lane = __builtin_ctzll(vectors) * kFloatLanes;
-      // Which rays are not hidden yet, and do not leave the sphere?
+      // Which rays are not hidden yet, and come near to the sphere, but do not leave it?
       const auto best = hn::Load(d, rays.s_best + lane);
-      auto open = hn::Ge(best, zero);
-      if (has_leaves_) {
-        const auto own = hn::Eq(hn::Load(WordTag(), rays.leaves + lane), hn::Set(WordTag(), sphere.id));
-        open = hn::AndNot(hn::RebindMask(d, own), open);
-      }
-      if (hn::AllFalse(d, open)) continue;
-      const beam::Meeting m = beam::meet<false>(rays, sphere, lane);
-      const auto near_enough = hn::And(open, hn::Ge(m.dp, zero));
-      if (hn::AllFalse(d, near_enough)) continue;
+      const beam::Meeting met = beam::meet<false>(rays, sphere, lane);
+      auto near = has_leaves_ ? beam::near_enough<true>(rays, sphere, met, lane)
+                              : beam::near_enough<false>(rays, sphere, met, lane);
+      near = hn::And(near, hn::Ge(best, hn::Zero(d)));
+      if (hn::AllFalse(d, near)) continue;
 
-      // Bounds of the roots.
-      const auto chord = hn::Sqrt(hn::Max(m.dp, zero));
-      const auto lower = hn::Sub(hn::Sub(m.b, e), chord);
-      const auto far_upper = hn::Add(hn::Add(m.b, e), chord);
-      const auto candidate = hn::And(near_enough, hn::And(hn::Le(lower, best), hn::Ge(far_upper, zero)));
-      const auto width = hn::MulAdd(spread, hn::ApproximateReciprocalSqrt(m.dp), hn::Add(e, e));
-      const auto upper = hn::Add(lower, width);
-      const auto sure = hn::And(hn::And(candidate, hn::Gt(m.dp, sure_above)),
-                                hn::And(hn::Gt(lower, zero), hn::Lt(upper, hn::Load(d, rays.s_sure + lane))));
-      hn::Store(hn::IfThenElse(sure, hn::Set(d, -1.0F), best), d, rays.s_best + lane);
-      if (!hn::AllFalse(d, sure)) {
+      const beam::Roots roots = bounds.of(met, near, best, hn::Load(d, rays.s_sure + lane));
+      const auto rest = hn::IfThenElse(roots.sure, hn::Set(d, -1.0F), best);
+      hn::Store(rest, d, rays.s_best + lane);
+      if (!hn::AllFalse(d, roots.sure)) {
         any = true;
-        if (hn::AllTrue(d, hn::Or(sure, hn::Lt(best, zero))))
-          open_vectors_ &= ~(std::uint64_t{1} << (lane / kFloatLanes));
+        if (hn::AllTrue(d, hn::Lt(rest, hn::Zero(d)))) open_vectors_ &= ~(std::uint64_t{1} << (lane / kFloatLanes));
       }
-      for (std::uint32_t bits = mask_bits(hn::AndNot(sure, candidate)); bits != 0; bits &= bits - 1) {
+      for (std::uint32_t bits = mask_bits(hn::AndNot(roots.sure, roots.candidate)); bits != 0; bits &= bits - 1) {
         const int ray = lane + __builtin_ctz(bits);
         if (ray < rays.count) doubts_.add(first_ray_ + ray, slot);
       }
@@ -306,7 +292,8 @@ class OcclusionBeam {
       places[3][i] = static_cast<float>(tree_.spheres.radius(slot)) + rays.e;
     }
     const hn::VFromD<FloatTag> centre[3] = {hn::Load(d, places[0]), hn::Load(d, places[1]), hn::Load(d, places[2])};
-    std::uint32_t bits = spheres_in(frustum, centre, hn::Load(d, places[3])) & ((1U << n) - 1);
+    const auto exist = hn::FirstN(d, static_cast<std::size_t>(n));
+    std::uint32_t bits = mask_bits(hn::And(exist, spheres_in(frustum, centre, hn::Load(d, places[3]))));
     bool any = false;
     for (; bits != 0; bits &= bits - 1) any |= meet_sphere<kBeamRays>(0, occluders_.slot(__builtin_ctz(bits)));
     return any;
@@ -323,7 +310,7 @@ class OcclusionBeam {
                                               hn::LoadU(d, tree_.spheres.y + slot),
                                               hn::LoadU(d, tree_.spheres.z + slot)};
       const auto padded = hn::Add(beam::radii_at(tree_.spheres, slot), hn::Set(d, rays.e));
-      std::uint32_t bits = spheres_in(frustum, centre, padded);
+      std::uint32_t bits = mask_bits(spheres_in(frustum, centre, padded));
       if (count - first < kFloatLanes) bits &= (1U << (count - first)) - 1;
       for (; bits != 0; bits &= bits - 1) {
         const auto sphere = static_cast<std::uint32_t>(slot + __builtin_ctz(bits));

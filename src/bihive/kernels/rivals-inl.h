@@ -69,15 +69,15 @@ class Winners {
  public:
   void clear() { count_ = 0; }
 
-  /// One more, number next(). Call make_room() before.
-  void add(const WideSpheres& spheres, std::uint32_t slot) {
+  /// One more, number next(), if it `won`. Call make_room() before.
+  HWY_INLINE void add_if(bool won, const WideSpheres& spheres, std::uint32_t slot) {
     x_[count_] = spheres.x[slot];
     y_[count_] = spheres.y[slot];
     z_[count_] = spheres.z[slot];
     r_[count_] = static_cast<float>(spheres.radius(slot));
     id_[count_] = static_cast<std::uint32_t>(spheres.id(slot));
     slot_[count_] = slot;
-    ++count_;
+    count_ += won ? 1 : 0;
   }
   /// The number that the next one gets.
   std::uint32_t next() const { return static_cast<std::uint32_t>(count_); }
