@@ -143,6 +143,52 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
   }
 }
 
+// A picture is rounded to binary32; what is added in another order shows before that.
+TEST(Wave, sums_are_the_same_before_they_are_rounded) {
+  const BestTargetAgain restore;
+  const int width = 40, height = 20;
+  for (std::uint64_t seed = 101; seed <= 130; ++seed) {
+    Scene scene = random_scene(seed);
+    for (Material& material : scene.materials) {
+      material.reflective = 0.3;
+      material.transmissive = 0.4;
+      material.refraction_index = 1.2;
+    }
+    const PixelRays pixels(scene.camera, width, height);
+    const bool shadows = seed % 2 == 0;
+    const Tracer reference = Tracer::build(scene.spheres, Engine::reference).value();
+    Integrator integrator(scene, reference, 5, shadows);
+    std::vector<Vec3d> expected;
+    for (int i = 0; i < width * height; ++i)
+      expected.push_back(integrator.radiance(pixels.at(i % width + 0.5, i / width + 0.5)));
+
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+    const WaveScene wave_scene(scene);
+    for (const std::string& target : available_targets()) {
+      ASSERT_TRUE(use_target(target));
+      WaveBuffers buffers;
+      Wave& wave = WaveIntegrator::primaries(buffers);
+      wave.reset(width * height);
+      wave.starts_at_eye = true;
+      wave.count = width * height;
+      for (int i = 0; i < width * height; ++i) {
+        const Ray ray = pixels.at(i % width + 0.5, i / width + 0.5);
+        for (int axis = 0; axis < 3; ++axis) {
+          wave.origin[axis][i] = ray.origin[axis];
+          wave.direction[axis][i] = ray.direction[axis];
+        }
+      }
+      WaveIntegrator waves(wave_scene, tracer, {5, true, shadows, false}, nullptr);
+      waves.trace(buffers, wave.count);
+      for (int i = 0; i < width * height; ++i) {
+        const Vec3d sum = buffers.sums.at(i);
+        ASSERT_EQ(std::memcmp(&sum, &expected[static_cast<std::size_t>(i)], sizeof sum), 0)
+            << scene.name << " on " << target << ", ray " << i;
+      }
+    }
+  }
+}
+
 TEST(Wave, generations_that_grow_too_large_are_cut) {
   // Every surface sends on two rays, sixteen generations deep: many more at once than a piece may hold.
   Scene scene = four_spheres_scene();

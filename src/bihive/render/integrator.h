@@ -6,6 +6,7 @@
 
 #include "bihive/geometry/ray.h"
 #include "bihive/render/renderer.h"
+#include "bihive/render/scene_hit.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/scene.h"
 
@@ -18,8 +19,8 @@ class Integrator {
       : scene_(scene), tracer_(tracer), recursion_(recursion), shadows_(shadows) {}
 
   /// The sum is made in a fixed order, so that every engine can give the same bits: generation by generation; inside
-  /// one, in the order of the parents; of one parent's two, the reflected first. A ray that hits nothing adds weight x
-  /// background.
+  /// one, first the rays that hit nothing, which add weight x background, then the surfaces of the others; each in the
+  /// order of the parents, of one parent's two the reflected first.
   Vec3d radiance(const Ray& primary);
 
   /// The deepest generation of which a ray hit something in the last call; 0 if none did.
@@ -39,6 +40,7 @@ class Integrator {
   int deepest_hit_ = 0;
   RenderCounts rays_;
   std::vector<WeightedRay> generation_, next_;
+  std::vector<SceneHit> hits_;
 };
 
 }  // namespace bihive

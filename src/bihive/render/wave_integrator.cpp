@@ -8,8 +8,16 @@ namespace {
 // Without vectors there is nothing to gain from long spans, and a wish to stop should be heard soon.
 constexpr std::int64_t kRaysBetweenLooks = 64;
 // What is asked of a whole generation is its hits and its shadows; everything between them is done for as many rays as
-// fit the nearest cache.
+// fit the nearest cache, cut between owners.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
+
+// The end of a part of a wave from `first` on, before `last`: after `most` rays, or a few more of the last one's owner.
+std::int64_t end_of_part(const Wave& wave, std::int64_t first, std::int64_t last, std::int64_t most) {
+  std::int64_t end = std::min(last, first + most);
+  if (!wave.starts_at_eye)
+    while (end < last && wave.owner[end] == wave.owner[end - 1]) ++end;
+  return end;
+}
 
 }  // namespace
 
@@ -47,11 +55,12 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
   if (next != nullptr) next->reset(2 * rays.count());
-  buffers.surfaces.reset(with_shadows() ? rays.count() : std::min(kRaysShadedAtOnce, rays.count()));
+  buffers.surfaces.reset(with_shadows() ? rays.count() : 0);
   if (with_shadows()) buffers.shadows.reset(rays.count());
-  for (std::int64_t i = 0; i < rays.count(); i += kRaysShadedAtOnce) {
-    const WavePart part{rays.wave, rays.first + i, std::min(rays.first + i + kRaysShadedAtOnce, rays.last)};
-    shade(part, depth, HitSpan{buffers.t.data(), buffers.id.data()}.part(i), next, buffers);
+  for (std::int64_t first = rays.first; first < rays.last;) {
+    const WavePart part{rays.wave, first, end_of_part(*rays.wave, first, rays.last, kRaysShadedAtOnce)};
+    shade(part, depth, HitSpan{buffers.t.data(), buffers.id.data()}.part(first - rays.first), next, buffers);
+    first = part.last;
   }
   if (with_shadows()) {
     find_shadows(depth, buffers);
@@ -78,7 +87,7 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
 void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers) {
   // Shadows need the surfaces of the whole generation.
   WaveSurfaces& surfaces = buffers.surfaces;
-  if (!with_shadows()) surfaces.count = 0;
+  if (!with_shadows()) surfaces.reset(rays.count());
   const std::int64_t known = surfaces.count;
   steps::hit_plane(scene_, rays, hits.t, hits.sphere_id);
   steps::find_surfaces(scene_, rays, hits.t, hits.sphere_id, surfaces, buffers.sums);
