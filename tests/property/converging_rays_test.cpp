@@ -24,6 +24,7 @@ namespace bihive {
 namespace {
 
 constexpr int kRays = 2563;  // not a multiple of anything
+constexpr int kFewerRays = 1000, kMoreRays = 3205;
 
 struct Box {
   Vec3d middle;
@@ -67,9 +68,10 @@ Vec3d some_light(const test::World& world, const Box& box, int which, SplitMix64
 }
 
 // From surfaces, some of them inward, some from nowhere, a few up to elsewhere than the light.
-RayBatch rays_to(Vec3d light, const test::World& world, const Box& box, bool plain, SplitMix64& rng) {
+RayBatch rays_to(Vec3d light, const test::World& world, const Box& box, bool plain, SplitMix64& rng,
+                 int count = kRays) {
   RayBatch rays;
-  for (int i = 0; i < kRays; ++i) {
+  for (int i = 0; i < count; ++i) {
     const auto sphere = static_cast<std::size_t>(rng.next_below(world.size()));
     const Vec3d centre{double(world.x[sphere]), double(world.y[sphere]), double(world.z[sphere])};
     Ray ray;
@@ -108,7 +110,8 @@ void check(const std::string& what, const WideTree& tree, const RayBatch& batch,
     same("blocks", [&](std::uint8_t* hidden) { occluded(tree, rays, RayOrder::blocks, hidden); });
     // Beams also where nobody would choose them, and with neighbours that are none.
     std::vector<std::uint8_t> probe(expected.size());
-    if (kernels::occluded_sorted_beams(tree, rays, false, probe.data()))
+    ASSERT_EQ(kernels::occluded_sorted_beams(tree, rays, false, probe.data()), kernels::beams_take(tree, rays)) << what;
+    if (kernels::beams_take(tree, rays))
       same("unsorted", [&](std::uint8_t* hidden) { kernels::occluded_sorted_beams(tree, rays, false, hidden); });
     if (kernels::occluded_sorted_beams(tree, rays, true, probe.data()))
       same("unsorted, judged", [&](std::uint8_t* hidden) { kernels::occluded_sorted_beams(tree, rays, true, hidden); });
@@ -133,7 +136,8 @@ TEST(ConvergingRays, AreAnsweredAsByTheReference) {
     const Box box = box_of(world);
     for (int which = 0; which < 4; ++which) {
       const Vec3d light = some_light(world, box, which, rng);
-      const RayBatch rays = rays_to(light, world, box, which % 2 == 0, rng);
+      const int count = which == 1 ? kFewerRays : which == 2 ? kMoreRays : kRays;
+      const RayBatch rays = rays_to(light, world, box, which % 2 == 0, rng, count);
       std::vector<std::uint8_t> expected;
       for (std::int64_t i = 0; i < rays.size(); ++i)
         expected.push_back(occluded(reference, spheres, rays.span().at(i)) ? 1 : 0);
@@ -177,23 +181,45 @@ TEST(ConvergingRays, AreJudgedBySomeOfThem) {
   EXPECT_TRUE(pays(few, true));
   EXPECT_FALSE(pays(many, true));  // 64 rays that are no neighbours
   EXPECT_TRUE(pays(many, false));
+}
 
-  // Narrow enough, but past a hundred small spheres of which none is in the way of more than a ray or two.
-  const test::World small = test::random_world("small", 69, 20000, 100, 0.01, 0.01);
+// From everywhere on one side of a world of small spheres, of which none is in the way of more than a ray or two:
+// sorted they are narrow enough, but each beam passes a hundred spheres and more.
+TEST(ConvergingRays, GoToTheListsWhereBeamsDoNotPay) {
+  const test::World small = test::random_world("small", 69, 120000, 100, 0.01, 0.15);
   const SphereSet spheres = test::sphere_set(small);
+  const Tree reference = build_reference_tree(spheres, {8, kUnlimited});
   WideBuilder builder;
   const auto tree = builder.build(spheres);
   ASSERT_TRUE(tree.ok());
-  RayBatch rays;
-  for (int i = 0; i < kRays; ++i) {
-    Ray ray;
-    ray.origin = to_float(Vec3d{test::uniform(rng, -8, 8), test::uniform(rng, -8, 8), -110});
-    ray.direction = to_float(Vec3d{0, 0, 1e4} - to_double(ray.origin));
-    rays.push_back(ray);
+  SplitMix64 rng(70);
+  const auto from_a_square = [&](double half_side) {
+    RayBatch rays;
+    for (int i = 0; i < kRays; ++i) {
+      Ray ray;
+      ray.origin =
+          to_float(Vec3d{test::uniform(rng, -half_side, half_side), test::uniform(rng, -half_side, half_side), -110});
+      ray.direction = to_float(Vec3d{0, 0, 1e4} - to_double(ray.origin));
+      ray.t_max = 1;
+      rays.push_back(ray);
+    }
+    return rays;
+  };
+  const RayBatch rays = from_a_square(20);
+  ASSERT_TRUE(kernels::converge(rays.span()));
+  std::vector<std::uint8_t> expected;
+  for (std::int64_t i = 0; i < rays.size(); ++i)
+    expected.push_back(occluded(reference, spheres, rays.span().at(i)) ? 1 : 0);
+  ASSERT_GT(std::count(expected.begin(), expected.end(), 1), kRays / 50);
+  std::vector<std::uint8_t> hidden(expected.size());
+  for (const std::string& target : available_targets()) {
+    ASSERT_TRUE(use_target(target).ok());
+    EXPECT_FALSE(kernels::occluded_converging(**tree, rays.span(), hidden.data())) << target;
+    EXPECT_EQ(hidden, expected) << target;
+    // Closer together they pass fewer.
+    EXPECT_TRUE(kernels::occluded_converging(**tree, from_a_square(3).span(), hidden.data())) << target;
   }
-  std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.size()));
-  EXPECT_FALSE(kernels::occluded_sorted_beams(**tree, rays.span(), true, hidden.data()));
-  EXPECT_TRUE(kernels::occluded_sorted_beams(**tree, rays.span(), false, hidden.data()));
+  ASSERT_TRUE(use_target("").ok());
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ class ClosestBeam {
       if (bits == 0) continue;
       if (kInParts) {
         spheres_.add(slot, centre, padded, inside);
-        if (spheres_.fill_a_vector()) meet_waiting();
+        if (spheres_.enough()) meet_waiting();
         continue;
       }
       store_local(centre);

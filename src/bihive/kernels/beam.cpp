@@ -59,15 +59,16 @@ void closest_hits_beams_on_target(const WideTree& tree, const RaySpan& rays, con
   leftover.closest_hits(tree, hits);
 }
 
-// Blocks of a call after which its beams are judged.
+// Blocks by which the beams of a call are judged, and of sorted rays at most this share of all, one in so many.
 constexpr std::int64_t kTrialBlocks = 16;
+constexpr std::int64_t kBlocksPerTrial = 8;
 
 // Sorted rays of which beams meet more spheres than this are faster as lists. Measured with limits of 40, 60 and 80: a
 // grid of 4,096 spheres has 8, a million uniform ones have 36, 125 molecules side by side 160.
 constexpr std::int64_t kMostSpheresMet = 80;
 
-HWY_INLINE void answer_block(const WideTree& tree, const RaySpan& rays, std::int64_t first, OcclusionBeam& beam,
-                             LeftoverRays& leftover) {
+void answer_block(const WideTree& tree, const RaySpan& rays, std::int64_t first, OcclusionBeam& beam,
+                  LeftoverRays& leftover) {
   const int count = static_cast<int>(std::min<std::int64_t>(kBeamRays, rays.count - first));
   if (set_up_beam(tree, rays, first, count, beam.rays)) {
     beam.block(first, leftover);
@@ -95,13 +96,14 @@ bool occluded_sorted_beams_on_target(const WideTree& tree, const RaySpan& rays, 
   OcclusionBeam beam(tree, rays, true, hidden);
   LeftoverRays leftover(rays);
 
-  // Judge by some blocks from everywhere.
+  // Judge by some blocks from everywhere, without what they give back.
   const std::int64_t blocks = (rays.count + kBeamRays - 1) / kBeamRays;
-  const std::int64_t step = std::max<std::int64_t>(1, blocks / kTrialBlocks);
+  const std::int64_t step = std::max(kBlocksPerTrial, blocks / kTrialBlocks);
   for (std::int64_t block = 0; block < blocks; block += step)
     answer_block(tree, rays, block * kBeamRays, beam, leftover);
   const std::int64_t tried = (blocks + step - 1) / step * kBeamRays;
-  if (judge && (leftover.count() > tried / 2 || beam.met() > tried * kMostSpheresMet)) return false;
+  const std::int64_t given_back = leftover.count();
+  if (judge && (given_back > tried / 2 || beam.met() > (tried - given_back) * kMostSpheresMet)) return false;
 
   for (std::int64_t block = 0; block < blocks; ++block)
     if (block % step != 0) answer_block(tree, rays, block * kBeamRays, beam, leftover);
@@ -122,19 +124,16 @@ HWY_EXPORT(occluded_beams_on_target);
 HWY_EXPORT(occluded_sorted_beams_on_target);
 
 namespace kernels {
-namespace {
 
 // Ray numbers are 32-bit in pairs. Where spheres coincide, ids do not tell which ones a ray leaves.
-bool for_beams(const WideTree& tree, const RaySpan& rays) {
+bool beams_take(const WideTree& tree, const RaySpan& rays) {
   return tree.node_count > 0 && (rays.leaves == nullptr || tree.repeated.empty()) &&
          rays.count <= std::numeric_limits<std::uint32_t>::max();
 }
 
-}  // namespace
-
 void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
   ensure_target();
-  if (for_beams(tree, rays)) {
+  if (beams_take(tree, rays)) {
     HWY_DYNAMIC_DISPATCH(closest_hits_beams_on_target)(tree, rays, hits);
   } else {
     closest_hits_lists(tree, rays, hits);
@@ -143,7 +142,7 @@ void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan
 
 void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   ensure_target();
-  if (for_beams(tree, rays)) {
+  if (beams_take(tree, rays)) {
     HWY_DYNAMIC_DISPATCH(occluded_beams_on_target)(tree, rays, hidden);
   } else {
     occluded_lists(tree, rays, hidden);
@@ -152,7 +151,7 @@ void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hid
 
 bool occluded_sorted_beams(const WideTree& tree, const RaySpan& rays, bool judge, std::uint8_t* hidden) {
   ensure_target();
-  return for_beams(tree, rays) && HWY_DYNAMIC_DISPATCH(occluded_sorted_beams_on_target)(tree, rays, judge, hidden);
+  return beams_take(tree, rays) && HWY_DYNAMIC_DISPATCH(occluded_sorted_beams_on_target)(tree, rays, judge, hidden);
 }
 
 }  // namespace kernels

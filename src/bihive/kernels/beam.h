@@ -9,6 +9,9 @@
 
 namespace bihive::kernels {
 
+/// Could beams take these rays at all? If not, lists answer.
+bool beams_take(const WideTree& tree, const RaySpan& rays);
+
 /// Any rays may come; only blocks (counted from the first ray) that are close in origin and direction are fast.
 void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
 void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);

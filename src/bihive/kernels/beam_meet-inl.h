@@ -32,7 +32,7 @@ namespace beam {
 struct Candidate {
   std::uint32_t slot;
   std::uint32_t id;
-  float centre[3];  ///< from the rays' common origin, if they have one
+  float centre[3];  ///< with kCommonOrigin from there
   float padded;     ///< r + e
   float padded_squared;
 };

@@ -282,13 +282,17 @@ bool converge(const RaySpan& rays) {
   return true;
 }
 
-void occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+bool occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   ensure_target();
+  bool all_sorted = true;
   SortedTile& tile = tile_of_this_thread();
   for (std::int64_t first = 0; first < rays.count; first += kTile) {
     const RaySpan part = rays.part(first, std::min(kTile, rays.count - first));
-    if (!tile.sort(tree, part) || !tile.occluded(tree, hidden + first)) occluded_lists(tree, part, hidden + first);
+    if (beams_take(tree, part) && tile.sort(tree, part) && tile.occluded(tree, hidden + first)) continue;
+    occluded_lists(tree, part, hidden + first);
+    all_sorted = false;
   }
+  return all_sorted;
 }
 
 void occluded_any(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {

@@ -12,8 +12,8 @@ namespace bihive::kernels {
 /// Do all rays lead to one point at t = 1, nearly? False for few rays, with which sorting does not pay.
 bool converge(const RaySpan& rays);
 
-/// occluded() of rays that converge: sorted, and as beams.
-void occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+/// occluded() of rays that converge: sorted, and as beams. False if for some of them lists were chosen.
+bool occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
 
 /// occluded() of rays in any order: that, if they converge, else lists.
 void occluded_any(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);

@@ -58,7 +58,8 @@ class Doubts {
   Pair pairs_[kRoom];
 };
 
-/// The spheres that hid rays last, the latest first.
+/// The spheres that hid rays last, the latest first. A vector of them is tried, so on narrow targets fewer than are
+/// kept.
 class Occluders {
  public:
   static constexpr int kMost = 8;
@@ -134,7 +135,7 @@ class OcclusionBeam {
         note_hidden(done_lanes());
         return;
       }
-      make_frustum<kBeamRays>(tree_, rays, 0, frustum);
+      if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return note_hidden(done_lanes());
     }
     if (frustum.width > width_limit_) {
       if (has_leaves_ && !sorted_) {

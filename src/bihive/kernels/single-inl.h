@@ -55,7 +55,7 @@ HWY_INLINE int octant_of(const FilterRay& ray) {
          (std::signbit(ray.inverse[2]) ? 4 : 0);
 }
 
-/// Children that a ray still has to enter, the nearest on top. Each is the number of its node times sixteen plus its
+/// Children that a ray still has to enter, the next on top. Each is the number of its node times sixteen plus its
 /// slot, and has a lower bound of the distance at which the ray enters it.
 class WaitingChildren {
  public:

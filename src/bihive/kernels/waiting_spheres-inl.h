@@ -1,4 +1,4 @@
-// Spheres that lie in a beam's way, collected over leaves until they fill a vector: of a leaf's sixteen few do.
+// Spheres that lie in a beam's way, collected over leaves until they are worth a look: of a leaf's sixteen few do.
 
 #if defined(BIHIVE_KERNELS_WAITING_SPHERES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_KERNELS_WAITING_SPHERES_INL_H_
@@ -22,16 +22,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 class WaitingSpheres {
  public:
   bool empty() const { return count_ == 0; }
-  bool fill_a_vector() const { return count_ >= kFloatLanes; }
+  /// As many as make a vector, but not so many that a beam comes far without them.
+  bool enough() const { return count_ >= std::min(kFloatLanes, 8); }
 
-  /// Those of `mask` among the spheres from `slot` on, if there is no full vector yet.
+  /// Those of `mask` among the spheres from `slot` on; not while there are enough().
   template <class V, class M>
   HWY_INLINE void add(std::int64_t slot, const V centre[3], V padded, M mask) {
     const FloatTag d;
     const WordTag w;
     for (int axis = 0; axis < 3; ++axis) store_compressed(d, centre[axis], mask, centre_[axis] + count_);
     store_compressed(d, padded, mask, padded_ + count_);
-    const auto slots = hn::Iota(w, static_cast<std::uint32_t>(slot));
+    const auto slots = iota_words(static_cast<std::uint32_t>(slot));
     count_ += static_cast<int>(store_compressed(w, slots, hn::RebindMask(w, mask), slot_ + count_));
   }
 

@@ -8,7 +8,8 @@ namespace {
 // Without vectors there is nothing to gain from long spans, and a wish to stop should be heard soon.
 constexpr std::int64_t kRaysBetweenLooks = 64;
 // What is asked of a whole generation is its hits and its shadows; everything between them is done for as many rays as
-// fit the nearest cache, cut between owners.
+// fit the nearest cache. Cut between owners: without shadows the surfaces of one part are added before what the next
+// one loses.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
 
 // The end of a part of a wave from `first` on, before `last`: after `most` rays, or a few more of the last one's owner.
