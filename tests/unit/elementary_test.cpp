@@ -61,6 +61,30 @@ TEST(Elementary, pow_as_shading_uses_it) {
   EXPECT_EQ(portable_pow(1, 40), 1);
 }
 
+TEST(Elementary, shading_power) {
+  SplitMix64 random(5);
+  for (int i = 0; i < kTries; ++i) {
+    const double x = random.next_double();
+    const double y = i % 2 == 0 ? std::floor(random.next_double() * 1025) : random.next_double() * 100;
+    const long double expected = std::pow((long double)x, (long double)y);
+    if (expected < 1e-300L) continue;
+    const long double bound =
+        y == std::floor(y) ? 2e-16L * (1 + y) : 1e-15L * (1 + std::abs(y * std::log2((long double)x)));
+    ASSERT_LT(std::abs(shading_power(x, y) - expected), bound * expected) << x << ' ' << y;
+  }
+  EXPECT_EQ(shading_power(0.5, 0), 1);
+  EXPECT_EQ(shading_power(0.5, 1), 0.5);
+  EXPECT_EQ(shading_power(0.5, 1024), 0x1p-1024);
+  EXPECT_EQ(shading_power(0.5, 1e9), 0);
+}
+
+TEST(Elementary, small_whole_numbers) {
+  for (const double y : {0.0, 1.0, 40.0, 1024.0}) EXPECT_TRUE(is_small_whole(y)) << y;
+  for (const double y :
+       {-1.0, 0.5, 1025.0, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_FALSE(is_small_whole(y)) << y;
+}
+
 TEST(Elementary, tangent) {
   for (int i = 0; i <= 8900; ++i) {
     const double degrees = i / 100.0;

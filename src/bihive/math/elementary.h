@@ -13,6 +13,15 @@ double portable_exp2(double x);
 /// x^y for x >= 0 and finite y; relative error below 1e-15 (1 + |y log2 x|). 0^0 = 1, 0^y = 0 for y > 0.
 double portable_pow(double x, double y);
 
+/// Whether y is 0, 1, 2, ... or 1024.
+inline bool is_small_whole(double y) {
+  return y >= 0 && y <= 1024 && y == static_cast<double>(static_cast<int>(y));
+}
+
+/// x^y for x > 0 and y >= 0, cheaper: where y is a small whole number by repeated squaring, with a relative error below
+/// 2e-16 (1 + y); else portable_pow().
+double shading_power(double x, double y);
+
 /// tan(degrees) for 0 <= degrees < 90; relative error below 1e-14 up to 89 degrees.
 double tan_deg(double degrees);
 

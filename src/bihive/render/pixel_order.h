@@ -26,6 +26,13 @@ constexpr std::array<PixelPlace, 64> kZCurve = [] {
   return places;
 }();
 
+/// Whether 64 neighbours of the order below are a whole block.
+inline bool is_whole_block(const PixelPlace* pixels) {
+  constexpr PixelPlace last = kZCurve.back();
+  return pixels[63].x == pixels[0].x + last.x && pixels[63].y == pixels[0].y + last.y && pixels[1].y == pixels[0].y &&
+         pixels[2].x == pixels[0].x;
+}
+
 /// Blocks of 8 x 8 pixels, row by row; inside a block along a Z curve, so that any 4, 16 or 64 neighbours counted from
 /// the first are a square. Blocks that the tile's border cuts come last, so that all others start at a multiple of 64.
 inline void order_pixels(const Tile& tile, std::vector<PixelPlace>& pixels) {

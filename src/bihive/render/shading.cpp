@@ -26,17 +26,15 @@ Vec3d mirrored(const Surface& surface) {
 Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows,
                   std::int64_t& shadow_rays) {
   const Material& material = surface.material;
-  const Vec3d to_viewer = -surface.incoming;
+  const double cosine = -dot(surface.incoming, surface.normal);
   Vec3d diffuse;
   Vec3d specular;
   for (const PointLight& light : scene.lights) {
     // Leave out lights behind the surface.
     const Vec3d offset = light.position - to_double(surface.origin);
-    const double distance = length(offset);
-    if (!(distance > 0)) continue;
-    const Vec3d to_light = offset / distance;
-    const double facing = dot(surface.normal, to_light);
-    if (!(facing > 0)) continue;
+    const double distance_squared = dot(offset, offset);
+    const double towards = dot(surface.normal, offset);
+    if (!(distance_squared > 0 && towards > 0)) continue;
 
     // Leave out lights behind a sphere: any hit up to the light, which lies at t = 1.
     if (shadows) {
@@ -46,11 +44,13 @@ Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surfa
       if (tracer.occluded(shadow)) continue;
     }
 
+    // N.L, and R.V = 2 (N.L) (N.V) - L.V; the offset is brought to length 1 in the products alone.
+    const double nearness = 1 / std::sqrt(distance_squared);
+    const double facing = towards * nearness;
     diffuse = diffuse + (material.diffuse * facing) * light.colour;
-    const Vec3d mirrored_light = (2 * facing) * surface.normal - to_light;
-    const double highlight = dot(mirrored_light, to_viewer);
+    const double highlight = 2 * facing * cosine + dot(offset, surface.incoming) * nearness;
     if (highlight > 0)
-      specular = specular + (material.specular * portable_pow(highlight, material.power)) * light.colour;
+      specular = specular + (material.specular * shading_power(highlight, material.power)) * light.colour;
   }
   const Vec3d ambient{material.ambient, material.ambient, material.ambient};
   return material.colour * (ambient + diffuse) + specular;

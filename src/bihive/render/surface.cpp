@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "bihive/geometry/scaled_ray.h"
-
 namespace bihive {
 namespace {
 
@@ -25,20 +23,20 @@ Vec3d checker_colour(const ScenePlane& plane, const Checker& checker, Vec3d poin
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
   Surface surface;
   surface.id = hit.id;
-  const Vec3d direction = to_double(ray.direction);
-  const Vec3d point = to_double(ray.origin) + hit.t * direction;
+  const Vec3d origin = to_double(ray.origin);
+  const Vec3d along = hit.t * to_double(ray.direction);
+  const Vec3d point = origin + along;
   surface.origin = to_float(point);
 
-  // Both vectors below are brought to length 1 in stored units, where no square can overflow or vanish.
-  const ScaledRay scaled(ray, scene.spheres.scale());
-  surface.incoming = normalized(scaled.direction);
+  // In binary64 no square of what fits binary32 can overflow or vanish.
+  surface.incoming = normalized_again(to_double(ray.direction));
   Vec3d outward;
   if (hit.id == kPlane) {
     outward = scene.plane->plane.normal;
     surface.material = scene.plane->material;
     if (scene.plane->checker) surface.material.colour = checker_colour(*scene.plane, *scene.plane->checker, point);
   } else {
-    outward = normalized((scaled.origin - scene.spheres.stored_centre(hit.id)) + hit.t * scaled.direction);
+    outward = normalized((origin - scene.spheres.centre(hit.id)) + along);
     surface.material = material_of(scene, hit.id);
   }
   surface.from_inside = dot(surface.incoming, outward) > 0;

@@ -18,9 +18,10 @@ namespace bihive {
 /// What the steps need of a scene, made ready once a picture. The scene must outlive it.
 struct WaveScene {
   const Scene* scene;
-  double scale;  ///< stored units from world units
+  double inverse_scale;  ///< world units from stored units, a power of two
   std::vector<Material>
-      materials;  ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
+      materials;                ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
+  bool has_attributes = false;  ///< colours or opacities of single spheres
   std::int64_t plane_material = 0;  ///< the plane's first
   PlaneAxes axes{};                 ///< of the plane, if it has a checker
 
@@ -154,7 +155,8 @@ void camera_rays(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace p
 /// scene_hit()'s look at the plane: where it is nearer than the sphere, the plane becomes the hit.
 void hit_plane(const WaveScene& scene, const WavePart& rays, double* t, std::int64_t* id);
 
-/// surface_at() of all rays that hit something. The others bring the background to their owners.
+/// surface_at() of all rays that hit something, given the spheres that they hit; the plane is looked at here. The
+/// others bring the background to their owners.
 void find_surfaces(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
                    WaveSurfaces& surfaces, WaveSums& sums);
 
@@ -165,6 +167,11 @@ void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const Po
 /// What surfaces do with light. `hidden`: for each light a row of one byte a surface, 1 where a sphere is between;
 /// null: no shadows. Adds local_light() times weight to the owners.
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums);
+
+/// Both at once for rays from the eye that nothing follows, without shadows: what find_surfaces() and add_local_light()
+/// bring to their owners, which must have received nothing yet.
+void shade_primaries(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
+                     WaveSums& sums);
 
 /// reflected_ray() and transmitted_ray() of the surfaces from number `first` on where the material has any, in the
 /// order of the surfaces, of one surface the reflected first; added to `next`, which must have room for two a surface.

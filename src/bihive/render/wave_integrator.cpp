@@ -56,6 +56,11 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
   if (next != nullptr) next->reset(2 * rays.count());
+  if (rays.wave->starts_at_eye && last && settings_.light && !with_shadows() && !settings_.depth) {
+    steps::shade_primaries(scene_, rays, buffers.t.data(), buffers.id.data(), buffers.sums);
+    buffers.sums.empty = false;
+    return;
+  }
   buffers.surfaces.reset(with_shadows() ? rays.count() : 0);
   if (with_shadows()) buffers.shadows.reset(rays.count());
   for (std::int64_t first = rays.first; first < rays.last;) {
@@ -90,7 +95,6 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
   WaveSurfaces& surfaces = buffers.surfaces;
   if (!with_shadows()) surfaces.reset(rays.count());
   const std::int64_t known = surfaces.count;
-  steps::hit_plane(scene_, rays, hits.t, hits.sphere_id);
   steps::find_surfaces(scene_, rays, hits.t, hits.sphere_id, surfaces, buffers.sums);
   if (settings_.depth)
     for (std::int64_t k = known; k < surfaces.count; ++k)

@@ -1,6 +1,5 @@
-// Vectors of binary64 for the steps of a wave: math/vec3.h and math/elementary.h on several rays at a time, with the
-// very operations of those in the same order. Fused multiply-add only where its result is proven to be the rounded one
-// (divide_by_small).
+// Vectors of binary64 for the steps of a wave: math/vec3.h on several rays at a time, with the very operations of it in
+// the same order, none fused.
 
 #if defined(BIHIVE_RENDER_WAVE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_RENDER_WAVE_LANES_INL_H_
@@ -16,7 +15,6 @@
 
 #include "bihive/kernels/wasm_float64-inl.h"
 #include "bihive/kernels/wasm_lanes-inl.h"
-#include "bihive/math/elementary.h"
 #include "bihive/math/vec3.h"
 #include "bihive/render/wave.h"
 
@@ -36,6 +34,10 @@ static_assert(kLanes <= kColumnPadding);
 
 HWY_INLINE Lanes all(double x) {
   return hn::Set(Tag(), x);
+}
+/// first, first + 1, ... Highway 1.0.3 would write a vector to memory and read it.
+HWY_INLINE Words counted_from(std::int64_t first) {
+  return hn::Add(hn::Iota(WordTag(), 0), hn::Set(WordTag(), first));
 }
 HWY_INLINE LaneMask first_lanes(std::int64_t n) {
   return hn::FirstN(Tag(), static_cast<std::size_t>(std::min<std::int64_t>(n, kLanes)));
@@ -79,6 +81,33 @@ HWY_INLINE void store(Words v, Column<std::uint8_t>& column, std::int64_t i) {
   for (int k = 0; k < kLanes; ++k) column[i + k] = static_cast<std::uint8_t>(words[k]);
 }
 
+/// column[at[k]] in lane k. One load and one insertion a lane: a load of what was just stored lane by lane would wait.
+HWY_INLINE Lanes gathered(const float* column, const std::int64_t* at) {
+#if HWY_TARGET == HWY_AVX3
+  const __m128 lower = _mm_set_ps(column[at[3]], column[at[2]], column[at[1]], column[at[0]]);
+  const __m128 upper = _mm_set_ps(column[at[7]], column[at[6]], column[at[5]], column[at[4]]);
+  return Lanes{_mm512_cvtps_pd(_mm256_set_m128(upper, lower))};
+#elif HWY_TARGET == HWY_AVX2
+  return Lanes{_mm256_cvtps_pd(_mm_set_ps(column[at[3]], column[at[2]], column[at[1]], column[at[0]]))};
+#else
+  alignas(64) double entry[kLanes];
+  for (int k = 0; k < kLanes; ++k) entry[k] = double(column[at[k]]);
+  return hn::Load(Tag(), entry);
+#endif
+}
+HWY_INLINE Words gathered(const std::int32_t* column, const std::int64_t* at) {
+#if HWY_TARGET == HWY_AVX3
+  return Words{_mm512_set_epi64(column[at[7]], column[at[6]], column[at[5]], column[at[4]], column[at[3]],
+                                column[at[2]], column[at[1]], column[at[0]])};
+#elif HWY_TARGET == HWY_AVX2
+  return Words{_mm256_cvtepi32_epi64(_mm_set_epi32(column[at[3]], column[at[2]], column[at[1]], column[at[0]]))};
+#else
+  alignas(64) std::int64_t entry[kLanes];
+  for (int k = 0; k < kLanes; ++k) entry[k] = column[at[k]];
+  return hn::Load(WordTag(), entry);
+#endif
+}
+
 /// Vec3d of several rays. Its parts are named one by one, never by number: GCC 12 would copy it through memory.
 struct Lanes3 {
   Lanes x, y, z;
@@ -100,14 +129,16 @@ HWY_INLINE Lanes3 subtract(Lanes3 a, Lanes3 b) {
 HWY_INLINE Lanes3 negate(Lanes3 a) {
   return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
 }
+/// -a where the mask is set.
+HWY_INLINE Lanes3 negate(LaneMask mask, Lanes3 a) {
+  const Lanes flip = hn::IfThenElseZero(mask, all(-0.0));
+  return {hn::Xor(flip, a.x), hn::Xor(flip, a.y), hn::Xor(flip, a.z)};
+}
 HWY_INLINE Lanes3 multiply(Lanes3 a, Lanes3 b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
 }
 HWY_INLINE Lanes3 multiply(Lanes s, Lanes3 a) {
   return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
-}
-HWY_INLINE Lanes3 divide(Lanes3 a, Lanes s) {
-  return {hn::Div(a.x, s), hn::Div(a.y, s), hn::Div(a.z, s)};
 }
 HWY_INLINE Lanes dot(Lanes3 a, Lanes3 b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
@@ -116,10 +147,24 @@ HWY_INLINE Lanes length(Lanes3 a) {
   return hn::Sqrt(dot(a, a));
 }
 HWY_INLINE Lanes3 normalized(Lanes3 a) {
-  return divide(a, length(a));
+  return multiply(hn::Div(all(1), length(a)), a);
+}
+/// Where a lane is far from length 1, that lane by itself.
+HWY_INLINE Lanes3 normalized_again(Lanes3 a) {
+  const Lanes beyond = hn::Sub(dot(a, a), all(1));
+  const Lanes series = hn::Sub(all(1), hn::Mul(beyond, hn::Sub(all(0.5), hn::Mul(all(0.375), beyond))));
+  const LaneMask almost = hn::Lt(hn::Abs(beyond), all(0x1p-18));
+  if (HWY_LIKELY(every(almost))) return multiply(series, a);
+  return multiply(hn::IfThenElse(almost, series, hn::Div(all(1), length(a))), a);
 }
 HWY_INLINE Lanes3 choose(LaneMask mask, Lanes3 yes, Lanes3 no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+}
+/// To the nearest number of binary32.
+HWY_INLINE Lanes3 rounded_to_float(Lanes3 a) {
+  const FloatHalf f;
+  return {hn::PromoteTo(Tag(), hn::DemoteTo(f, a.x)), hn::PromoteTo(Tag(), hn::DemoteTo(f, a.y)),
+          hn::PromoteTo(Tag(), hn::DemoteTo(f, a.z))};
 }
 template <class T>
 HWY_INLINE void store(Lanes3 v, Column<T> (&columns)[3], std::int64_t i) {
@@ -230,83 +275,6 @@ class Appender {
   bool every_;
   std::int64_t count_, at_;
 };
-
-/// Whole numbers below 2^51 in magnitude from one form to the other.
-HWY_INLINE Words words_from_whole(Lanes whole) {
-  const auto magic = all(0x1.8p52);
-  return hn::Sub(hn::BitCast(WordTag(), hn::Add(whole, magic)), hn::BitCast(WordTag(), magic));
-}
-HWY_INLINE Lanes whole_from_words(Words words) {
-  const auto magic = all(0x1.8p52);
-  return hn::Sub(hn::BitCast(Tag(), hn::Add(words, hn::BitCast(WordTag(), magic))), magic);
-}
-/// 2^whole for -1022 <= whole <= 1023.
-HWY_INLINE Lanes power_of_two(Lanes whole) {
-  const auto biased = hn::Add(words_from_whole(whole), hn::Set(WordTag(), 1023));
-  return hn::BitCast(Tag(), hn::ShiftLeft<52>(biased));
-}
-
-/// portable_log2() of normal numbers.
-HWY_INLINE Lanes log2_of(Lanes x) {
-  // Split into mantissa in [sqrt(1/2), sqrt(2)) and exponent, both exact.
-  const WordTag w;
-  const auto bits = hn::BitCast(w, x);
-  auto exponent = whole_from_words(hn::Sub(hn::ShiftRight<52>(bits), hn::Set(w, 1022)));
-  auto mantissa =
-      hn::BitCast(Tag(), hn::Or(hn::And(bits, hn::Set(w, 0x000FFFFFFFFFFFFF)), hn::Set(w, 0x3FE0000000000000)));
-  const auto small = hn::Lt(mantissa, all(0.70710678118654752440));
-  mantissa = hn::IfThenElse(small, hn::Add(mantissa, mantissa), mantissa);
-  exponent = hn::IfThenElse(small, hn::Sub(exponent, all(1)), exponent);
-
-  const auto s = hn::Div(hn::Sub(mantissa, all(1)), hn::Add(mantissa, all(1)));
-  const auto s2 = hn::Mul(s, s);
-  auto series = all(0);
-  for (int k = 23; k >= 3; k -= 2) series = hn::Mul(hn::Add(series, all(1.0 / k)), s2);
-  const auto ln = hn::Mul(hn::Mul(all(2), s), hn::Add(all(1), series));
-  return hn::Add(exponent, hn::Mul(ln, all(1.44269504088896340736)));
-}
-
-/// x / k, rounded to nearest, for a whole k from 1 to 14 and |x| below 2; right to a part in 2^50 where |x| < 2^-900.
-HWY_INLINE Lanes divide_by_small(Lanes x, int k) {
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-  // Markstein's theorem: from a quotient that is right to one unit in the last place, with the rounded reciprocal, the
-  // exact remainder gives the rounded quotient. For each of these k the reciprocal's relative error is at most 2^-54,
-  // so that with the rounding of the product the first quotient is right to one unit.
-  const Lanes reciprocal = all(1.0 / k);
-  const Lanes quotient = hn::Mul(x, reciprocal);
-  const Lanes remainder = hn::NegMulAdd(quotient, all(k), x);
-  return hn::MulAdd(remainder, reciprocal, quotient);
-#else
-  return hn::Div(x, all(k));
-#endif
-}
-
-/// portable_exp2() for -1075 <= x <= 1024.
-HWY_INLINE Lanes exp2_of(Lanes x) {
-  const auto whole = hn::Floor(hn::Add(x, all(0.5)));
-  const auto y = hn::Mul(hn::Sub(x, whole), all(0.69314718055994530942));
-  auto series = all(1);
-  for (int k = 14; k >= 1; --k) series = hn::Add(all(1), divide_by_small(hn::Mul(series, y), k));
-  // In two steps: the first is exact, so that the result is rounded once where it is small.
-  const auto half = hn::Floor(hn::Mul(whole, all(0.5)));
-  return hn::Mul(hn::Mul(series, power_of_two(half)), power_of_two(hn::Sub(whole, half)));
-}
-
-/// portable_pow() where the mask is set, x > 0 there.
-HWY_INLINE Lanes pow_of(LaneMask mask, Lanes x, Lanes y) {
-  // Almost always nothing is out of the ordinary.
-  const auto exponent = hn::Mul(y, log2_of(x));
-  const auto plain_x = hn::And(hn::Ge(x, all(0x1p-1022)), hn::Lt(x, all(0x1p1023)));
-  const auto plain_y = hn::And(hn::Ge(exponent, all(-1074)), hn::Le(exponent, all(1024)));
-  const auto plain = hn::And(hn::And(plain_x, plain_y), hn::Ne(y, all(0)));
-  if (HWY_LIKELY(none(hn::AndNot(plain, mask)))) return exp2_of(exponent);
-
-  alignas(64) double xs[kLanes], ys[kLanes], powers[kLanes];
-  hn::Store(hn::IfThenElse(mask, x, all(1)), Tag(), xs);
-  hn::Store(hn::IfThenElse(mask, y, all(1)), Tag(), ys);
-  for (int k = 0; k < kLanes; ++k) powers[k] = portable_pow(xs[k], ys[k]);
-  return hn::Load(Tag(), powers);
-}
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE

@@ -28,7 +28,6 @@ struct MaterialLanes {
 /// Opacity and colour of single spheres, where the scene has any.
 HWY_INLINE void apply_attributes(const Scene& scene, Words id, MaterialLanes& lanes) {
   const SphereAttributes& attributes = scene.spheres.attributes();
-  if (attributes.colour.empty() && attributes.opacity.empty()) return;
   const LaneMask on_sphere = lanes_of(hn::Gt(id, hn::Set(WordTag(), -1)));
   alignas(64) std::int64_t ids[kLanes];
   hn::Store(id, WordTag(), ids);
@@ -58,28 +57,36 @@ HWY_INLINE void apply_attributes(const Scene& scene, Words id, MaterialLanes& la
   lanes.refraction_index = hn::IfThenElse(clear, all(1), lanes.refraction_index);
 }
 
-/// Of lanes `wanted`; the others hold anything. `material_inside` and `id` as in WaveSurfaces.
+HWY_INLINE MaterialLanes all(const Material& material) {
+  return {all(material.colour),   all(material.ambient), all(material.diffuse),      all(material.reflective),
+          all(material.specular), all(material.power),   all(material.transmissive), all(material.refraction_index)};
+}
+HWY_INLINE MaterialLanes choose(LaneMask mask, const MaterialLanes& yes, const MaterialLanes& no) {
+  const auto chosen = [mask](Lanes a, Lanes b) HWY_ATTR { return hn::IfThenElse(mask, a, b); };
+  return {choose(mask, yes.colour, no.colour),       chosen(yes.ambient, no.ambient),
+          chosen(yes.diffuse, no.diffuse),           chosen(yes.reflective, no.reflective),
+          chosen(yes.specular, no.specular),         chosen(yes.power, no.power),
+          chosen(yes.transmissive, no.transmissive), chosen(yes.refraction_index, no.refraction_index)};
+}
+
+/// Of lanes `wanted`, at least one; the others hold anything. `material_inside` and `id` as in WaveSurfaces.
 HWY_INLINE MaterialLanes materials_of(const WaveScene& scene, LaneMask wanted, Words material_inside, Words id) {
-  // Neighbours mostly share a material: take each that occurs once.
-  const Lanes zero = all(0);
-  MaterialLanes lanes{{zero, zero, zero}, zero, zero, zero, zero, zero, zero, zero};
+  // Neighbours mostly share a material: take each that occurs once. Numbers are compared with the inside's bit set.
   alignas(64) std::int64_t numbers[kLanes];
-  const Words which = hn::ShiftRight<1>(material_inside);
+  const Words which = hn::Or(material_inside, hn::Set(WordTag(), 1));
   hn::Store(which, WordTag(), numbers);
-  for (LaneMask left = wanted; !none(left);) {
-    const std::int64_t number = numbers[hn::FindFirstTrue(Tag(), left)];
-    const Material& material = scene.materials[static_cast<std::size_t>(number)];
+  const auto material = [&scene](std::int64_t number)
+                            HWY_ATTR { return all(scene.materials[static_cast<std::size_t>(number >> 1)]); };
+  std::int64_t number = numbers[hn::FindFirstTrue(Tag(), wanted)];
+  MaterialLanes lanes = material(number);
+  LaneMask left = hn::AndNot(lanes_of(hn::Eq(which, hn::Set(WordTag(), number))), wanted);
+  while (HWY_UNLIKELY(!none(left))) {
+    number = numbers[hn::FindFirstTrue(Tag(), left)];
     const LaneMask same = hn::And(left, lanes_of(hn::Eq(which, hn::Set(WordTag(), number))));
-    lanes.colour = choose(same, all(material.colour), lanes.colour);
-    lanes.ambient = hn::IfThenElse(same, all(material.ambient), lanes.ambient);
-    lanes.diffuse = hn::IfThenElse(same, all(material.diffuse), lanes.diffuse);
-    lanes.specular = hn::IfThenElse(same, all(material.specular), lanes.specular);
-    lanes.power = hn::IfThenElse(same, all(material.power), lanes.power);
-    lanes.reflective = hn::IfThenElse(same, all(material.reflective), lanes.reflective);
-    lanes.transmissive = hn::IfThenElse(same, all(material.transmissive), lanes.transmissive);
-    lanes.refraction_index = hn::IfThenElse(same, all(material.refraction_index), lanes.refraction_index);
+    lanes = choose(same, material(number), lanes);
     left = hn::AndNot(same, left);
   }
+  if (!scene.has_attributes) return lanes;
   apply_attributes(*scene.scene, hn::IfThenElse(words_of(wanted), id, hn::Set(WordTag(), kNothing)), lanes);
   return lanes;
 }

@@ -1,4 +1,4 @@
-// The vector forms of powers and divisions against the scalar ones, on every instruction set.
+// The vector form of powers against the scalar ones, on every instruction set.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,12 +9,12 @@
 #include "bihive/math/rng.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "unit/wave_lanes_test.cpp"
+#define HWY_TARGET_INCLUDE "unit/wave_powers_test.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "bihive/kernels/dispatch.h"
-#include "bihive/render/wave_lanes-inl.h"
+#include "bihive/render/wave_powers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
@@ -26,9 +26,10 @@ void powers_on_target(const double* x, const double* y, std::size_t count, doubl
     hn::StoreU(pow_of(first_lanes(kLanes), hn::LoadU(Tag(), x + i), hn::LoadU(Tag(), y + i)), Tag(), powers + i);
 }
 
-void quotients_on_target(const double* x, int k, std::size_t count, double* quotients) {
+void shading_powers_on_target(const double* x, const double* y, std::size_t count, double* powers) {
   for (std::size_t i = 0; i < count; i += kLanes)
-    hn::StoreU(divide_by_small(hn::LoadU(Tag(), x + i), k), Tag(), quotients + i);
+    hn::StoreU(shading_power_of(first_lanes(kLanes), hn::LoadU(Tag(), x + i), hn::LoadU(Tag(), y + i)), Tag(),
+               powers + i);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -39,7 +40,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bihive {
 HWY_EXPORT(powers_on_target);
-HWY_EXPORT(quotients_on_target);
+HWY_EXPORT(shading_powers_on_target);
 
 namespace {
 
@@ -66,18 +67,19 @@ TEST_P(EachTarget, powers_are_portable_pow) {
   for (std::size_t i = 0; i < kCount; ++i) ASSERT_EQ(powers[i], portable_pow(x[i], y[i])) << x[i] << " ^ " << y[i];
 }
 
-TEST_P(EachTarget, quotients_are_rounded_to_nearest) {
-  SplitMix64 rng(2);
-  std::vector<double> x(kCount), quotients(kCount);
-  for (int k = 1; k <= 14; ++k) {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      x[i] = (2 * rng.next_double() - 1) * std::exp2(-static_cast<double>(i % 40));
-      // Numbers next to a multiple of k, where roundings are close.
-      if (i % 2 == 0) x[i] = std::nextafter(k * (x[i] / 16), i % 4 == 0 ? 2.0 : -2.0);
-    }
-    HWY_DYNAMIC_DISPATCH(quotients_on_target)(x.data(), k, kCount, quotients.data());
-    for (std::size_t i = 0; i < kCount; ++i) ASSERT_EQ(quotients[i], x[i] / k) << x[i] << " / " << k;
+TEST_P(EachTarget, shading_powers_are_shading_power) {
+  SplitMix64 rng(3);
+  std::vector<double> x(kCount), y(kCount), powers(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    x[i] = 1.0000001 * rng.next_double() + 1e-12;
+    // Runs of one power, whole or not, and powers that change from lane to lane.
+    if (i % 32 < 16 && i % 16 != 0)
+      y[i] = y[i - 1];
+    else
+      y[i] = i % 3 == 0 ? 1100 * rng.next_double() : std::floor(1100 * rng.next_double());
   }
+  HWY_DYNAMIC_DISPATCH(shading_powers_on_target)(x.data(), y.data(), kCount, powers.data());
+  for (std::size_t i = 0; i < kCount; ++i) ASSERT_EQ(powers[i], shading_power(x[i], y[i])) << x[i] << " ^ " << y[i];
 }
 
 INSTANTIATE_TEST_SUITE_P(all, EachTarget, ::testing::ValuesIn(available_targets()));
