@@ -1,6 +1,7 @@
 // Pictures drawn wave by wave have the bits of one ray after the other (render/integrator.h), on every instruction set.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <string>
 
@@ -187,6 +188,36 @@ TEST(Wave, sums_are_the_same_before_they_are_rounded) {
         ASSERT_EQ(std::memcmp(&sum, &expected[static_cast<std::size_t>(i)], sizeof sum), 0)
             << scene.name << " on " << target << ", ray " << i;
       }
+    }
+  }
+}
+
+// One pass shades primary rays without shadows; the last vector of a tile is seldom full.
+TEST(Wave, primary_rays_alone_with_unfilled_vectors) {
+  const BestTargetAgain restore;
+  constexpr std::array<std::array<int, 2>, 6> kSizes{{{1, 1}, {3, 1}, {2, 3}, {7, 5}, {13, 11}, {17, 9}}};
+  for (std::uint64_t seed = 201; seed <= 248; ++seed) {
+    const Scene scene = random_scene(seed);
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+    RenderSettings settings;
+    settings.width_px = kSizes[seed % kSizes.size()][0];
+    settings.height_px = kSizes[seed % kSizes.size()][1];
+    settings.samples_per_pixel = seed % 4 == 0 ? 3 : 1;
+    settings.recursion = 1;
+    settings.shadows = false;
+    settings.threads = 1;
+    const Expected expected = one_after_the_other(scene, settings);
+    for (const std::string& target : available_targets()) {
+      ASSERT_TRUE(use_target(target));
+      // What another picture left behind in the thread's memory must not matter.
+      Scene before = scene;
+      before.plane = thesis_plane();
+      RenderSettings normals = settings;
+      normals.view = View::normal;
+      normals.width_px = normals.height_px = 40;
+      ASSERT_TRUE(render(before, tracer, normals));
+      expect_same(expected, render(scene, tracer, settings).value(), scene.name + " on " + target);
+      if (::testing::Test::HasFailure()) return;
     }
   }
 }

@@ -26,7 +26,7 @@ constexpr std::array<PixelPlace, 64> kZCurve = [] {
   return places;
 }();
 
-/// Whether 64 neighbours of the order below are a whole block.
+/// Whether 64 neighbours of the order below, from a multiple of 64 on, are a whole block.
 inline bool is_whole_block(const PixelPlace* pixels) {
   constexpr PixelPlace last = kZCurve.back();
   return pixels[63].x == pixels[0].x + last.x && pixels[63].y == pixels[0].y + last.y && pixels[1].y == pixels[0].y &&

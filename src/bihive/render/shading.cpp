@@ -1,11 +1,14 @@
 #include "bihive/render/shading.h"
 
 #include <cmath>
+#include <limits>
 
 #include "bihive/math/elementary.h"
 
 namespace bihive {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A ray that starts on the surface. On a sphere, `inside` says whether it goes into the ball; a plane has no inside.
 Ray ray_from(const Surface& surface, Vec3d direction, bool inside) {
@@ -34,7 +37,7 @@ Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surfa
     const Vec3d offset = light.position - to_double(surface.origin);
     const double distance_squared = dot(offset, offset);
     const double towards = dot(surface.normal, offset);
-    if (!(distance_squared > 0 && towards > 0)) continue;
+    if (!(distance_squared > 0 && distance_squared < kInfinity && towards > 0)) continue;
 
     // Leave out lights behind a sphere: any hit up to the light, which lies at t = 1.
     if (shadows) {

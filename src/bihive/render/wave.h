@@ -168,8 +168,8 @@ void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const Po
 /// null: no shadows. Adds local_light() times weight to the owners.
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums);
 
-/// Both at once for rays from the eye that nothing follows, without shadows: what find_surfaces() and add_local_light()
-/// bring to their owners, which must have received nothing yet.
+/// Both at once for rays from one eye that nothing follows, at least one, without shadows: what find_surfaces() and
+/// add_local_light() bring to their owners, which must have received nothing yet.
 void shade_primaries(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
                      WaveSums& sums);
 
@@ -180,7 +180,8 @@ struct SentOn {
 };
 SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
 
-/// What owners 0 to count - 1 received, rounded to binary32: owner i's to the film at pixel[i].
+/// What owners 0 to count - 1 received, rounded to binary32: owner i's to the film at pixel[i]. The pixels are those of
+/// order_pixels() from a multiple of 64 on.
 void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
 
 /// byte_from_radiance() without a curve, of `count` numbers.

@@ -126,9 +126,6 @@ HWY_INLINE Lanes3 add(Lanes3 a, Lanes3 b) {
 HWY_INLINE Lanes3 subtract(Lanes3 a, Lanes3 b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-HWY_INLINE Lanes3 negate(Lanes3 a) {
-  return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
-}
 /// -a where the mask is set.
 HWY_INLINE Lanes3 negate(LaneMask mask, Lanes3 a) {
   const Lanes flip = hn::IfThenElseZero(mask, all(-0.0));

@@ -31,7 +31,8 @@ struct LightLanes {
       : offset(subtract(all(light.position), origin)),
         distance_squared(dot(offset, offset)),
         towards(dot(normal, offset)),
-        in_front(hn::And(hn::Gt(distance_squared, all(0)), hn::Gt(towards, all(0)))) {}
+        in_front(hn::And(hn::And(hn::Gt(distance_squared, all(0)), hn::Lt(distance_squared, all(kInfinity))),
+                         hn::Gt(towards, all(0)))) {}
 };
 
 // A highlight of exactly no strength adds nothing, however sharp it is, up to powers that could overflow.

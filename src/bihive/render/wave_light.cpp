@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "bihive/render/wave.h"
 
 #undef HWY_TARGET_INCLUDE

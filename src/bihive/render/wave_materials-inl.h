@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstdint>
 
 #include "bihive/render/wave.h"
@@ -69,21 +68,23 @@ HWY_INLINE MaterialLanes choose(LaneMask mask, const MaterialLanes& yes, const M
           chosen(yes.transmissive, no.transmissive), chosen(yes.refraction_index, no.refraction_index)};
 }
 
+HWY_INLINE const Material& material_at(const WaveScene& scene, std::int64_t material_inside) {
+  return scene.materials[static_cast<std::size_t>(material_inside >> 1)];
+}
+
 /// Of lanes `wanted`, at least one; the others hold anything. `material_inside` and `id` as in WaveSurfaces.
 HWY_INLINE MaterialLanes materials_of(const WaveScene& scene, LaneMask wanted, Words material_inside, Words id) {
   // Neighbours mostly share a material: take each that occurs once. Numbers are compared with the inside's bit set.
   alignas(64) std::int64_t numbers[kLanes];
   const Words which = hn::Or(material_inside, hn::Set(WordTag(), 1));
   hn::Store(which, WordTag(), numbers);
-  const auto material = [&scene](std::int64_t number)
-                            HWY_ATTR { return all(scene.materials[static_cast<std::size_t>(number >> 1)]); };
   std::int64_t number = numbers[hn::FindFirstTrue(Tag(), wanted)];
-  MaterialLanes lanes = material(number);
+  MaterialLanes lanes = all(material_at(scene, number));
   LaneMask left = hn::AndNot(lanes_of(hn::Eq(which, hn::Set(WordTag(), number))), wanted);
   while (HWY_UNLIKELY(!none(left))) {
     number = numbers[hn::FindFirstTrue(Tag(), left)];
     const LaneMask same = hn::And(left, lanes_of(hn::Eq(which, hn::Set(WordTag(), number))));
-    lanes = choose(same, material(number), lanes);
+    lanes = choose(same, all(material_at(scene, number)), lanes);
     left = hn::AndNot(same, left);
   }
   if (!scene.has_attributes) return lanes;

@@ -99,12 +99,13 @@ HWY_INLINE Lanes pow_of(LaneMask mask, Lanes x, Lanes y) {
 /// shading_power() where the mask is set, x > 0 there.
 HWY_INLINE Lanes shading_power_of(LaneMask mask, Lanes x, Lanes y) {
   // Neighbours mostly share a power: take each that occurs once.
+  const Words bits = hn::BitCast(WordTag(), y);
   alignas(64) double powers[kLanes];
   hn::Store(y, Tag(), powers);
   Lanes result = all(0);
   for (LaneMask left = mask; !none(left);) {
     const double power = powers[hn::FindFirstTrue(Tag(), left)];
-    const LaneMask same = hn::And(left, hn::Eq(y, all(power)));
+    const LaneMask same = hn::And(left, lanes_of(hn::Eq(bits, hn::BitCast(WordTag(), all(power)))));
     Lanes raised = all(1);
     if (is_small_whole(power)) {
       Lanes square = x;

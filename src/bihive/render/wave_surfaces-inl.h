@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -22,7 +21,7 @@ namespace HWY_NAMESPACE {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Rays of a wave from number i on, and what they hit. A ray may be invalid.
+/// Neighbours among the rays of a wave, and what they hit. A ray may be invalid.
 struct RayLanes {
   Lanes3 origin, direction;
   Lanes t;
@@ -90,7 +89,7 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
   surface.incoming = normalized_again(rays.direction);
 
   // Outward normals and materials of spheres and of the plane.
-  const LaneMask on_plane = lanes_of(hn::Eq(rays.id, hn::Set(w, kPlane)));
+  const LaneMask on_plane = hn::And(found, lanes_of(hn::Eq(rays.id, hn::Set(w, kPlane))));
   const LaneMask on_sphere = hn::AndNot(on_plane, found);
   Lanes3 outward;
   Words material = hn::Zero(w);

@@ -1,4 +1,4 @@
-// Twin of render/shading.h.
+// Twin of render/shading.h, with the light and its mirror image brought to length 1 in plain words.
 #include "elementary"
 #include "surface"
 
