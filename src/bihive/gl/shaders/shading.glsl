@@ -1,4 +1,4 @@
-// Twin of render/shading.h, with the light and its mirror image brought to length 1 in plain words.
+// Twin of render/shading.h, by the plain formulas: the offset to a light is divided by its length, and R is built.
 #include "elementary"
 #include "surface"
 
