@@ -20,7 +20,7 @@ test: ## install what the tests need, run every test (about an hour on two cores
 check: ## the quick checks for daily work
 	scripts/check
 
-bench: ## measure everything of docs/performance.md, beside Embree and Tachyon (some twenty minutes on two cores)
+bench: ## measure everything of docs/performance.md, beside Embree and Tachyon (over an hour on two cores)
 	scripts/setup bench
 	scripts/bench
 

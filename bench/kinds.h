@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "bihive/kernels/queries.h"
@@ -17,16 +18,20 @@ struct KindFacts {
   std::string_view name;
   bool any_hit;  ///< whether anything is hit, not what
   RayOrder order;
+  std::int64_t tile;  ///< rays that a thread takes at a time, at most, unless the user says another number
 };
 
-constexpr std::array<KindFacts, 8> kKinds{{{Kind::primary, "primary", false, RayOrder::blocks},
-                                           {Kind::random, "random", false, RayOrder::any},
-                                           {Kind::shadow, "shadow", true, RayOrder::blocks},
-                                           {Kind::mirror1, "mirror1", false, RayOrder::any},
-                                           {Kind::mirror2, "mirror2", false, RayOrder::any},
-                                           {Kind::mirror3, "mirror3", false, RayOrder::any},
-                                           {Kind::mirror_shadow2, "mirror_shadow2", true, RayOrder::any},
-                                           {Kind::mirror_shadow3, "mirror_shadow3", true, RayOrder::any}}};
+/// Random rays are told all at once: the engine sorts them, and the more there are the better it can.
+constexpr std::int64_t kTile = 131072, kRandomTile = 1048576;
+
+constexpr std::array<KindFacts, 8> kKinds{{{Kind::primary, "primary", false, RayOrder::blocks, kTile},
+                                           {Kind::random, "random", false, RayOrder::any, kRandomTile},
+                                           {Kind::shadow, "shadow", true, RayOrder::blocks, kTile},
+                                           {Kind::mirror1, "mirror1", false, RayOrder::any, kTile},
+                                           {Kind::mirror2, "mirror2", false, RayOrder::any, kTile},
+                                           {Kind::mirror3, "mirror3", false, RayOrder::any, kTile},
+                                           {Kind::mirror_shadow2, "mirror_shadow2", true, RayOrder::any, kTile},
+                                           {Kind::mirror_shadow3, "mirror_shadow3", true, RayOrder::any, kTile}}};
 
 constexpr const KindFacts& facts_of(Kind kind) {
   return kKinds[static_cast<std::size_t>(kind)];

@@ -183,12 +183,14 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
     answers.hits.resize(result.rays);
   }
   const auto threads = static_cast<int>(options.threads);
-  const std::int64_t tile = even_tile(result.rays, options.tile, options.threads);
+  const std::int64_t tile = even_tile(result.rays, options.tile > 0 ? options.tile : set.facts.tile, options.threads);
+  result.tile = tile;
   const Tiles all = Tiles::all(result.rays, tile);
   double longest = trace_ours_ms(tree, set, threads, all, answers);
   std::vector<Contender> contenders;
   if (peer != nullptr) {
-    contenders = best_modes(*peer, set, Tiles(result.rays, tile, std::max<std::int64_t>(1, all.count() / kFewestTiles)));
+    contenders =
+        best_modes(*peer, set, Tiles(result.rays, tile, std::max<std::int64_t>(1, all.count() / kFewestTiles)));
     for (const Contender& contender : contenders)
       longest = std::max(longest, peer->trace_ms(*contender.rays, contender.mode.coherent, all));
   }
@@ -218,9 +220,8 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   }
 
   // The best of the peer counts; its answers are compared.
-  const auto best = std::min_element(contenders.begin(), contenders.end(), [](const auto& a, const auto& b) {
-    return median(a.ms) < median(b.ms);
-  });
+  const auto best = std::min_element(contenders.begin(), contenders.end(),
+                                     [](const auto& a, const auto& b) { return median(a.ms) < median(b.ms); });
   result.peer_ms = median(best->ms);
   result.peer_mode = best->mode.name();
   result.verdict = judge(bench.scene.spheres, tree, set, answers, best->rays->answers(),

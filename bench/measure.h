@@ -28,6 +28,7 @@ struct BuildResult {
 struct KindResult {
   KindFacts facts;
   std::int64_t rays = 0;
+  std::int64_t tile = 0;       ///< rays that a thread took at a time
   double ms = 0, peer_ms = 0;  ///< of all rays once
   std::string peer_mode;
   Verdict verdict;

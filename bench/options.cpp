@@ -87,7 +87,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->check(CLI::IsMember(words_of_only()));
   add_integer(app, "--reps", options.reps, 1, 1000, "Repetitions, of which the median counts (7)");
   add_integer(app, "--rays", options.rays, 64, std::int64_t{1} << 26, "Primary and random rays, about (1048576)");
-  add_integer(app, "--tile", options.tile, 64, 1048576, "Rays that a thread takes at a time, at most (131072)");
+  add_integer(app, "--tile", options.tile, 64, 1048576,
+              "Rays that a thread takes at a time, at most (131072, random rays 1048576)");
   app.add_option("--target", options.target, "Instruction set of both: avx512, avx2, sse4, scalar (the best)")
       ->type_name("NAME");
   app.add_flag("--json", options.json, "Print one JSON object instead of text");

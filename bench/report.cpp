@@ -44,7 +44,6 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
   json["commit"] = commit();
   json["machine"] = machine();
   json["reps"] = options.reps;
-  json["tile"] = options.tile;
   json["build_ms"] = positive(build.ours.again_ms);
   json["build_fresh_ms"] = positive(build.ours.fresh_ms);
   json["build_peak_bytes"] = build.peak_bytes;
@@ -52,7 +51,7 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
   json["levels"] = build.levels;
   json["nodes"] = build.nodes;
 
-  ordered_json rates = ordered_json::object(), peer_rates = rates, ratios = rates, rays = rates, modes = rates;
+  ordered_json rates = ordered_json::object(), peer_rates = rates, ratios = rates, rays = rates, tiles = rates, modes = rates;
   std::int64_t wrong = 0, peer_wrong = 0, differ = 0;
   ratios["build"] = quotient(build.peer.best_ms(), build.ours.again_ms);
   ratios["build_fresh"] = quotient(build.peer.fresh_ms, build.ours.fresh_ms);
@@ -60,6 +59,7 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
   for (const KindResult& kind : measured.kinds) {
     const std::string name(kind.facts.name);
     rays[name] = kind.rays;
+    tiles[name] = kind.tile;
     rates[name] = kind.ms > 0 ? ordered_json(kind.mray_per_s()) : ordered_json();
     peer_rates[name] = kind.peer_ms > 0 ? ordered_json(kind.peer_mray_per_s()) : ordered_json();
     modes[name] = kind.peer_mode;
@@ -69,6 +69,7 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
     differ += kind.verdict.differ;
   }
   json["rays"] = rays;
+  json["tile"] = tiles;
   json["mray_per_s"] = rates;
   if (options.embree) {
     json["peer"] = {{"name", "embree"},

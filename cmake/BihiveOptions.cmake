@@ -72,6 +72,8 @@ endif()
 if(BIHIVE_SANITIZE STREQUAL "asan")
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=address,undefined)
+  # An index beyond the end of a vector is found even where the memory after it is valid.
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
 elseif(BIHIVE_SANITIZE STREQUAL "tsan")
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=thread)

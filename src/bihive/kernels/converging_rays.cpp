@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "bihive/kernels/beam.h"
@@ -15,6 +16,7 @@
 #include "bihive/kernels/lanes-inl.h"
 #include "bihive/kernels/leftover_rays.h"
 #include "bihive/kernels/lists.h"
+#include "bihive/kernels/pick.h"
 
 #ifndef BIHIVE_KERNELS_CONVERGING_RAYS_ONCE
 #define BIHIVE_KERNELS_CONVERGING_RAYS_ONCE
@@ -156,12 +158,7 @@ class SortedTile {
     // Count, then place.
     ends_.assign(std::size_t{2} << (2 * bits), 0);
     for (std::size_t i = 0; i < n; ++i) ++ends_[cells_[i]];
-    std::uint32_t begin = 0;
-    for (std::uint32_t& end : ends_) {
-      const std::uint32_t count = end;
-      end = begin;
-      begin += count;
-    }
+    std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), 0U);
     order_.resize(n);
     for (std::size_t i = 0; i < n; ++i) order_[ends_[cells_[i]]++] = static_cast<std::uint32_t>(i);
     copy(rays);
@@ -215,26 +212,19 @@ class SortedTile {
 
   void copy(const RaySpan& rays) {
     const std::size_t n = order_.size();
-    const auto pick = [&](auto& to, const auto* from) {
-      to.resize(from == nullptr ? 0 : n);
-      if (from == nullptr) return;
-      // Into the cache in the order of memory, out of it in any other.
-      for (std::size_t i = 0; i < n; i += 64 / sizeof(*from)) __builtin_prefetch(from + i);
-      for (std::size_t i = 0; i < n; ++i) to[i] = from[order_[i]];
-    };
     for (int axis = 0; axis < 3; ++axis) {
-      pick(rays_.origin[axis], rays.origin[axis]);
-      pick(rays_.direction[axis], rays.direction[axis]);
+      pick(rays.origin[axis], order_, rays_.origin[axis]);
+      pick(rays.direction[axis], order_, rays_.direction[axis]);
     }
-    pick(rays_.leaves, rays.leaves);
-    pick(rays_.t_min, rays.t_min);
+    pick(rays.leaves, order_, rays_.leaves);
+    pick(rays.t_min, order_, rays_.t_min);
     // Mostly all end at the light, and none goes into a sphere.
     if (all_equal(rays.t_max, n)) {
       rays_.t_max.assign(n, rays.t_max[0]);
     } else {
-      pick(rays_.t_max, rays.t_max);
+      pick(rays.t_max, order_, rays_.t_max);
     }
-    pick(rays_.inside, all_equal(rays.inside, n) && rays.inside[0] == 0 ? nullptr : rays.inside);
+    pick(all_equal(rays.inside, n) && rays.inside[0] == 0 ? nullptr : rays.inside, order_, rays_.inside);
   }
 
   template <class T>
@@ -293,14 +283,6 @@ bool occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t
     all_sorted = false;
   }
   return all_sorted;
-}
-
-void occluded_any(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
-  if (converge(rays)) {
-    occluded_converging(tree, rays, hidden);
-  } else {
-    occluded_lists(tree, rays, hidden);
-  }
 }
 
 }  // namespace kernels

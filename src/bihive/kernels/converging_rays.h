@@ -15,7 +15,4 @@ bool converge(const RaySpan& rays);
 /// occluded() of rays that converge: sorted, and as beams. False if for some of them lists were chosen.
 bool occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
 
-/// occluded() of rays in any order: that, if they converge, else lists.
-void occluded_any(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
-
 }  // namespace bihive::kernels

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bihive/kernels/converging_rays.h"
+#include "bihive/kernels/any_rays.h"
 #include "bihive/kernels/lists.h"
 
 namespace bihive {

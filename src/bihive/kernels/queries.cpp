@@ -1,8 +1,7 @@
 #include "bihive/kernels/queries.h"
 
+#include "bihive/kernels/any_rays.h"
 #include "bihive/kernels/beam.h"
-#include "bihive/kernels/converging_rays.h"
-#include "bihive/kernels/lists.h"
 #include "bihive/kernels/single.h"
 
 namespace bihive {
@@ -19,7 +18,7 @@ void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, con
   if (order == RayOrder::blocks) {
     kernels::closest_hits_beams(tree, rays, hits);
   } else {
-    kernels::closest_hits_lists(tree, rays, hits);
+    kernels::closest_hits_any(tree, rays, hits);
   }
 }
 

@@ -1,0 +1,148 @@
+// Rays that are sorted first get the reference traversal's answers on every target, each at its own place; and
+// scattered rays are known as such.
+#include "bihive/kernels/scattered_rays.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bihive/kernels/lists.h"
+#include "bihive/kernels/queries.h"
+#include "bihive/kernels/target.h"
+#include "support/hostile_sets.h"
+#include "support/query_rays.h"
+#include "support/wide_under_test.h"
+
+namespace bihive {
+namespace {
+
+using test::World;
+
+// Sorted so many at a time. Nothing is written beyond the last.
+void check_sorted(const std::string& what, const test::WideUnderTest& wide, const RaySpan& rays, std::int64_t at_a_time,
+                  const std::vector<Hit>& truths) {
+  const auto n = static_cast<std::size_t>(rays.count);
+  for (const std::string& target : available_targets()) {
+    ASSERT_TRUE(use_target(target).ok());
+    HitBatch hits;
+    hits.t.assign(n + 1, -12345.5);
+    hits.sphere_id.assign(n + 1, -77);
+    std::vector<std::uint8_t> hidden(n + 1, 77);
+    kernels::closest_hits_scattered(wide.tree(), rays, hits.span(), at_a_time);
+    kernels::occluded_scattered(wide.tree(), rays, hidden.data(), at_a_time);
+    ASSERT_TRUE(hits.t[n] == -12345.5 && hits.sphere_id[n] == -77 && hidden[n] == 77) << what << ", " << target;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto number = static_cast<std::int64_t>(i);
+      const auto where = [&] {
+        return what + ", " + target + ", ray " + std::to_string(i) + ": " + test::text_of(rays.at(number));
+      };
+      ASSERT_TRUE(test::same_bits(hits.at(number), truths[i])) << where();
+      ASSERT_EQ(int{hidden[i]}, truths[i].found() ? 1 : 0) << where();
+    }
+  }
+  ASSERT_TRUE(use_target("").ok());
+}
+
+std::vector<Hit> truths_of(const test::WideUnderTest& wide, const RaySpan& rays) {
+  std::vector<Hit> truths;
+  for (std::int64_t i = 0; i < rays.count; ++i) truths.push_back(wide.truth(rays.at(i)));
+  return truths;
+}
+
+TEST(ScatteredRays, AreAnsweredAsByTheReference) {
+  std::vector<World> worlds = test::degenerate_worlds();
+  for (World& world : test::hostile_worlds(2000, 1000)) worlds.push_back(std::move(world));
+  const World base = test::random_world("base", 71, 700, 10, 0.1, 1.5);
+  for (const double factor : {1e-30, 1e-20, 1e20, 1e30})
+    worlds.push_back(base.scaled(factor, "scaled by " + std::to_string(std::log10(factor))));
+  for (const World& world : worlds) {
+    if (world.size() == 0) continue;
+    const test::WideUnderTest wide(world);
+    test::QueryRays maker(world, 72, [&](const Ray& ray) { return wide.truth(ray); });
+    RayBatch rays;
+    for (int i = 0; i < 1501; ++i) rays.push_back(maker.next());
+    const std::vector<Hit> truths = truths_of(wide, rays.span());
+    for (const std::int64_t at_a_time : {std::int64_t{500}, rays.size()})
+      check_sorted(world.name, wide, rays.span(), at_a_time, truths);
+    // Alone the origins and directions; some of the other arrays.
+    for (const bool segments : {false, true}) {
+      RaySpan some = rays.span();
+      some.leaves = nullptr;
+      some.inside = nullptr;
+      if (!segments) some.t_min = some.t_max = nullptr;
+      check_sorted(world.name + ", fewer arrays", wide, some, rays.size(), truths_of(wide, some));
+    }
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(ScatteredRays, OfAnEmptySetHitNothing) {
+  const test::WideUnderTest wide(World{});
+  const World somewhere = test::random_world("somewhere", 73, 10, 1, 1, 1);
+  test::QueryRays maker(somewhere, 74, [](const Ray&) { return Hit{}; });
+  RayBatch rays;
+  for (int i = 0; i < 100; ++i) rays.push_back(maker.next());
+  check_sorted("empty", wide, rays.span(), 40, std::vector<Hit>(100));
+}
+
+// `count` rays in any directions: from anywhere among the spheres, or each from close to where the last one starts.
+RayBatch rays_in_a_cube(double half, std::int64_t count, bool close, std::uint64_t seed) {
+  SplitMix64 rng(seed);
+  RayBatch rays;
+  rays.resize(count);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = close ? std::sin(double(i) * 1e-3 * (axis + 1)) : test::uniform(rng, -1, 1);
+      rays.origin[axis][i] = static_cast<float>(half * at);
+      rays.direction[axis][i] = static_cast<float>(test::uniform(rng, -1, 1));
+    }
+  return rays;
+}
+
+TEST(ScatteredRays, AreKnownAsSuch) {
+  const test::WideUnderTest large(test::random_world("large", 75, 70000, 50, 0.3, 0.3));
+  const test::WideUnderTest small(test::random_world("small", 76, 4000, 50, 1, 1));
+  RayBatch rays = rays_in_a_cube(50, 70000, false, 77);
+  EXPECT_TRUE(kernels::scattered(large.tree(), rays.span()));
+  EXPECT_FALSE(kernels::scattered(small.tree(), rays.span()));                // all of it is in the cache anyway
+  EXPECT_FALSE(kernels::scattered(large.tree(), rays.span().part(0, 5000)));  // too few
+  EXPECT_FALSE(kernels::scattered(large.tree(), {}));
+  EXPECT_FALSE(kernels::scattered(large.tree(), rays_in_a_cube(50, 70000, true, 78).span()));
+
+  // Origins that are no numbers are not far from anything.
+  std::fill(rays.origin[1].begin(), rays.origin[1].end(), std::numeric_limits<float>::quiet_NaN());
+  std::fill(rays.origin[0].begin(), rays.origin[0].end(), 0.0F);
+  std::fill(rays.origin[2].begin(), rays.origin[2].end(), 0.0F);
+  EXPECT_FALSE(kernels::scattered(large.tree(), rays.span()));
+}
+
+// As a caller asks: more rays than a list holds, to be sorted without having been told so.
+TEST(ScatteredRays, AreSortedForTheCaller) {
+  const test::WideUnderTest wide(test::random_world("large", 79, 70000, 50, 0.3, 0.3));
+  const RayBatch batch = rays_in_a_cube(50, 70003, false, 80);
+  const RaySpan rays = batch.span();
+  ASSERT_TRUE(kernels::scattered(wide.tree(), rays));
+  HitBatch plain, sorted;
+  plain.resize(rays.count);
+  sorted.resize(rays.count);
+  std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.count), 77);
+  kernels::closest_hits_lists(wide.tree(), rays, plain.span());
+  closest_hits(wide.tree(), rays, RayOrder::any, sorted.span());
+  occluded(wide.tree(), rays, RayOrder::any, hidden.data());
+  std::int64_t found = 0;
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    ASSERT_TRUE(test::same_bits(sorted.at(i), plain.at(i))) << i;
+    ASSERT_EQ(int{hidden[static_cast<std::size_t>(i)]}, plain.at(i).found() ? 1 : 0) << i;
+    found += plain.at(i).found() ? 1 : 0;
+  }
+  EXPECT_GT(found, rays.count / 10);
+  EXPECT_LT(found, rays.count);
+}
+
+}  // namespace
+}  // namespace bihive
