@@ -16,11 +16,11 @@ struct BenchScene {
 
 /// A scene of the benchmark by its name, else an input of bihive. Fails as bihive does on what cannot be read.
 ///
-/// s1 s2 s3: 4096 spheres of radius 1 in the cube [-20, 20]^3: a grid, eight corner cubes of side 10, half and half (the
-/// thesis's scenarios are the same with corner cubes of side 8 and another rounding of the grid). uN: N uniform spheres
-/// that fill 10 % of that cube. c1e6: a million of radius 0.05 in the corner cubes. mol: a molecule; mol5: 5 x 5 x 5
-/// copies of it, box by box. Synthetic scenes are seen from (0, 0, 100) under the light of the thesis; molecules, and
-/// files without a camera, are framed.
+/// s1 s2 s3: 4096 spheres of radius 1 in the cube [-20, 20]^3: a grid, eight corner cubes of side 10, half and half
+/// (the thesis's scenarios are the same with corner cubes of side 8 and another rounding of the grid). uN: N uniform
+/// spheres that fill 10 % of that cube. c1e6: a million of radius 0.05 in the corner cubes. mol: a molecule; mol5: 5 x
+/// 5 x 5 copies of it, box by box. Synthetic scenes are seen from (0, 0, 100) under the light of the thesis; molecules,
+/// and files without a camera, are framed.
 BenchScene load_bench_scene(const BenchOptions& options);
 
 /// Pixels along one side of the picture for about so many rays: a multiple of 8.

@@ -21,7 +21,7 @@ struct KindFacts {
   std::int64_t tile;  ///< rays that a thread takes at a time, at most, unless the user says another number
 };
 
-/// Random rays are told all at once: the engine sorts them, and the more there are the better it can.
+/// Of random rays a thread takes its whole share: the engine sorts them, and the more there are the better it can.
 constexpr std::int64_t kTile = 131072, kRandomTile = 1048576;
 
 constexpr std::array<KindFacts, 8> kKinds{{{Kind::primary, "primary", false, RayOrder::blocks, kTile},

@@ -51,7 +51,8 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
   json["levels"] = build.levels;
   json["nodes"] = build.nodes;
 
-  ordered_json rates = ordered_json::object(), peer_rates = rates, ratios = rates, rays = rates, tiles = rates, modes = rates;
+  ordered_json rates = ordered_json::object(), peer_rates = rates, ratios = rates, rays = rates, tiles = rates,
+               modes = rates;
   std::int64_t wrong = 0, peer_wrong = 0, differ = 0;
   ratios["build"] = quotient(build.peer.best_ms(), build.ours.again_ms);
   ratios["build_fresh"] = quotient(build.peer.fresh_ms, build.ours.fresh_ms);
@@ -93,9 +94,8 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
 std::string text_report(const Measured& measured, const BenchOptions& options) {
   const BuildResult& build = measured.build;
   const bool peer = options.embree;
-  std::string text = fmt::format("{}: {} spheres, {} thread{}, {}\n", measured.description,
-                                 grouped(measured.spheres), options.threads, options.threads == 1 ? "" : "s",
-                                 measured.target);
+  std::string text = fmt::format("{}: {} spheres, {} thread{}, {}\n", measured.description, grouped(measured.spheres),
+                                 options.threads, options.threads == 1 ? "" : "s", measured.target);
   text += fmt::format("{:<16}{:>10}{:>14}", "", "rays", "bihive");
   if (peer) text += fmt::format("{:>14}{:>9}   {}", "Embree " + measured.peer_version, "ratio", "its mode");
   text += "\n";

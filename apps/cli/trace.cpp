@@ -26,7 +26,10 @@
 namespace bihive::cli {
 namespace {
 
-constexpr std::int64_t kRaysPerChunk = 16384;
+// Rays of a chunk. Between chunks there is progress, and Ctrl-C ends the work.
+constexpr std::int64_t kFewestPerChunk = 16384;
+constexpr std::int64_t kMostPerChunk = 262144;
+constexpr std::int64_t kChunksPerThread = 4;
 
 // Rays as the file has them: origin, direction, and if there are 8 columns t_min and t_max.
 class RayFile {
@@ -102,6 +105,13 @@ std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const Ra
   return bad_rays;
 }
 
+// The wide engine answers many at a time faster, the others are slow.
+std::int64_t rays_per_chunk(const Tracer& tracer, std::int64_t rays, std::int64_t threads) {
+  if (tracer.wide_tree() == nullptr) return kFewestPerChunk;
+  const std::int64_t workers = threads > 0 ? threads : hardware_threads();
+  return std::clamp(rays / (workers * kChunksPerThread), kFewestPerChunk, kMostPerChunk);
+}
+
 Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, const TraceOptions& options) {
   const CancellableSection section;
   Progress progress("tracing");
@@ -110,14 +120,15 @@ Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, con
   answers.id.resize(static_cast<std::size_t>(rays.size()), kNothing);
 
   // Each chunk writes its own rays and its own count. Progress is said by the thread that has the chunk before it.
-  const std::int64_t chunks = (rays.size() + kRaysPerChunk - 1) / kRaysPerChunk;
+  const std::int64_t most = rays_per_chunk(tracer, rays.size(), options.threads);
+  const std::int64_t chunks = (rays.size() + most - 1) / most;
   std::vector<std::int64_t> bad_rays(static_cast<std::size_t>(chunks), 0);
   std::atomic<std::int64_t> chunks_done{0};
   std::atomic_flag reporting = ATOMIC_FLAG_INIT;
   parallel_for(static_cast<int>(options.threads), chunks, [&](std::int64_t chunk) {
     if (CancellableSection::token().cancelled()) return;
-    const std::int64_t first = chunk * kRaysPerChunk;
-    const std::int64_t count = std::min(rays.size() - first, kRaysPerChunk);
+    const std::int64_t first = chunk * most;
+    const std::int64_t count = std::min(rays.size() - first, most);
     bad_rays[static_cast<std::size_t>(chunk)] = answer(tracer, plane, options.any, rays, first, count,
                                                        HitSpan{answers.t.data(), answers.id.data()}.part(first));
     const std::int64_t done = ++chunks_done;

@@ -32,17 +32,16 @@ struct Wish {
 };
 
 ordered_json described(const Wish& wish) {
-  return {{"threads", wish.threads},
-          {"repetitions", wish.repetitions},
-          {"target", active_target()},
-          {"commit", commit()}};
+  return {
+      {"threads", wish.threads}, {"repetitions", wish.repetitions}, {"target", active_target()}, {"commit", commit()}};
 }
 
 ordered_json counts(const RenderCounts& rays) {
   return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"reflected", rays.reflected}};
 }
 
-// Whole pictures, in turn with Tachyon's. Each draws one first that does not count; ours and its are left in the folder.
+// Whole pictures, in turn with Tachyon's. Each draws one first that does not count; ours and its are left in the
+// folder.
 ordered_json pictures(const Wish& wish) {
   ordered_json json = described(wish);
   for (const char* name : {"s1", "s2", "s3"}) {
@@ -63,10 +62,10 @@ ordered_json pictures(const Wish& wish) {
     const std::string png = cli::value_or_fail(encode_png(image, {}));
     if (const Status status = write_file(wish.folder + "/" + name + "_bihive.png", png); !status)
       cli::fail(status.error());
-    json["scenes"][name] = {{"spheres", scene.spheres.size()}, {"rays", counts(ours.rays)},
-                            {"build_ms", tracer.build_ms()},   {"render_ms", ours.render_ms()},
-                            {"all_ms", ours.all_ms()},         {"tachyon_ms", median(theirs)},
-                            {"ratio", median(theirs) / ours.all_ms()}};
+    json["scenes"][name] = {
+        {"spheres", scene.spheres.size()},        {"rays", counts(ours.rays)}, {"build_ms", tracer.build_ms()},
+        {"render_ms", ours.render_ms()},          {"all_ms", ours.all_ms()},   {"tachyon_ms", median(theirs)},
+        {"ratio", median(theirs) / ours.all_ms()}};
   }
   return json;
 }
@@ -128,9 +127,9 @@ ordered_json rebuild(const Wish& wish) {
       build_ms.push_back(build_timer.elapsed_ms());
       held_bytes = tree->allocated_bytes() + builder.scratch_bytes();
     }
-    json["scenes"][name] = {{"spheres", start.size()},       {"first_build_ms", first_ms},
-                            {"set_ms", median(set_ms)},      {"build_ms", median(build_ms)},
-                            {"held_bytes", held_bytes},      {"builds_per_s", 1000 / median(build_ms)}};
+    json["scenes"][name] = {{"spheres", start.size()},  {"first_build_ms", first_ms},
+                            {"set_ms", median(set_ms)}, {"build_ms", median(build_ms)},
+                            {"held_bytes", held_bytes}, {"builds_per_s", 1000 / median(build_ms)}};
   }
   return json;
 }

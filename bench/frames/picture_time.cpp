@@ -1,9 +1,9 @@
 // Prints how long the whole pictures of s1, s2 and s3 take, as one JSON object. Built natively and as WebAssembly.
 //   picture_time [THREADS [REPETITIONS]]
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
-#include <algorithm>
 
 #include "frames/frame.h"
 #include "synthetic.h"

@@ -28,7 +28,8 @@ std::string in_its_language(const Scene& scene, const RenderSettings& settings) 
   // Its zoom is the distance at which a square of side 1 fills the shorter side of the picture.
   const double zoom = 0.5 / tan_deg(scene.camera.fov_deg / 2);
   std::string text = fmt::format(
-      "Begin_Scene\nResolution {} {}\nCamera\n  Zoom {:.9g}\n  Aspectratio 1\n  Antialiasing 0\n  Raydepth {}\n  Center "
+      "Begin_Scene\nResolution {} {}\nCamera\n  Zoom {:.9g}\n  Aspectratio 1\n  Antialiasing 0\n  Raydepth {}\n  "
+      "Center "
       "{}\n  Viewdir {}\n  Updir {}\nEnd_Camera\nBackground {} {} {}\n",
       settings.width_px, settings.height_px, zoom, settings.recursion, place(scene.camera.eye),
       place(scene.camera.look_at - scene.camera.eye), place(scene.camera.up), scene.background.x, scene.background.y,

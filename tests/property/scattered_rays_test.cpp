@@ -81,6 +81,37 @@ TEST(ScatteredRays, AreAnsweredAsByTheReference) {
   }
 }
 
+// Enough rays for cells in each octant. Flat, tiny and huge sets: the cells have no size along an axis, or places on
+// the grid leave the range of binary32.
+TEST(ScatteredRays, AreSortedIntoCells) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr int kRays = 5003;  // two cells along each axis
+#else
+  constexpr int kRays = 20011;  // four
+#endif
+  const World base = test::random_world("base", 81, 700, 10, 0.1, 1.5);
+  World flat = base;
+  flat.name = "flat";
+  for (std::size_t i = 0; i < flat.size(); ++i) flat.y[i] = 3;
+  World points = base;
+  points.name = "flat points";
+  for (std::size_t i = 0; i < points.size(); ++i) points.z[i] = points.r[i] = 0;
+  World one;
+  one.name = "one point";
+  one.add(1, 2, 3, 0);
+  std::vector<World> worlds{base, flat, points, one, points.scaled(1e-25, "tiny flat points")};
+  for (const double factor : {1e-30, 1e-20, 1e20, 1e30})
+    worlds.push_back(base.scaled(factor, "scaled by " + std::to_string(std::log10(factor))));
+  for (const World& world : worlds) {
+    const test::WideUnderTest wide(world);
+    test::QueryRays maker(world, 82, [&](const Ray& ray) { return wide.truth(ray); });
+    RayBatch rays;
+    for (int i = 0; i < kRays; ++i) rays.push_back(maker.next());
+    check_sorted(world.name, wide, rays.span(), rays.size(), truths_of(wide, rays.span()));
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
 TEST(ScatteredRays, OfAnEmptySetHitNothing) {
   const test::WideUnderTest wide(World{});
   const World somewhere = test::random_world("somewhere", 73, 10, 1, 1, 1);

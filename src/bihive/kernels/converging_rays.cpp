@@ -8,15 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 #include "bihive/kernels/beam.h"
+#include "bihive/kernels/cell_order.h"
 #include "bihive/kernels/dispatch.h"
 #include "bihive/kernels/lanes-inl.h"
 #include "bihive/kernels/leftover_rays.h"
 #include "bihive/kernels/lists.h"
-#include "bihive/kernels/pick.h"
 
 #ifndef BIHIVE_KERNELS_CONVERGING_RAYS_ONCE
 #define BIHIVE_KERNELS_CONVERGING_RAYS_ONCE
@@ -155,12 +154,7 @@ class SortedTile {
     if (rays.inside != nullptr)
       for (std::size_t i = 0; i < n; ++i) cells_[i] |= (rays.inside[i] != 0 ? 1U : 0U) << (2 * bits);
 
-    // Count, then place.
-    ends_.assign(std::size_t{2} << (2 * bits), 0);
-    for (std::size_t i = 0; i < n; ++i) ++ends_[cells_[i]];
-    std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), 0U);
-    order_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) order_[ends_[cells_[i]]++] = static_cast<std::uint32_t>(i);
+    order_by_cells(cells_.data(), n, std::size_t{2} << (2 * bits), ends_, order_);
     copy(rays);
     return true;
   }
@@ -213,18 +207,18 @@ class SortedTile {
   void copy(const RaySpan& rays) {
     const std::size_t n = order_.size();
     for (int axis = 0; axis < 3; ++axis) {
-      pick(rays.origin[axis], order_, rays_.origin[axis]);
-      pick(rays.direction[axis], order_, rays_.direction[axis]);
+      reorder(rays.origin[axis], order_, rays_.origin[axis]);
+      reorder(rays.direction[axis], order_, rays_.direction[axis]);
     }
-    pick(rays.leaves, order_, rays_.leaves);
-    pick(rays.t_min, order_, rays_.t_min);
+    reorder(rays.leaves, order_, rays_.leaves);
+    reorder(rays.t_min, order_, rays_.t_min);
     // Mostly all end at the light, and none goes into a sphere.
     if (all_equal(rays.t_max, n)) {
       rays_.t_max.assign(n, rays.t_max[0]);
     } else {
-      pick(rays.t_max, order_, rays_.t_max);
+      reorder(rays.t_max, order_, rays_.t_max);
     }
-    pick(all_equal(rays.inside, n) && rays.inside[0] == 0 ? nullptr : rays.inside, order_, rays_.inside);
+    reorder(all_equal(rays.inside, n) && rays.inside[0] == 0 ? nullptr : rays.inside, order_, rays_.inside);
   }
 
   template <class T>

@@ -1,4 +1,5 @@
-// Rays of blocks that are not for a beam: answered in one go by the kernel for any rays.
+// Rays of blocks that are not for a beam: answered in one go as lists. Shadow rays that lead to one light are sorted
+// first, so that they may be beams after all; pixels side by side are never scattered.
 #pragma once
 
 #include <cstdint>

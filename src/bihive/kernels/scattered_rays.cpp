@@ -3,27 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
-#include <numeric>
 #include <vector>
 
+#include "bihive/kernels/cell_order.h"
 #include "bihive/kernels/list_tile.h"
 #include "bihive/kernels/lists.h"
-#include "bihive/kernels/pick.h"
 
 namespace bihive::kernels {
 namespace {
 
-// Below these sorting took longer than it saved (docs/performance.md, "What was tried").
+// With fewer sorting took as long as it saved (docs/performance.md, "What was tried").
 constexpr std::int64_t kFewestRays = 65536;
 constexpr std::int64_t kFewestSpheres = 65536;
-// So many neighbours are looked at, and so many of them must be so far apart. Mirrored rays are mostly closer.
+// So many neighbours are looked at, and this share of them must be that far apart. All random rays are; of the third
+// mirrored rays of the benchmark's large scenes 0.3 to 0.8.
 constexpr std::int64_t kLooks = 256;
-constexpr double kScatteredShare = 0.85;
+constexpr double kScatteredShare = 0.9;
 constexpr double kFarInExtents = 1.0 / 16;
 // The boxes of the spheres and the rays' octants make cells of so many rays on average.
 constexpr std::int64_t kRaysPerCell = 32;
-constexpr int kMostBits = 5;
 
 double largest_extent(const Aabb& box) {
   double largest = 0;
@@ -35,15 +35,17 @@ double largest_extent(const Aabb& box) {
 class SortedRays {
  public:
   void sort(const WideTree& tree, const RaySpan& rays) {
-    // Number the cells, count, then place.
     const int bits = bits_for(rays.count);
     number_cells(tree, rays, bits);
-    ends_.assign(std::size_t{8} << (3 * bits), 0);
-    for (const std::uint32_t cell : cells_) ++ends_[cell];
-    std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), 0U);
-    order_.resize(cells_.size());
-    for (std::size_t i = 0; i < cells_.size(); ++i) order_[ends_[cells_[i]]++] = static_cast<std::uint32_t>(i);
-    copy(rays);
+    order_by_cells(cells_.data(), cells_.size(), std::size_t{8} << (3 * bits), ends_, order_);
+    for (int axis = 0; axis < 3; ++axis) {
+      reorder(rays.origin[axis], order_, rays_.origin[axis]);
+      reorder(rays.direction[axis], order_, rays_.direction[axis]);
+    }
+    reorder(rays.t_min, order_, rays_.t_min);
+    reorder(rays.t_max, order_, rays_.t_max);
+    reorder(rays.leaves, order_, rays_.leaves);
+    reorder(rays.inside, order_, rays_.inside);
   }
 
   void closest_hits(const WideTree& tree, const HitSpan& hits) {
@@ -69,7 +71,7 @@ class SortedRays {
  private:
   static int bits_for(std::int64_t count) {
     int bits = 0;
-    while (bits < kMostBits && (8 * kRaysPerCell) << (3 * (bits + 1)) <= count) ++bits;
+    while ((8 * kRaysPerCell) << (3 * (bits + 1)) <= count) ++bits;
     return bits;
   }
 
@@ -80,7 +82,7 @@ class SortedRays {
     for (int axis = 0; axis < 3; ++axis) {
       const double low = double(tree.aabb.lo[axis]);
       const double cells = double(side) / std::max(double(tree.aabb.hi[axis]) - low, 1e-20);
-      scale[axis] = static_cast<float>(tree.scale * cells);
+      scale[axis] = static_cast<float>(std::min(tree.scale * cells, double(std::numeric_limits<float>::max())));
       shift[axis] = static_cast<float>(low * cells);
     }
     const auto place = [&](std::size_t i, int axis) {
@@ -101,17 +103,6 @@ class SortedRays {
     }
   }
 
-  void copy(const RaySpan& rays) {
-    for (int axis = 0; axis < 3; ++axis) {
-      pick(rays.origin[axis], order_, rays_.origin[axis]);
-      pick(rays.direction[axis], order_, rays_.direction[axis]);
-    }
-    pick(rays.t_min, order_, rays_.t_min);
-    pick(rays.t_max, order_, rays_.t_max);
-    pick(rays.leaves, order_, rays_.leaves);
-    pick(rays.inside, order_, rays_.inside);
-  }
-
   // Hits go back to their places while they are in the cache.
   template <class Body>
   void in_tiles(const Body& body) const {
@@ -126,13 +117,18 @@ class SortedRays {
   std::vector<std::uint8_t> hidden_;
 };
 
+SortedRays& sorted_rays_of_this_thread() {
+  thread_local const std::unique_ptr<SortedRays> kept(new SortedRays);
+  return *kept;  // NOLINT(clang-analyzer-cplusplus.NewDelete): it takes what it points to for freed at once
+}
+
 // Calls body(rays, first) with at most at_a_time sorted rays, of which the first is number `first` of the span.
 template <class Body>
 void sorted(const WideTree& tree, const RaySpan& rays, std::int64_t at_a_time, const Body& body) {
-  thread_local const std::unique_ptr<SortedRays> kept(new SortedRays);
+  SortedRays& some = sorted_rays_of_this_thread();
   for (std::int64_t first = 0; first < rays.count; first += at_a_time) {
-    kept->sort(tree, rays.part(first, std::min(at_a_time, rays.count - first)));
-    body(*kept, first);
+    some.sort(tree, rays.part(first, std::min(at_a_time, rays.count - first)));
+    body(some, first);
   }
 }
 
@@ -143,7 +139,8 @@ bool scattered(const WideTree& tree, const RaySpan& rays) {
   const double far = largest_extent(tree.aabb) * kFarInExtents;
   int looked = 0;
   int far_apart = 0;
-  for (std::int64_t i = 0; i + 1 < rays.count; i += rays.count / kLooks, ++looked) {
+  const std::int64_t step = (rays.count / kLooks) | 1;  // odd: rays may come in groups of two, four, ...
+  for (std::int64_t i = 0; i + 1 < rays.count; i += step, ++looked) {
     double most = 0;
     for (int axis = 0; axis < 3; ++axis)
       most = std::max(most, std::abs(double(rays.origin[axis][i + 1]) - double(rays.origin[axis][i])));

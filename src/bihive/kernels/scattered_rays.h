@@ -16,7 +16,7 @@ bool scattered(const WideTree& tree, const RaySpan& rays);
 /// Sorted at a time. More is faster: it takes some 60 bytes a ray, which the thread keeps.
 constexpr std::int64_t kScatteredAtATime = 1 << 20;
 
-/// closest_hits() of any rays by lists, sorted. at_a_time: at least 1.
+/// closest_hits() of any rays by lists, sorted. at_a_time: 1 to kScatteredAtATime.
 void closest_hits_scattered(const WideTree& tree, const RaySpan& rays, const HitSpan& hits,
                             std::int64_t at_a_time = kScatteredAtATime);
 
