@@ -10,6 +10,7 @@
 #include "bihive/kernels/target.h"
 #include "bihive/kernels/wide_builder.h"
 #include "failure.h"
+#include "frames/frame.h"
 #include "memory.h"
 #include "peers/embree.h"
 #include "tiles.h"
@@ -31,12 +32,6 @@ constexpr double kCloseToBest = 1.1;
 constexpr double kHopeless = 1.5;
 constexpr int kTries = 3;
 constexpr std::size_t kMostModes = 2;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
 
 // Builds
 
@@ -229,6 +224,18 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   return result;
 }
 
+FrameResult measure_frame(const BenchScene& bench, const BenchOptions& options) {
+  const RenderSettings settings = whole_picture(static_cast<int>(options.threads), picture_side_px(options.rays));
+  const Tracer tracer =
+      cli::value_or_fail(Tracer::build(bench.scene.spheres, Engine::wide, {}, static_cast<int>(options.threads)));
+  FrameTimes warm, times;
+  add_frame(bench.scene, tracer, settings, warm);
+  for (std::int64_t rep = 0; rep < options.reps; ++rep) add_frame(bench.scene, tracer, settings, times);
+  const RenderCounts& rays = times.rays;
+  return {times.render_ms(), settings.width_px, settings.height_px,
+          rays.primary + rays.shadow + rays.reflected + rays.transmitted};
+}
+
 }  // namespace
 
 Measured measure(const BenchScene& bench, const BenchOptions& options) {
@@ -245,6 +252,7 @@ Measured measure(const BenchScene& bench, const BenchOptions& options) {
   }
   const Built built = measure_builds(bench, options, peer.get());
   measured.build = built.result;
+  if (options.frame) measured.frame = measure_frame(bench, options);
   if (options.kinds.empty()) return measured;
   for (const RaySet& set : make_ray_sets(bench, *built.tree, options))
     measured.kinds.push_back(measure_kind(bench, *built.tree, set, options, peer.get()));

@@ -37,11 +37,19 @@ struct KindResult {
   double peer_mray_per_s() const { return static_cast<double>(rays) / peer_ms / 1000; }
 };
 
+/// A whole picture with what the scene says of materials, light and plane, as radiance.
+struct FrameResult {
+  double ms = 0;  ///< 0: not asked for
+  std::int64_t width_px = 0, height_px = 0;
+  std::int64_t rays = 0;  ///< of all kinds
+};
+
 struct Measured {
   std::int64_t spheres = 0;
   std::string description, target, peer_version;
   BuildResult build;
   std::vector<KindResult> kinds;
+  FrameResult frame;
 };
 
 /// Fails with kBadInput where the tree cannot be built, with kEnvironment where the peer cannot start.

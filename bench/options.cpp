@@ -45,6 +45,7 @@ std::vector<std::string> words_of_only() {
   std::vector<std::string> words;
   for (const KindFacts& facts : kKinds) words.emplace_back(facts.name);
   words.emplace_back("build");
+  words.emplace_back("frame");
   return words;
 }
 
@@ -81,15 +82,17 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"embree"}));
   add_integer(app, "--threads", options.threads, 1, 4096, "Threads (1)");
-  app.add_option("--only", only, "These alone, with commas: build, and kinds of rays (all)")
+  app.add_option("--only", only, "These alone, with commas: build, frame, and kinds of rays (all)")
       ->type_name("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(words_of_only()));
   add_integer(app, "--reps", options.reps, 1, 1000, "Repetitions, of which the median counts (7)");
-  add_integer(app, "--rays", options.rays, 64, std::int64_t{1} << 26, "Primary and random rays, about (1048576)");
+  add_integer(app, "--rays", options.rays, 64, std::int64_t{1} << 26,
+              "Primary and random rays, pixels of the frame, about (1048576)");
   add_integer(app, "--tile", options.tile, 64, 1048576,
               "Rays that a thread takes at a time, at most (131072, random rays 1048576)");
-  app.add_option("--target", options.target, "Instruction set of both: avx512, avx2, sse4, scalar (the best)")
+  app.add_option("--target", options.target,
+                 "Instruction set of both: avx512, avx2, sse4 (the best); without a peer also scalar, neon")
       ->type_name("NAME");
   app.add_flag("--json", options.json, "Print one JSON object instead of text");
 
@@ -103,12 +106,16 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   }
 
   options.embree = peer == "embree";
+  if (options.embree && (options.target == "scalar" || options.target == "neon"))
+    cli::fail_usage("--target " + options.target + ": Embree cannot be restricted to it",
+                    "leave out --peer, or choose avx512, avx2 or sse4");
   const auto asked = [&](std::string_view name) {
     return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
   };
   for (const KindFacts& facts : kKinds)
     if (asked(facts.name)) options.kinds.push_back(facts.kind);
   options.build = asked("build");
+  options.frame = asked("frame");
   return parsed;
 }
 

@@ -17,9 +17,9 @@ struct BenchOptions {
   bool embree = false;      ///< measure Embree beside us
   std::int64_t threads = 1;
   std::vector<Kind> kinds;  ///< in the order of kKinds
-  bool build = true;
+  bool build = true, frame = true;
   std::int64_t reps = 7;
-  std::int64_t rays = 1024 * 1024;  ///< primary and random rays; the others follow from these
+  std::int64_t rays = 1024 * 1024;  ///< primary and random rays, pixels of the frame; the others follow from these
   std::int64_t tile = 0;            ///< rays that a thread takes at a time, at most; 0: what the kind's facts say
   std::string target;               ///< empty: the best
   bool json = false;

@@ -50,6 +50,8 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
   json["bytes_per_sphere"] = build.bytes_per_sphere;
   json["levels"] = build.levels;
   json["nodes"] = build.nodes;
+  json["frame_ms"] = positive(measured.frame.ms);
+  json["frame_rays"] = measured.frame.rays;
 
   ordered_json rates = ordered_json::object(), peer_rates = rates, ratios = rates, rays = rates, tiles = rates,
                modes = rates;
@@ -122,6 +124,10 @@ std::string text_report(const Measured& measured, const BenchOptions& options) {
     wrong += kind.verdict.ours_wrong;
     peer_wrong += kind.verdict.peer_wrong;
   }
+  const FrameResult& frame = measured.frame;
+  if (frame.ms > 0)
+    text += fmt::format("{:<16}{:>10}{:>14}   a picture of {} x {} pixels, shadows, recursion 5\n", "frame",
+                        grouped(frame.rays), fmt::format("{:.4g} ms", frame.ms), frame.width_px, frame.height_px);
   text += fmt::format("wrong answers: {}", wrong);
   if (peer) text += fmt::format(", Embree's {}", peer_wrong);
   return text + "\n";

@@ -21,8 +21,8 @@ RenderSettings settings_of(int width_px, int height_px, int recursion, bool shad
 
 }  // namespace
 
-RenderSettings whole_picture(int threads) {
-  return settings_of(1024, 1024, 5, true, threads);
+RenderSettings whole_picture(int threads, int side_px) {
+  return settings_of(side_px, side_px, 5, true, threads);
 }
 
 RenderSettings thesis_frame(int threads) {

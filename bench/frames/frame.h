@@ -10,8 +10,8 @@
 
 namespace bihive::bench {
 
-/// 1024 x 1024 pixels, shadows, recursion 5.
-RenderSettings whole_picture(int threads);
+/// A square picture with shadows, recursion 5.
+RenderSettings whole_picture(int threads, int side_px = 1024);
 /// As the thesis measured frames: 1136 x 640 pixels, primary rays, no shadows.
 RenderSettings thesis_frame(int threads);
 

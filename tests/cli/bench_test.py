@@ -38,6 +38,10 @@ class BenchTest(ProgramTest):
             report["ratio"]["bytes"], report["peer"]["bytes_per_sphere"] / report["bytes_per_sphere"], places=6
         )
         self.assertGreaterEqual(report["bytes_per_sphere"], 16)
+        # A whole picture has more rays than pixels.
+        self.assertGreater(report["frame_ms"], 0)
+        self.assertGreater(report["frame_rays"], 4096)
+        self.assertEqual(report["tile"]["random"], 2048)  # a thread's share
 
     def test_every_kind_of_input_agrees_with_the_peer(self):
         # Two crossing spheres in a file, the four spheres, a molecule: framed by the program itself.
@@ -56,6 +60,10 @@ class BenchTest(ProgramTest):
         report = self.succeed_json("s1", "--only", "mirror3", *QUICK)
         self.assertEqual(list(report["mray_per_s"]), ["mirror3"])
         self.assertIsNone(report["build_ms"])
+        self.assertIsNone(report["frame_ms"])
+        report = self.succeed_json("s1", "--only", "frame", *QUICK)
+        self.assertEqual(report["mray_per_s"], {})
+        self.assertGreater(report["frame_ms"], 0)
 
     def test_a_kind_without_rays_is_null(self):
         # A single sphere: nothing that is mirrored meets anything.
@@ -69,6 +77,11 @@ class BenchTest(ProgramTest):
     def test_a_target_may_be_forced(self):
         report = self.succeed_json("s2", "--target", "sse4", "--peer", "embree", "--only", "primary", *QUICK)
         self.assertEqual((report["target"], report["mismatches"]), ("sse4", 0))
+        # The peer has no such thing.
+        self.assertEqual(self.succeed_json("s2", "--target", "scalar", "--only", "primary", *QUICK)["target"], "scalar")
+        done = self.run_bihive("s2", "--target", "scalar", "--peer", "embree", *QUICK)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--target scalar: Embree cannot be restricted to it", done.stderr)
 
     def test_text_has_a_line_a_kind(self):
         lines = self.succeed("s1", "--peer", "embree", *QUICK).splitlines()
