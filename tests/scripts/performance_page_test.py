@@ -30,7 +30,9 @@ def result_of(scene, threads, ratio):
         "bytes_per_sphere": 18,
         "levels": 2,
         "nodes": 17,
+        "frame_ms": 33,
         "rays": {kind: 1000 for kind in KINDS},
+        "tile": {kind: 1048576 if kind == "random" else 131072 for kind in KINDS},
         "mray_per_s": rates,
         "peer": {
             "version": "3.13.5",
@@ -78,6 +80,8 @@ class PerformancePageTest(unittest.TestCase):
         self.assertIn("1.50x (s2, random)", row)
         self.assertIn("missed by 25 %", row)
         self.assertIn("| not measured |", page)
+        self.assertIn("up to 131,072 rays, of random ones up to 1,048,576", page)
+        self.assertRegex(page, r"\| s1 \| 1.00 \(12.5\).*\| 5.00 \| 17 \| 2 \| 33.0 \|")
         self.assertIn("Of 24,000 rays, 0 answers of ours were wrong and 3 of Embree's", page)
 
     def test_met_and_aim_met(self):
