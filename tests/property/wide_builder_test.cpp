@@ -131,10 +131,10 @@ TEST(WideBuilderHostile, RightTreesInTimeThatGrowsAsNLogN) {
       const Status status = validate_wide_tree(*built(builder, *spheres), *spheres);
       EXPECT_TRUE(status.ok()) << set.name << ": " << (status.ok() ? "" : status.error().to_string());
     }
-    // Sixteen times the spheres: n log n is 21 times the work, n squared 256 times. Between them is room for caches and
-    // a machine that is busy.
+    // Sixteen times the spheres: n log n is 21 times the work, n to the power of 1.5 already 64 times. Between them is
+    // room for caches and a machine that is busy (14 to 32 times were seen beside other work).
     const double few_ms = build_ms(few), many_ms = build_ms(many);
-    EXPECT_LT(many_ms, 80 * few_ms + 20) << set.name << ": " << few_ms << " ms, then " << many_ms << " ms";
+    EXPECT_LT(many_ms, 50 * few_ms + 5) << set.name << ": " << few_ms << " ms, then " << many_ms << " ms";
   }
 }
 
