@@ -22,7 +22,7 @@ constexpr std::int64_t kFewestSpheres = 65536;
 constexpr std::int64_t kLooks = 256;
 constexpr double kScatteredShare = 0.9;
 constexpr double kFarInExtents = 1.0 / 16;
-// The boxes of the spheres and the rays' octants make cells of so many rays on average.
+// In each octant, a cell of the grid over the spheres has so many rays on average.
 constexpr std::int64_t kRaysPerCell = 32;
 
 double largest_extent(const Aabb& box) {
