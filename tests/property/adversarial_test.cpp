@@ -16,6 +16,7 @@
 #include "bihive/bih/traversal.h"
 #include "bihive/render/brute_force.h"
 #include "support/edge_rays.h"
+#include "support/effort.h"
 #include "support/hostile_sets.h"
 #include "support/oracle.h"
 #include "support/wide_under_test.h"
@@ -23,11 +24,8 @@
 namespace bihive {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kWideShare = 8;  // of the rays, one in so many goes to the wide engine as well
-#else
-constexpr int kWideShare = 1;
-#endif
+// Of the rays, one in so many goes to the wide engine as well.
+const std::int64_t kWideShare = std::max<std::int64_t>(1, test::ray_share() / 2);
 
 /// A world with its trees, and how much of the padding any hit has used.
 class Arena {
@@ -134,11 +132,13 @@ void climb_everywhere(
     const std::function<std::function<double(const Ray&)>(const Arena&, const Ray&, SplitMix64&)>& goal) {
   const char* const number = std::getenv("BIHIVE_LONG");
   const std::uint64_t long_runs = number == nullptr ? 1 : std::strtoull(number, nullptr, 10);
+  const auto share = static_cast<std::uint64_t>(std::max<std::int64_t>(1, test::test_share() / 16));
+  const std::uint64_t starts = 40 * long_runs / share;
   for (const test::World& world : arenas()) {
     SCOPED_TRACE(world.name);
     Arena arena(world);
     const test::RayMaker rays(arena.world(), 68);
-    for (std::uint64_t start = 0; start < 40 * long_runs && !testing::Test::HasFatalFailure(); ++start) {
+    for (std::uint64_t start = 0; start < starts && !testing::Test::HasFatalFailure(); ++start) {
       SplitMix64 rng(start);
       const Ray ray = rays(start);
       climb(arena, ray, 400, start, goal(arena, ray, rng));

@@ -14,6 +14,7 @@
 #include "bihive/kernels/lists.h"
 #include "bihive/kernels/queries.h"
 #include "bihive/kernels/target.h"
+#include "support/effort.h"
 #include "support/hostile_sets.h"
 #include "support/query_rays.h"
 #include "support/wide_under_test.h"
@@ -27,7 +28,7 @@ using test::World;
 void check_sorted(const std::string& what, const test::WideUnderTest& wide, const RaySpan& rays, std::int64_t at_a_time,
                   const std::vector<Hit>& truths) {
   const auto n = static_cast<std::size_t>(rays.count);
-  for (const std::string& target : available_targets()) {
+  for (const std::string& target : test::targets_under_test()) {
     ASSERT_TRUE(use_target(target).ok());
     HitBatch hits;
     hits.t.assign(n + 1, -12345.5);
@@ -60,14 +61,16 @@ TEST(ScatteredRays, AreAnsweredAsByTheReference) {
   const World base = test::random_world("base", 71, 700, 10, 0.1, 1.5);
   for (const double factor : {1e-30, 1e-20, 1e20, 1e30})
     worlds.push_back(base.scaled(factor, "scaled by " + std::to_string(std::log10(factor))));
+  int number = 0;
   for (const World& world : worlds) {
-    if (world.size() == 0) continue;
+    if (world.size() == 0 || !test::takes_set(number++)) continue;
     const test::WideUnderTest wide(world);
     test::QueryRays maker(world, 72, [&](const Ray& ray) { return wide.truth(ray); });
     RayBatch rays;
-    for (int i = 0; i < 1501; ++i) rays.push_back(maker.next());
+    const int count = test::ray_share() > 1 ? 401 : 1501;
+    for (int i = 0; i < count; ++i) rays.push_back(maker.next());
     const std::vector<Hit> truths = truths_of(wide, rays.span());
-    for (const std::int64_t at_a_time : {std::int64_t{500}, rays.size()})
+    for (const std::int64_t at_a_time : {rays.size() / 3, rays.size()})
       check_sorted(world.name, wide, rays.span(), at_a_time, truths);
     // Alone the origins and directions; some of the other arrays.
     for (const bool segments : {false, true}) {
@@ -84,11 +87,7 @@ TEST(ScatteredRays, AreAnsweredAsByTheReference) {
 // Enough rays for cells in each octant. Flat, tiny and huge sets: the cells have no size along an axis, or places on
 // the grid leave the range of binary32.
 TEST(ScatteredRays, AreSortedIntoCells) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr int kRays = 5003;  // two cells along each axis
-#else
-  constexpr int kRays = 20011;  // four
-#endif
+  const int count = test::ray_share() > 1 ? 5003 : 20011;  // two cells along each axis, or four
   const World base = test::random_world("base", 81, 700, 10, 0.1, 1.5);
   World flat = base;
   flat.name = "flat";
@@ -102,11 +101,13 @@ TEST(ScatteredRays, AreSortedIntoCells) {
   std::vector<World> worlds{base, flat, points, one, points.scaled(1e-25, "tiny flat points")};
   for (const double factor : {1e-30, 1e-20, 1e20, 1e30})
     worlds.push_back(base.scaled(factor, "scaled by " + std::to_string(std::log10(factor))));
+  int number = 0;
   for (const World& world : worlds) {
+    if (!test::takes_set(number++)) continue;
     const test::WideUnderTest wide(world);
     test::QueryRays maker(world, 82, [&](const Ray& ray) { return wide.truth(ray); });
     RayBatch rays;
-    for (int i = 0; i < kRays; ++i) rays.push_back(maker.next());
+    for (int i = 0; i < count; ++i) rays.push_back(maker.next());
     check_sorted(world.name, wide, rays.span(), rays.size(), truths_of(wide, rays.span()));
     if (testing::Test::HasFatalFailure()) return;
   }

@@ -1,6 +1,7 @@
 // The wide engine gives the scalar reference's bits: every form of query, on every target, for any spheres and any ray.
 //
-// BIHIVE_LONG=N in the environment repeats everything with N seeds (scripts/verify).
+// BIHIVE_LONG=N in the environment repeats everything with N seeds (scripts/verify); support/effort.h says how to do
+// less.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "support/effort.h"
 #include "support/hostile_sets.h"
 #include "support/query_rays.h"
 #include "support/wide_under_test.h"
@@ -21,11 +23,8 @@ using test::QueryRays;
 using test::WideUnderTest;
 using test::World;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::int64_t kShare = 16;  // of the rays; a sanitizer is about that much slower
-#else
-constexpr std::int64_t kShare = 1;
-#endif
+// Of the rays; of all work, where that goes by rays alone.
+const std::int64_t kShare = test::ray_share(), kShareOfAll = test::test_share();
 
 std::uint64_t seeds() {
   const char* const number = std::getenv("BIHIVE_LONG");
@@ -48,34 +47,38 @@ std::vector<Ray> query_rays(const World& world, const WideUnderTest& wide, std::
   return list;
 }
 
+struct Tally {
+  std::int64_t sets = 0, hits = 0;
+};
+
 void check_world(const World& world, std::uint64_t seed, std::int64_t count, const std::vector<WideParameters>& shapes,
-                 std::int64_t& hits) {
-  if (world.size() == 0) return;
+                 Tally& tally) {
+  if (world.size() == 0 || !test::takes_set(tally.sets++)) return;
   SCOPED_TRACE(world.name);
   WideUnderTest wide(world, shapes);
   wide.check(query_rays(world, wide, seed, count / kShare), count / kShare / 4);
   const std::int64_t blocks = count / kShare / 128;
   wide.check(test::blocks_of_rays(world, seed, blocks, [&](const Ray& ray) { return wide.truth(ray); }),
              count / kShare / 8);
-  hits += wide.hits();
+  tally.hits += wide.hits();
 }
 
 TEST(WideTraversal, EqualsTheReferenceOnDegenerateSets) {
   for_each_seed([](std::uint64_t seed) {
-    std::int64_t hits = 0;
-    for (const World& world : test::degenerate_worlds()) check_world(world, seed, 1500, {{}, {1, 0}}, hits);
-    EXPECT_GT(hits, 10000 / kShare);
+    Tally tally;
+    for (const World& world : test::degenerate_worlds()) check_world(world, seed, 1500, {{}, {1, 0}}, tally);
+    EXPECT_GT(tally.hits, 10000 / test::test_share());
   });
 }
 
 TEST(WideTraversal, EqualsTheReferenceOnHostileSets) {
   constexpr WideParameters kShapes[] = {{1, 0}, {100, 0}, {0, 2}, {3, 3}};
   for_each_seed([&](std::uint64_t seed) {
-    std::int64_t hits = 0;
+    Tally tally;
     std::size_t number = seed;
     for (const World& world : test::hostile_worlds(4096, 1000))
-      check_world(world, seed, 5000, {{}, kShapes[number++ % std::size(kShapes)]}, hits);
-    EXPECT_GT(hits, 20000 / kShare);
+      check_world(world, seed, 5000, {{}, kShapes[number++ % std::size(kShapes)]}, tally);
+    EXPECT_GT(tally.hits, 20000 / test::test_share());
   });
 }
 
@@ -119,15 +122,15 @@ std::vector<World> special_worlds(std::uint64_t seed) {
 
 TEST(WideTraversal, EqualsTheReferenceOnSpecialSets) {
   for_each_seed([](std::uint64_t seed) {
-    std::int64_t hits = 0;
-    for (const World& world : special_worlds(seed)) check_world(world, seed, 4000, {{}}, hits);
-    EXPECT_GT(hits, 20000 / kShare);
+    Tally tally;
+    for (const World& world : special_worlds(seed)) check_world(world, seed, 4000, {{}}, tally);
+    EXPECT_GT(tally.hits, 20000 / test::test_share());
   });
 }
 
 TEST(WideTraversal, EqualsTheReferenceOnRandomSets) {
   for_each_seed([](std::uint64_t seed) {
-    std::int64_t hits = 0;
+    Tally tally;
     for (std::uint64_t k = 1; k <= (kShare > 1 ? 20 : 60) && !testing::Test::HasFatalFailure(); ++k) {
       SplitMix64 rng(seed + k);
       const int count = static_cast<int>(test::log_uniform(rng, 1, 3000));
@@ -139,9 +142,9 @@ TEST(WideTraversal, EqualsTheReferenceOnRandomSets) {
           test::random_world("random " + std::to_string(k), seed + k, count, half, r_lo, r_hi, away, -away, away * 0.3);
       const WideParameters shape{static_cast<std::int64_t>(rng.next_below(20)),
                                  static_cast<std::int64_t>(rng.next_below(6))};
-      check_world(world, seed + k, 2000, {{}, shape}, hits);
+      check_world(world, seed + k, 2000, {{}, shape}, tally);
     }
-    EXPECT_GT(hits, 5000 / kShare);
+    EXPECT_GT(tally.hits, 5000 / test::test_share());
   });
 }
 
@@ -160,7 +163,7 @@ TEST(WideTraversal, DeepTreesAndLongLists) {
   EXPECT_GT(wide.tree().levels, 8);
   // Through the corner, or past it at any scale; a few thousand spheres are met exactly.
   std::vector<Ray> rays;
-  for (std::int64_t i = 0; i < 17000 / kShare; ++i) {
+  for (std::int64_t i = 0; i < 17000 / kShareOfAll; ++i) {
     const Vec3d eye{test::uniform(rng, -1, 2), test::uniform(rng, -1, 2), test::uniform(rng, -1, 2)};
     const double miss = std::ldexp(1, -static_cast<int>(rng.next_below(60)));
     const Vec3d target{test::uniform(rng, 0, miss), test::uniform(rng, 0, miss), test::uniform(rng, 0, miss)};
@@ -170,13 +173,13 @@ TEST(WideTraversal, DeepTreesAndLongLists) {
     rays.push_back(ray);
   }
   wide.check(rays, 200);
-  wide.check(query_rays(world, wide, 72, 4000 / kShare), 200);
-  EXPECT_GT(wide.hits(), 2000 / kShare);
+  wide.check(query_rays(world, wide, 72, 4000 / kShareOfAll), 200);
+  EXPECT_GT(wide.hits(), 2000 / kShareOfAll);
 
   // All of one octant, from deep inside towards the corner: no list gets shorter on the way to where they start, until
   // there is no more room for another, and a stream of all of them goes on.
   rays.clear();
-  for (std::int64_t i = 0; i < 32768 / kShare; ++i) {
+  for (std::int64_t i = 0; i < 32768 / kShareOfAll; ++i) {
     const double near = std::ldexp(1, -60 - static_cast<int>(rng.next_below(50)));
     Ray ray;
     ray.origin = to_float(Vec3d{test::uniform(rng, 1, 2), test::uniform(rng, 1, 2), test::uniform(rng, 1, 2)} * near);
@@ -185,7 +188,7 @@ TEST(WideTraversal, DeepTreesAndLongLists) {
   }
   const std::int64_t hits_before = wide.hits();
   wide.check(rays, 200);
-  EXPECT_GT(wide.hits() - hits_before, 10000 / kShare);
+  EXPECT_GT(wide.hits() - hits_before, 10000 / kShareOfAll);
 }
 
 TEST(WideTraversal, LargeSets) {
@@ -207,7 +210,7 @@ TEST(WideTraversal, LargeSets) {
 TEST(WideTraversal, AnyNumberOfRays) {
   const World world = test::random_world("random", 52, 3000, 10, 0.1, 0.8);
   WideUnderTest wide(world);
-  const RayBatch all = test::batch_of(query_rays(world, wide, 53, 70000 / kShare));
+  const RayBatch all = test::batch_of(query_rays(world, wide, 53, 70000 / kShareOfAll));
   for (const std::int64_t n : {0, 1, 2, 3, 15, 16, 17, 31, 33, 63, 64, 65, 127, 129, 1000, 4096, 4097, 16384, 70000}) {
     if (n > all.size() || testing::Test::HasFatalFailure()) break;
     wide.check(all.span().part(0, n), 0);
@@ -304,7 +307,7 @@ TEST(WideTraversal, EndsOfASegmentExactlyAtTheHit) {
       rays.push_back(cut);
     }
   }
-  ASSERT_GT(rays.size(), 3000u / kShare);
+  ASSERT_GT(static_cast<std::int64_t>(rays.size()), 3000 / kShare);
   wide.check(rays, 500);
 }
 

@@ -16,6 +16,7 @@
 #include "bihive/kernels/wide_builder.h"
 #include "bihive/render/brute_force.h"
 #include "support/edge_rays.h"
+#include "support/effort.h"
 #include "support/world.h"
 
 namespace bihive::test {
@@ -66,7 +67,7 @@ class WideUnderTest {
       truths[static_cast<std::size_t>(i)] = truth(rays.at(i));
       hits_ += truths[static_cast<std::size_t>(i)].found() ? 1 : 0;
     }
-    for (const std::string& target : available_targets()) {
+    for (const std::string& target : targets_under_test()) {
       ASSERT_TRUE(use_target(target).ok());
       for (const auto& tree : trees_) {
         check_many(*tree, rays, RayOrder::blocks, truths, "blocks, " + target);

@@ -9,6 +9,7 @@
 #include "bihive/kernels/target.h"
 #include "bihive/math/rng.h"
 #include "bihive/math/vec3.h"
+#include "support/effort.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "unit/wave_lanes_test.cpp"
@@ -74,7 +75,7 @@ TEST_P(EachTarget, vectors_are_normalized_as_one_by_one) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, EachTarget, ::testing::ValuesIn(available_targets()));
+INSTANTIATE_TEST_SUITE_P(all, EachTarget, ::testing::ValuesIn(test::targets_under_test()));
 
 }  // namespace
 }  // namespace bihive

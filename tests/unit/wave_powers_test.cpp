@@ -8,6 +8,7 @@
 #include "bihive/kernels/target.h"
 #include "bihive/math/elementary.h"
 #include "bihive/math/rng.h"
+#include "support/effort.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "unit/wave_powers_test.cpp"
@@ -91,7 +92,7 @@ TEST_P(EachTarget, shading_powers_are_shading_power) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, EachTarget, ::testing::ValuesIn(available_targets()));
+INSTANTIATE_TEST_SUITE_P(all, EachTarget, ::testing::ValuesIn(test::targets_under_test()));
 
 }  // namespace
 }  // namespace bihive

@@ -1,0 +1,53 @@
+// How much a test of the kernels does, and on which instruction sets. Where a program runs slowly it takes fewer rays.
+//
+// In the environment:
+//   BIHIVE_TEST_SHARE=N    one N-th of it (1 to 64; default 1, with a sanitizer 16): up to 16 of the rays, beyond that
+//   of
+//                          the sets of spheres
+//   BIHIVE_TARGET=NAME     that instruction set alone (default: every one that the machine has)
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "bihive/kernels/target.h"
+
+namespace bihive::test {
+
+/// N: a test does about one N-th of its work.
+inline std::int64_t test_share() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr std::int64_t kUsual = 16;  // a sanitizer is about that much slower
+#else
+  constexpr std::int64_t kUsual = 1;
+#endif
+  static const std::int64_t share = [] {
+    const char* const number = std::getenv("BIHIVE_TEST_SHARE");
+    return number == nullptr ? kUsual : std::clamp<std::int64_t>(std::atoll(number), 1, 64);
+  }();
+  return share;
+}
+
+/// N: a test takes one N-th of its rays.
+inline std::int64_t ray_share() {
+  return std::min<std::int64_t>(test_share(), 16);
+}
+
+/// Whether a test takes this one of its sets, numbered from 0.
+inline bool takes_set(std::int64_t number) {
+  return number % std::max<std::int64_t>(1, test_share() / 16) == 0;
+}
+
+/// Those to try each question on. A name in the environment that the machine does not have fails in use_target().
+inline std::vector<std::string> targets_under_test() {
+  static const std::vector<std::string> targets = [] {
+    const char* const name = std::getenv("BIHIVE_TARGET");
+    return name == nullptr ? available_targets() : std::vector<std::string>{name};
+  }();
+  return targets;
+}
+
+}  // namespace bihive::test
