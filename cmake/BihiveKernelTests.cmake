@@ -12,7 +12,7 @@ macro(add_kernel_tests)
   target_link_libraries(bihive_test_support INTERFACE bihive_lib bihive_options ${BIHIVE_LIBRARY_DEPENDENCIES})
 
   add_executable(picture_hash ${PROJECT_SOURCE_DIR}/tests/wasm/picture_hash.cpp)
-  target_link_libraries(picture_hash PRIVATE bihive_lib bihive_options)
+  target_link_libraries(picture_hash PRIVATE bihive_test_support)
   set(BIHIVE_KERNEL_TEST_TARGETS picture_hash)
 
   file(STRINGS ${PROJECT_SOURCE_DIR}/tests/kernel_tests.txt lines REGEX "^[a-z]")
