@@ -1,10 +1,9 @@
 // How much a test of the kernels does, and on which instruction sets. Where a program runs slowly it takes fewer rays.
 //
 // In the environment:
-//   BIHIVE_TEST_SHARE=N    one N-th of it (1 to 64; default 1, with a sanitizer 16): up to 16 of the rays, beyond that
-//   of
-//                          the sets of spheres
-//   BIHIVE_TARGET=NAME     that instruction set alone (default: every one that the machine has)
+//   BIHIVE_TEST_SHARE=N    one N-th of the work (1 to 64; default 1, with a sanitizer 16): up to 16 of the rays, beyond
+//                          that of the sets of spheres
+//   BIHIVE_TARGET=NAME     queries on that instruction set alone (default: on every one that the machine has)
 #pragma once
 
 #include <algorithm>

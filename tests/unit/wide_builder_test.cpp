@@ -103,7 +103,7 @@ TEST(WideBuilder, TheSameTreeForEveryNumberOfThreadsAndEveryTarget) {
   std::vector<test::World> worlds = all_worlds();
   worlds.push_back(test::random_world("large", 11, 200000, 10, 0.01, 0.01));
   for (int i = 0; i < 1000; ++i) worlds.back().add(worlds.back().x[i], worlds.back().y[i], worlds.back().z[i], 0.01);
-  const std::size_t enough = test::ray_share() > 1 ? worlds.size() : worlds.max_size();
+  const std::size_t enough = test::test_share() > 16 ? worlds.size() : worlds.max_size();
   worlds.push_back(test::random_world("large, many radii", 12, 160000, 10, 0.001, 0.1));
   worlds.push_back(test::exponential_world("large, one corner", 120, 7, 0.25));
   for (int i = 0; i < 160000; ++i) worlds.back().add(1e-3 * (i % 401), 1e-3 * (i % 409), 1e-3 * (i % 419), 1e-4);
