@@ -30,6 +30,7 @@ namespace {
 constexpr std::int64_t kFewestPerChunk = 16384;
 constexpr std::int64_t kMostPerChunk = 262144;
 constexpr std::int64_t kChunksPerThread = 4;
+constexpr std::int64_t kSpheresPerChunk = 1 << 25;  // that brute force meets: well below a second
 
 // Rays as the file has them: origin, direction, and if there are 8 columns t_min and t_max.
 class RayFile {
@@ -107,6 +108,8 @@ std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const Ra
 
 // The wide engine answers many at a time faster, the others are slow.
 std::int64_t rays_per_chunk(const Tracer& tracer, std::int64_t rays, std::int64_t threads) {
+  const std::int64_t spheres = std::max<std::int64_t>(1, tracer.spheres().size());
+  if (tracer.engine() == Engine::brute) return std::clamp<std::int64_t>(kSpheresPerChunk / spheres, 1, kFewestPerChunk);
   if (tracer.wide_tree() == nullptr) return kFewestPerChunk;
   const std::int64_t workers = threads > 0 ? threads : hardware_threads();
   return std::clamp(rays / (workers * kChunksPerThread), kFewestPerChunk, kMostPerChunk);

@@ -65,6 +65,7 @@ class Interrupt(ProgramTest):
         rays[:, 2] = 100
         rays[:, 3:] = numpy.random.default_rng(1).uniform(-20, 20, (len(rays), 3)) - [0, 0, 100]
         numpy.save(self.path("rays.npy"), rays)
+        # Each ray meets all spheres here, so a chunk must be the smaller the more there are.
         command = ["trace", "scenario3", "--count", "20000", "--radius", "0.1", "--engine", "brute", "--threads", "1"]
         files = ["--rays", "rays.npy", "--t", "t.npy", "--id", "id.npy"]
         self.assertEqual(self.interrupted(command + files, 0.5), (130, "", ""))
