@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "bihive/geometry/sphere.h"
-#include "bihive/kernels/queries.h"
+#include "bihive/wide/queries.h"
 
 namespace bihive::bench {
 namespace {

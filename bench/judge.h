@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bihive/geometry/sphere_set.h"
-#include "bihive/kernels/ray_batch.h"
-#include "bihive/kernels/wide_tree.h"
+#include "bihive/wide/ray_batch.h"
+#include "bihive/wide/wide_tree.h"
 #include "ray_sets.h"
 
 namespace bihive::bench {

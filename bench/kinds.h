@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "bihive/kernels/queries.h"
+#include "bihive/wide/queries.h"
 
 namespace bihive::bench {
 

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "bench_scene.h"
-#include "bihive/kernels/target.h"
+#include "bihive/simd/target.h"
 #include "failure.h"
 #include "measure.h"
 #include "messages.h"

@@ -7,8 +7,8 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
-#include "bihive/kernels/target.h"
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/simd/target.h"
+#include "bihive/wide/wide_builder.h"
 #include "failure.h"
 #include "frames/frame.h"
 #include "memory.h"

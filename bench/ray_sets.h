@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench_scene.h"
-#include "bihive/kernels/ray_batch.h"
-#include "bihive/kernels/wide_tree.h"
+#include "bihive/wide/ray_batch.h"
+#include "bihive/wide/wide_tree.h"
 #include "kinds.h"
 
 namespace bihive::bench {

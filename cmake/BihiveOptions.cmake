@@ -43,7 +43,7 @@ if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}" MATCHES "-ffast-math|-Ofast|-
   message(FATAL_ERROR "bihive's pictures depend on exact IEEE arithmetic: remove -ffast-math or -Ofast from the flags")
 endif()
 
-# Instruction sets that no machine of the last ten years needs of its own (src/bihive/kernels/target.h).
+# Instruction sets that no machine of the last ten years needs of its own (src/bihive/simd/target.h).
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   # NEON, which every such machine has, and nothing to choose between. Vectors whose length is known only when the program
   # runs (SVE) cannot be kept in arrays, as the kernels do. Without the second macro Highway would compile for NEON with

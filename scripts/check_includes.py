@@ -16,13 +16,14 @@ ALLOWED = {
     "math": {"base"},
     "geometry": {"base", "math"},
     "bih": {"base", "math", "geometry"},
-    "kernels": {"base", "math", "geometry", "bih"},
+    "simd": {"base"},
+    "wide": {"base", "math", "geometry", "bih", "simd"},
     "image": {"base", "math"},
     "io": {"base", "math", "geometry", "image"},
     "scene": {"base", "math", "geometry", "io", "image"},
-    "render": {"base", "math", "geometry", "bih", "kernels", "scene", "image"},
+    "render": {"base", "math", "geometry", "bih", "simd", "wide", "scene", "image"},
     "gl": {"base", "math", "geometry", "bih", "scene", "image"},
-    "viewer": {"base", "math", "geometry", "bih", "kernels", "io", "scene", "image", "render", "gl"},
+    "viewer": {"base", "math", "geometry", "bih", "simd", "wide", "io", "scene", "image", "render", "gl"},
 }
 LIBRARY = "src/bihive"
 PROGRAMS = "apps"

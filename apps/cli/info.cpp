@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/bih/memory.h"
-#include "bihive/kernels/target.h"
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/simd/target.h"
+#include "bihive/wide/wide_builder.h"
 #include "commands.h"
 #include "messages.h"
 

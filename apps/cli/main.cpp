@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "bihive/kernels/target.h"
+#include "bihive/simd/target.h"
 #include "command_line.h"
 #include "failure.h"
 #include "interrupt.h"

@@ -4,8 +4,8 @@
 
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
-#include "bihive/kernels/target.h"
 #include "bihive/render/memory.h"
+#include "bihive/simd/target.h"
 #include "bihive/viewer/statistics_json.h"
 #include "commands.h"
 #include "failure.h"

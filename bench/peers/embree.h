@@ -37,7 +37,7 @@ class EmbreeRays {
 
 class Embree {
  public:
-  /// Restricted to the instruction set of `target` (kernels/target.h) where it has that. Error: Embree cannot start.
+  /// Restricted to the instruction set of `target` (simd/target.h) where it has that. Error: Embree cannot start.
   static Result<std::unique_ptr<Embree>> start(const SphereSet& spheres, int threads, const std::string& target);
   ~Embree();
   Embree(const Embree&) = delete;

@@ -1,6 +1,6 @@
-// The bounds of kernels/beam_bounds.h: hill climbing for the pair of a ray and a sphere on which a beam of that one ray
-// is most wrong. See filter_bounds_test.cpp.
-#include "bihive/kernels/beam_bounds.h"
+// The bounds of wide/trace/beam_bounds.h: hill climbing for the pair of a ray and a sphere on which a beam of that one
+// ray is most wrong. See filter_bounds_test.cpp.
+#include "bihive/wide/trace/beam_bounds.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -10,8 +10,8 @@
 
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
-#include "bihive/kernels/beam_rays-inl.h"
-#include "bihive/kernels/frustum-inl.h"
+#include "bihive/wide/trace/beam_rays-inl.h"
+#include "bihive/wide/trace/frustum-inl.h"
 #include "support/filter_search.h"
 
 namespace bihive {

@@ -10,9 +10,9 @@
 
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
-#include "bihive/kernels/queries.h"
-#include "bihive/kernels/target.h"
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/simd/target.h"
+#include "bihive/wide/queries.h"
+#include "bihive/wide/wide_builder.h"
 #include "support/block_rays.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"

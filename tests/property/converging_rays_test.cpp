@@ -1,7 +1,5 @@
 // Rays that lead to one light from surfaces everywhere get the reference traversal's answers on every target, and the
 // way that is made for them is the one that they take.
-#include "bihive/kernels/converging_rays.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,10 +10,11 @@
 
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
-#include "bihive/kernels/beam.h"
-#include "bihive/kernels/queries.h"
-#include "bihive/kernels/target.h"
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/simd/target.h"
+#include "bihive/wide/queries.h"
+#include "bihive/wide/schedule/light_order.h"
+#include "bihive/wide/trace/beams.h"
+#include "bihive/wide/wide_builder.h"
 #include "support/edge_rays.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"

@@ -1,8 +1,10 @@
-// The bounds of kernels/filter.h: hill climbing for the pair of a ray and a sphere on which the binary32 filter is most
-// wrong. It must stay within its bounds, and the bounds must not be far beyond what it can be wrong by.
+// The bounds of wide/trace/filter_bounds.h: hill climbing for the pair of a ray and a sphere on which the binary32
+// filter is most wrong. It must stay within its bounds, and the bounds must not be far beyond what it can be wrong by.
 //
-// What is bounded is the sequence of operations in kernels/filter.h; here it stands once with fused multiply-adds and
-// once without, because targets differ in that. Truth is long double.
+// What is bounded is the sequence of operations in wide/trace/filter_bounds.h; here it stands once with fused
+// multiply-adds and once without, because targets differ in that. Truth is long double.
+#include "bihive/wide/trace/filter_bounds.h"
+
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
@@ -12,10 +14,9 @@
 #include <type_traits>
 
 #include "bihive/geometry/sphere.h"
-#include "bihive/kernels/filter.h"
-#include "bihive/kernels/ray_setup-inl.h"
-#include "bihive/kernels/scalar_traversal.h"
-#include "bihive/kernels/single-inl.h"
+#include "bihive/wide/trace/local_rays-inl.h"
+#include "bihive/wide/trace/ray_walk-inl.h"
+#include "bihive/wide/trace/scalar_walk.h"
 #include "support/edge_rays.h"
 #include "support/filter_search.h"
 #include "support/scenes.h"

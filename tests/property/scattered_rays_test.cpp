@@ -1,7 +1,5 @@
 // Rays that are sorted first get the reference traversal's answers on every target, each at its own place; and
 // scattered rays are known as such.
-#include "bihive/kernels/scattered_rays.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "bihive/kernels/lists.h"
-#include "bihive/kernels/queries.h"
-#include "bihive/kernels/target.h"
+#include "bihive/simd/target.h"
+#include "bihive/wide/queries.h"
+#include "bihive/wide/schedule/cell_order.h"
+#include "bihive/wide/trace/lists.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"
 #include "support/query_rays.h"

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bihive/kernels/wide_builder.h"
 #include "bihive/math/rng.h"
 #include "bihive/scene/generators.h"
+#include "bihive/wide/wide_builder.h"
 
 namespace bihive {
 namespace {

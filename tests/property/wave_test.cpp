@@ -6,13 +6,13 @@
 #include <cstring>
 #include <string>
 
-#include "bihive/kernels/target.h"
 #include "bihive/math/rng.h"
 #include "bihive/render/integrator.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/wave_integrator.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/sample_pattern.h"
+#include "bihive/simd/target.h"
 #include "support/effort.h"
 
 namespace bihive {

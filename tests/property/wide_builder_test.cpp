@@ -1,5 +1,5 @@
 // Building the wide tree holds its promises on sets made to break them: time, memory, running out of it.
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/wide/wide_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 #include <unistd.h>
 #endif
 
-#include "bihive/kernels/wide_validate.h"
+#include "bihive/wide/wide_validate.h"
 #include "support/hostile_sets.h"
 #include "support/thread_time.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "bihive/kernels/ray_batch.h"
 #include "bihive/math/rng.h"
+#include "bihive/wide/ray_batch.h"
 #include "support/edge_rays.h"
 #include "support/scenes.h"
 #include "support/world.h"

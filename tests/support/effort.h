@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "bihive/kernels/target.h"
+#include "bihive/simd/target.h"
 
 namespace bihive::test {
 

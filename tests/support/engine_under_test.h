@@ -14,8 +14,8 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/geometry/ray.h"
-#include "bihive/kernels/target.h"
 #include "bihive/render/tracer.h"
+#include "bihive/simd/target.h"
 #include "support/npy_file.h"
 #include "support/world.h"
 
@@ -27,7 +27,7 @@ struct Answers {
 };
 
 /// Empty answers mean that the engine failed; why has been printed. `target` is one of available_targets()
-/// (kernels/target.h), or empty for the library's own choice.
+/// (simd/target.h), or empty for the library's own choice.
 class EngineUnderTest {
  public:
   virtual ~EngineUnderTest() = default;

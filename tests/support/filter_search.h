@@ -11,7 +11,7 @@
 #include <string>
 
 #include "bihive/geometry/ray.h"
-#include "bihive/kernels/filter.h"
+#include "bihive/wide/trace/filter_bounds.h"
 #include "support/effort.h"
 #include "support/scenes.h"
 

@@ -1,5 +1,5 @@
 // Targets of the kernels: each one that the machine has can be forced, and then it is its code that runs.
-#include "bihive/kernels/target.h"
+#include "bihive/simd/target.h"
 
 #include <gtest/gtest.h>
 

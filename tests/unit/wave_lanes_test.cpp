@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "bihive/kernels/target.h"
 #include "bihive/math/rng.h"
 #include "bihive/math/vec3.h"
+#include "bihive/simd/target.h"
 #include "support/effort.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,8 +16,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bihive/kernels/dispatch.h"
 #include "bihive/render/wave_lanes-inl.h"
+#include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {

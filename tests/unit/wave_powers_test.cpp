@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "bihive/kernels/target.h"
 #include "bihive/math/elementary.h"
 #include "bihive/math/rng.h"
+#include "bihive/simd/target.h"
 #include "support/effort.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -15,8 +15,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bihive/kernels/dispatch.h"
 #include "bihive/render/wave_powers-inl.h"
+#include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {

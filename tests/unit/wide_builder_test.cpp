@@ -1,5 +1,5 @@
 // The wide tree is right for any spheres and parameters, and memory goes round.
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/wide/wide_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bihive/kernels/target.h"
-#include "bihive/kernels/wide_validate.h"
+#include "bihive/simd/target.h"
+#include "bihive/wide/wide_validate.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"
 

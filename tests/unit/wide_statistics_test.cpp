@@ -1,9 +1,9 @@
 // Numbers of wide trees that are known by hand, and sums that must agree with the tree.
-#include "bihive/kernels/wide_statistics.h"
+#include "bihive/wide/wide_statistics.h"
 
 #include <gtest/gtest.h>
 
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/wide/wide_builder.h"
 #include "support/scenes.h"
 
 namespace bihive {

@@ -3,7 +3,7 @@
 #include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
 #include "bihive/bih/memory.h"
-#include "bihive/kernels/wide_builder.h"
+#include "bihive/wide/wide_builder.h"
 
 namespace bihive {
 

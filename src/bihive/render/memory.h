@@ -1,5 +1,5 @@
 // Whether what a picture needs fits this machine's memory, before anything is made. What certainly does not fit is
-// refused; what only may not (bih/memory.h, kernels/wide_builder.h) is tried.
+// refused; what only may not (bih/memory.h, wide/wide_builder.h) is tried.
 #pragma once
 
 #include "bihive/base/result.h"

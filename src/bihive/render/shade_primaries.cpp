@@ -5,10 +5,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bihive/kernels/dispatch.h"
 #include "bihive/render/wave_lanes-inl.h"
 #include "bihive/render/wave_light-inl.h"
 #include "bihive/render/wave_surfaces-inl.h"
+#include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {

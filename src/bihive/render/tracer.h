@@ -12,15 +12,15 @@
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/image/film.h"
-#include "bihive/kernels/queries.h"
-#include "bihive/kernels/wide_builder.h"
-#include "bihive/kernels/wide_tree.h"
 #include "bihive/scene/camera.h"
+#include "bihive/wide/queries.h"
+#include "bihive/wide/wide_builder.h"
+#include "bihive/wide/wide_tree.h"
 
 namespace bihive {
 
 /// automatic: the fastest engine that there is, which is wide; wide: vector kernels on the wide tree
-/// (kernels/queries.h); reference: scalar traversal of the reference tree; brute: every sphere. All give the same bits.
+/// (wide/queries.h); reference: scalar traversal of the reference tree; brute: every sphere. All give the same bits.
 enum class Engine { automatic, wide, reference, brute };
 
 /// What the caller says of a tree, >= 1 or kUnlimited. Unset: the engine chooses; the reference builder then takes
@@ -50,7 +50,7 @@ class Tracer {
                               int threads = 0);
 
   /// A tracer on a tree that somebody built of these very spheres: frame after frame with one WideBuilder
-  /// (kernels/wide_builder.h), or once for several tracers.
+  /// (wide/wide_builder.h), or once for several tracers.
   Tracer(const SphereSet& spheres, std::shared_ptr<const WideTree> tree);
   Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree);
 
@@ -58,7 +58,7 @@ class Tracer {
   Hit closest_hit(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
 
-  /// Many rays at a time: much the faster with the wide engine (kernels/queries.h says when). Hit i belongs to ray i.
+  /// Many rays at a time: much the faster with the wide engine (wide/queries.h says when). Hit i belongs to ray i.
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
 

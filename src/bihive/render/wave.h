@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "bihive/image/film.h"
-#include "bihive/kernels/ray_batch.h"
 #include "bihive/render/column.h"
 #include "bihive/render/pixel_order.h"
 #include "bihive/render/surface.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/sample_pattern.h"
 #include "bihive/scene/scene.h"
+#include "bihive/wide/ray_batch.h"
 
 namespace bihive {
 

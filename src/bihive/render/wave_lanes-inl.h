@@ -13,10 +13,10 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "bihive/kernels/wasm_float64-inl.h"
-#include "bihive/kernels/wasm_lanes-inl.h"
 #include "bihive/math/vec3.h"
 #include "bihive/render/wave.h"
+#include "bihive/simd/wasm_float64-inl.h"
+#include "bihive/simd/wasm_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
-#include "bihive/kernels/target.h"
+#include "bihive/simd/target.h"
 
 namespace bihive {
 namespace {

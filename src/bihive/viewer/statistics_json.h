@@ -8,9 +8,9 @@
 #include "bihive/base/result.h"
 #include "bihive/bih/statistics.h"
 #include "bihive/bih/tree.h"
-#include "bihive/kernels/wide_builder.h"
-#include "bihive/kernels/wide_statistics.h"
 #include "bihive/render/tracer.h"
+#include "bihive/wide/wide_builder.h"
+#include "bihive/wide/wide_statistics.h"
 
 namespace bihive {
 

@@ -1,0 +1,47 @@
+#include "bihive/base/aligned_buffer.h"
+
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace bihive {
+
+namespace {
+
+// Large blocks start and end on borders of huge pages (2 MiB), so that the system can use them.
+constexpr std::size_t kLine = 64;
+constexpr std::size_t kHugePage = std::size_t{1} << 21;
+
+std::size_t alignment_of(std::size_t bytes) {
+  return bytes >= kHugePage ? kHugePage : kLine;
+}
+
+std::size_t rounded_up(std::size_t bytes) {
+  const std::size_t alignment = alignment_of(bytes);
+  return (bytes + alignment - 1) / alignment * alignment;
+}
+
+}  // namespace
+
+void* allocate_aligned(std::size_t bytes) {
+  const std::size_t rounded = rounded_up(bytes);
+  void* const data = std::aligned_alloc(alignment_of(bytes), rounded);
+  if (data == nullptr) throw std::bad_alloc();
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  if (alignment_of(bytes) == kHugePage) madvise(data, rounded, MADV_HUGEPAGE);
+#endif
+  return data;
+}
+
+void AlignedBuffer::reserve(std::size_t bytes) {
+  if (bytes <= capacity_) return;
+  std::free(data_);
+  data_ = nullptr;
+  capacity_ = 0;
+  data_ = allocate_aligned(bytes);
+  capacity_ = rounded_up(bytes);
+}
+
+}  // namespace bihive

@@ -1,0 +1,47 @@
+#include "bihive/wide/build/binary_tree.h"
+
+#include <algorithm>
+
+namespace bihive {
+namespace {
+
+constexpr std::size_t kBlockBytes = NodeArena::kBlockSplits * sizeof(BinarySplit);
+constexpr std::size_t kLargestChunk = std::size_t{1} << 22;
+
+std::size_t blocks_in(const AlignedBuffer& chunk) {
+  return chunk.capacity() / kBlockBytes;
+}
+
+}  // namespace
+
+BinarySplit* NodeArena::take_block() {
+  const std::lock_guard lock(mutex_);
+  while (chunk_ < chunks_.size() && used_ == blocks_in(chunks_[chunk_])) {
+    ++chunk_;
+    used_ = 0;
+  }
+  if (chunk_ == chunks_.size()) {
+    // As much again as there is, within reason.
+    const auto held = static_cast<std::size_t>(allocated_bytes());
+    AlignedBuffer chunk;
+    chunk.reserve(std::clamp(held, 4 * kBlockBytes, kLargestChunk));
+    chunks_.push_back(std::move(chunk));
+    used_ = 0;
+  }
+  auto* const bytes = static_cast<std::byte*>(chunks_[chunk_].data());
+  return reinterpret_cast<BinarySplit*>(bytes + kBlockBytes * used_++);
+}
+
+void NodeArena::clear() {
+  const std::lock_guard lock(mutex_);
+  chunk_ = 0;
+  used_ = 0;
+}
+
+std::int64_t NodeArena::allocated_bytes() const {
+  std::int64_t bytes = 0;
+  for (const AlignedBuffer& chunk : chunks_) bytes += static_cast<std::int64_t>(chunk.capacity());
+  return bytes;
+}
+
+}  // namespace bihive

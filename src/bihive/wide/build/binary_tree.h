@@ -1,0 +1,80 @@
+// The binary tree between the builder's two steps: spheres are split in two until leaves are small, then sixteen
+// neighbours become one wide node.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "bihive/base/aligned_buffer.h"
+#include "bihive/math/aabb.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+struct BinarySplit;
+
+/// Neighbouring spheres in leaf order, with their box. Stored units.
+struct BinaryNode {
+  Aabb box;
+  std::uint32_t count;
+  std::uint32_t axis;  ///< of the split: the left child lies towards -inf
+  BinarySplit* split;  ///< null: a leaf
+
+  bool is_leaf() const { return split == nullptr; }
+};
+
+/// The two sides of a node, and what it costs to have the node's spheres in `k` slots of a wide node, k = 1 to 15, in
+/// cost[k - 1]: the surface of all wide nodes needed below, which is what a ray's node visits are in proportion to.
+/// With more slots, more of what lies below fits into the wide node above (wide/build/slot_costs-inl.h).
+struct BinarySplit {
+  BinaryNode side[2];
+  float cost[kWidth];
+};
+
+/// Half the surface of a box, in binary32: areas are only compared.
+inline float half_area(const Aabb& box) {
+  const Vec3f side = box.hi - box.lo;
+  return (side.x * side.y + side.y * side.z) + side.z * side.x;
+}
+
+/// Memory for splits, in blocks, kept from build to build. Any thread may take a block.
+class NodeArena {
+ public:
+  static constexpr std::size_t kBlockSplits = 56;
+
+  /// Throws std::bad_alloc.
+  BinarySplit* take_block();
+  /// All blocks are free again.
+  void clear();
+  std::int64_t allocated_bytes() const;
+
+ private:
+  std::mutex mutex_;
+  std::vector<AlignedBuffer> chunks_;
+  std::size_t chunk_ = 0;  // the one that blocks are taken from
+  std::size_t used_ = 0;   // blocks of it that are taken
+};
+
+/// Hands out splits one by one to a single thread.
+class SplitSource {
+ public:
+  explicit SplitSource(NodeArena& arena) : arena_(arena) {}
+  /// Not set to anything. Throws std::bad_alloc.
+  BinarySplit* next() {
+    if (left_ == 0) {
+      next_ = arena_.take_block();
+      left_ = NodeArena::kBlockSplits;
+    }
+    --left_;
+    return next_++;
+  }
+
+ private:
+  NodeArena& arena_;
+  BinarySplit* next_ = nullptr;
+  std::size_t left_ = 0;
+};
+
+}  // namespace bihive

@@ -1,0 +1,247 @@
+#include "bihive/wide/build/collapse.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <new>
+
+#include "bihive/base/parallel.h"
+
+namespace bihive {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+// So many levels before the last allowed one, children are no longer chosen by cost but by count, so that levels
+// suffice on any set.
+constexpr int kLevelsByCost = 40;
+
+// Subtrees of at most this many spheres are one part.
+constexpr std::int64_t kPartSpheres = 65536;
+
+// The children of a wide node from left to right, and the splits between them: axis[i] is where the two sides that meet
+// between children i and i + 1 were parted, and depth[i] how many splits lie above that one.
+struct Children {
+  int count = 0;
+  const BinaryNode* binary[kWidth];
+  int depth_of_child[kWidth];
+  std::uint32_t axis[kWidth];
+  int depth[kWidth];
+};
+
+// A child is parted: its two sides take its slot and the next.
+void part_child(Children& children, int slot) {
+  for (int i = children.count; i > slot + 1; --i) {
+    children.binary[i] = children.binary[i - 1];
+    children.depth_of_child[i] = children.depth_of_child[i - 1];
+    children.axis[i - 1] = children.axis[i - 2];
+    children.depth[i - 1] = children.depth[i - 2];
+  }
+  const BinaryNode& node = *children.binary[slot];
+  const int depth = children.depth_of_child[slot];
+  for (int side = 0; side < 2; ++side) {
+    children.binary[slot + side] = &node.split->side[side];
+    children.depth_of_child[slot + side] = depth + 1;
+  }
+  children.axis[slot] = node.axis;
+  children.depth[slot] = depth;
+  ++children.count;
+}
+
+// Parts the child with most spheres, again and again.
+void choose_by_count(Children& children) {
+  while (children.count < kWidth) {
+    int best = -1;
+    for (int i = 0; i < children.count; ++i)
+      if (!children.binary[i]->is_leaf() && (best < 0 || children.binary[i]->count > children.binary[best]->count))
+        best = i;
+    if (best < 0) return;
+    part_child(children, best);
+  }
+}
+
+float cost_in_slots(const BinaryNode& node, int slots) {
+  return node.is_leaf() ? 0 : node.split->cost[slots - 1];
+}
+
+// Parts the child at `slot` as its costs say (wide/build/slot_costs-inl.h), so that it takes at most `slots`; returns
+// how many it takes.
+int choose_by_cost(Children& children, int slot, int slots, bool is_root) {
+  const BinaryNode& node = *children.binary[slot];
+  if (node.is_leaf() || slots == 1) return 1;
+  const BinaryNode& left = node.split->side[0];
+  const BinaryNode& right = node.split->side[1];
+  int best = 1;
+  float best_cost = kInf;
+  for (int i = 1; i < slots; ++i) {
+    const float cost = cost_in_slots(left, i) + cost_in_slots(right, slots - i);
+    if (cost < best_cost) {
+      best = i;
+      best_cost = cost;
+    }
+  }
+  if (!is_root && best_cost >= node.split->cost[0]) return 1;
+  part_child(children, slot);
+  const int taken = choose_by_cost(children, slot, best, false);
+  return taken + choose_by_cost(children, slot + taken, slots - best, false);
+}
+
+// Slots from near to far for directions of that octant: at every split the nearer side comes first.
+void add_in_order(const Children& children, int octant, int first, int last, std::uint64_t& order, int& place) {
+  if (first == last) {
+    order |= static_cast<std::uint64_t>(first) << (4 * place++);
+    return;
+  }
+  int top = first;
+  for (int i = first; i < last; ++i)
+    if (children.depth[i] < children.depth[top]) top = i;
+  const bool right_first = (octant >> children.axis[top] & 1) != 0;
+  if (right_first) add_in_order(children, octant, top + 1, last, order, place);
+  add_in_order(children, octant, first, top, order, place);
+  if (!right_first) add_in_order(children, octant, top + 1, last, order, place);
+}
+
+void fill_orders(const Children& children, WideNode& wide) {
+  for (int octant = 0; octant < 4; ++octant) {
+    int place = 0;
+    wide.order[octant] = 0;
+    add_in_order(children, octant, 0, children.count - 1, wide.order[octant], place);
+    for (; place < kWidth; ++place) wide.order[octant] |= static_cast<std::uint64_t>(place) << (4 * place);
+  }
+}
+
+}  // namespace
+
+WideNode Collapse::make_node(const Job& job, Part& part, std::vector<Job>& jobs) const {
+  // Choose by cost, but where levels are few see to it that they suffice.
+  const bool last_level = job.level >= parameters_.most_levels;
+  Children children;
+  children.count = 1;
+  children.binary[0] = job.binary;
+  children.depth_of_child[0] = 0;
+  if (job.level + kLevelsByCost < parameters_.most_levels)
+    choose_by_cost(children, 0, kWidth, true);
+  else
+    choose_by_count(children);
+
+  // Boxes and ranges.
+  WideNode wide;
+  std::memset(&wide, 0, sizeof wide);
+  wide.first_sphere = job.first;
+  wide.child_count = static_cast<std::uint16_t>(children.count);
+  std::uint32_t begin = 0;
+  for (int i = 0; i < children.count; ++i) {
+    const BinaryNode& child = *children.binary[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      wide.lo[axis][i] = child.box.lo[axis];
+      wide.hi[axis][i] = child.box.hi[axis];
+    }
+    wide.begin[i] = begin;
+    begin += child.count;
+    if (child.is_leaf() || last_level) {
+      wide.leaf_mask = static_cast<std::uint16_t>(wide.leaf_mask | 1u << i);
+      part.largest_leaf = std::max(part.largest_leaf, std::int64_t{child.count});
+    }
+  }
+  for (int i = children.count; i < kWidth; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      wide.lo[axis][i] = kInf;
+      wide.hi[axis][i] = -kInf;
+    }
+    wide.begin[i] = begin;
+  }
+  wide.begin[kWidth] = begin;
+  fill_orders(children, wide);
+
+  // Place the inner children side by side, and come to them from left to right.
+  part.levels = std::max(part.levels, job.level);
+  wide.first_node = static_cast<std::int64_t>(part.nodes.size());
+  const int inner = children.count - __builtin_popcount(wide.leaf_mask);
+  part.nodes.resize(part.nodes.size() + static_cast<std::size_t>(inner));
+  for (int i = children.count - 1; i >= 0; --i)
+    if (!wide.is_leaf(i)) jobs.push_back({wide.child_node(i), children.binary[i], wide.sphere_begin(i), job.level + 1});
+  return wide;
+}
+
+void Collapse::make_part(Part& part) const {
+  part.nodes.clear();
+  part.jobs.clear();
+  part.largest_leaf = 0;
+  part.levels = 0;
+  part.root_node = make_node(part.root, part, part.jobs);
+  while (!part.jobs.empty()) {
+    const Job job = part.jobs.back();
+    part.jobs.pop_back();
+    const WideNode node = make_node(job, part, part.jobs);
+    part.nodes[static_cast<std::size_t>(job.place)] = node;
+  }
+}
+
+void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads) {
+  parameters_ = parameters;
+
+  // Make the top here; every subtree that is small enough becomes a part.
+  part_count_ = 0;
+  top_.nodes.clear();
+  top_.nodes.resize(1);
+  top_.largest_leaf = 0;
+  top_.levels = 0;
+  top_.jobs.assign(1, {0, &root, 0, 1});
+  while (!top_.jobs.empty()) {
+    const Job job = top_.jobs.back();
+    top_.jobs.pop_back();
+    if (job.binary->count <= kPartSpheres) {
+      if (part_count_ == parts_.size()) parts_.emplace_back();
+      parts_[part_count_++].root = job;
+      continue;
+    }
+    const WideNode node = make_node(job, top_, top_.jobs);
+    top_.nodes[static_cast<std::size_t>(job.place)] = node;
+  }
+  parallel_for(threads, static_cast<std::int64_t>(part_count_), [this](std::int64_t i) {
+    Part& part = parts_[static_cast<std::size_t>(i)];
+    try {
+      part.out_of_memory = false;
+      make_part(part);
+    } catch (const std::bad_alloc&) {
+      part.out_of_memory = true;
+    }
+  });
+
+  // Put the parts one after the other.
+  node_count_ = static_cast<std::int64_t>(top_.nodes.size());
+  largest_leaf_ = top_.largest_leaf;
+  levels_ = top_.levels;
+  for (std::size_t i = 0; i < part_count_; ++i) {
+    Part& part = parts_[i];
+    if (part.out_of_memory) throw std::bad_alloc();
+    part.base = node_count_;
+    node_count_ += static_cast<std::int64_t>(part.nodes.size());
+    largest_leaf_ = std::max(largest_leaf_, part.largest_leaf);
+    levels_ = std::max(levels_, part.levels);
+  }
+}
+
+void Collapse::copy_to(WideNode* to, int threads) const {
+  std::memcpy(to, top_.nodes.data(), top_.nodes.size() * sizeof(WideNode));
+  parallel_for(threads, static_cast<std::int64_t>(part_count_), [this, to](std::int64_t i) {
+    const Part& part = parts_[static_cast<std::size_t>(i)];
+    WideNode& root = to[part.root.place];
+    root = part.root_node;
+    root.first_node += part.base;
+    for (std::size_t k = 0; k < part.nodes.size(); ++k) {
+      WideNode& node = to[part.base + static_cast<std::int64_t>(k)];
+      node = part.nodes[k];
+      node.first_node += part.base;
+    }
+  });
+}
+
+std::int64_t Collapse::allocated_bytes() const {
+  std::size_t bytes = top_.nodes.capacity() * sizeof(WideNode) + parts_.capacity() * sizeof(Part);
+  for (const Part& part : parts_)
+    bytes += part.nodes.capacity() * sizeof(WideNode) + part.jobs.capacity() * sizeof(Job);
+  return static_cast<std::int64_t>(bytes);
+}
+
+}  // namespace bihive

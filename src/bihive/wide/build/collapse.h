@@ -1,0 +1,62 @@
+// The builder's second step: sixteen neighbours of the binary tree become one wide node.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/wide/build/binary_tree.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+struct CollapseParameters {
+  int most_levels = kMostLevels;  ///< wide nodes on a way from the root at most, >= 1; what is left becomes leaves
+};
+
+/// Makes the wide nodes of a binary tree, in parts that do not depend on the number of threads.
+class Collapse {
+ public:
+  /// Throws std::bad_alloc.
+  void run(const BinaryNode& root, const CollapseParameters& parameters, int threads);
+
+  std::int64_t node_count() const { return node_count_; }
+  int levels() const { return levels_; }
+  std::int64_t largest_leaf() const { return largest_leaf_; }
+
+  /// Copies the nodes: node_count() places from `to` on.
+  void copy_to(WideNode* to, int threads) const;
+
+  std::int64_t allocated_bytes() const;
+
+ private:
+  // A wide node to be made: its place among its part's, what it stands for, its first sphere, its level from 1.
+  struct Job {
+    std::int64_t place;
+    const BinaryNode* binary;
+    std::int64_t first;
+    int level;
+  };
+  // Nodes that one task makes. Places in the part count from `base` in the tree.
+  struct Part {
+    Job root;  // its place is among the nodes of the top
+    WideNode root_node;
+    std::vector<WideNode> nodes;
+    std::vector<Job> jobs;
+    std::int64_t base = 0;
+    std::int64_t largest_leaf = 0;
+    int levels = 0;
+    bool out_of_memory = false;
+  };
+
+  void make_part(Part& part) const;
+  WideNode make_node(const Job& job, Part& part, std::vector<Job>& jobs) const;
+
+  CollapseParameters parameters_;
+  Part top_;
+  std::vector<Part> parts_;
+  std::size_t part_count_ = 0;
+  std::int64_t node_count_ = 0, largest_leaf_ = 0;
+  int levels_ = 0;
+};
+
+}  // namespace bihive

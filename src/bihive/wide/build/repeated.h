@@ -1,0 +1,16 @@
+// Finds equal spheres among a few, or among a pile of them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/wide/build/split.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+/// Adds those of the spheres first to first + count - 1 that have an equal there, in no order. Takes n log n.
+void find_repeated(const SphereArrays& spheres, const float* palette, std::int64_t first, std::int64_t count,
+                   std::vector<RepeatedSphere>& repeated);
+
+}  // namespace bihive

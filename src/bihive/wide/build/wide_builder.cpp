@@ -1,0 +1,297 @@
+#include "bihive/wide/wide_builder.h"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "bihive/base/parallel.h"
+#include "bihive/simd/dispatch.h"
+#include "bihive/wide/build/collapse.h"
+#include "bihive/wide/build/split.h"
+
+namespace bihive {
+namespace {
+
+// Padding after the last sphere: outside of everything, and never hit.
+constexpr float kFarAway = 0x1p30F;
+
+// Larger sets are first sorted into the cells of a grid.
+constexpr std::int64_t kGridSpheres = 150000;
+
+// The input is read in chunks of this size, or larger ones so that there are at most kMostChunks.
+constexpr std::int64_t kChunkSpheres = 32768;
+constexpr std::int64_t kMostChunks = 256;
+
+struct Chunks {
+  std::int64_t count, size, total;
+
+  explicit Chunks(std::int64_t spheres) : total(spheres) {
+    size = std::max(kChunkSpheres, (spheres + kMostChunks - 1) / kMostChunks);
+    count = (spheres + size - 1) / size;
+  }
+  std::int64_t begin(std::int64_t chunk) const { return chunk * size; }
+  std::int64_t end(std::int64_t chunk) const { return std::min(total, (chunk + 1) * size); }
+};
+
+// Arrays in a block: four with a palette, else five, each on a cache line's border.
+SphereArrays place_arrays(std::int64_t spheres, bool has_palette, AlignedBuffer& memory) {
+  const auto padded = static_cast<std::size_t>(spheres + kWidth);
+  const std::size_t an_array = (padded * sizeof(float) + 63) / 64 * 64;
+  memory.reserve(an_array * (has_palette ? 4 : 5));
+  auto* const bytes = static_cast<std::byte*>(memory.data());
+  SphereArrays arrays;
+  arrays.x = reinterpret_cast<float*>(bytes);
+  arrays.y = reinterpret_cast<float*>(bytes + an_array);
+  arrays.z = reinterpret_cast<float*>(bytes + 2 * an_array);
+  arrays.word = reinterpret_cast<std::uint32_t*>(bytes + 3 * an_array);
+  if (!has_palette) arrays.r = reinterpret_cast<float*>(bytes + 4 * an_array);
+  return arrays;
+}
+
+void pad(const SphereArrays& arrays, std::int64_t spheres) {
+  for (std::int64_t i = spheres; i < spheres + kWidth; ++i) {
+    arrays.x[i] = arrays.y[i] = arrays.z[i] = kFarAway;
+    arrays.word[i] = ~std::uint32_t{0};  // class 31, radius 0
+    if (arrays.r != nullptr) arrays.r[i] = 0;
+  }
+}
+
+}  // namespace
+
+// Working memory, and what outlives a build: a tree that nobody holds any more, whose memory the next one takes.
+struct WideBuilder::State {
+  std::mutex mutex;
+  std::unique_ptr<WideTree> spare;
+
+  AlignedBuffer sphere_memory;
+  NodeArena arena;
+  Collapse collapse;
+  std::vector<std::uint16_t> cells;
+  std::vector<std::uint32_t> cell_counts;
+
+  std::unique_ptr<WideTree> take_spare() {
+    const std::lock_guard lock(mutex);
+    if (spare != nullptr) return std::move(spare);
+    return std::make_unique<WideTree>();
+  }
+  void give_back(std::unique_ptr<WideTree> tree) {
+    const std::lock_guard lock(mutex);
+    if (spare == nullptr || spare->allocated_bytes() < tree->allocated_bytes()) std::swap(spare, tree);
+  }
+
+  InputSummary summarize(const SphereSet& spheres, const Chunks& chunks, int threads) const;
+  void split(const SphereSet& spheres, const InputSummary& summary, SplitContext& context, BinaryNode& root,
+             int threads);
+  void sort_into_cells(const SphereSet& spheres, const CellGrid& grid, SplitContext& context, int threads,
+                       std::vector<std::int64_t>& begins);
+  void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
+};
+
+InputSummary WideBuilder::State::summarize(const SphereSet& spheres, const Chunks& chunks, int threads) const {
+  std::vector<InputSummary> summaries(static_cast<std::size_t>(chunks.count));
+  parallel_for(threads, chunks.count, [&](std::int64_t i) {
+    summaries[static_cast<std::size_t>(i)] = kernels::summarize(spheres, chunks.begin(i), chunks.end(i));
+  });
+  InputSummary all = summaries[0];
+  for (std::size_t i = 1; i < summaries.size(); ++i) all.add(summaries[i]);
+  return all;
+}
+
+// Puts the spheres into the scratch arrays cell by cell, in each cell by id. begins[c] is the first place of cell c.
+void WideBuilder::State::sort_into_cells(const SphereSet& spheres, const CellGrid& grid, SplitContext& context,
+                                         int threads, std::vector<std::int64_t>& begins) {
+  const Chunks chunks(spheres.size());
+  cells.resize(static_cast<std::size_t>(spheres.size()));
+  cell_counts.assign(static_cast<std::size_t>(chunks.count * CellGrid::kCells), 0);
+  const auto counts_of = [&](std::int64_t chunk) { return cell_counts.data() + chunk * CellGrid::kCells; };
+  parallel_for(threads, chunks.count, [&](std::int64_t i) {
+    kernels::find_cells(spheres, chunks.begin(i), chunks.end(i), grid, cells.data() + chunks.begin(i), counts_of(i));
+  });
+
+  // Turn counts into the first place of each cell and chunk.
+  begins.assign(CellGrid::kCells + 1, 0);
+  std::uint32_t next = 0;
+  for (int cell = 0; cell < CellGrid::kCells; ++cell) {
+    begins[static_cast<std::size_t>(cell)] = next;
+    for (std::int64_t i = 0; i < chunks.count; ++i) {
+      const std::uint32_t here = counts_of(i)[cell];
+      counts_of(i)[cell] = next;
+      next += here;
+    }
+  }
+  begins[CellGrid::kCells] = next;
+  parallel_for(threads, chunks.count, [&](std::int64_t i) {
+    kernels::scatter_spheres(spheres, chunks.begin(i), chunks.end(i), cells.data() + chunks.begin(i), counts_of(i),
+                             context);
+  });
+}
+
+void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& summary, SplitContext& context,
+                               BinaryNode& root, int threads) {
+  const std::int64_t count = spheres.size();
+  if (count <= std::max(kGridSpheres, context.full_leaf)) {
+    // Take the spheres as they come.
+    const Chunks chunks(count);
+    parallel_for(threads, chunks.count,
+                 [&](std::int64_t i) { kernels::load_spheres(spheres, chunks.begin(i), chunks.end(i), context); });
+    SplitRange range;
+    range.node = &root;
+    range.centres = summary.centres;
+    range.count = count;
+    parallel_tasks(threads, [&](TaskList& list) { kernels::split_range(context, range, list); });
+  } else {
+    // Sort them into cells. The bits of a cell's number are the splits of the top of the tree.
+    const CellGrid grid(summary.centres);
+    std::vector<std::int64_t> begins;
+    sort_into_cells(spheres, grid, context, threads, begins);
+    SplitSource source(arena);
+    struct CellRange {
+      BinaryNode* node;
+      int first, last, halving, depth;  // cells first to last - 1; the halving that comes next
+    };
+    std::vector<CellRange> waiting{{&root, 0, CellGrid::kCells, 0, 0}};
+    std::vector<SplitRange> ranges;
+    while (!waiting.empty()) {
+      CellRange cells_here = waiting.back();
+      waiting.pop_back();
+      const auto begin_of = [&](int cell) { return begins[static_cast<std::size_t>(cell)]; };
+      const std::int64_t first = begin_of(cells_here.first);
+      const std::int64_t here = begin_of(cells_here.last) - first;
+
+      // Go down past halves without spheres.
+      int middle = 0;
+      bool parted = false;
+      while (!parted && cells_here.halving < CellGrid::kBits && here > std::max(kTaskSpheres, context.full_leaf)) {
+        middle = (cells_here.first + cells_here.last) / 2;
+        const std::int64_t left = begin_of(middle) - first;
+        parted = left > 0 && left < here;
+        if (left == 0) cells_here.first = middle;
+        if (left == here) cells_here.last = middle;
+        ++cells_here.halving;
+      }
+      if (!parted) {
+        SplitRange range;
+        range.node = cells_here.node;
+        range.first = first;
+        range.count = here;
+        range.depth = cells_here.depth;
+        ranges.push_back(range);
+        continue;
+      }
+      BinaryNode& node = *cells_here.node;
+      node.count = static_cast<std::uint32_t>(here);
+      node.axis = static_cast<std::uint32_t>(grid.axis[cells_here.halving - 1]);
+      node.split = source.next();
+      waiting.push_back({&node.split->side[0], cells_here.first, middle, cells_here.halving, cells_here.depth + 1});
+      waiting.push_back({&node.split->side[1], middle, cells_here.last, cells_here.halving, cells_here.depth + 1});
+    }
+    parallel_tasks(threads, [&](TaskList& list) {
+      for (const SplitRange& range : ranges)
+        list.add([&context, &list, range] {
+          SplitRange bounded = range;
+          bounded.centres = kernels::bound_centres(context, range);
+          kernels::split_range(context, bounded, list);
+        });
+    });
+  }
+  if (context.out_of_memory) throw std::bad_alloc();
+  kernels::close_tops(root);
+}
+
+void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                               WideTree& tree) {
+  const std::int64_t count = spheres.size();
+  tree.scale = spheres.scale();
+  tree.size = count;
+  tree.aabb = {};
+  tree.node_count = 0;
+  tree.nodes = nullptr;
+  tree.levels = 0;
+  tree.largest_leaf = 0;
+  tree.repeated.clear();
+  tree.spheres = {};
+  if (count == 0) return;
+
+  // Look at the spheres, and make room for them.
+  const InputSummary summary = summarize(spheres, Chunks(count), threads);
+  const bool has_palette = !summary.palette.overflow && count <= std::int64_t{WideSpheres::kIdMask};
+  SplitContext context;
+  context.scratch = place_arrays(count, has_palette, sphere_memory);
+  context.final = place_arrays(count, has_palette, tree.sphere_memory);
+  context.largest_radius = summary.largest_radius;
+  context.arena = &arena;
+  CollapseParameters shape;
+  if (parameters.max_prims > 0) context.full_leaf = parameters.max_prims;
+  if (parameters.max_depth > 0)
+    shape.most_levels = static_cast<int>(std::clamp<std::int64_t>(parameters.max_depth - 1, 1, kMostLevels));
+  if (parameters.max_depth == 1) context.full_leaf = count;
+  if (has_palette) std::copy(summary.palette.radius, summary.palette.radius + 32, context.palette);
+  pad(context.scratch, count);
+  pad(context.final, count);
+
+  // Split in two, then collapse.
+  arena.clear();
+  BinaryNode root;
+  split(spheres, summary, context, root, threads);
+  collapse.run(root, shape, threads);
+
+  // Keep the result, with room for the few nodes more that a next frame may need.
+  const auto node_bytes = static_cast<std::size_t>(collapse.node_count()) * sizeof(WideNode);
+  if (tree.node_memory.capacity() < node_bytes) tree.node_memory.reserve(node_bytes + node_bytes / 8);
+  auto* const nodes = static_cast<WideNode*>(tree.node_memory.data());
+  collapse.copy_to(nodes, threads);
+  tree.aabb = root.box;
+  tree.node_count = collapse.node_count();
+  tree.nodes = nodes;
+  tree.levels = collapse.levels();
+  tree.largest_leaf = collapse.largest_leaf();
+  tree.repeated = std::move(context.repeated);
+  std::sort(tree.repeated.begin(), tree.repeated.end(),
+            [](const RepeatedSphere& a, const RepeatedSphere& b) { return a.id < b.id; });
+  WideSpheres& result = tree.spheres;
+  result.x = context.final.x;
+  result.y = context.final.y;
+  result.z = context.final.z;
+  result.r = context.final.r;
+  result.word = context.final.word;
+  result.has_palette = has_palette;
+  result.palette_size = !has_palette ? 0 : summary.palette.has_zero ? 32 : summary.palette.size;
+  std::copy(context.palette, context.palette + 32, result.palette.begin());
+}
+
+WideBuilder::WideBuilder() : state_(std::make_shared<State>()) {}
+WideBuilder::~WideBuilder() = default;
+
+std::int64_t WideBuilder::scratch_bytes() const {
+  const State& state = *state_;
+  return static_cast<std::int64_t>(state.sphere_memory.capacity() + state.cells.capacity() * sizeof(std::uint16_t) +
+                                   state.cell_counts.capacity() * sizeof(std::uint32_t)) +
+         state.arena.allocated_bytes() + state.collapse.allocated_bytes();
+}
+
+Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& spheres, const WideParameters& parameters,
+                                                           int threads) {
+  ensure_target();
+  const std::int64_t count = spheres.size();
+  if (count > std::int64_t{std::numeric_limits<std::uint32_t>::max()})
+    return Error{"a wide tree holds at most 4294967295 spheres, and there are " + std::to_string(count), "", 0, 0, ""};
+  try {
+    std::unique_ptr<WideTree> tree = state_->take_spare();
+    state_->build(spheres, parameters, threads, *tree);
+
+    // Its memory comes back when the last holder lets go.
+    const auto recycle = [keep = std::weak_ptr<State>(state_)](const WideTree* done) {
+      std::unique_ptr<WideTree> owned(const_cast<WideTree*>(done));
+      if (const auto state = keep.lock()) state->give_back(std::move(owned));
+    };
+    return std::shared_ptr<const WideTree>(tree.release(), recycle);
+  } catch (const std::bad_alloc&) {
+    return Error{"not enough memory for the tree of " + std::to_string(count) + " spheres", "", 0, 0,
+                 "it takes about 60 bytes a sphere while it is made"};
+  }
+}
+
+}  // namespace bihive

@@ -1,0 +1,47 @@
+// Rays against the wide tree: one at a time, or many at once.
+//
+// All forms give the bits of the scalar reference (bih/traversal.h) on every instruction set. They may be called from
+// any number of threads at a time on one tree; each call works on its own thread, in memory that the thread keeps (up
+// to some 45 MiB, and 60 bytes for each of up to 1048576 scattered rays). An invalid ray (geometry/ray.h) hits nothing.
+// Hold the std::shared_ptr that the builder gave for as long as a call runs.
+//
+// Which to use: the form for many rays is more than twice as fast a ray. Give it as many rays at a time as there are;
+// fewer than some thousand leave the vectors idle, and more than 32768 are cut into tiles of this size inside.
+// Scattered rays, whose neighbours are nowhere near, are sorted first where that pays, up to 1048576 at a time: the
+// more in one call the better (docs/library.md).
+//
+// What is checked: nothing that the caller says of lengths. Each array of a span holds `count` entries or is null where
+// RaySpan says so, and the answers have room for `count`; count 0 is fine. std::bad_alloc where the thread gets no
+// memory to work in, nothing else is thrown.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/geometry/hit.h"
+#include "bihive/geometry/ray.h"
+#include "bihive/wide/ray_batch.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+/// What the caller knows of neighbouring rays. It changes the speed, never an answer.
+/// blocks: each 64 neighbours, counted from the first, are close in origin and direction, as 8 x 8 pixels of a camera
+/// or their shadow rays are. any: nothing is known; mirrored, transmitted, random rays.
+enum class RayOrder { blocks, any };
+
+/// The closest hit of each ray: t and id of ray i to hits.t[i] and hits.sphere_id[i]. Costs, AVX2, one thread:
+/// primary rays 10 ns (4,096 spheres) to 60 ns (a million) a ray, mirrored ones 100 to 480 ns, random ones 80 to 420 ns
+/// (a million in one call): docs/performance.md.
+void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits);
+
+/// Is anything hit? 1 or 0 of ray i to hidden[i]. Rays that lead to one point at t = 1, as shadow rays to a light do,
+/// are recognised in either order and sorted by where they come from, up to 262144 at a time: where there are
+/// thousands, that is up to twice as fast as other rays. Costs, AVX2, one thread: shadow rays of pixels 20 to 250 ns a
+/// ray, of what mirrored rays hit 40 to 300 ns.
+void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden);
+
+/// One ray: for code that has no more at a time. Costs, AVX2: 0.3 us (random rays, 4,096 spheres) to 1 us (a million).
+Hit closest_hit(const WideTree& tree, const Ray& ray);
+bool occluded(const WideTree& tree, const Ray& ray);
+
+}  // namespace bihive

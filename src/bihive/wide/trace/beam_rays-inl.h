@@ -1,0 +1,216 @@
+// The rays of a beam: up to 64 neighbours in local form (wide/trace/beam_bounds.h), as arrays. One body for every
+// target.
+
+#if defined(BIHIVE_WIDE_TRACE_BEAM_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_WIDE_TRACE_BEAM_RAYS_INL_H_
+#undef BIHIVE_WIDE_TRACE_BEAM_RAYS_INL_H_
+#else
+#define BIHIVE_WIDE_TRACE_BEAM_RAYS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "bihive/simd/lanes-inl.h"
+#include "bihive/wide/ray_batch.h"
+#include "bihive/wide/trace/beam_bounds.h"
+#include "bihive/wide/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kBeamRays = 64;
+constexpr std::uint32_t kNoWinner = ~std::uint32_t{0};
+
+/// What is known of a block's rays. Lanes beyond the block's last ray repeat it.
+struct alignas(64) BeamRays {
+  float origin[3][kBeamRays];
+  float direction[3][kBeamRays];
+  float s_sure[kBeamRays];          ///< hits before this are surely in the segment and nearer than the winner
+  float s_best[kBeamRays];          ///< hits beyond this are surely not the answer
+  std::uint32_t winner[kBeamRays];  ///< number of the winner so far (rivals-inl.h), or kNoWinner
+  std::uint32_t
+      leaves[kBeamRays];  ///< id of the sphere that the ray leaves, or kNoWinner; not written unless rays.leaves
+  float e, pad;
+  int count;   ///< rays in the block
+  int major;   ///< axis along which all rays go, by at least kLeastMajor of their length
+  float sign;  ///< +1 or -1: their direction along it
+  bool common_origin;
+};
+
+namespace beam_rays {
+
+// The block's arrays, the block's own or copies that are filled up to 64 rays.
+struct Block {
+  const float* origin[3];
+  const float* direction[3];
+  const double* t_max;
+  const std::int64_t* leaves;
+};
+
+struct alignas(64) FilledUp {
+  float origin[3][kBeamRays];
+  float direction[3][kBeamRays];
+  double t_max[kBeamRays];
+  std::int64_t leaves[kBeamRays];
+
+  void repeat_last(const RaySpan& rays, std::int64_t first, int count, Block& block) {
+    for (int i = 0; i < kBeamRays; ++i) {
+      const std::int64_t from = first + std::min(i, count - 1);
+      for (int axis = 0; axis < 3; ++axis) {
+        origin[axis][i] = rays.origin[axis][from];
+        direction[axis][i] = rays.direction[axis][from];
+      }
+      if (rays.t_max != nullptr) t_max[i] = rays.t_max[from];
+      if (rays.leaves != nullptr) leaves[i] = rays.leaves[from];
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      block.origin[axis] = origin[axis];
+      block.direction[axis] = direction[axis];
+    }
+    if (rays.t_max != nullptr) block.t_max = t_max;
+    if (rays.leaves != nullptr) block.leaves = leaves;
+  }
+};
+
+// Segments that start at t = 0, outward from any sphere: all others are not for beams.
+HWY_INLINE bool plain_segments(const RaySpan& rays, std::int64_t first, int count) {
+  if (rays.t_min != nullptr)
+    for (int i = 0; i < count; ++i)
+      if (rays.t_min[first + i] != 0) return false;
+  if (rays.inside != nullptr) {
+    unsigned any = 0;
+    for (int i = 0; i < count; ++i) any |= rays.inside[first + i];
+    if (any != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace beam_rays
+
+/// Makes rays `first` to first + count - 1 (1 to 64) of a span ready. False: not for a beam (not valid, far away, of
+/// extreme length, not all along one axis, with segments that start elsewhere than at t = 0, or going into a sphere).
+HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int64_t first, int count, BeamRays& out) {
+  const FloatTag d;
+  if (!beam_rays::plain_segments(rays, first, count)) return false;
+  beam_rays::Block block{{rays.origin[0] + first, rays.origin[1] + first, rays.origin[2] + first},
+                         {rays.direction[0] + first, rays.direction[1] + first, rays.direction[2] + first},
+                         rays.t_max == nullptr ? nullptr : rays.t_max + first,
+                         rays.leaves == nullptr ? nullptr : rays.leaves + first};
+  beam_rays::FilledUp filled_up;
+  if (HWY_UNLIKELY(count < kBeamRays)) filled_up.repeat_last(rays, first, count, block);
+  out.count = count;
+
+  // The major axis is the first ray's.
+  const float first_size[3] = {std::abs(block.direction[0][0]), std::abs(block.direction[1][0]),
+                               std::abs(block.direction[2][0])};
+  const int major =
+      first_size[0] > first_size[1] ? (first_size[0] > first_size[2] ? 0 : 2) : (first_size[1] > first_size[2] ? 1 : 2);
+  const float sign = block.direction[major][0] < 0 ? -1.0F : 1.0F;
+  out.major = major;
+  out.sign = sign;
+
+  // Origins in stored units; do all start at one point?
+  const auto scale = hn::Set(d, static_cast<float>(tree.scale));
+  auto farthest = hn::Zero(d);
+  auto valid = hn::Eq(scale, scale);
+  auto common = valid;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto one = hn::Set(d, block.origin[axis][0]);
+    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+      const auto world = hn::LoadU(d, block.origin[axis] + lane);
+      common = hn::And(common, hn::Eq(world, one));
+      const auto o = hn::Mul(world, scale);
+      valid = hn::And(valid, hn::Le(hn::Abs(o), hn::Set(d, static_cast<float>(kFarOrigin))));
+      farthest = hn::Max(farthest, hn::Abs(o));
+      hn::Store(o, d, out.origin[axis] + lane);
+    }
+  }
+  out.common_origin = hn::AllTrue(d, common);
+
+  // Directions of length 1: as they are if they are so already.
+  const auto least = hn::Set(d, kLeastMajor);
+  const auto along = hn::Set(d, sign);
+  auto near_unit = valid;
+  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+    const auto dx = hn::LoadU(d, block.direction[0] + lane);
+    const auto dy = hn::LoadU(d, block.direction[1] + lane);
+    const auto dz = hn::LoadU(d, block.direction[2] + lane);
+    const auto beyond = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::MulAdd(dz, dz, hn::Set(d, -1.0F))));
+    near_unit = hn::And(near_unit, hn::Le(hn::Abs(beyond), hn::Set(d, 3 * kUnit)));
+    hn::Store(dx, d, out.direction[0] + lane);
+    hn::Store(dy, d, out.direction[1] + lane);
+    hn::Store(dz, d, out.direction[2] + lane);
+  }
+  const bool unit = hn::AllTrue(d, near_unit);
+  const double stored = tree.scale;
+  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+    auto length = hn::Set(d, 1.0F);
+    auto main = hn::Load(d, out.direction[major] + lane);
+    if (!unit) {
+      const auto dx = hn::Load(d, out.direction[0] + lane);
+      const auto dy = hn::Load(d, out.direction[1] + lane);
+      const auto dz = hn::Load(d, out.direction[2] + lane);
+      const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+      valid = hn::And(valid, hn::And(hn::Ge(squared, hn::Set(d, 1e-20F)), hn::Le(squared, hn::Set(d, 1e20F))));
+      length = hn::Sqrt(squared);
+      const auto inverse = hn::Div(hn::Set(d, 1.0F), length);
+      main = hn::Mul(main, inverse);
+      hn::Store(hn::Mul(dx, inverse), d, out.direction[0] + lane);
+      hn::Store(hn::Mul(dy, inverse), d, out.direction[1] + lane);
+      hn::Store(hn::Mul(dz, inverse), d, out.direction[2] + lane);
+    }
+    valid = hn::And(valid, hn::Ge(hn::Mul(main, along), least));
+
+    // The segment's end, from both sides.
+    const auto no_end = hn::Set(d, kFarthestEnd);
+    if (block.t_max == nullptr) {
+      hn::Store(no_end, d, out.s_sure + lane);
+      hn::Store(no_end, d, out.s_best + lane);
+      continue;
+    }
+    using Wide = hn::CappedTag<double, 16>;
+    using Half = hn::Rebind<float, Wide>;
+    const Wide w;
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
+    alignas(64) float lengths[kFloatLanes];
+    hn::Store(length, d, lengths);
+    for (int part = 0; part < kFloatLanes; part += kLanes) {
+      const auto t_max = hn::LoadU(w, block.t_max + lane + part);
+      const auto ends_late = hn::Ge(t_max, hn::Zero(w));  // false for NaN
+      const auto s = hn::Mul(hn::Mul(t_max, hn::Set(w, stored)), hn::PromoteTo(w, hn::Load(Half(), lengths + part)));
+      const auto end = hn::IfThenElse(ends_late, hn::Min(s, hn::Set(w, double(kFarthestEnd))), hn::Set(w, -1.0));
+      hn::Store(hn::DemoteTo(Half(), end), Half(), out.s_best + lane + part);
+    }
+    const auto end = hn::Load(d, out.s_best + lane);
+    valid = hn::And(valid, hn::Ge(end, hn::Zero(d)));
+    hn::Store(hn::Mul(end, hn::Set(d, 1 - 0x1p-20F)), d, out.s_sure + lane);
+    hn::Store(hn::Mul(end, hn::Set(d, 1 + 0x1p-20F)), d, out.s_best + lane);
+  }
+  if (HWY_UNLIKELY(!hn::AllTrue(d, valid))) return false;
+
+  const BeamBounds bounds(hn::GetLane(hn::MaxOfLanes(d, farthest)));
+  out.e = bounds.e;
+  out.pad = bounds.pad;
+  if (block.leaves != nullptr) {
+    for (int i = 0; i < kBeamRays; ++i) {
+      const std::int64_t id = block.leaves[i];
+      out.leaves[i] = id >= 0 && id < tree.size ? static_cast<std::uint32_t>(id) : kNoWinner;
+    }
+  }
+  return true;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_WIDE_TRACE_BEAM_RAYS_INL_H_

@@ -1,0 +1,144 @@
+// The scalar truth of geometry/sphere.h on vectors of binary64: the same operations in the same order, several pairs of
+// a ray and a sphere at a time. Never with fused multiply-add.
+
+#if defined(BIHIVE_WIDE_TRACE_EXACT_DECISION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_WIDE_TRACE_EXACT_DECISION_INL_H_
+#undef BIHIVE_WIDE_TRACE_EXACT_DECISION_INL_H_
+#else
+#define BIHIVE_WIDE_TRACE_EXACT_DECISION_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <limits>
+
+#include "bihive/simd/wasm_float64-inl.h"
+#include "bihive/wide/ray_batch.h"
+#include "bihive/wide/tree/left_sphere.h"
+#include "bihive/wide/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kExactPairs = 8;
+
+/// A ray's number in its span, and a sphere's slot.
+struct Pair {
+  std::uint32_t ray;
+  std::uint32_t slot;
+};
+
+namespace exact {
+
+/// Up to eight pairs, gathered. Unused entries must be finite.
+struct alignas(64) Gathered {
+  double origin[3][kExactPairs] = {};
+  double direction[3][kExactPairs] = {};
+  double centre[3][kExactPairs] = {};
+  double radius[kExactPairs] = {};
+  double t_min[kExactPairs] = {};
+  double t_max[kExactPairs] = {};
+  double own[kExactPairs] = {};     // 1: the ray leaves this sphere
+  double inside[kExactPairs] = {};  // 1: into it
+};
+
+HWY_INLINE void gather(const WideTree& tree, const RaySpan& rays, const Pair& pair, int k, Gathered& to) {
+  const std::int64_t i = pair.ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    to.origin[axis][k] = double(rays.origin[axis][i]) * tree.scale;
+    to.direction[axis][k] = double(rays.direction[axis][i]) * tree.scale;
+  }
+  const Vec3d centre = tree.spheres.centre(pair.slot);
+  to.centre[0][k] = centre.x;
+  to.centre[1][k] = centre.y;
+  to.centre[2][k] = centre.z;
+  to.radius[k] = tree.spheres.radius(pair.slot);
+  to.t_min[k] = rays.t_min != nullptr ? rays.t_min[i] : 0;
+  to.t_max[k] = rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<double>::infinity();
+  to.own[k] = 0;
+  if (rays.leaves != nullptr && rays.leaves[i] >= 0)
+    to.own[k] = LeftSphere(tree, rays.leaves[i]).is(tree, pair.slot) ? 1 : 0;
+  to.inside[k] = rays.inside != nullptr && rays.inside[i] != 0 ? 1 : 0;
+}
+
+}  // namespace exact
+
+/// Lanes of rays and spheres in binary64.
+template <class D>
+struct ExactLanes {
+  hn::Vec<D> origin[3], direction[3], centre[3], radius, t_min, t_max;
+  hn::Mask<D> own, inside;  // the ray leaves this sphere; into it
+};
+
+/// sphere_hit() lane by lane: t, or +inf.
+template <class D>
+HWY_INLINE hn::Vec<D> sphere_hit_lanes(D d, const ExactLanes<D>& lanes) {
+  const auto dot3 = [](auto ax, auto ay, auto az, auto bx, auto by, auto bz)
+                        HWY_ATTR { return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz)); };
+  const auto dx = lanes.direction[0];
+  const auto dy = lanes.direction[1];
+  const auto dz = lanes.direction[2];
+  const auto direction_squared = dot3(dx, dy, dz, dx, dy, dz);
+
+  // Find the point of the line that is closest to the centre, and the vector from it to the centre.
+  const auto cx = hn::Sub(lanes.centre[0], lanes.origin[0]);
+  const auto cy = hn::Sub(lanes.centre[1], lanes.origin[1]);
+  const auto cz = hn::Sub(lanes.centre[2], lanes.origin[2]);
+  const auto t_closest = hn::Div(dot3(cx, cy, cz, dx, dy, dz), direction_squared);
+  const auto px = hn::Sub(cx, hn::Mul(t_closest, dx));
+  const auto py = hn::Sub(cy, hn::Mul(t_closest, dy));
+  const auto pz = hn::Sub(cz, hn::Mul(t_closest, dz));
+
+  // Pythagoras gives half of the chord.
+  const auto r = lanes.radius;
+  const auto discriminant = hn::Sub(hn::Mul(r, r), dot3(px, py, pz, px, py, pz));
+  const auto meets = hn::And(hn::Ge(discriminant, hn::Zero(d)), hn::Gt(r, hn::Zero(d)));
+  const auto half_chord = hn::Sqrt(hn::Div(discriminant, direction_squared));
+  const auto t_near = hn::Sub(t_closest, half_chord);
+  const auto t_far = hn::Add(t_closest, half_chord);
+
+  // The nearer root in the segment, else the farther; of the sphere that the ray leaves the farther or none.
+  const auto take_near =
+      hn::And(hn::AndNot(lanes.own, meets), hn::And(hn::Ge(t_near, lanes.t_min), hn::Le(t_near, lanes.t_max)));
+  const auto take_far = hn::And(hn::AndNot(hn::AndNot(lanes.inside, lanes.own), meets),
+                                hn::And(hn::Ge(t_far, lanes.t_min), hn::Le(t_far, lanes.t_max)));
+  const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
+  return hn::IfThenElse(take_near, t_near, hn::IfThenElse(take_far, t_far, infinity));
+}
+
+/// sphere_hit() of up to eight pairs of valid rays and spheres: t or +inf to `t`.
+HWY_INLINE void exact_hits(const WideTree& tree, const RaySpan& rays, const Pair* pairs, int count,
+                           double t[kExactPairs]) {
+  exact::Gathered g;
+  for (int k = 0; k < count; ++k) exact::gather(tree, rays, pairs[k], k, g);
+  for (int k = count; k < kExactPairs; ++k) g.direction[0][k] = 1;
+
+  using Tag = hn::CappedTag<double, kExactPairs>;
+  const Tag d;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+  const auto half = hn::Set(d, 0.5);
+  for (int k = 0; k < count; k += kLanes) {
+    ExactLanes<Tag> lanes;
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes.origin[axis] = hn::Load(d, g.origin[axis] + k);
+      lanes.direction[axis] = hn::Load(d, g.direction[axis] + k);
+      lanes.centre[axis] = hn::Load(d, g.centre[axis] + k);
+    }
+    lanes.radius = hn::Load(d, g.radius + k);
+    lanes.t_min = hn::Load(d, g.t_min + k);
+    lanes.t_max = hn::Load(d, g.t_max + k);
+    lanes.own = hn::Gt(hn::Load(d, g.own + k), half);
+    lanes.inside = hn::Gt(hn::Load(d, g.inside + k), half);
+    hn::StoreU(sphere_hit_lanes(d, lanes), d, t + k);
+  }
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_WIDE_TRACE_EXACT_DECISION_INL_H_

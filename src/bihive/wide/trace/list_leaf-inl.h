@@ -1,0 +1,271 @@
+// The first look at a leaf: which of its spheres may a list of rays hit? What passes waits in the queue of candidates.
+// One of three ways, by how many spheres a vector holds (what was measured: docs/performance_notes.md).
+
+#if defined(BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_
+#undef BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_
+#else
+#define BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "bihive/simd/lanes-inl.h"
+#include "bihive/wide/trace/filter_bounds.h"
+#include "bihive/wide/trace/list_tile.h"
+#include "bihive/wide/tree/radii-inl.h"
+#include "bihive/wide/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Rays to fetch before they are needed.
+constexpr std::uint32_t kAhead = 8;
+
+/// Up to sixteen spheres from `slot` on, and a list of rays of the tile.
+struct LeafAndRays {
+  const WideTree& tree;
+  kernels::ListTile& tile;
+  float e;  ///< FilterBounds
+  std::uint32_t slot, spheres;
+  const std::uint32_t* list;
+  std::uint32_t count;
+
+  HWY_INLINE const FilterRay& ray(std::uint32_t i) const { return tile.rays[list[i]]; }
+
+  /// Of the spheres from `lane` on: (r + e)^2, which nothing reaches past the leaf; ids; slots.
+  HWY_INLINE Floats padded_squares(std::uint32_t lane) const {
+    const FloatTag d;
+    const auto r = hn::Add(load_radii(tree.spheres, slot + lane), in_all(e));
+    return hn::IfThenElse(hn::FirstN(d, spheres - lane), hn::Mul(r, r), in_all(-1));
+  }
+  HWY_INLINE Words ids(std::uint32_t lane) const {
+    const WordTag words;
+    return hn::And(hn::LoadU(words, tree.spheres.word + slot + lane), hn::Set(words, tree.spheres.id_mask()));
+  }
+  HWY_INLINE Words slots(std::uint32_t lane) const { return iota_words(slot + lane); }
+};
+
+/// How a ray lies to spheres, in units of distance along it.
+struct Meeting {
+  Floats b, dp;
+};
+
+/// A ray in all lanes.
+struct LeafRay {
+  Floats nx, ny, nz, ox, oy, oz;
+  HWY_INLINE explicit LeafRay(const FilterRay& ray)
+      : nx(in_all(ray.direction[0])),
+        ny(in_all(ray.direction[1])),
+        nz(in_all(ray.direction[2])),
+        ox(in_all(ray.origin[0])),
+        oy(in_all(ray.origin[1])),
+        oz(in_all(ray.origin[2])) {}
+  HWY_INLINE Meeting meet(Floats x, Floats y, Floats z, Floats r_squared) const {
+    return met_at(hn::Sub(x, ox), hn::Sub(y, oy), hn::Sub(z, oz), r_squared);
+  }
+  /// The same numbers, where vectors are loaded as second operands only.
+  HWY_INLINE Meeting meet(const float* x, const float* y, const float* z, Floats r_squared) const {
+    const FloatTag d;
+    const Meeting met =
+        met_at(hn::Sub(ox, hn::LoadU(d, x)), hn::Sub(oy, hn::LoadU(d, y)), hn::Sub(oz, hn::LoadU(d, z)), r_squared);
+    return {hn::Neg(met.b), met.dp};
+  }
+
+ private:
+  HWY_INLINE Meeting met_at(Floats cx, Floats cy, Floats cz, Floats r_squared) const {
+    const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
+    const auto px = hn::NegMulAdd(b, nx, cx);
+    const auto py = hn::NegMulAdd(b, ny, cy);
+    const auto pz = hn::NegMulAdd(b, nz, cz);
+    return {b, hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)))};
+  }
+};
+
+/// Going outward a ray never meets the sphere that it leaves.
+HWY_INLINE FloatMask without_own(FloatMask passes, Words ids, std::uint32_t outward_id) {
+  return hn::AndNot(hn::RebindMask(FloatTag(), hn::Eq(ids, hn::Set(WordTag(), outward_id))), passes);
+}
+
+/// Puts the lanes that pass at the end of the queue; returns its new length. Without a branch: whether some of many
+/// spheres pass cannot be foreseen.
+HWY_INLINE int queue_candidates(kernels::CandidateQueue& queue, int queued, FloatMask passes, const Meeting& met,
+                                Floats r_squared, Words slots, std::uint32_t ray) {
+  const FloatTag d;
+  const WordTag words;
+  const int passing = static_cast<int>(hn::CountTrue(d, passes));
+  const auto b = compress(met.b, passes);
+  const auto dp = compress(met.dp, passes);
+  const auto some_r_squared = compress(r_squared, passes);
+  const auto some_slots = compress(slots, hn::RebindMask(words, passes));
+  const auto rays = hn::Set(words, ray);
+  // More than four seldom pass, and short stores are quicker.
+  if (HWY_LIKELY(passing <= 4)) {
+    store_four(b, queue.b + queued);
+    store_four(dp, queue.dp + queued);
+    store_four(some_r_squared, queue.r_squared + queued);
+    store_four(some_slots, queue.slot + queued);
+    store_four(rays, queue.ray + queued);
+  } else {
+    hn::StoreU(b, d, queue.b + queued);
+    hn::StoreU(dp, d, queue.dp + queued);
+    hn::StoreU(some_r_squared, d, queue.r_squared + queued);
+    hn::StoreU(some_slots, words, queue.slot + queued);
+    hn::StoreU(rays, words, queue.ray + queued);
+  }
+  return queued + passing;
+}
+
+/// Calls look(i, queued) for each ray of the list, which returns the new length of the queue; finish() empties a queue
+/// that is full.
+template <class Look, class Finish>
+HWY_INLINE void for_each_ray(const LeafAndRays& leaf, const Finish& finish, const Look& look) {
+  kernels::CandidateQueue& queue = leaf.tile.queue;
+  int queued = queue.count;
+  for (std::uint32_t i = 0; i < leaf.count; ++i) {
+    __builtin_prefetch(&leaf.ray(std::min(i + kAhead, leaf.count - 1)));
+    queued = look(i, queued);
+    if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
+      queue.count = queued;
+      finish();
+      queued = 0;
+    }
+  }
+  queue.count = queued;
+}
+
+/// All the spheres in one vector, which stays in registers while the rays come.
+template <bool kLeaves, class Finish>
+HWY_INLINE void look_at_one_vector(const LeafAndRays& leaf, const Finish& finish) {
+  const FloatTag d;
+  const auto x = hn::LoadU(d, leaf.tree.spheres.x + leaf.slot);
+  const auto y = hn::LoadU(d, leaf.tree.spheres.y + leaf.slot);
+  const auto z = hn::LoadU(d, leaf.tree.spheres.z + leaf.slot);
+  const auto r_squared = leaf.padded_squares(0);
+  const auto slots = leaf.slots(0);
+  const auto ids = leaf.ids(0);
+  for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
+    const Meeting met = LeafRay(leaf.ray(i)).meet(x, y, z, r_squared);
+    auto passes = hn::Ge(met.dp, hn::Zero(d));
+    if constexpr (kLeaves) passes = without_own(passes, ids, leaf.ray(i).outward_id);
+    return queue_candidates(leaf.tile.queue, queued, passes, met, r_squared, slots, leaf.list[i]);
+  });
+}
+
+/// What the ways below keep of a leaf: loads of these cost less than to spread each ray over the lanes once more.
+struct alignas(64) LeafInMemory {
+  const float *x, *y, *z;
+  alignas(64) float r_squared[kWidth];
+  alignas(64) std::uint32_t ids[kWidth], slots[kWidth];
+
+  HWY_INLINE explicit LeafInMemory(const LeafAndRays& leaf)
+      : x(leaf.tree.spheres.x + leaf.slot), y(leaf.tree.spheres.y + leaf.slot), z(leaf.tree.spheres.z + leaf.slot) {
+    for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
+      hn::Store(leaf.padded_squares(lane), FloatTag(), r_squared + lane);
+      hn::Store(leaf.ids(lane), WordTag(), ids + lane);
+      hn::Store(leaf.slots(lane), WordTag(), slots + lane);
+    }
+  }
+
+  /// How a ray lies to the spheres from `lane` on, and which of them it may hit.
+  template <bool kLeaves>
+  HWY_INLINE Meeting meet(const LeafRay& ray, std::uint32_t outward_id, std::uint32_t lane, FloatMask& passes) const {
+    const FloatTag d;
+    const Meeting met = ray.meet(x + lane, y + lane, z + lane, hn::Load(d, r_squared + lane));
+    passes = hn::Ge(met.dp, hn::Zero(d));
+    if constexpr (kLeaves) passes = without_own(passes, hn::Load(WordTag(), ids + lane), outward_id);
+    return met;
+  }
+};
+
+/// Ray after ray against one vector of spheres, or two.
+template <bool kLeaves, std::uint32_t kVectors, class Finish>
+HWY_INLINE void look_at_few_vectors(const LeafAndRays& leaf, const Finish& finish) {
+  const LeafInMemory memory(leaf);
+  for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
+    const LeafRay ray(leaf.ray(i));
+    for (std::uint32_t lane = 0; lane < kVectors * kFloatLanes; lane += kFloatLanes) {
+      FloatMask passes;
+      const Meeting met = memory.meet<kLeaves>(ray, leaf.ray(i).outward_id, lane, passes);
+      queued = queue_candidates(leaf.tile.queue, queued, passes, met, hn::Load(FloatTag(), memory.r_squared + lane),
+                                hn::Load(WordTag(), memory.slots + lane), leaf.list[i]);
+    }
+    return queued;
+  });
+}
+
+/// Ray after ray against several short vectors of spheres, whose candidates are picked one by one.
+template <bool kLeaves, class Finish>
+HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& finish) {
+  const LeafInMemory memory(leaf);
+  kernels::CandidateQueue& queue = leaf.tile.queue;
+  alignas(64) float b[kWidth];
+  alignas(64) float dp[kWidth];
+  for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
+    const LeafRay ray(leaf.ray(i));
+    std::uint32_t bits = 0;
+    for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
+      FloatMask passes;
+      const Meeting met = memory.meet<kLeaves>(ray, leaf.ray(i).outward_id, lane, passes);
+      bits |= mask_bits(passes) << lane;
+      hn::Store(met.b, FloatTag(), b + lane);
+      hn::Store(met.dp, FloatTag(), dp + lane);
+    }
+    for (; bits != 0; bits &= bits - 1) {
+      const int k = __builtin_ctz(bits);
+      queue.b[queued] = b[k];
+      queue.dp[queued] = dp[k];
+      queue.r_squared[queued] = memory.r_squared[k];
+      queue.slot[queued] = memory.slots[k];
+      queue.ray[queued] = leaf.list[i];
+      ++queued;
+    }
+    return queued;
+  });
+}
+
+/// One ray. The queue must have room for sixteen more.
+template <bool kLeaves>
+HWY_INLINE void look_at_pair(const LeafAndRays& leaf) {
+  const FloatTag d;
+  const WideSpheres& spheres = leaf.tree.spheres;
+  const LeafRay ray(leaf.ray(0));
+  kernels::CandidateQueue& queue = leaf.tile.queue;
+  int queued = queue.count;
+  for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
+    const std::uint32_t slot = leaf.slot + lane;
+    const auto r_squared = leaf.padded_squares(lane);
+    const Meeting met = ray.meet(spheres.x + slot, spheres.y + slot, spheres.z + slot, r_squared);
+    auto passes = hn::Ge(met.dp, hn::Zero(d));
+    if constexpr (kLeaves) passes = without_own(passes, leaf.ids(lane), leaf.ray(0).outward_id);
+    queued = queue_candidates(queue, queued, passes, met, r_squared, leaf.slots(lane), leaf.list[0]);
+  }
+  queue.count = queued;
+}
+
+/// The rays against the spheres; finish() empties the queue of the tile. With kLeaves some ray may leave a sphere.
+template <bool kLeaves, class Finish>
+HWY_INLINE void look_at_leaf(const LeafAndRays& leaf, const Finish& finish) {
+  if constexpr (kFloatLanes == kWidth) {
+    look_at_one_vector<kLeaves>(leaf, finish);
+  } else if constexpr (2 * kFloatLanes == kWidth) {
+    if (leaf.spheres <= kFloatLanes)
+      look_at_few_vectors<kLeaves, 1>(leaf, finish);
+    else
+      look_at_few_vectors<kLeaves, 2>(leaf, finish);
+  } else {
+    look_at_short_vectors<kLeaves>(leaf, finish);
+  }
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_

@@ -1,0 +1,72 @@
+#include "bihive/wide/trace/lists.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bihive/wide/trace/lists.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "bihive/simd/dispatch.h"
+#include "bihive/wide/trace/list_tile.h"
+#include "bihive/wide/trace/list_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+
+void walk_closest(const WideTree& tree, const RaySpan& rays, ListTile& tile, const HitSpan& hits) {
+  ListWalk<false>(tree, rays, tile, hits, nullptr).run();
+}
+
+void walk_occluded(const WideTree& tree, const RaySpan& rays, ListTile& tile, std::uint8_t* hidden) {
+  ListWalk<true>(tree, rays, tile, HitSpan{}, hidden).run();
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bihive {
+HWY_EXPORT(walk_closest);
+HWY_EXPORT(walk_occluded);
+
+namespace kernels {
+namespace {
+
+ListTile& tile_of_this_thread() {
+  thread_local const std::unique_ptr<ListTile> tile(new ListTile);
+  return *tile;  // NOLINT(clang-analyzer-cplusplus.NewDelete): it takes the tile for freed at once
+}
+
+// Calls body(first, count) for one tile after the other.
+template <class Body>
+void for_each_tile(std::int64_t rays, const Body& body) {
+  for (std::int64_t first = 0; first < rays; first += kTileRays)
+    body(first, std::min<std::int64_t>(kTileRays, rays - first));
+}
+
+}  // namespace
+
+void closest_hits_lists(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
+  ensure_target();
+  ListTile& tile = tile_of_this_thread();
+  for_each_tile(rays.count, [&](std::int64_t first, std::int64_t count) {
+    HWY_DYNAMIC_DISPATCH(walk_closest)(tree, rays.part(first, count), tile, hits.part(first));
+  });
+}
+
+void occluded_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+  ensure_target();
+  ListTile& tile = tile_of_this_thread();
+  for_each_tile(rays.count, [&](std::int64_t first, std::int64_t count) {
+    HWY_DYNAMIC_DISPATCH(walk_occluded)(tree, rays.part(first, count), tile, hidden + first);
+  });
+}
+
+}  // namespace kernels
+}  // namespace bihive
+#endif

@@ -1,0 +1,58 @@
+// The wide tree walked in binary64, one ray and one box at a time: for rays that binary32 cannot hold, such as those
+// that start more than 2^20 times the scene's extent away.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "bihive/bih/traversal.h"
+#include "bihive/geometry/hit.h"
+#include "bihive/geometry/scaled_ray.h"
+#include "bihive/geometry/sphere.h"
+#include "bihive/math/interval.h"
+#include "bihive/wide/tree/left_sphere.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+/// The same answer as traverse() in bih/traversal.h. `ray` is valid and in the tree's stored units, without its left
+/// sphere, which `left` stands for.
+template <bool kAnyHit>
+Hit traverse_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left) {
+  Hit best;
+  if (tree.node_count == 0) return best;
+  const Slabs slabs(ray);
+  std::vector<std::int64_t> waiting{0};
+  while (!waiting.empty()) {
+    const WideNode& node = tree.nodes[waiting.back()];
+    waiting.pop_back();
+    for (int slot = 0; slot < node.child_count; ++slot) {
+      // Skip a child that the ray misses, or enters beyond the best hit.
+      Interval part{ray.t_min, std::min(ray.t_max, best.t)};
+      for (int axis = 0; axis < 3; ++axis) {
+        part = slabs.above(part, axis, double(node.lo[axis][slot]));
+        part = slabs.below(part, axis, double(node.hi[axis][slot]));
+      }
+      if (part.empty()) continue;
+      if (!node.is_leaf(slot)) {
+        waiting.push_back(node.child_node(slot));
+        continue;
+      }
+      const std::int64_t begin = node.sphere_begin(slot);
+      for (std::int64_t i = begin; i < begin + node.sphere_count(slot); ++i) {
+        const Vec3d centre = tree.spheres.centre(i);
+        const double radius = tree.spheres.radius(i);
+        ray.left_centre = centre;
+        ray.left_radius = left.is(tree, i) ? radius : -1;
+        best.keep_nearer(sphere_hit(ray, centre, radius), tree.spheres.id(i));
+        if (kAnyHit && best.found()) return best;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace bihive

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cstdint>
+
+#include "bihive/wide/build/binary_tree.h"
+#include "bihive/wide/wide_builder.h"
+
+namespace bihive {
+namespace {
+
+// Nodes a full leaf on the most scattered sets measured (packed sets need 1 / 15), and where leaves are so small that
+// nodes are most of the tree.
+double scattered_nodes(std::int64_t full_leaf) {
+  return full_leaf < 4 ? 0.35 : 0.16;
+}
+
+// Where distances fall exponentially, leaves can be as small as one sphere or two, and nodes mostly empty.
+constexpr double kSmallestLeaf = 1.5;
+double emptiest_node(std::int64_t full_leaf) {
+  return full_leaf < 4 ? 3 : 6;
+}
+
+}  // namespace
+
+WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParameters& parameters) {
+  constexpr auto kTree = static_cast<std::int64_t>(sizeof(WideTree));
+  if (spheres <= 0) return {kTree, kTree, kTree};
+  constexpr auto kNode = static_cast<std::int64_t>(sizeof(WideNode));
+  std::int64_t full_leaf = parameters.max_prims > 0 ? parameters.max_prims : kWidth;
+  if (parameters.max_depth == 1) full_leaf = spheres;
+  const std::int64_t leaves = (spheres + full_leaf - 1) / full_leaf;
+  const std::int64_t padded = spheres + kWidth;
+
+  // Levels bound the nodes too: the last ones have larger leaves.
+  double most_nodes = double(leaves) * scattered_nodes(full_leaf) + 2;
+  const double peak_leaves = double(spheres) / std::min(kSmallestLeaf, double(full_leaf));
+  double peak_nodes = peak_leaves / emptiest_node(full_leaf) + 2;
+  std::int64_t low_nodes = std::max<std::int64_t>(1, (leaves - 1 + kWidth - 2) / (kWidth - 1));
+  if (parameters.max_depth > 0) {
+    double on_level = 1, in_all = 0;
+    for (std::int64_t level = 1; level < std::max<std::int64_t>(2, parameters.max_depth) && in_all < 1e10; ++level) {
+      in_all += on_level;
+      on_level *= kWidth;
+    }
+    most_nodes = std::min(most_nodes, in_all);
+    peak_nodes = std::min(peak_nodes, in_all);
+    low_nodes = 1;
+  }
+
+  WideMemoryPrediction prediction;
+  prediction.low_bytes = kTree + 16 * padded + low_nodes * kNode;
+  prediction.high_bytes = kTree + 20 * padded + static_cast<std::int64_t>(most_nodes) * kNode;
+
+  // While it is made: the spheres twice, their cells, every one repeated, splits and nodes in memory that doubles where
+  // it grows, and borders of huge pages.
+  constexpr double kSpheresTwice = 2 * 20 + 2, kRepeated = 2 * sizeof(RepeatedSphere);
+  const double nodes = peak_nodes * double(kNode);
+  prediction.peak_bytes = static_cast<std::int64_t>((kSpheresTwice + kRepeated) * double(padded) +
+                                                    2 * peak_leaves * double(sizeof(BinarySplit)) + 3 * nodes) +
+                          (std::int64_t{16} << 20);
+  return prediction;
+}
+
+}  // namespace bihive

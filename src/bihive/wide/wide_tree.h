@@ -1,0 +1,101 @@
+// The wide tree: a bounding interval hierarchy collapsed sixteen wide, with its spheres in leaf order.
+//
+// Everything that tracing needs is in here; the sphere set is not touched again. Everything is in the stored units of
+// the set (geometry/sphere_set.h): no bound lies beyond [-1, 1].
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "bihive/base/aligned_buffer.h"
+#include "bihive/math/aabb.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Children of a node, spheres of a full leaf, and the padding after the last sphere.
+constexpr int kWidth = 16;
+
+/// Wide levels at most. Past 48 splits the builder halves by count; what is left on the last level becomes leaves.
+constexpr int kMostLevels = 64;
+
+/// Up to sixteen children, which own neighbouring ranges of spheres: child i those from begin[i] to before begin[i +
+/// 1], counted from first_sphere. Inner children are neighbours too: the one at slot i is nodes[first_node + number of
+/// inner children before slot i].
+struct alignas(64) WideNode {
+  float lo[3][kWidth];  ///< boxes of the children, axis by axis; +inf in slots without a child
+  float hi[3][kWidth];  ///< -inf in slots without a child
+  std::uint32_t begin[kWidth + 1];
+  std::uint16_t leaf_mask;    ///< bit i: child i is a leaf
+  std::uint16_t child_count;  ///< 1 to 16: slots 0 to child_count - 1
+  /// The children from near to far, four bits a slot, for rays whose octant is 0 to 3. Octant: bit k is set where the
+  /// direction is negative along axis k. Octant 7 - o reads entry o backwards, from child_count - 1 down to 0.
+  std::uint64_t order[4];
+  std::int64_t first_node;
+  std::int64_t first_sphere;
+  std::int64_t unused;
+
+  bool is_leaf(int slot) const { return (leaf_mask >> slot & 1) != 0; }
+  std::int64_t child_node(int slot) const {
+    const unsigned inner_before = ~unsigned{leaf_mask} & ((1u << slot) - 1);
+    return first_node + __builtin_popcount(inner_before);
+  }
+  std::int64_t sphere_begin(int slot) const { return first_sphere + begin[slot]; }
+  std::int64_t sphere_count(int slot) const { return std::int64_t{begin[slot + 1]} - begin[slot]; }
+};
+static_assert(sizeof(WideNode) == 512);
+
+/// Spheres in leaf order, structure of arrays, each array padded by kWidth entries that are never hit (radius 0, far
+/// away). Two layouts: with a palette (at most 31 distinct radii above 0, fewer than 2^27 spheres) `word` is radius
+/// class << 27 | id and `r` is null: 16 bytes a sphere; otherwise `word` is the id and `r` holds the radius: 20 bytes.
+/// Class 31 is radius 0; without such radii palette_size is their number, else 32. The padding is of class 31 always.
+struct WideSpheres {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  const float* r = nullptr;
+  const std::uint32_t* word = nullptr;
+  bool has_palette = false;
+  int palette_size = 0;
+  alignas(64) std::array<float, 32> palette{};  ///< unused entries are 0
+
+  static constexpr int kIdBits = 27;
+  static constexpr std::uint32_t kIdMask = (1u << kIdBits) - 1;
+
+  std::uint32_t id_mask() const { return has_palette ? kIdMask : ~std::uint32_t{0}; }
+  std::int64_t id(std::int64_t slot) const { return word[slot] & id_mask(); }
+  Vec3d centre(std::int64_t slot) const { return {double(x[slot]), double(y[slot]), double(z[slot])}; }
+  double radius(std::int64_t slot) const { return double(has_palette ? palette[word[slot] >> kIdBits] : r[slot]); }
+};
+
+/// A sphere that has an equal: another of the same centre and radius.
+struct RepeatedSphere {
+  std::uint32_t id;
+  float x, y, z, r;
+};
+
+/// Immutable while anybody traces it: made by WideBuilder (wide/wide_builder.h) and handed out as
+/// std::shared_ptr<const WideTree>. An empty set has no nodes. Otherwise nodes[0] is the root, even of a single sphere.
+struct WideTree {
+  Aabb aabb;              ///< of all spheres
+  double scale = 1;       ///< stored = world * scale, a power of two
+  std::int64_t size = 0;  ///< spheres
+  std::int64_t node_count = 0;
+  const WideNode* nodes = nullptr;
+  WideSpheres spheres;
+  int levels = 0;  ///< of wide nodes from the root to the deepest, leaves not counted; 0 if empty
+  std::int64_t largest_leaf = 0;
+  std::vector<RepeatedSphere> repeated;  ///< ascending ids; empty unless spheres coincide
+
+  AlignedBuffer node_memory, sphere_memory;  ///< what the pointers above point into
+
+  /// Bytes in use: nodes, spheres with their padding, repeated spheres, and this structure. All that tracing touches.
+  std::int64_t used_bytes() const;
+  /// Bytes held, with what a rebuild keeps in reserve.
+  std::int64_t allocated_bytes() const;
+};
+
+}  // namespace bihive
