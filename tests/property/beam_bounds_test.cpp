@@ -138,7 +138,7 @@ double least_padding(const Pair& pair, const Kept& kept) {
   const auto kept_with = [&](float share) {
     rays.pad = share * pad;
     here::Frustum frustum;
-    return here::make_frustum<here::kBeamRays>(empty_tree(), rays, 0, frustum) && kept(frustum, rays);
+    return here::make_frustum<wide::kBeamRays>(empty_tree(), rays, 0, frustum) && kept(frustum, rays);
   };
   if (!kept_with(1)) return HUGE_VAL;
   float lo = -1, hi = 1;

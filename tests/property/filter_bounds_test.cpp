@@ -26,7 +26,7 @@ namespace {
 
 namespace here = HWY_NAMESPACE;
 using Pair = test::RayAndSphere;
-using LocalRay = here::SingleRay;
+using OneRay = here::SingleRay;
 using test::expect_used;
 using test::Real;
 using test::Truth;
@@ -41,7 +41,7 @@ struct Filtered {
   }
   // kChain: the squares are taken from (r + e)^2 one by one, as the ray lists do, not their sum.
   template <bool kFused, bool kChain>
-  static Filtered of(const LocalRay& ray, Vec3f centre, float radius) {
+  static Filtered of(const OneRay& ray, Vec3f centre, float radius) {
     const float* const o = ray.local.origin;
     const float* const n = ray.local.direction;
     const float c[3] = {centre.x - o[0], centre.y - o[1], centre.z - o[2]};
@@ -63,18 +63,18 @@ struct Filtered {
 };
 
 // Ready for the filter; false where the library does not use it.
-bool set_up(const Pair& pair, LocalRay& local) {
+bool set_up(const Pair& pair, OneRay& local) {
   const ScaledRay scaled(pair.ray, 1.0);
   const double farthest = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
   double length = 0, shift = 0;
-  return farthest <= kFarthestOrigin && here::set_up_single(scaled, local, length, shift);
+  return farthest <= kFarthestOrigin && here::set_up_single(pair.ray, 1.0, local, length, shift);
 }
 
 // The largest value of `used` over pairs that the filter sees.
 template <class Used>
 double most_used_of(const Used& used) {
   return test::most_used([&](const Pair& pair) {
-    LocalRay local;
+    OneRay local;
     return set_up(pair, local) ? double(used(pair, local, Truth(pair))) : -HUGE_VAL;
   });
 }
@@ -82,7 +82,7 @@ double most_used_of(const Used& used) {
 // All ways of rounding at once.
 template <class Used>
 double most_used_by_filter(const Used& used) {
-  return most_used_of([&](const Pair& pair, const LocalRay& local, const Truth& truth) {
+  return most_used_of([&](const Pair& pair, const OneRay& local, const Truth& truth) {
     return std::max({used(pair, local, truth, Filtered::of<true, false>(local, pair.centre, pair.radius)),
                      used(pair, local, truth, Filtered::of<false, false>(local, pair.centre, pair.radius)),
                      used(pair, local, truth, Filtered::of<true, true>(local, pair.centre, pair.radius)),
@@ -92,7 +92,7 @@ double most_used_by_filter(const Used& used) {
 
 TEST(FilterBounds, DistanceAlongTheRay) {
   expect_used("e against b",
-              most_used_by_filter([](const Pair&, const LocalRay& local, const Truth& truth, const Filtered& f) {
+              most_used_by_filter([](const Pair&, const OneRay& local, const Truth& truth, const Filtered& f) {
                 return double(std::abs(Real(f.b) - truth.b) / Real(local.e));
               }),
               0.15);
@@ -101,7 +101,7 @@ TEST(FilterBounds, DistanceAlongTheRay) {
 TEST(FilterBounds, DistanceFromTheRay) {
   // dp < 0 must be a certain miss: at the silhouette dp is too small by less than what e adds to r^2.
   expect_used("e against |p|",
-              most_used_by_filter([](const Pair& pair, const LocalRay& local, const Truth& truth, const Filtered& f) {
+              most_used_by_filter([](const Pair& pair, const OneRay& local, const Truth& truth, const Filtered& f) {
                 const Real r = Real(pair.radius), e = Real(local.e);
                 if (truth.p > r || truth.p < r - 2 * e) return -HUGE_VAL;
                 return double(((r + e) * (r + e) - truth.p * truth.p - Real(f.dp)) / (2 * r * e + e * e));
@@ -112,14 +112,14 @@ TEST(FilterBounds, DistanceFromTheRay) {
 TEST(FilterBounds, RootsLieBetweenTheirBounds) {
   // Both hold the error of b and that of the chord, which is smallest where the line meets the centre: 2 e at least.
   expect_used("lower bound of the near root",
-              most_used_by_filter([](const Pair&, const LocalRay& local, const Truth& truth, const Filtered& f) {
+              most_used_by_filter([](const Pair&, const OneRay& local, const Truth& truth, const Filtered& f) {
                 if (!truth.meets) return -HUGE_VAL;
                 if (f.dp < 0) return HUGE_VAL;
                 return double(1 - (truth.s_near - Real(f.lower)) / (2 * Real(local.e)));
               }),
               0.15);
   expect_used("upper bound of the far root",
-              most_used_by_filter([](const Pair&, const LocalRay& local, const Truth& truth, const Filtered& f) {
+              most_used_by_filter([](const Pair&, const OneRay& local, const Truth& truth, const Filtered& f) {
                 if (!truth.meets) return -HUGE_VAL;
                 if (f.dp < 0) return HUGE_VAL;
                 return double(1 - (Real(f.upper) - truth.s_far) / (2 * Real(local.e)));
@@ -129,7 +129,7 @@ TEST(FilterBounds, RootsLieBetweenTheirBounds) {
 
 TEST(FilterBounds, ASureRootLiesInItsInterval) {
   expect_used("W",
-              most_used_by_filter([](const Pair& pair, const LocalRay& local, const Truth& truth, const Filtered& f) {
+              most_used_by_filter([](const Pair& pair, const OneRay& local, const Truth& truth, const Filtered& f) {
                 const float reach = pair.radius + local.e;
                 if (!(f.dp >= 0.04F * reach * reach + 4 * local.e * reach)) return -HUGE_VAL;
                 if (!truth.meets) return HUGE_VAL;
@@ -141,7 +141,7 @@ TEST(FilterBounds, ASureRootLiesInItsInterval) {
 // How much of the padding of boxes is used where a ray enters a box, or leaves it, that its hit lies in. Lists move the
 // planes outward, single rays their offsets.
 template <bool kNear, bool kFused, bool kPlanesMoved>
-double box_padding_used(const Pair& pair, const LocalRay& local, const Truth& truth) {
+double box_padding_used(const Pair& pair, const OneRay& local, const Truth& truth) {
   const ScaledRay scaled(pair.ray, 1.0);
   const SphereRoots roots = sphere_roots(scaled, to_double(pair.centre), double(pair.radius));
   if (std::isnan(roots.t_near)) return -HUGE_VAL;
@@ -171,7 +171,7 @@ double box_padding_used(const Pair& pair, const LocalRay& local, const Truth& tr
 }
 
 TEST(FilterBounds, BoxesKeepTheirHits) {
-  const auto used = [](const Pair& pair, const LocalRay& local, const Truth& truth) {
+  const auto used = [](const Pair& pair, const OneRay& local, const Truth& truth) {
     const auto either_end = [&](auto fused, auto moved) {
       return std::max(box_padding_used<true, fused, moved>(pair, local, truth),
                       box_padding_used<false, fused, moved>(pair, local, truth));
@@ -193,7 +193,7 @@ TEST(FilterBounds, EndsOfTheSegment) {
     const double near = double((line.s_near + line.shift) / line.length);
     pair.ray.t_min = near * test::uniform(rng, 0.9, 1.1);
     pair.ray.t_max = pair.ray.t_min + std::abs(near) * test::log_uniform(rng, 1e-9, 10);
-    LocalRay local;
+    OneRay local;
     if (!set_up(pair, local)) continue;
     const Real start = Real(pair.ray.t_min) * line.length - line.shift;
     const Real end = Real(pair.ray.t_max) * line.length - line.shift;
@@ -228,9 +228,9 @@ TEST(FilterBounds, ManyRaysAreSetUpAsOne) {
     float farthest_origin = 0;
     for (int i = 0; i < 16; ++i) {
       const ScaledRay scaled(batch.span().at(i), 1.0);
-      LocalRay one;
+      OneRay one;
       double length = 0, shift = 0;
-      const bool alive = here::set_up_single(scaled, one, length, shift);
+      const bool alive = here::set_up_single(batch.span().at(i), 1.0, one, length, shift);
       const double size = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
       ASSERT_EQ((many.far >> i & 1) != 0, size > kFarthestOrigin) << test::text_of(batch.span().at(i));
       if ((many.dead >> i & 1) != 0) {

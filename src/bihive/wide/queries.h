@@ -5,14 +5,14 @@
 // to some 45 MiB, and 60 bytes for each of up to 1048576 scattered rays). An invalid ray (geometry/ray.h) hits nothing.
 // Hold the std::shared_ptr that the builder gave for as long as a call runs.
 //
-// Which to use: the form for many rays is more than twice as fast a ray. Give it as many rays at a time as there are;
+// The form for many rays takes less than half the time a ray. Give it as many rays at a time as there are;
 // fewer than some thousand leave the vectors idle, and more than 32768 are cut into tiles of this size inside.
 // Scattered rays, whose neighbours are nowhere near, are sorted first where that pays, up to 1048576 at a time: the
 // more in one call the better (docs/library.md).
 //
-// What is checked: nothing that the caller says of lengths. Each array of a span holds `count` entries or is null where
-// RaySpan says so, and the answers have room for `count`; count 0 is fine. std::bad_alloc where the thread gets no
-// memory to work in, nothing else is thrown.
+// Lengths are not checked. The caller sees to it that each array of a span holds `count` entries, or is null where
+// RaySpan allows it, and that the answers have room for `count`; count 0 is fine. std::bad_alloc is thrown where the
+// thread gets no memory to work in, and nothing else.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace bihive {
 
-/// What the caller knows of neighbouring rays. It changes the speed, never an answer.
+/// How neighbouring rays lie to each other, as far as the caller knows. It changes the speed, never an answer.
 /// blocks: each 64 neighbours, counted from the first, are close in origin and direction, as 8 x 8 pixels of a camera
 /// or their shadow rays are. any: nothing is known; mirrored, transmitted, random rays.
 enum class RayOrder { blocks, any };

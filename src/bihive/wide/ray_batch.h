@@ -1,4 +1,4 @@
-// Many rays and their hits as structures of arrays: what the kernels read and write.
+// Many rays and their hits as structures of arrays. The queries read and write these.
 #pragma once
 
 #include <cstddef>

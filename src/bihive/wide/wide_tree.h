@@ -19,7 +19,8 @@ namespace bihive {
 /// Children of a node, spheres of a full leaf, and the padding after the last sphere.
 constexpr int kWidth = 16;
 
-/// Wide levels at most. Past 48 splits the builder halves by count; what is left on the last level becomes leaves.
+/// Wide levels at most. Past 48 splits the builder halves by count; nodes that would come after the last level
+/// become leaves.
 constexpr int kMostLevels = 64;
 
 /// Up to sixteen children, which own neighbouring ranges of spheres: child i those from begin[i] to before begin[i +

@@ -6,21 +6,15 @@
 #include <new>
 
 #include "bihive/base/parallel.h"
+#include "bihive/wide/build/tuning.h"
 
 namespace bihive {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-// So many levels before the last allowed one, children are no longer chosen by cost but by count, so that levels
-// suffice on any set.
-constexpr int kLevelsByCost = 40;
-
-// Subtrees of at most this many spheres are one part.
-constexpr std::int64_t kPartSpheres = 65536;
-
 // The children of a wide node from left to right, and the splits between them: axis[i] is where the two sides that meet
-// between children i and i + 1 were parted, and depth[i] how many splits lie above that one.
+// between children i and i + 1 were split, and depth[i] how many splits lie above that one.
 struct Children {
   int count = 0;
   const BinaryNode* binary[kWidth];
@@ -29,8 +23,8 @@ struct Children {
   int depth[kWidth];
 };
 
-// A child is parted: its two sides take its slot and the next.
-void part_child(Children& children, int slot) {
+// Splits a child: its two sides take its slot and the next.
+void split_child(Children& children, int slot) {
   for (int i = children.count; i > slot + 1; --i) {
     children.binary[i] = children.binary[i - 1];
     children.depth_of_child[i] = children.depth_of_child[i - 1];
@@ -48,7 +42,7 @@ void part_child(Children& children, int slot) {
   ++children.count;
 }
 
-// Parts the child with most spheres, again and again.
+// Splits the child with most spheres, again and again.
 void choose_by_count(Children& children) {
   while (children.count < kWidth) {
     int best = -1;
@@ -56,7 +50,7 @@ void choose_by_count(Children& children) {
       if (!children.binary[i]->is_leaf() && (best < 0 || children.binary[i]->count > children.binary[best]->count))
         best = i;
     if (best < 0) return;
-    part_child(children, best);
+    split_child(children, best);
   }
 }
 
@@ -64,7 +58,7 @@ float cost_in_slots(const BinaryNode& node, int slots) {
   return node.is_leaf() ? 0 : node.split->cost[slots - 1];
 }
 
-// Parts the child at `slot` as its costs say (wide/build/slot_costs-inl.h), so that it takes at most `slots`; returns
+// Splits the child at `slot` as its costs say (wide/build/slot_costs-inl.h), so that it takes at most `slots`; returns
 // how many it takes.
 int choose_by_cost(Children& children, int slot, int slots, bool is_root) {
   const BinaryNode& node = *children.binary[slot];
@@ -81,7 +75,7 @@ int choose_by_cost(Children& children, int slot, int slots, bool is_root) {
     }
   }
   if (!is_root && best_cost >= node.split->cost[0]) return 1;
-  part_child(children, slot);
+  split_child(children, slot);
   const int taken = choose_by_cost(children, slot, best, false);
   return taken + choose_by_cost(children, slot + taken, slots - best, false);
 }
@@ -112,7 +106,7 @@ void fill_orders(const Children& children, WideNode& wide) {
 
 }  // namespace
 
-WideNode Collapse::make_node(const Job& job, Part& part, std::vector<Job>& jobs) const {
+WideNode Collapse::make_node(const Job& job, Subtree& subtree, std::vector<Job>& jobs) const {
   // Choose by cost, but where levels are few see to it that they suffice.
   const bool last_level = job.level >= parameters_.most_levels;
   Children children;
@@ -140,7 +134,7 @@ WideNode Collapse::make_node(const Job& job, Part& part, std::vector<Job>& jobs)
     begin += child.count;
     if (child.is_leaf() || last_level) {
       wide.leaf_mask = static_cast<std::uint16_t>(wide.leaf_mask | 1u << i);
-      part.largest_leaf = std::max(part.largest_leaf, std::int64_t{child.count});
+      subtree.largest_leaf = std::max(subtree.largest_leaf, std::int64_t{child.count});
     }
   }
   for (int i = children.count; i < kWidth; ++i) {
@@ -154,34 +148,34 @@ WideNode Collapse::make_node(const Job& job, Part& part, std::vector<Job>& jobs)
   fill_orders(children, wide);
 
   // Place the inner children side by side, and come to them from left to right.
-  part.levels = std::max(part.levels, job.level);
-  wide.first_node = static_cast<std::int64_t>(part.nodes.size());
+  subtree.levels = std::max(subtree.levels, job.level);
+  wide.first_node = static_cast<std::int64_t>(subtree.nodes.size());
   const int inner = children.count - __builtin_popcount(wide.leaf_mask);
-  part.nodes.resize(part.nodes.size() + static_cast<std::size_t>(inner));
+  subtree.nodes.resize(subtree.nodes.size() + static_cast<std::size_t>(inner));
   for (int i = children.count - 1; i >= 0; --i)
     if (!wide.is_leaf(i)) jobs.push_back({wide.child_node(i), children.binary[i], wide.sphere_begin(i), job.level + 1});
   return wide;
 }
 
-void Collapse::make_part(Part& part) const {
-  part.nodes.clear();
-  part.jobs.clear();
-  part.largest_leaf = 0;
-  part.levels = 0;
-  part.root_node = make_node(part.root, part, part.jobs);
-  while (!part.jobs.empty()) {
-    const Job job = part.jobs.back();
-    part.jobs.pop_back();
-    const WideNode node = make_node(job, part, part.jobs);
-    part.nodes[static_cast<std::size_t>(job.place)] = node;
+void Collapse::make_subtree(Subtree& subtree) const {
+  subtree.nodes.clear();
+  subtree.jobs.clear();
+  subtree.largest_leaf = 0;
+  subtree.levels = 0;
+  subtree.root_node = make_node(subtree.root, subtree, subtree.jobs);
+  while (!subtree.jobs.empty()) {
+    const Job job = subtree.jobs.back();
+    subtree.jobs.pop_back();
+    const WideNode node = make_node(job, subtree, subtree.jobs);
+    subtree.nodes[static_cast<std::size_t>(job.place)] = node;
   }
 }
 
 void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads) {
   parameters_ = parameters;
 
-  // Make the top here; every subtree that is small enough becomes a part.
-  part_count_ = 0;
+  // Make the top here; every subtree that is small enough becomes a subtree.
+  subtree_count_ = 0;
   top_.nodes.clear();
   top_.nodes.resize(1);
   top_.largest_leaf = 0;
@@ -190,21 +184,21 @@ void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters,
   while (!top_.jobs.empty()) {
     const Job job = top_.jobs.back();
     top_.jobs.pop_back();
-    if (job.binary->count <= kPartSpheres) {
-      if (part_count_ == parts_.size()) parts_.emplace_back();
-      parts_[part_count_++].root = job;
+    if (job.binary->count <= kSubtreeSpheres) {
+      if (subtree_count_ == subtrees_.size()) subtrees_.emplace_back();
+      subtrees_[subtree_count_++].root = job;
       continue;
     }
     const WideNode node = make_node(job, top_, top_.jobs);
     top_.nodes[static_cast<std::size_t>(job.place)] = node;
   }
-  parallel_for(threads, static_cast<std::int64_t>(part_count_), [this](std::int64_t i) {
-    Part& part = parts_[static_cast<std::size_t>(i)];
+  parallel_for(threads, static_cast<std::int64_t>(subtree_count_), [this](std::int64_t i) {
+    Subtree& subtree = subtrees_[static_cast<std::size_t>(i)];
     try {
-      part.out_of_memory = false;
-      make_part(part);
+      subtree.out_of_memory = false;
+      make_subtree(subtree);
     } catch (const std::bad_alloc&) {
-      part.out_of_memory = true;
+      subtree.out_of_memory = true;
     }
   });
 
@@ -212,35 +206,35 @@ void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters,
   node_count_ = static_cast<std::int64_t>(top_.nodes.size());
   largest_leaf_ = top_.largest_leaf;
   levels_ = top_.levels;
-  for (std::size_t i = 0; i < part_count_; ++i) {
-    Part& part = parts_[i];
-    if (part.out_of_memory) throw std::bad_alloc();
-    part.base = node_count_;
-    node_count_ += static_cast<std::int64_t>(part.nodes.size());
-    largest_leaf_ = std::max(largest_leaf_, part.largest_leaf);
-    levels_ = std::max(levels_, part.levels);
+  for (std::size_t i = 0; i < subtree_count_; ++i) {
+    Subtree& subtree = subtrees_[i];
+    if (subtree.out_of_memory) throw std::bad_alloc();
+    subtree.base = node_count_;
+    node_count_ += static_cast<std::int64_t>(subtree.nodes.size());
+    largest_leaf_ = std::max(largest_leaf_, subtree.largest_leaf);
+    levels_ = std::max(levels_, subtree.levels);
   }
 }
 
 void Collapse::copy_to(WideNode* to, int threads) const {
   std::memcpy(to, top_.nodes.data(), top_.nodes.size() * sizeof(WideNode));
-  parallel_for(threads, static_cast<std::int64_t>(part_count_), [this, to](std::int64_t i) {
-    const Part& part = parts_[static_cast<std::size_t>(i)];
-    WideNode& root = to[part.root.place];
-    root = part.root_node;
-    root.first_node += part.base;
-    for (std::size_t k = 0; k < part.nodes.size(); ++k) {
-      WideNode& node = to[part.base + static_cast<std::int64_t>(k)];
-      node = part.nodes[k];
-      node.first_node += part.base;
+  parallel_for(threads, static_cast<std::int64_t>(subtree_count_), [this, to](std::int64_t i) {
+    const Subtree& subtree = subtrees_[static_cast<std::size_t>(i)];
+    WideNode& root = to[subtree.root.place];
+    root = subtree.root_node;
+    root.first_node += subtree.base;
+    for (std::size_t k = 0; k < subtree.nodes.size(); ++k) {
+      WideNode& node = to[subtree.base + static_cast<std::int64_t>(k)];
+      node = subtree.nodes[k];
+      node.first_node += subtree.base;
     }
   });
 }
 
 std::int64_t Collapse::allocated_bytes() const {
-  std::size_t bytes = top_.nodes.capacity() * sizeof(WideNode) + parts_.capacity() * sizeof(Part);
-  for (const Part& part : parts_)
-    bytes += part.nodes.capacity() * sizeof(WideNode) + part.jobs.capacity() * sizeof(Job);
+  std::size_t bytes = top_.nodes.capacity() * sizeof(WideNode) + subtrees_.capacity() * sizeof(Subtree);
+  for (const Subtree& subtree : subtrees_)
+    bytes += subtree.nodes.capacity() * sizeof(WideNode) + subtree.jobs.capacity() * sizeof(Job);
   return static_cast<std::int64_t>(bytes);
 }
 

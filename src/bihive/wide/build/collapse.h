@@ -13,7 +13,7 @@ struct CollapseParameters {
   int most_levels = kMostLevels;  ///< wide nodes on a way from the root at most, >= 1; what is left becomes leaves
 };
 
-/// Makes the wide nodes of a binary tree, in parts that do not depend on the number of threads.
+/// Makes the wide nodes of a binary tree, in subtrees that do not depend on the number of threads.
 class Collapse {
  public:
   /// Throws std::bad_alloc.
@@ -29,15 +29,16 @@ class Collapse {
   std::int64_t allocated_bytes() const;
 
  private:
-  // A wide node to be made: its place among its part's, what it stands for, its first sphere, its level from 1.
+  // A wide node to be made: its place among the nodes of its subtree, the binary node that it stands for, its first
+  // sphere, its level from 1.
   struct Job {
     std::int64_t place;
     const BinaryNode* binary;
     std::int64_t first;
     int level;
   };
-  // Nodes that one task makes. Places in the part count from `base` in the tree.
-  struct Part {
+  // Nodes that one task makes. Their places count from `base` in the tree.
+  struct Subtree {
     Job root;  // its place is among the nodes of the top
     WideNode root_node;
     std::vector<WideNode> nodes;
@@ -48,13 +49,13 @@ class Collapse {
     bool out_of_memory = false;
   };
 
-  void make_part(Part& part) const;
-  WideNode make_node(const Job& job, Part& part, std::vector<Job>& jobs) const;
+  void make_subtree(Subtree& subtree) const;
+  WideNode make_node(const Job& job, Subtree& subtree, std::vector<Job>& jobs) const;
 
   CollapseParameters parameters_;
-  Part top_;
-  std::vector<Part> parts_;
-  std::size_t part_count_ = 0;
+  Subtree top_;
+  std::vector<Subtree> subtrees_;
+  std::size_t subtree_count_ = 0;
   std::int64_t node_count_ = 0, largest_leaf_ = 0;
   int levels_ = 0;
 };

@@ -1,7 +1,7 @@
 // Which neighbours of the binary tree should become one wide node: the costs behind that choice, from the leaves up.
 //
 // Let F(v, k) be the least surface of wide nodes that the subtree v needs when it may take k slots of the wide node
-// above it. A leaf needs none. Any other takes one slot as a wide node itself, or is parted, and its sides share the
+// above it. A leaf needs none. Any other takes one slot as a wide node itself, or is split, and its sides share the
 // slots:
 //   S(v, k) = min over i of F(left, i) + F(right, k - i)
 //   N(v)    = area(v) + S(v, 16)
@@ -40,19 +40,19 @@ HWY_INLINE void close_node(BinaryNode& node) {
     hn::Store(right.is_leaf() ? hn::Zero(d) : hn::LoadU(d, right.split->cost + lane), d, shifted + kWidth + lane);
   }
   Floats sums[kWidth / kFloatLanes];
-  for (int part = 0; part < kWidth / kFloatLanes; ++part) {
-    const float* const behind = shifted + kWidth + part * kFloatLanes;
-    sums[part] = hn::LoadU(d, behind - 1);
+  for (int v = 0; v < kWidth / kFloatLanes; ++v) {
+    const float* const behind = shifted + kWidth + v * kFloatLanes;
+    sums[v] = hn::LoadU(d, behind - 1);
     if (left.is_leaf()) continue;
-    sums[part] = hn::Add(sums[part], hn::Set(d, left.split->cost[0]));
+    sums[v] = hn::Add(sums[v], hn::Set(d, left.split->cost[0]));
     for (int i = 2; i < kWidth; ++i)
-      sums[part] = hn::Min(sums[part], hn::Add(hn::LoadU(d, behind - i), hn::Set(d, left.split->cost[i - 1])));
+      sums[v] = hn::Min(sums[v], hn::Add(hn::LoadU(d, behind - i), hn::Set(d, left.split->cost[i - 1])));
   }
   HWY_ALIGN float sum[kWidth];
-  for (int part = 0; part < kWidth / kFloatLanes; ++part) hn::Store(sums[part], d, sum + part * kFloatLanes);
+  for (int v = 0; v < kWidth / kFloatLanes; ++v) hn::Store(sums[v], d, sum + v * kFloatLanes);
   const Floats as_node = hn::Set(d, half_area(node.box) + sum[kWidth - 1]);
-  for (int part = 0; part < kWidth / kFloatLanes; ++part)
-    hn::StoreU(hn::Min(as_node, sums[part]), d, node.split->cost + part * kFloatLanes);
+  for (int v = 0; v < kWidth / kFloatLanes; ++v)
+    hn::StoreU(hn::Min(as_node, sums[v]), d, node.split->cost + v * kFloatLanes);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -20,23 +20,12 @@
 #include "bihive/wide/build/slot_costs-inl.h"
 #include "bihive/wide/build/split.h"
 #include "bihive/wide/build/split_plane-inl.h"
+#include "bihive/wide/build/tuning.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// From this depth on ranges are halved by count: a guard against hostile sets.
-constexpr int kDeepestMidpoint = 48;
-
-// Ranges up to this size choose between the midpoint and a plane that leaves full leaves.
-constexpr std::int64_t kChoosingSpheres = 4096;
-
-// The midpoint must be this much better than full leaves, which save memory: more so in the ranges of up to two nodes'
-// spheres that decide how full the lowest nodes are. Chosen so that molecules stay below 19 bytes a sphere.
-constexpr std::int64_t kLowestSpheres = 512;
-constexpr float kLowestBias = 0.87F;
-constexpr float kMidpointBias = 0.95F;
 
 /// Half of the spheres, in whole subtrees of full leaves.
 HWY_INLINE std::int64_t half_in_full_leaves(std::int64_t count, std::int64_t full_leaf) {
@@ -63,7 +52,7 @@ class Splitter {
     SplitRange left = range, right = range;
     left.depth = right.depth = range.depth + 1;
     if (side[axis] > 0) {
-      part(range, axis, left, right);
+      split_at_plane(range, axis, left, right);
     } else {
       left.coincident = right.coincident = true;
       if (!range.coincident) note_repeated(range);
@@ -115,8 +104,8 @@ class Splitter {
     return area(left) * static_cast<float>(left_leaves) + area(right) * static_cast<float>(right_leaves);
   }
 
-  // Parts the spheres at a plane; says what is left and right of it.
-  void part(const SplitRange& range, int axis, SplitRange& left, SplitRange& right) {
+  // Sorts the spheres to the two sides of a plane, and sets the ranges on both sides.
+  void split_at_plane(const SplitRange& range, int axis, SplitRange& left, SplitRange& right) {
     const SphereArrays& from = arrays(range.in_final);
     const std::int64_t full = context_.full_leaf;
     const std::int64_t wanted = half_in_full_leaves(range.count, full);
@@ -124,7 +113,7 @@ class Splitter {
       return plane_by_count(from, range.first, range.count, wanted, axis, range.centres);
     };
     bool boxes_known = false;
-    Plane plane;
+    SplitPlane plane;
     if (range.depth < kDeepestMidpoint) {
       // Halve the box. Where no number is between its sides, hi itself parts the spheres.
       const float lo = range.centres.lo[axis], hi = range.centres.hi[axis];
@@ -136,7 +125,7 @@ class Splitter {
       const bool two_leaves = plane.below <= full && above <= full;
       if (range.count <= kChoosingSpheres && plane.below != wanted && !two_leaves) {
         // Compare with full leaves.
-        const Plane other = by_count();
+        const SplitPlane other = by_count();
         Aabb other_left, other_right;
         split_boxes(from, range.first, range.count, plane, left.centres, right.centres);
         split_boxes(from, range.first, range.count, other, other_left, other_right);

@@ -101,7 +101,7 @@ CellGrid::CellGrid(const Aabb& centres) {
     }
 }
 
-namespace kernels {
+namespace wide {
 
 InputSummary summarize(const SphereSet& spheres, std::int64_t begin, std::int64_t end) {
   return HWY_DYNAMIC_DISPATCH(summarize_on_target)(spheres, begin, end);
@@ -134,6 +134,6 @@ void close_tops(BinaryNode& root) {
   HWY_DYNAMIC_DISPATCH(close_on_target)(root);
 }
 
-}  // namespace kernels
+}  // namespace wide
 }  // namespace bihive
 #endif

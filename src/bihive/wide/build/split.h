@@ -12,6 +12,7 @@
 #include "bihive/base/parallel.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/wide/build/binary_tree.h"
+#include "bihive/wide/build/tuning.h"
 #include "bihive/wide/wide_tree.h"
 
 namespace bihive {
@@ -77,9 +78,6 @@ struct SplitRange {
   bool coincident = false;  ///< all centres are equal, and repeated spheres are known already
 };
 
-/// Ranges of more spheres become tasks of their own.
-constexpr std::int64_t kTaskSpheres = 8192;
-
 /// For the top of a large set: the box of all centres, halved nine times along its longest side, is 512 cells.
 struct CellGrid {
   static constexpr int kBits = 9;
@@ -92,7 +90,7 @@ struct CellGrid {
   explicit CellGrid(const Aabb& centres);
 };
 
-namespace kernels {
+namespace wide {
 
 InputSummary summarize(const SphereSet& spheres, std::int64_t begin, std::int64_t end);
 
@@ -117,5 +115,5 @@ void split_range(SplitContext& context, const SplitRange& range, TaskList& list)
 /// When all tasks are done: boxes and costs of the nodes with more than kTaskSpheres spheres.
 void close_tops(BinaryNode& root);
 
-}  // namespace kernels
+}  // namespace wide
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// Planes that part spheres: which are below, how many, and one that leaves a given number below.
+// Planes between spheres: which spheres are below, how many, and a plane that leaves a given number below.
 
 #if defined(BIHIVE_WIDE_BUILD_SPLIT_PLANE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_BUILD_SPLIT_PLANE_INL_H_
@@ -14,15 +14,16 @@
 #include <limits>
 
 #include "bihive/wide/build/bounds-inl.h"
+#include "bihive/wide/build/tuning.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A plane across axis[0]. Where `ties` is set, centres that lie on it are parted by a second plane across axis[1], and
-/// those on both by a third: so any number can be parted off, though never equal centres.
-struct Plane {
+/// A plane across axis[0]. Where `ties` is set, a second plane across axis[1] splits the centres that lie
+/// on it, and a third one those on both: so any number can be split off, though never equal centres.
+struct SplitPlane {
   int axis[3] = {};
   float at[3] = {};
   bool ties = false;
@@ -31,7 +32,7 @@ struct Plane {
 
 /// The lanes below a plane; `centre(axis)` loads a coordinate.
 template <bool kTies, class Centre>
-HWY_INLINE FloatMask lanes_below(const Plane& plane, const Centre& centre) {
+HWY_INLINE FloatMask lanes_below(const SplitPlane& plane, const Centre& centre) {
   const FloatTag d;
   const Floats c0 = centre(plane.axis[0]);
   const Floats at0 = hn::Set(d, plane.at[0]);
@@ -46,7 +47,7 @@ HWY_INLINE FloatMask lanes_below(const Plane& plane, const Centre& centre) {
 
 /// Calls body(std::true_type or std::false_type) for the kind of plane.
 template <class Body>
-HWY_INLINE void by_ties(const Plane& plane, const Body& body) {
+HWY_INLINE void by_ties(const SplitPlane& plane, const Body& body) {
   if (plane.ties)
     body(std::true_type());
   else
@@ -55,7 +56,7 @@ HWY_INLINE void by_ties(const Plane& plane, const Body& body) {
 
 /// How many centres of a range are below.
 HWY_INLINE std::int64_t count_below(const SphereArrays& spheres, std::int64_t first, std::int64_t count,
-                                    const Plane& plane) {
+                                    const SplitPlane& plane) {
   const FloatTag d;
   std::size_t below = 0;
   by_ties(plane, [&](auto ties) HWY_ATTR {
@@ -68,8 +69,8 @@ HWY_INLINE std::int64_t count_below(const SphereArrays& spheres, std::int64_t fi
 }
 
 /// The boxes of the centres below a plane, and of the others.
-HWY_INLINE void split_boxes(const SphereArrays& spheres, std::int64_t first, std::int64_t count, const Plane& plane,
-                            Aabb& left, Aabb& right) {
+HWY_INLINE void split_boxes(const SphereArrays& spheres, std::int64_t first, std::int64_t count,
+                            const SplitPlane& plane, Aabb& left, Aabb& right) {
   const FloatTag d;
   GrowingBox below, above;
   by_ties(plane, [&](auto ties) HWY_ATTR {
@@ -93,7 +94,7 @@ HWY_INLINE void split_boxes(const SphereArrays& spheres, std::int64_t first, std
 /// which they are.
 template <bool kPlainRadii>
 HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std::int64_t first, std::int64_t count,
-                          const Plane& plane) {
+                          const SplitPlane& plane) {
   const FloatTag d;
   const WordTag dw;
   const Words lane_numbers = iota_words(0);
@@ -128,9 +129,6 @@ HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std:
   });
 }
 
-// Rounds of the search for a plane: first by interpolation, then by halving the floats between.
-constexpr int kInterpolations = 4;
-
 /// Floats as integers in the same order.
 inline std::int32_t ordered_bits(float v) {
   std::int32_t bits;
@@ -144,32 +142,32 @@ inline float from_ordered_bits(std::int32_t bits) {
   return v;
 }
 
-/// The nearest centres on both sides of a plane, of those that are parted by its last part alone.
-HWY_INLINE void neighbours(const SphereArrays& spheres, std::int64_t first, std::int64_t count, const Plane& plane,
-                           int last_part, float& below, float& above) {
+/// The nearest centres on both sides of a plane, of those that only its last component splits.
+HWY_INLINE void neighbours(const SphereArrays& spheres, std::int64_t first, std::int64_t count, const SplitPlane& plane,
+                           int last, float& below, float& above) {
   const FloatTag d;
   Floats largest = hn::Set(d, -kInfinity), smallest = hn::Set(d, kInfinity);
-  const Floats at = hn::Set(d, plane.at[last_part]);
+  const Floats at = hn::Set(d, plane.at[last]);
   for_lanes(count, [&](std::int64_t i, FloatMask valid, auto whole) HWY_ATTR {
-    FloatMask parted = valid;
-    for (int k = 0; k < last_part; ++k) {
+    FloatMask tied = valid;
+    for (int k = 0; k < last; ++k) {
       const Floats on = hn::Set(d, plane.at[k]);
-      parted = hn::And(parted, hn::Eq(load(d, spheres.axis(plane.axis[k]) + first + i, valid, whole), on));
+      tied = hn::And(tied, hn::Eq(load(d, spheres.axis(plane.axis[k]) + first + i, valid, whole), on));
     }
-    const Floats c = load(d, spheres.axis(plane.axis[last_part]) + first + i, valid, whole);
+    const Floats c = load(d, spheres.axis(plane.axis[last]) + first + i, valid, whole);
     const FloatMask is_below = hn::Lt(c, at);
-    largest = hn::Max(largest, hn::IfThenElse(hn::And(parted, is_below), c, largest));
-    smallest = hn::Min(smallest, hn::IfThenElse(hn::AndNot(is_below, parted), c, smallest));
+    largest = hn::Max(largest, hn::IfThenElse(hn::And(tied, is_below), c, largest));
+    smallest = hn::Min(smallest, hn::IfThenElse(hn::AndNot(is_below, tied), c, smallest));
   });
   below = hn::GetLane(hn::MaxOfLanes(d, largest));
   above = hn::GetLane(hn::MinOfLanes(d, smallest));
 }
 
 /// A plane across `axis` with `wanted` of the centres below it, or if many coincide as near to that as they allow; at
-/// least one on each side. `box` is that of the centres, and not a point. Other axes part those on the plane.
-HWY_INLINE Plane plane_by_count(const SphereArrays& spheres, std::int64_t first, std::int64_t count,
-                                std::int64_t wanted, int axis, const Aabb& box) {
-  Plane plane;
+/// least one on each side. `box` is that of the centres, and not a point. Other axes split those on the plane.
+HWY_INLINE SplitPlane plane_by_count(const SphereArrays& spheres, std::int64_t first, std::int64_t count,
+                                     std::int64_t wanted, int axis, const Aabb& box) {
+  SplitPlane plane;
   const Vec3f side = box.hi - box.lo;
   const int other = axis == 0 ? 1 : 0;
   const int another = axis == 2 ? 1 : 2;

@@ -11,19 +11,13 @@
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/build/collapse.h"
 #include "bihive/wide/build/split.h"
+#include "bihive/wide/build/tuning.h"
 
 namespace bihive {
 namespace {
 
 // Padding after the last sphere: outside of everything, and never hit.
 constexpr float kFarAway = 0x1p30F;
-
-// Larger sets are first sorted into the cells of a grid.
-constexpr std::int64_t kGridSpheres = 150000;
-
-// The input is read in chunks of this size, or larger ones so that there are at most kMostChunks.
-constexpr std::int64_t kChunkSpheres = 32768;
-constexpr std::int64_t kMostChunks = 256;
 
 struct Chunks {
   std::int64_t count, size, total;
@@ -87,13 +81,15 @@ struct WideBuilder::State {
              int threads);
   void sort_into_cells(const SphereSet& spheres, const CellGrid& grid, SplitContext& context, int threads,
                        std::vector<std::int64_t>& begins);
+  std::vector<SplitRange> split_cells(const CellGrid& grid, const std::vector<std::int64_t>& begins,
+                                      std::int64_t most_spheres, BinaryNode& root);
   void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
 };
 
 InputSummary WideBuilder::State::summarize(const SphereSet& spheres, const Chunks& chunks, int threads) const {
   std::vector<InputSummary> summaries(static_cast<std::size_t>(chunks.count));
   parallel_for(threads, chunks.count, [&](std::int64_t i) {
-    summaries[static_cast<std::size_t>(i)] = kernels::summarize(spheres, chunks.begin(i), chunks.end(i));
+    summaries[static_cast<std::size_t>(i)] = wide::summarize(spheres, chunks.begin(i), chunks.end(i));
   });
   InputSummary all = summaries[0];
   for (std::size_t i = 1; i < summaries.size(); ++i) all.add(summaries[i]);
@@ -108,7 +104,7 @@ void WideBuilder::State::sort_into_cells(const SphereSet& spheres, const CellGri
   cell_counts.assign(static_cast<std::size_t>(chunks.count * CellGrid::kCells), 0);
   const auto counts_of = [&](std::int64_t chunk) { return cell_counts.data() + chunk * CellGrid::kCells; };
   parallel_for(threads, chunks.count, [&](std::int64_t i) {
-    kernels::find_cells(spheres, chunks.begin(i), chunks.end(i), grid, cells.data() + chunks.begin(i), counts_of(i));
+    wide::find_cells(spheres, chunks.begin(i), chunks.end(i), grid, cells.data() + chunks.begin(i), counts_of(i));
   });
 
   // Turn counts into the first place of each cell and chunk.
@@ -124,9 +120,58 @@ void WideBuilder::State::sort_into_cells(const SphereSet& spheres, const CellGri
   }
   begins[CellGrid::kCells] = next;
   parallel_for(threads, chunks.count, [&](std::int64_t i) {
-    kernels::scatter_spheres(spheres, chunks.begin(i), chunks.end(i), cells.data() + chunks.begin(i), counts_of(i),
-                             context);
+    wide::scatter_spheres(spheres, chunks.begin(i), chunks.end(i), cells.data() + chunks.begin(i), counts_of(i),
+                          context);
   });
+}
+
+// Makes the splits at the top of the tree from cells: the bits of a cell's number are the splits. Returns the ranges
+// below them, whose boxes are not set.
+std::vector<SplitRange> WideBuilder::State::split_cells(const CellGrid& grid, const std::vector<std::int64_t>& begins,
+                                                        std::int64_t most_spheres, BinaryNode& root) {
+  // Cells first to last - 1; the halving that comes next.
+  struct CellRange {
+    BinaryNode* node;
+    int first, last, halving, depth;
+  };
+  const auto begin_of = [&](int cell) { return begins[static_cast<std::size_t>(cell)]; };
+  SplitSource source(arena);
+  std::vector<CellRange> waiting{{&root, 0, CellGrid::kCells, 0, 0}};
+  std::vector<SplitRange> ranges;
+  while (!waiting.empty()) {
+    CellRange here = waiting.back();
+    waiting.pop_back();
+    const std::int64_t first = begin_of(here.first);
+    const std::int64_t count = begin_of(here.last) - first;
+
+    // Go down past halves without spheres.
+    int middle = 0;
+    bool split = false;
+    while (!split && here.halving < CellGrid::kBits && count > most_spheres) {
+      middle = (here.first + here.last) / 2;
+      const std::int64_t left = begin_of(middle) - first;
+      split = left > 0 && left < count;
+      if (left == 0) here.first = middle;
+      if (left == count) here.last = middle;
+      ++here.halving;
+    }
+    if (!split) {
+      SplitRange range;
+      range.node = here.node;
+      range.first = first;
+      range.count = count;
+      range.depth = here.depth;
+      ranges.push_back(range);
+      continue;
+    }
+    BinaryNode& node = *here.node;
+    node.count = static_cast<std::uint32_t>(count);
+    node.axis = static_cast<std::uint32_t>(grid.axis[here.halving - 1]);
+    node.split = source.next();
+    waiting.push_back({&node.split->side[0], here.first, middle, here.halving, here.depth + 1});
+    waiting.push_back({&node.split->side[1], middle, here.last, here.halving, here.depth + 1});
+  }
+  return ranges;
 }
 
 void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& summary, SplitContext& context,
@@ -136,69 +181,29 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
     // Take the spheres as they come.
     const Chunks chunks(count);
     parallel_for(threads, chunks.count,
-                 [&](std::int64_t i) { kernels::load_spheres(spheres, chunks.begin(i), chunks.end(i), context); });
+                 [&](std::int64_t i) { wide::load_spheres(spheres, chunks.begin(i), chunks.end(i), context); });
     SplitRange range;
     range.node = &root;
     range.centres = summary.centres;
     range.count = count;
-    parallel_tasks(threads, [&](TaskList& list) { kernels::split_range(context, range, list); });
+    parallel_tasks(threads, [&](TaskList& list) { wide::split_range(context, range, list); });
   } else {
-    // Sort them into cells. The bits of a cell's number are the splits of the top of the tree.
+    // Sort them into cells first.
     const CellGrid grid(summary.centres);
     std::vector<std::int64_t> begins;
     sort_into_cells(spheres, grid, context, threads, begins);
-    SplitSource source(arena);
-    struct CellRange {
-      BinaryNode* node;
-      int first, last, halving, depth;  // cells first to last - 1; the halving that comes next
-    };
-    std::vector<CellRange> waiting{{&root, 0, CellGrid::kCells, 0, 0}};
-    std::vector<SplitRange> ranges;
-    while (!waiting.empty()) {
-      CellRange cells_here = waiting.back();
-      waiting.pop_back();
-      const auto begin_of = [&](int cell) { return begins[static_cast<std::size_t>(cell)]; };
-      const std::int64_t first = begin_of(cells_here.first);
-      const std::int64_t here = begin_of(cells_here.last) - first;
-
-      // Go down past halves without spheres.
-      int middle = 0;
-      bool parted = false;
-      while (!parted && cells_here.halving < CellGrid::kBits && here > std::max(kTaskSpheres, context.full_leaf)) {
-        middle = (cells_here.first + cells_here.last) / 2;
-        const std::int64_t left = begin_of(middle) - first;
-        parted = left > 0 && left < here;
-        if (left == 0) cells_here.first = middle;
-        if (left == here) cells_here.last = middle;
-        ++cells_here.halving;
-      }
-      if (!parted) {
-        SplitRange range;
-        range.node = cells_here.node;
-        range.first = first;
-        range.count = here;
-        range.depth = cells_here.depth;
-        ranges.push_back(range);
-        continue;
-      }
-      BinaryNode& node = *cells_here.node;
-      node.count = static_cast<std::uint32_t>(here);
-      node.axis = static_cast<std::uint32_t>(grid.axis[cells_here.halving - 1]);
-      node.split = source.next();
-      waiting.push_back({&node.split->side[0], cells_here.first, middle, cells_here.halving, cells_here.depth + 1});
-      waiting.push_back({&node.split->side[1], middle, cells_here.last, cells_here.halving, cells_here.depth + 1});
-    }
+    const auto ranges = split_cells(grid, begins, std::max(kTaskSpheres, context.full_leaf), root);
     parallel_tasks(threads, [&](TaskList& list) {
       for (const SplitRange& range : ranges)
         list.add([&context, &list, range] {
           SplitRange bounded = range;
-          bounded.centres = kernels::bound_centres(context, range);
-          kernels::split_range(context, bounded, list);
+          bounded.centres = wide::bound_centres(context, range);
+          wide::split_range(context, bounded, list);
         });
     });
   }
   if (context.out_of_memory) throw std::bad_alloc();
-  kernels::close_tops(root);
+  wide::close_tops(root);
 }
 
 void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,

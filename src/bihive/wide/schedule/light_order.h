@@ -1,18 +1,29 @@
-// Rays that lead to one point, as shadow rays to a light do. Whichever surfaces they leave, those that are neighbours
-// seen from that point stay close together on their whole way: sorted so, they make narrow beams.
+// Order by light: for rays that all lead to one point, as shadow rays to a light do, but start on surfaces everywhere,
+// as those of what mirrors and glass show do. Sorted by direction, 64 neighbours are a narrow beam.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/wide_tree.h"
 
-namespace bihive::kernels {
+namespace bihive::wide {
 
-/// Do all rays lead to one point at t = 1, nearly? False for few rays, with which sorting does not pay.
+/// Are there enough rays, and do all of them lead to one point at t = 1, within rounding? A few rays tell almost
+/// always.
 bool converge(const RaySpan& rays);
 
-/// occluded() of rays that converge: sorted, and as beams. False if for some of them lists were chosen.
-bool occluded_converging(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+/// Finds the order; keeps its working memory.
+class LightOrder {
+ public:
+  /// order[k] is the number of the ray that comes k-th; rays that go into a sphere come last. False: the rays are too
+  /// far apart for beams, and no order was found.
+  bool find(const WideTree& tree, const RaySpan& rays, std::vector<std::uint32_t>& order);
 
-}  // namespace bihive::kernels
+ private:
+  std::vector<float> u_, v_;
+  std::vector<std::uint32_t> cells_, ends_;
+};
+
+}  // namespace bihive::wide

@@ -19,6 +19,7 @@
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/trace/beam_bounds.h"
+#include "bihive/wide/trace/beams.h"
 #include "bihive/wide/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +27,8 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kBeamRays = 64;
+using wide::kBeamRays;
+/// In a lane whose ray has no winner.
 constexpr std::uint32_t kNoWinner = ~std::uint32_t{0};
 
 /// What is known of a block's rays. Lanes beyond the block's last ray repeat it.
@@ -35,9 +37,9 @@ struct alignas(64) BeamRays {
   float direction[3][kBeamRays];
   float s_sure[kBeamRays];          ///< hits before this are surely in the segment and nearer than the winner
   float s_best[kBeamRays];          ///< hits beyond this are surely not the answer
-  std::uint32_t winner[kBeamRays];  ///< number of the winner so far (rivals-inl.h), or kNoWinner
-  std::uint32_t
-      leaves[kBeamRays];  ///< id of the sphere that the ray leaves, or kNoWinner; not written unless rays.leaves
+  std::uint32_t winner[kBeamRays];  ///< number of the winner so far (beam_winners-inl.h), or kNoWinner
+  /// Id of the sphere that the ray leaves, or kNoSphere. Not written unless the span says which spheres rays leave.
+  std::uint32_t left_id[kBeamRays];
   float e, pad;
   int count;   ///< rays in the block
   int major;   ///< axis along which all rays go, by at least kLeastMajor of their length
@@ -95,6 +97,102 @@ HWY_INLINE bool plain_segments(const RaySpan& rays, std::int64_t first, int coun
 
 }  // namespace beam_rays
 
+namespace beam_rays {
+
+// Where the block's rays go, by its first ray.
+HWY_INLINE void choose_major_axis(const Block& block, BeamRays& out) {
+  const float size[3] = {std::abs(block.direction[0][0]), std::abs(block.direction[1][0]),
+                         std::abs(block.direction[2][0])};
+  out.major = size[0] > size[1] ? (size[0] > size[2] ? 0 : 2) : (size[1] > size[2] ? 1 : 2);
+  out.sign = block.direction[out.major][0] < 0 ? -1.0F : 1.0F;
+}
+
+// Origins in stored units; whether all rays start at one point. `farthest` becomes the largest coordinate. Returns the
+// lanes whose origins are near enough.
+HWY_INLINE FloatMask set_up_origins(const Block& block, float scale, BeamRays& out, Floats& farthest) {
+  const FloatTag d;
+  const auto all = hn::Set(d, scale);
+  farthest = hn::Zero(d);
+  auto near = hn::Eq(all, all);
+  auto common = near;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto one = hn::Set(d, block.origin[axis][0]);
+    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+      const auto world = hn::LoadU(d, block.origin[axis] + lane);
+      common = hn::And(common, hn::Eq(world, one));
+      const auto o = hn::Mul(world, all);
+      near = hn::And(near, hn::Le(hn::Abs(o), hn::Set(d, static_cast<float>(kFarOrigin))));
+      farthest = hn::Max(farthest, hn::Abs(o));
+      hn::Store(o, d, out.origin[axis] + lane);
+    }
+  }
+  out.common_origin = hn::AllTrue(d, common);
+  return near;
+}
+
+// Copies directions. Are all of length 1 as they are?
+HWY_INLINE bool copy_directions(const Block& block, BeamRays& out) {
+  const FloatTag d;
+  auto unit = hn::Eq(hn::Zero(d), hn::Zero(d));
+  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
+    const auto dx = hn::LoadU(d, block.direction[0] + lane);
+    const auto dy = hn::LoadU(d, block.direction[1] + lane);
+    const auto dz = hn::LoadU(d, block.direction[2] + lane);
+    const auto beyond = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::MulAdd(dz, dz, hn::Set(d, -1.0F))));
+    unit = hn::And(unit, hn::Le(hn::Abs(beyond), hn::Set(d, 3 * kUnit)));
+    hn::Store(dx, d, out.direction[0] + lane);
+    hn::Store(dy, d, out.direction[1] + lane);
+    hn::Store(dz, d, out.direction[2] + lane);
+  }
+  return hn::AllTrue(d, unit);
+}
+
+// Brings the directions from `lane` on to length 1; `length` becomes what it was. Returns the lanes whose length is
+// neither extreme nor NaN.
+HWY_INLINE FloatMask normalize_directions(BeamRays& out, int lane, Floats& length) {
+  const FloatTag d;
+  const auto dx = hn::Load(d, out.direction[0] + lane);
+  const auto dy = hn::Load(d, out.direction[1] + lane);
+  const auto dz = hn::Load(d, out.direction[2] + lane);
+  const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+  length = hn::Sqrt(squared);
+  const auto inverse = hn::Div(hn::Set(d, 1.0F), length);
+  hn::Store(hn::Mul(dx, inverse), d, out.direction[0] + lane);
+  hn::Store(hn::Mul(dy, inverse), d, out.direction[1] + lane);
+  hn::Store(hn::Mul(dz, inverse), d, out.direction[2] + lane);
+  return hn::And(hn::Ge(squared, hn::Set(d, 1e-20F)), hn::Le(squared, hn::Set(d, 1e20F)));
+}
+
+// The segments' ends from `lane` on, from both sides. Returns the lanes that have one.
+HWY_INLINE FloatMask set_up_ends(const double* t_max, double scale, Floats length, BeamRays& out, int lane) {
+  const FloatTag d;
+  if (t_max == nullptr) {
+    const auto no_end = hn::Set(d, kFarthestEnd);
+    hn::Store(no_end, d, out.s_sure + lane);
+    hn::Store(no_end, d, out.s_best + lane);
+    return hn::Eq(no_end, no_end);
+  }
+  using Doubles = hn::CappedTag<double, 16>;
+  using Half = hn::Rebind<float, Doubles>;
+  const Doubles w;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Doubles()));
+  alignas(64) float lengths[kFloatLanes];
+  hn::Store(length, d, lengths);
+  for (int i = 0; i < kFloatLanes; i += kLanes) {
+    const auto t = hn::LoadU(w, t_max + lane + i);
+    const auto ends_late = hn::Ge(t, hn::Zero(w));  // false for NaN
+    const auto s = hn::Mul(hn::Mul(t, hn::Set(w, scale)), hn::PromoteTo(w, hn::Load(Half(), lengths + i)));
+    const auto end = hn::IfThenElse(ends_late, hn::Min(s, hn::Set(w, double(kFarthestEnd))), hn::Set(w, -1.0));
+    hn::Store(hn::DemoteTo(Half(), end), Half(), out.s_best + lane + i);
+  }
+  const auto end = hn::Load(d, out.s_best + lane);
+  hn::Store(hn::Mul(end, hn::Set(d, 1 - 0x1p-20F)), d, out.s_sure + lane);
+  hn::Store(hn::Mul(end, hn::Set(d, 1 + 0x1p-20F)), d, out.s_best + lane);
+  return hn::Ge(end, hn::Zero(d));
+}
+
+}  // namespace beam_rays
+
 /// Makes rays `first` to first + count - 1 (1 to 64) of a span ready. False: not for a beam (not valid, far away, of
 /// extreme length, not all along one axis, with segments that start elsewhere than at t = 0, or going into a sphere).
 HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int64_t first, int count, BeamRays& out) {
@@ -108,91 +206,18 @@ HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int6
   if (HWY_UNLIKELY(count < kBeamRays)) filled_up.repeat_last(rays, first, count, block);
   out.count = count;
 
-  // The major axis is the first ray's.
-  const float first_size[3] = {std::abs(block.direction[0][0]), std::abs(block.direction[1][0]),
-                               std::abs(block.direction[2][0])};
-  const int major =
-      first_size[0] > first_size[1] ? (first_size[0] > first_size[2] ? 0 : 2) : (first_size[1] > first_size[2] ? 1 : 2);
-  const float sign = block.direction[major][0] < 0 ? -1.0F : 1.0F;
-  out.major = major;
-  out.sign = sign;
-
-  // Origins in stored units; do all start at one point?
-  const auto scale = hn::Set(d, static_cast<float>(tree.scale));
-  auto farthest = hn::Zero(d);
-  auto valid = hn::Eq(scale, scale);
-  auto common = valid;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto one = hn::Set(d, block.origin[axis][0]);
-    for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
-      const auto world = hn::LoadU(d, block.origin[axis] + lane);
-      common = hn::And(common, hn::Eq(world, one));
-      const auto o = hn::Mul(world, scale);
-      valid = hn::And(valid, hn::Le(hn::Abs(o), hn::Set(d, static_cast<float>(kFarOrigin))));
-      farthest = hn::Max(farthest, hn::Abs(o));
-      hn::Store(o, d, out.origin[axis] + lane);
-    }
-  }
-  out.common_origin = hn::AllTrue(d, common);
-
-  // Directions of length 1: as they are if they are so already.
+  // Origins, directions and ends.
+  beam_rays::choose_major_axis(block, out);
+  Floats farthest;
+  auto valid = beam_rays::set_up_origins(block, static_cast<float>(tree.scale), out, farthest);
+  const bool unit = beam_rays::copy_directions(block, out);
   const auto least = hn::Set(d, kLeastMajor);
-  const auto along = hn::Set(d, sign);
-  auto near_unit = valid;
-  for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
-    const auto dx = hn::LoadU(d, block.direction[0] + lane);
-    const auto dy = hn::LoadU(d, block.direction[1] + lane);
-    const auto dz = hn::LoadU(d, block.direction[2] + lane);
-    const auto beyond = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::MulAdd(dz, dz, hn::Set(d, -1.0F))));
-    near_unit = hn::And(near_unit, hn::Le(hn::Abs(beyond), hn::Set(d, 3 * kUnit)));
-    hn::Store(dx, d, out.direction[0] + lane);
-    hn::Store(dy, d, out.direction[1] + lane);
-    hn::Store(dz, d, out.direction[2] + lane);
-  }
-  const bool unit = hn::AllTrue(d, near_unit);
-  const double stored = tree.scale;
+  const auto along = hn::Set(d, out.sign);
   for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
     auto length = hn::Set(d, 1.0F);
-    auto main = hn::Load(d, out.direction[major] + lane);
-    if (!unit) {
-      const auto dx = hn::Load(d, out.direction[0] + lane);
-      const auto dy = hn::Load(d, out.direction[1] + lane);
-      const auto dz = hn::Load(d, out.direction[2] + lane);
-      const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-      valid = hn::And(valid, hn::And(hn::Ge(squared, hn::Set(d, 1e-20F)), hn::Le(squared, hn::Set(d, 1e20F))));
-      length = hn::Sqrt(squared);
-      const auto inverse = hn::Div(hn::Set(d, 1.0F), length);
-      main = hn::Mul(main, inverse);
-      hn::Store(hn::Mul(dx, inverse), d, out.direction[0] + lane);
-      hn::Store(hn::Mul(dy, inverse), d, out.direction[1] + lane);
-      hn::Store(hn::Mul(dz, inverse), d, out.direction[2] + lane);
-    }
-    valid = hn::And(valid, hn::Ge(hn::Mul(main, along), least));
-
-    // The segment's end, from both sides.
-    const auto no_end = hn::Set(d, kFarthestEnd);
-    if (block.t_max == nullptr) {
-      hn::Store(no_end, d, out.s_sure + lane);
-      hn::Store(no_end, d, out.s_best + lane);
-      continue;
-    }
-    using Wide = hn::CappedTag<double, 16>;
-    using Half = hn::Rebind<float, Wide>;
-    const Wide w;
-    constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
-    alignas(64) float lengths[kFloatLanes];
-    hn::Store(length, d, lengths);
-    for (int part = 0; part < kFloatLanes; part += kLanes) {
-      const auto t_max = hn::LoadU(w, block.t_max + lane + part);
-      const auto ends_late = hn::Ge(t_max, hn::Zero(w));  // false for NaN
-      const auto s = hn::Mul(hn::Mul(t_max, hn::Set(w, stored)), hn::PromoteTo(w, hn::Load(Half(), lengths + part)));
-      const auto end = hn::IfThenElse(ends_late, hn::Min(s, hn::Set(w, double(kFarthestEnd))), hn::Set(w, -1.0));
-      hn::Store(hn::DemoteTo(Half(), end), Half(), out.s_best + lane + part);
-    }
-    const auto end = hn::Load(d, out.s_best + lane);
-    valid = hn::And(valid, hn::Ge(end, hn::Zero(d)));
-    hn::Store(hn::Mul(end, hn::Set(d, 1 - 0x1p-20F)), d, out.s_sure + lane);
-    hn::Store(hn::Mul(end, hn::Set(d, 1 + 0x1p-20F)), d, out.s_best + lane);
+    if (!unit) valid = hn::And(valid, beam_rays::normalize_directions(out, lane, length));
+    valid = hn::And(valid, hn::Ge(hn::Mul(hn::Load(d, out.direction[out.major] + lane), along), least));
+    valid = hn::And(valid, beam_rays::set_up_ends(block.t_max, tree.scale, length, out, lane));
   }
   if (HWY_UNLIKELY(!hn::AllTrue(d, valid))) return false;
 
@@ -202,7 +227,7 @@ HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int6
   if (block.leaves != nullptr) {
     for (int i = 0; i < kBeamRays; ++i) {
       const std::int64_t id = block.leaves[i];
-      out.leaves[i] = id >= 0 && id < tree.size ? static_cast<std::uint32_t>(id) : kNoWinner;
+      out.left_id[i] = id >= 0 && id < tree.size ? static_cast<std::uint32_t>(id) : kNoSphere;
     }
   }
   return true;

@@ -1,4 +1,4 @@
-// One sphere against neighbouring rays of a beam: how they lie to it, and bounds of the near root.
+// One sphere against neighbouring rays of a beam: which come near to it, and bounds of the near root.
 
 #if defined(BIHIVE_WIDE_TRACE_BEAM_SPHERES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_BEAM_SPHERES_INL_H_
@@ -14,6 +14,7 @@
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/trace/beam_bounds.h"
 #include "bihive/wide/trace/beam_rays-inl.h"
+#include "bihive/wide/trace/sphere_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
@@ -21,10 +22,10 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// A block is also taken in runs of this many neighbours.
-constexpr int kPartRays = 16;
-constexpr int kParts = kBeamRays / kPartRays;
-constexpr int kPartVectors = kPartRays / kFloatLanes;
-static_assert(kParts * kPartRays == kBeamRays && kPartVectors * kFloatLanes == kPartRays);
+constexpr int kRunRays = 16;
+constexpr int kRuns = kBeamRays / kRunRays;
+constexpr int kRunVectors = kRunRays / kFloatLanes;
+static_assert(kRuns * kRunRays == kBeamRays && kRunVectors * kFloatLanes == kRunRays);
 
 namespace beam {
 
@@ -37,13 +38,9 @@ struct Candidate {
   float padded_squared;
 };
 
-/// How rays lie to a sphere, in units of distance along them.
-struct Meeting {
-  hn::VFromD<FloatTag> b, dp;
-};
-
+/// How the rays from `lane` on lie to a sphere.
 template <bool kCommonOrigin>
-HWY_INLINE Meeting meet(const BeamRays& rays, const Candidate& sphere, int lane) {
+HWY_INLINE Meeting meet_rays(const BeamRays& rays, const Candidate& sphere, int lane) {
   const FloatTag d;
   auto cx = hn::Set(d, sphere.centre[0]);
   auto cy = hn::Set(d, sphere.centre[1]);
@@ -53,32 +50,26 @@ HWY_INLINE Meeting meet(const BeamRays& rays, const Candidate& sphere, int lane)
     cy = hn::Sub(cy, hn::Load(d, rays.origin[1] + lane));
     cz = hn::Sub(cz, hn::Load(d, rays.origin[2] + lane));
   }
-  const auto nx = hn::Load(d, rays.direction[0] + lane);
-  const auto ny = hn::Load(d, rays.direction[1] + lane);
-  const auto nz = hn::Load(d, rays.direction[2] + lane);
-  const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
-  const auto px = hn::NegMulAdd(b, nx, cx);
-  const auto py = hn::NegMulAdd(b, ny, cy);
-  const auto pz = hn::NegMulAdd(b, nz, cz);
-  const auto pp = hn::MulAdd(pz, pz, hn::MulAdd(py, py, hn::Mul(px, px)));
-  return {b, hn::Sub(hn::Set(d, sphere.padded_squared), pp)};
+  return meet(cx, cy, cz, hn::Load(d, rays.direction[0] + lane), hn::Load(d, rays.direction[1] + lane),
+              hn::Load(d, rays.direction[2] + lane), hn::Set(d, sphere.padded_squared));
 }
 
-/// The rays of a vector that come near enough to a sphere to hit it. With kLeaves the one that a ray leaves is none.
-template <bool kLeaves>
-HWY_INLINE hn::Mask<FloatTag> near_enough(const BeamRays& rays, const Candidate& sphere, const Meeting& m, int lane) {
+/// The rays of a vector that come near enough to a sphere to hit it. With kSkipOwn a ray does not hit the sphere that
+/// it leaves.
+template <bool kSkipOwn>
+HWY_INLINE FloatMask near_enough(const BeamRays& rays, const Candidate& sphere, const Meeting& m, int lane) {
   const FloatTag d;
   const auto near = hn::Ge(m.dp, hn::Zero(d));
-  if constexpr (!kLeaves) return near;
-  const auto own = hn::Eq(hn::Load(WordTag(), rays.leaves + lane), hn::Set(WordTag(), sphere.id));
+  if constexpr (!kSkipOwn) return near;
+  const auto own = hn::Eq(hn::Load(WordTag(), rays.left_id + lane), hn::Set(WordTag(), sphere.id));
   return hn::AndNot(hn::RebindMask(d, own), near);
 }
 
 /// Where the near roots lie: from `lower` to `upper`.
 struct Roots {
-  hn::VFromD<FloatTag> lower, upper;
-  hn::Mask<FloatTag> candidate;  ///< may be a hit before `best`
-  hn::Mask<FloatTag> sure;       ///< is one, and before `sure_end`
+  Floats lower, upper;
+  FloatMask candidate;  ///< may be a hit before `best`
+  FloatMask sure;       ///< is one, and before `sure_end`
 };
 
 /// Of a sphere and the rays of a beam, by the bounds of wide/trace/beam_bounds.h.
@@ -87,8 +78,7 @@ class RootBounds {
   HWY_INLINE RootBounds(const BeamRays& rays, const Candidate& sphere)
       : e_(rays.e), sure_above_(kSureShare * rays.e * sphere.padded), spread_(kWidthShare * rays.e * sphere.padded) {}
 
-  template <class V, class M>
-  HWY_INLINE Roots of(const Meeting& m, M near, V best, V sure_end) const {
+  HWY_INLINE Roots of(const Meeting& m, FloatMask near, Floats best, Floats sure_end) const {
     const FloatTag d;
     const auto zero = hn::Zero(d);
     const auto e = hn::Set(d, e_);

@@ -1,4 +1,4 @@
-// What a beam leaves to binary64: its winners, a block at a time, and doubtful pairs, collected over many blocks.
+// The spheres that are the nearest so far for some ray of a beam, and their hits in binary64, a block at a time.
 
 #if defined(BIHIVE_WIDE_TRACE_BEAM_WINNERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_BEAM_WINNERS_INL_H_
@@ -22,41 +22,6 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Pairs of rays and spheres whose order binary32 cannot tell. The hits of their rays must have been written, at least
-/// as (inf, kNothing), before a flush.
-class Rivals {
- public:
-  Rivals(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) : tree_(tree), rays_(rays), hits_(hits) {}
-
-  /// Room for the pairs of one sphere with a beam?
-  bool full() const { return count_ > kRoom - kBeamRays; }
-  void add(std::int64_t ray, std::uint32_t slot) { pairs_[count_++] = {static_cast<std::uint32_t>(ray), slot}; }
-
-  void flush() {
-    double t[kExactPairs];
-    for (int first = 0; first < count_; first += kExactPairs) {
-      const int n = std::min(kExactPairs, count_ - first);
-      exact_hits(tree_, rays_, pairs_ + first, n, t);
-      for (int k = 0; k < n; ++k) {
-        const Pair& pair = pairs_[first + k];
-        Hit best{hits_.t[pair.ray], hits_.sphere_id[pair.ray]};
-        best.keep_nearer(t[k], tree_.spheres.id(pair.slot));
-        hits_.t[pair.ray] = best.t;
-        hits_.sphere_id[pair.ray] = best.sphere_id;
-      }
-    }
-    count_ = 0;
-  }
-
- private:
-  static constexpr int kRoom = 512;
-  const WideTree& tree_;
-  const RaySpan rays_;
-  const HitSpan hits_;
-  int count_ = 0;
-  Pair pairs_[kRoom];
-};
 
 /// Writes misses for `count` rays from `first` on.
 inline void write_misses(const HitSpan& hits, std::int64_t first, int count) {
@@ -140,54 +105,54 @@ class Winners {
   alignas(64) std::uint32_t id_[kRoom] = {}, slot_[kRoom] = {};
 };
 
-/// Writes the hits of a block: near roots of the winners, each of them sure and in its ray's segment, or misses. The
-/// operations of sphere_roots() (geometry/sphere.h), in their order.
+namespace beam_winners {
+
+using Doubles = hn::CappedTag<double, 8>;
+using Singles = hn::Rebind<float, Doubles>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Doubles()));
+
+// Near roots of the lanes from `lane` on, whose rays are number i and following of the span; `n` of them exist.
+HWY_INLINE hn::Vec<Doubles> near_roots(const RaySpan& rays, double scale, std::int64_t i, int n,
+                                       const Winners::OfLanes& spheres, int lane) {
+  const Doubles d;
+  const Singles h;
+  alignas(64) float few[6][kLanes];
+  const float* from[6] = {rays.origin[0] + i,    rays.origin[1] + i,    rays.origin[2] + i,
+                          rays.direction[0] + i, rays.direction[1] + i, rays.direction[2] + i};
+  if (HWY_UNLIKELY(n < kLanes)) {
+    for (int a = 0; a < 6; ++a) {
+      for (int k = 0; k < kLanes; ++k) few[a][k] = from[a][std::min(k, n - 1)];
+      from[a] = few[a];
+    }
+  }
+  const auto stored = hn::Set(d, scale);
+  const auto load = [&](const float* values) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(h, values)); };
+  const hn::Vec<Doubles> origin[3] = {hn::Mul(load(from[0]), stored), hn::Mul(load(from[1]), stored),
+                                      hn::Mul(load(from[2]), stored)};
+  const hn::Vec<Doubles> direction[3] = {hn::Mul(load(from[3]), stored), hn::Mul(load(from[4]), stored),
+                                         hn::Mul(load(from[5]), stored)};
+  const hn::Vec<Doubles> centre[3] = {load(spheres.x + lane), load(spheres.y + lane), load(spheres.z + lane)};
+  return sphere_roots_lanes<Doubles>(origin, direction, centre, load(spheres.r + lane)).t_near;
+}
+
+}  // namespace beam_winners
+
+/// Writes the hits of a block: near roots of the winners, each of them sure and in its ray's segment, or misses.
 HWY_INLINE void write_winners(const WideTree& tree, const RaySpan& rays, std::int64_t first, const BeamRays& beam,
                               const Winners& winners, const HitSpan& hits) {
-  using Tag = hn::CappedTag<double, 8>;
-  const Tag d;
-  const hn::Rebind<float, Tag> h;
-  const hn::Rebind<std::uint32_t, Tag> words;
-  const hn::Rebind<std::int32_t, Tag> integers;
-  const hn::Rebind<std::uint64_t, Tag> wide_words;
-  const hn::Rebind<std::int64_t, Tag> wide_integers;
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
-  const auto scale = hn::Set(d, tree.scale);
+  using beam_winners::kLanes;
+  const beam_winners::Doubles d;
+  const hn::Rebind<std::uint32_t, beam_winners::Doubles> words;
+  const hn::Rebind<std::int32_t, beam_winners::Doubles> integers;
+  const hn::Rebind<std::uint64_t, beam_winners::Doubles> wide_words;
+  const hn::Rebind<std::int64_t, beam_winners::Doubles> wide_integers;
   const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
   Winners::OfLanes spheres;
   winners.spread(beam, spheres);
   for (int lane = 0; lane < beam.count; lane += kLanes) {
     const std::int64_t i = first + lane;
     const int n = std::min(kLanes, beam.count - lane);
-    alignas(64) float few[6][kLanes];
-    const float* from[6] = {rays.origin[0] + i,    rays.origin[1] + i,    rays.origin[2] + i,
-                            rays.direction[0] + i, rays.direction[1] + i, rays.direction[2] + i};
-    if (HWY_UNLIKELY(n < kLanes)) {
-      for (int a = 0; a < 6; ++a) {
-        for (int k = 0; k < kLanes; ++k) few[a][k] = from[a][std::min(k, n - 1)];
-        from[a] = few[a];
-      }
-    }
-
-    // The near root.
-    const auto load = [&](const float* values) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(h, values)); };
-    const auto dot3 = [](auto ax, auto ay, auto az, auto bx, auto by, auto bz)
-                          HWY_ATTR { return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz)); };
-    const auto dx = hn::Mul(load(from[3]), scale);
-    const auto dy = hn::Mul(load(from[4]), scale);
-    const auto dz = hn::Mul(load(from[5]), scale);
-    const auto direction_squared = dot3(dx, dy, dz, dx, dy, dz);
-    const auto cx = hn::Sub(load(spheres.x + lane), hn::Mul(load(from[0]), scale));
-    const auto cy = hn::Sub(load(spheres.y + lane), hn::Mul(load(from[1]), scale));
-    const auto cz = hn::Sub(load(spheres.z + lane), hn::Mul(load(from[2]), scale));
-    const auto t_closest = hn::Div(dot3(cx, cy, cz, dx, dy, dz), direction_squared);
-    const auto px = hn::Sub(cx, hn::Mul(t_closest, dx));
-    const auto py = hn::Sub(cy, hn::Mul(t_closest, dy));
-    const auto pz = hn::Sub(cz, hn::Mul(t_closest, dz));
-    const auto r = load(spheres.r + lane);
-    const auto discriminant = hn::Sub(hn::Mul(r, r), dot3(px, py, pz, px, py, pz));
-    const auto half_chord = hn::Sqrt(hn::Div(discriminant, direction_squared));
-    const auto t_near = hn::Sub(t_closest, half_chord);
+    const auto t_near = beam_winners::near_roots(rays, tree.scale, i, n, spheres, lane);
 
     // Or a miss.
     const auto id32 = hn::Load(words, spheres.id + lane);

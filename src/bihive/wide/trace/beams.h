@@ -1,22 +1,38 @@
-// Beams: blocks of 64 neighbouring rays against the wide tree on the active target; public callers use
-// wide/queries.h.
+// Beams: blocks of 64 neighbouring rays walk the wide tree together, on the active target.
 #pragma once
 
 #include <cstdint>
 
 #include "bihive/wide/ray_batch.h"
+#include "bihive/wide/trace/remaining_rays.h"
 #include "bihive/wide/wide_tree.h"
 
-namespace bihive::kernels {
+namespace bihive::wide {
 
-/// Could beams take these rays at all? If not, lists answer.
+/// Rays of a block.
+constexpr int kBeamRays = 64;
+
+/// Whether beams take these rays at all.
 bool beams_take(const WideTree& tree, const RaySpan& rays);
 
-/// Any rays may come; only blocks (counted from the first ray) that are close in origin and direction are fast.
-void closest_hits_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
-void occluded_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
-/// Of rays in the order of wide/schedule/light_order.h. False: nothing is answered, since they are not for beams, or,
-/// if asked to `judge`, since some of them have shown that ray lists are faster.
-bool occluded_sorted_beams(const WideTree& tree, const RaySpan& rays, bool judge, std::uint8_t* hidden);
+/// Answer the rays but for those that they return, which are not for beams. Any rays may come that beams take; only
+/// blocks of 64 (counted from the first ray) that are close in origin and direction are fast.
+RemainingRays closest_hits_by_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
+RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
 
-}  // namespace bihive::kernels
+/// Blocks of a span: those whose number is a multiple of `step`, or all others.
+struct BlockChoice {
+  std::int64_t step = 1;
+  bool others = false;
+};
+
+struct SortedBeams {
+  RemainingRays remaining;
+  std::int64_t spheres_met = 0;  ///< by beams, each times the rays of the beam
+};
+
+/// Of rays in the order of wide/schedule/light_order.h, the chosen blocks.
+SortedBeams occluded_by_sorted_beams(const WideTree& tree, const RaySpan& rays, const BlockChoice& blocks,
+                                     std::uint8_t* hidden);
+
+}  // namespace bihive::wide

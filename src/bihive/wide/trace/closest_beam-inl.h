@@ -1,5 +1,5 @@
-// The closest hits of a block of 64 neighbouring rays: its frustum against sixteen boxes or spheres at a time, and the
-// spheres that lie in it against all rays, or against the runs of sixteen rays in whose own frusta they lie.
+// The closest hits of a block of 64 neighbouring rays. The frustum of the block meets sixteen boxes or spheres at a
+// time. A sphere that lies in it meets all rays, or only the runs of sixteen rays in whose own frusta it lies.
 
 #if defined(BIHIVE_WIDE_TRACE_CLOSEST_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_CLOSEST_BEAM_INL_H_
@@ -16,10 +16,12 @@
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/trace/beam_rays-inl.h"
 #include "bihive/wide/trace/beam_spheres-inl.h"
+#include "bihive/wide/trace/beam_walk-inl.h"
 #include "bihive/wide/trace/beam_winners-inl.h"
+#include "bihive/wide/trace/exact_decision-inl.h"
 #include "bihive/wide/trace/frustum-inl.h"
+#include "bihive/wide/trace/undecided_pairs.h"
 #include "bihive/wide/trace/waiting_spheres-inl.h"
-#include "bihive/wide/tree/radii-inl.h"
 #include "bihive/wide/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,26 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 namespace beam {
 
-// A child that waits, with the least w at which a ray may enter it.
-struct Waiting {
-  std::uint32_t node;   // number of a wide node, or of its first sphere
-  std::uint32_t count;  // spheres; 0: a node
-  float w_near;
-};
-
-HWY_INLINE Waiting child_of(const WideNode& node, int slot, float w_near) {
-  if (!node.is_leaf(slot)) return {static_cast<std::uint32_t>(node.child_node(slot)), 0, w_near};
-  return {static_cast<std::uint32_t>(node.sphere_begin(slot)), static_cast<std::uint32_t>(node.sphere_count(slot)),
-          w_near};
-}
-
-// Radii of all, where there is only one; otherwise loaded.
-HWY_INLINE hn::VFromD<FloatTag> radii_at(const WideSpheres& spheres, std::int64_t slot) {
-  if (spheres.has_palette && spheres.palette_size == 1) return hn::Set(FloatTag(), spheres.palette[0]);
-  return load_radii(spheres, slot);
-}
-
-// The largest w at which the answer of one of kRays rays from lane `begin` on may lie.
+// Of kRays rays from lane `begin` on: the largest w at which the answer of one may lie.
 template <int kRays>
 HWY_INLINE float end_of(const BeamRays& rays, int begin) {
   const FloatTag d;
@@ -64,90 +47,74 @@ HWY_INLINE float end_of(const BeamRays& rays, int begin) {
 
 }  // namespace beam
 
-/// One block, set up in `rays`, whose hits are written. Where spheres are small to the beam, kInParts lets each meet
-/// only those runs of kPartRays rays in whose own frustum it lies.
-template <bool kCommonOrigin, bool kLeaves, bool kInParts>
+/// The state that the blocks of one call share. The hits of a pair's ray must have been written, at least as a miss,
+/// before decide().
+class ClosestBeams {
+ public:
+  ClosestBeams(const WideTree& of, const RaySpan& traced, const HitSpan& found) : tree(of), span(traced), hits(found) {}
+
+  /// Is there room for the pairs of one sphere with a beam?
+  bool has_room() const { return pairs_.has_room(kBeamRays); }
+  void add_pair(std::int64_t ray, std::uint32_t slot) { pairs_.add(ray, slot); }
+  void decide() {
+    decide_pairs(tree, span, pairs_, [&](std::int64_t ray, double t, std::uint32_t slot) HWY_ATTR {
+      keep_nearer(hits, ray, t, tree.spheres.id(slot));
+    });
+  }
+
+  const WideTree& tree;
+  const RaySpan& span;
+  const HitSpan& hits;
+  BeamRays rays;  ///< of the block at work, made ready by set_up_beam()
+  Frustum frustum;
+  Winners winners;
+
+ private:
+  UndecidedPairs<512> pairs_;
+};
+
+/// One block, whose hits are written. Where spheres are small to the beam, kByRuns lets each meet only those runs of
+/// kRunRays rays in whose own frustum it lies. kSkipOwn: rays may leave spheres.
+template <bool kCommonOrigin, bool kSkipOwn, bool kByRuns>
 class ClosestBeam {
  public:
-  ClosestBeam(const WideTree& tree, BeamRays& rays, Frustum& frustum, const RaySpan& span, std::int64_t first_ray,
-              const HitSpan& hits, Winners& winners, Rivals& rivals)
-      : tree_(tree),
-        rays_(rays),
-        frustum_(frustum),
-        span_(span),
-        first_ray_(first_ray),
-        hits_(hits),
-        winners_(winners),
-        rivals_(rivals) {}
+  ClosestBeam(ClosestBeams& call, std::int64_t first_ray)
+      : call_(call), tree_(call.tree), rays_(call.rays), frustum_(call.frustum), first_ray_(first_ray) {}
 
   HWY_INLINE void run() {
-    winners_.clear();
+    call_.winners.clear();
     for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
       hn::Store(hn::Set(WordTag(), kNoWinner), WordTag(), rays_.winner + lane);
     // A run that meets nothing ends before it begins.
-    if (kInParts)
-      for (int i = 0; i < kParts; ++i)
-        if (!make_frustum<kPartRays>(tree_, rays_, i * kPartRays, parts_[i])) parts_[i].w_end = -2 * kFarthestEnd;
-    walk();
-    if (kInParts && !spheres_.empty()) meet_waiting();
+    if (kByRuns)
+      for (int i = 0; i < kRuns; ++i)
+        if (!make_frustum<kRunRays>(tree_, rays_, i * kRunRays, runs_[i])) runs_[i].w_end = -2 * kFarthestEnd;
+    walk_beam(tree_, frustum_, frustum_.octant, [&](std::int64_t slot, std::int64_t count) HWY_ATTR {
+      meet_leaf(slot, count);
+      return false;
+    });
+    if (kByRuns && !spheres_.empty()) meet_waiting();
     write();
   }
 
  private:
-  HWY_INLINE void walk() {
-    // Each level leaves at most fifteen children waiting.
-    beam::Waiting waiting[kMostLevels * kWidth];
-    int waiting_count = 0;
-    waiting[waiting_count++] = {0, 0, frustum_.w_begin};
-    alignas(64) float w_near[kWidth];
-    while (waiting_count > 0) {
-      const beam::Waiting top = waiting[--waiting_count];
-      if (top.w_near > frustum_.w_end) continue;
-      if (top.count != 0) {
-        meet_leaf(top.node, top.count);
-        continue;
-      }
-
-      // Let the children that rays may enter wait, the nearest on top.
-      const WideNode& node = tree_.nodes[top.node];
-      const std::uint32_t bits = boxes_in(node, frustum_, w_near);
-      if (bits == 0) continue;
-      std::uint64_t order = 0;
-      for (std::uint32_t places = near_to_far(node, frustum_.octant, bits, order); places != 0;) {
-        const int place = 31 - __builtin_clz(places);
-        places ^= 1U << place;
-        const int slot = static_cast<int>(order >> (4 * place) & 15);
-        waiting[waiting_count++] = beam::child_of(node, slot, w_near[slot]);
-      }
-    }
-  }
-
   void meet_leaf(std::int64_t begin, std::int64_t count) {
     const FloatTag d;
     bool won = false;
-    for (std::int64_t first = 0; first < count; first += kFloatLanes) {
-      const std::int64_t slot = begin + first;
-      const hn::VFromD<FloatTag> centre[3] = {hn::LoadU(d, tree_.spheres.x + slot),
-                                              hn::LoadU(d, tree_.spheres.y + slot),
-                                              hn::LoadU(d, tree_.spheres.z + slot)};
-      const auto padded = hn::Add(beam::radii_at(tree_.spheres, slot), hn::Set(d, rays_.e));
-      auto inside = spheres_in(frustum_, centre, padded);
-      if (count - first < kFloatLanes) inside = hn::And(inside, hn::FirstN(d, static_cast<std::size_t>(count - first)));
-      std::uint32_t bits = mask_bits(inside);
-      if (bits == 0) continue;
-      if (kInParts) {
-        spheres_.add(slot, centre, padded, inside);
+    spheres_of_leaf(tree_, frustum_, rays_.e, begin, count, [&](const SpheresInBeam& some) HWY_ATTR {
+      if (kByRuns) {
+        spheres_.add(some.slot, some.centre, some.padded, some.inside);
         if (spheres_.enough()) meet_waiting();
-        continue;
+        return;
       }
-      store_local(centre);
+      store_local(some.centre);
       alignas(64) float radii[kFloatLanes];
-      hn::Store(padded, d, radii);
-      for (; bits != 0; bits &= bits - 1) {
+      hn::Store(some.padded, d, radii);
+      for (std::uint32_t bits = some.bits; bits != 0; bits &= bits - 1) {
         const int k = __builtin_ctz(bits);
-        won |= meet_sphere<kBeamRays>(0, candidate(k, static_cast<std::uint32_t>(slot + k), radii[k]));
+        won |= meet_sphere<kBeamRays>(0, candidate(k, static_cast<std::uint32_t>(some.slot + k), radii[k]));
       }
-    }
+    });
     if (won) frustum_.w_end = std::min(frustum_.w_end, beam::end_of<kBeamRays>(rays_, 0));
   }
 
@@ -159,18 +126,18 @@ class ClosestBeam {
     const auto padded = hn::Load(d, spheres_.padded());
     const auto exist = hn::FirstN(d, static_cast<std::size_t>(spheres_.first_count()));
     std::uint64_t pairs = 0;
-    for (int i = 0; i < kParts; ++i)
-      pairs |= std::uint64_t{mask_bits(hn::And(exist, spheres_in(parts_[i], centre, padded)))} << (i * kFloatLanes);
+    for (int i = 0; i < kRuns; ++i)
+      pairs |= std::uint64_t{mask_bits(hn::And(exist, spheres_in(runs_[i], centre, padded)))} << (i * kFloatLanes);
     store_local(centre);
     for (; pairs != 0; pairs &= pairs - 1) {
       const int pair = __builtin_ctzll(pairs);
       const int k = pair % kFloatLanes;
-      meet_sphere<kPartRays>(pair / kFloatLanes * kPartRays, candidate(k, spheres_.slot(k), spheres_.padded()[k]));
+      meet_sphere<kRunRays>(pair / kFloatLanes * kRunRays, candidate(k, spheres_.slot(k), spheres_.padded()[k]));
     }
     float end = -2 * kFarthestEnd;
-    for (int i = 0; i < kParts; ++i) {
-      parts_[i].w_end = std::min(parts_[i].w_end, beam::end_of<kPartRays>(rays_, i * kPartRays));
-      end = std::max(end, parts_[i].w_end);
+    for (int i = 0; i < kRuns; ++i) {
+      runs_[i].w_end = std::min(runs_[i].w_end, beam::end_of<kRunRays>(rays_, i * kRunRays));
+      end = std::max(end, runs_[i].w_end);
     }
     frustum_.w_end = end;
     spheres_.drop_first();
@@ -185,34 +152,34 @@ class ClosestBeam {
   }
   HWY_INLINE beam::Candidate candidate(int k, std::uint32_t slot, float padded) const {
     return {slot,
-            kLeaves ? static_cast<std::uint32_t>(tree_.spheres.id(slot)) : 0,
+            kSkipOwn ? static_cast<std::uint32_t>(tree_.spheres.id(slot)) : 0,
             {local_centre_[0][k], local_centre_[1][k], local_centre_[2][k]},
             padded,
             padded * padded};
   }
 
-  // kRays rays from lane `begin` on against one sphere, run after run: what one vector needs does not wait for the
-  // other, and the only branch is whether any of the run comes near. True if a winner changed.
+  // Tests kRays rays from lane `begin` on against one sphere, run after run. The vectors of a run do not wait for each
+  // other, and the only branch asks whether any ray of the run comes near. True if a winner changed.
   template <int kRays>
   HWY_INLINE bool meet_sphere(int begin, const beam::Candidate& sphere) {
     const FloatTag d;
     make_room();
     const beam::RootBounds bounds(rays_, sphere);
-    const auto number = hn::Set(WordTag(), winners_.next());
+    const auto number = hn::Set(WordTag(), call_.winners.next());
     std::uint32_t won = 0;
-    for (int run = begin; run < begin + kRays; run += kPartRays) {
-      beam::Meeting met[kPartVectors];
+    for (int run = begin; run < begin + kRays; run += kRunRays) {
+      Meeting met[kRunVectors];
       auto largest = hn::Set(d, -1.0F);
-      for (int v = 0; v < kPartVectors; ++v) {
-        met[v] = beam::meet<kCommonOrigin>(rays_, sphere, run + v * kFloatLanes);
+      for (int v = 0; v < kRunVectors; ++v) {
+        met[v] = beam::meet_rays<kCommonOrigin>(rays_, sphere, run + v * kFloatLanes);
         largest = hn::Max(largest, met[v].dp);
       }
-      // A sphere in a run's own frustum nearly always does.
-      if (kRays > kPartRays && hn::AllTrue(d, hn::Lt(largest, hn::Zero(d)))) continue;
+      // No branch where a sphere lies in the run's own frustum: nearly always some ray comes near.
+      if (kRays > kRunRays && hn::AllTrue(d, hn::Lt(largest, hn::Zero(d)))) continue;
       std::uint32_t doubts = 0;
-      for (int v = 0; v < kPartVectors; ++v) {
+      for (int v = 0; v < kRunVectors; ++v) {
         const int lane = run + v * kFloatLanes;
-        const auto near = beam::near_enough<kLeaves>(rays_, sphere, met[v], lane);
+        const auto near = beam::near_enough<kSkipOwn>(rays_, sphere, met[v], lane);
         const auto best = hn::Load(d, rays_.s_best + lane);
         const auto sure_end = hn::Load(d, rays_.s_sure + lane);
         const beam::Roots roots = bounds.of(met[v], near, best, sure_end);
@@ -226,45 +193,43 @@ class ClosestBeam {
       }
       for (; HWY_UNLIKELY(doubts != 0); doubts &= doubts - 1) {
         const int ray = run + __builtin_ctz(doubts);
-        if (ray < rays_.count) rivals_.add(first_ray_ + ray, sphere.slot);
+        if (ray < rays_.count) call_.add_pair(first_ray_ + ray, sphere.slot);
       }
     }
-    winners_.add_if(won != 0, tree_.spheres, sphere.slot);
+    call_.winners.add_if(won != 0, tree_.spheres, sphere.slot);
     return won != 0;
   }
 
-  // For what one sphere may add.
+  // Makes room for the pairs and the winner that one sphere may add.
   HWY_INLINE void make_room() {
-    if (HWY_UNLIKELY(rivals_.full())) {
-      if (!flushed_) write_misses(hits_, first_ray_, rays_.count);
-      flushed_ = true;
-      rivals_.flush();
+    if (HWY_UNLIKELY(!call_.has_room())) {
+      if (!decided_early_) write_misses(call_.hits, first_ray_, rays_.count);
+      decided_early_ = true;
+      call_.decide();
     }
-    winners_.make_room(rays_);
+    call_.winners.make_room(rays_);
   }
 
   HWY_INLINE void write() {
-    if (winners_.none() && !flushed_) return write_misses(hits_, first_ray_, rays_.count);
-    if (HWY_LIKELY(!flushed_)) return write_winners(tree_, span_, first_ray_, rays_, winners_, hits_);
-    // Rivals have been decided already: the winners must be nearer.
+    if (call_.winners.none() && !decided_early_) return write_misses(call_.hits, first_ray_, rays_.count);
+    if (HWY_LIKELY(!decided_early_))
+      return write_winners(tree_, call_.span, first_ray_, rays_, call_.winners, call_.hits);
+    // Some of the block's pairs have been decided already: the winners must be nearer.
     for (int i = 0; i < rays_.count; ++i) {
       if (rays_.winner[i] == kNoWinner) continue;
-      if (rivals_.full()) rivals_.flush();
-      rivals_.add(first_ray_ + i, winners_.slot(rays_.winner[i]));
+      if (!call_.has_room()) call_.decide();
+      call_.add_pair(first_ray_ + i, call_.winners.slot(rays_.winner[i]));
     }
   }
 
+  ClosestBeams& call_;
   const WideTree& tree_;
   BeamRays& rays_;
   Frustum& frustum_;
-  const RaySpan& span_;
   const std::int64_t first_ray_;
-  const HitSpan& hits_;
-  Winners& winners_;
-  Rivals& rivals_;
-  bool flushed_ = false;                            // rivals were decided before all were found
+  bool decided_early_ = false;                      // some pairs of the block, before all its spheres were found
   alignas(64) float local_centre_[3][kFloatLanes];  // NOLINT: written before read
-  Frustum parts_[kParts];
+  Frustum runs_[kRuns];
   WaitingSpheres spheres_;
 };
 

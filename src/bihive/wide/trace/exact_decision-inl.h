@@ -10,11 +10,13 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
 #include "bihive/simd/wasm_float64-inl.h"
 #include "bihive/wide/ray_batch.h"
+#include "bihive/wide/trace/undecided_pairs.h"
 #include "bihive/wide/tree/left_sphere.h"
 #include "bihive/wide/wide_tree.h"
 
@@ -24,12 +26,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kExactPairs = 8;
-
-/// A ray's number in its span, and a sphere's slot.
-struct Pair {
-  std::uint32_t ray;
-  std::uint32_t slot;
-};
 
 namespace exact {
 
@@ -66,47 +62,61 @@ HWY_INLINE void gather(const WideTree& tree, const RaySpan& rays, const Pair& pa
 
 }  // namespace exact
 
-/// Lanes of rays and spheres in binary64.
+/// Rays and spheres in binary64, stored units.
 template <class D>
 struct ExactLanes {
   hn::Vec<D> origin[3], direction[3], centre[3], radius, t_min, t_max;
   hn::Mask<D> own, inside;  // the ray leaves this sphere; into it
 };
 
-/// sphere_hit() lane by lane: t, or +inf.
+/// Where lines meet spheres: both roots. They are right where the discriminant is not negative.
 template <class D>
-HWY_INLINE hn::Vec<D> sphere_hit_lanes(D d, const ExactLanes<D>& lanes) {
+struct RootLanes {
+  hn::Vec<D> discriminant, t_near, t_far;
+};
+
+/// sphere_roots() of geometry/sphere.h lane by lane.
+template <class D>
+HWY_INLINE RootLanes<D> sphere_roots_lanes(const hn::Vec<D> origin[3], const hn::Vec<D> direction[3],
+                                           const hn::Vec<D> centre[3], hn::Vec<D> radius) {
   const auto dot3 = [](auto ax, auto ay, auto az, auto bx, auto by, auto bz)
                         HWY_ATTR { return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz)); };
-  const auto dx = lanes.direction[0];
-  const auto dy = lanes.direction[1];
-  const auto dz = lanes.direction[2];
+  const auto dx = direction[0];
+  const auto dy = direction[1];
+  const auto dz = direction[2];
   const auto direction_squared = dot3(dx, dy, dz, dx, dy, dz);
 
   // Find the point of the line that is closest to the centre, and the vector from it to the centre.
-  const auto cx = hn::Sub(lanes.centre[0], lanes.origin[0]);
-  const auto cy = hn::Sub(lanes.centre[1], lanes.origin[1]);
-  const auto cz = hn::Sub(lanes.centre[2], lanes.origin[2]);
+  const auto cx = hn::Sub(centre[0], origin[0]);
+  const auto cy = hn::Sub(centre[1], origin[1]);
+  const auto cz = hn::Sub(centre[2], origin[2]);
   const auto t_closest = hn::Div(dot3(cx, cy, cz, dx, dy, dz), direction_squared);
   const auto px = hn::Sub(cx, hn::Mul(t_closest, dx));
   const auto py = hn::Sub(cy, hn::Mul(t_closest, dy));
   const auto pz = hn::Sub(cz, hn::Mul(t_closest, dz));
 
   // Pythagoras gives half of the chord.
-  const auto r = lanes.radius;
-  const auto discriminant = hn::Sub(hn::Mul(r, r), dot3(px, py, pz, px, py, pz));
-  const auto meets = hn::And(hn::Ge(discriminant, hn::Zero(d)), hn::Gt(r, hn::Zero(d)));
-  const auto half_chord = hn::Sqrt(hn::Div(discriminant, direction_squared));
-  const auto t_near = hn::Sub(t_closest, half_chord);
-  const auto t_far = hn::Add(t_closest, half_chord);
+  RootLanes<D> roots;
+  roots.discriminant = hn::Sub(hn::Mul(radius, radius), dot3(px, py, pz, px, py, pz));
+  const auto half_chord = hn::Sqrt(hn::Div(roots.discriminant, direction_squared));
+  roots.t_near = hn::Sub(t_closest, half_chord);
+  roots.t_far = hn::Add(t_closest, half_chord);
+  return roots;
+}
 
-  // The nearer root in the segment, else the farther; of the sphere that the ray leaves the farther or none.
-  const auto take_near =
-      hn::And(hn::AndNot(lanes.own, meets), hn::And(hn::Ge(t_near, lanes.t_min), hn::Le(t_near, lanes.t_max)));
-  const auto take_far = hn::And(hn::AndNot(hn::AndNot(lanes.inside, lanes.own), meets),
-                                hn::And(hn::Ge(t_far, lanes.t_min), hn::Le(t_far, lanes.t_max)));
+/// sphere_hit() lane by lane: t, or +inf.
+template <class D>
+HWY_INLINE hn::Vec<D> sphere_hit_lanes(D d, const ExactLanes<D>& lanes) {
+  const auto roots = sphere_roots_lanes<D>(lanes.origin, lanes.direction, lanes.centre, lanes.radius);
+  const auto meets = hn::And(hn::Ge(roots.discriminant, hn::Zero(d)), hn::Gt(lanes.radius, hn::Zero(d)));
+
+  // The nearer root counts if it lies in the segment, else the farther. Of the sphere that the ray leaves, only the
+  // farther root counts (going into it) or none.
+  const auto in_segment = [&](auto t) HWY_ATTR { return hn::And(hn::Ge(t, lanes.t_min), hn::Le(t, lanes.t_max)); };
+  const auto take_near = hn::And(hn::AndNot(lanes.own, meets), in_segment(roots.t_near));
+  const auto take_far = hn::And(hn::AndNot(hn::AndNot(lanes.inside, lanes.own), meets), in_segment(roots.t_far));
   const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
-  return hn::IfThenElse(take_near, t_near, hn::IfThenElse(take_far, t_far, infinity));
+  return hn::IfThenElse(take_near, roots.t_near, hn::IfThenElse(take_far, roots.t_far, infinity));
 }
 
 /// sphere_hit() of up to eight pairs of valid rays and spheres: t or +inf to `t`.
@@ -134,6 +144,29 @@ HWY_INLINE void exact_hits(const WideTree& tree, const RaySpan& rays, const Pair
     lanes.inside = hn::Gt(hn::Load(d, g.inside + k), half);
     hn::StoreU(sphere_hit_lanes(d, lanes), d, t + k);
   }
+}
+
+/// Decides all pairs, and empties the store: on_hit(ray, t, slot) for each ray that hits its sphere, in the order of
+/// add().
+template <class Pairs, class OnHit>
+HWY_INLINE void decide_pairs(const WideTree& tree, const RaySpan& rays, Pairs& pairs, const OnHit& on_hit) {
+  double t[kExactPairs];
+  for (int first = 0; first < pairs.count(); first += kExactPairs) {
+    const Pair* const some = pairs.data() + first;
+    const int n = std::min(kExactPairs, pairs.count() - first);
+    exact_hits(tree, rays, some, n, t);
+    for (int k = 0; k < n; ++k)
+      if (t[k] < std::numeric_limits<double>::infinity()) on_hit(some[k].ray, t[k], some[k].slot);
+  }
+  pairs.clear();
+}
+
+/// Makes `t` and `id` the hit of a ray if they are nearer than what it has.
+HWY_INLINE void keep_nearer(const HitSpan& hits, std::int64_t ray, double t, std::int64_t id) {
+  Hit best{hits.t[ray], hits.sphere_id[ray]};
+  best.keep_nearer(t, id);
+  hits.t[ray] = best.t;
+  hits.sphere_id[ray] = best.sphere_id;
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -62,11 +62,12 @@ inline float upper_distance(double t, double length, double shift) {
   return static_cast<float>(std::clamp(upper, -double(kFarthestEnd), double(kFarthestEnd)));
 }
 
-/// No sphere's id.
+/// No sphere's id, and no sphere's slot.
 constexpr std::uint32_t kNoSphere = 0xFFFFFFFF;
+constexpr std::uint32_t kNoSlot = 0xFFFFFFFF;
 
 /// One local ray, a cache line.
-struct alignas(64) FilterRay {
+struct alignas(64) LocalRay {
   float origin[3];
   float direction[3];
   float inverse[3];          ///< 1 / direction, finite
@@ -75,6 +76,6 @@ struct alignas(64) FilterRay {
   std::uint32_t outward_id;  ///< of the sphere that it leaves going outward; kNoSphere if there is none
   std::uint32_t unused[2];
 };
-static_assert(sizeof(FilterRay) == 64);
+static_assert(sizeof(LocalRay) == 64);
 
 }  // namespace bihive

@@ -26,7 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// w_end and, along each minor axis i, between the planes i = limit + slope * w of `low` and `high`. Everything is
 /// outward by the rays' `pad`.
 struct Frustum {
-  struct Plane {
+  struct Side {
     float limit;
     float slope;  ///< times sign: to be multiplied with coordinates along the major axis itself
     float norm;   ///< sqrt(1 + slope^2), rounded up
@@ -34,7 +34,7 @@ struct Frustum {
   };
   int major, minor[2];
   float sign;
-  Plane low[2], high[2];
+  Side low[2], high[2];
   float w_begin, w_end;  ///< w_end comes nearer as hits are found
   int octant;            ///< of the direction in the middle, as WideNode::order numbers them
   float width;           ///< the larger extent across, where the beam is widest inside the set's bounds
@@ -51,27 +51,20 @@ HWY_INLINE float smallest(hn::VFromD<FloatTag> v) {
 
 }  // namespace frustum
 
-/// Of the kRays rays from lane `begin` on; those that are done (s_best below 0) do not count. False: no ray meets the
-/// bounds of the set.
+namespace frustum {
+
+// No coordinate of a ray comes near to it.
+constexpr float kFarUp = 1e30F;
+
+// Sets w_begin and w_end: between the first start and the last end, inside the set's bounds.
 template <int kRays>
-HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, int begin, Frustum& out) {
+HWY_INLINE void bound_along(const WideTree& tree, const BeamRays& rays, int begin, Frustum& out) {
   const FloatTag d;
   const int major = rays.major;
-  out.major = major;
-  out.minor[0] = major == 0 ? 1 : 0;
-  out.minor[1] = major == 2 ? 1 : 2;
-  out.sign = rays.sign;
   const auto sign = hn::Set(d, rays.sign);
-
-  // Along the major axis: between the first start and the last end, inside the set's bounds.
-  const float lo = tree.aabb.lo[major];
-  const float hi = tree.aabb.hi[major];
-  const float set_begin = rays.sign > 0 ? lo : -hi;
-  const float set_end = rays.sign > 0 ? hi : -lo;
-  const auto far_up = hn::Set(d, 1e30F);
-  const auto far_down = hn::Neg(far_up);
+  const auto far_up = hn::Set(d, kFarUp);
   auto start = far_up;
-  auto end = far_down;
+  auto end = hn::Neg(far_up);
   for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
     const auto o = hn::Mul(sign, hn::Load(d, rays.origin[major] + lane));
     const auto n = hn::Mul(sign, hn::Load(d, rays.direction[major] + lane));
@@ -79,57 +72,84 @@ HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, int beg
     start = hn::Min(start, hn::IfThenElse(hn::Ge(best, hn::Zero(d)), o, far_up));
     end = hn::Max(end, hn::MulAdd(n, best, o));
   }
-  out.w_begin = std::max(frustum::smallest(start), set_begin) - rays.pad;
-  out.w_end = std::min(frustum::largest(end), set_end) + rays.pad;
+  const float lo = tree.aabb.lo[major];
+  const float hi = tree.aabb.hi[major];
+  out.w_begin = std::max(smallest(start), rays.sign > 0 ? lo : -hi) - rays.pad;
+  out.w_end = std::min(largest(end), rays.sign > 0 ? hi : -lo) + rays.pad;
+}
+
+// The least and the largest place along an axis, of any ray, where the beam begins and where it ends.
+struct Across {
+  float low_begin, low_end, high_begin, high_end;
+};
+
+template <int kRays>
+HWY_INLINE Across bound_across(const BeamRays& rays, int begin, const Frustum& beam, int axis) {
+  const FloatTag d;
+  const auto sign = hn::Set(d, rays.sign);
+  const auto far_up = hn::Set(d, kFarUp);
+  const auto far_down = hn::Neg(far_up);
+  const auto w0 = hn::Set(d, beam.w_begin);
+  const auto w1 = hn::Set(d, beam.w_end);
+  auto low0 = far_up;
+  auto low1 = far_up;
+  auto high0 = far_down;
+  auto high1 = far_down;
+  for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
+    const auto ow = hn::Mul(sign, hn::Load(d, rays.origin[rays.major] + lane));
+    const auto nw = hn::Mul(sign, hn::Load(d, rays.direction[rays.major] + lane));
+    const auto o = hn::Load(d, rays.origin[axis] + lane);
+    const auto slope = hn::Div(hn::Load(d, rays.direction[axis] + lane), nw);
+    const auto at0 = hn::MulAdd(slope, hn::Sub(w0, ow), o);
+    const auto at1 = hn::MulAdd(slope, hn::Sub(w1, ow), o);
+    const auto counts = hn::Ge(hn::Load(d, rays.s_best + lane), hn::Zero(d));
+    low0 = hn::Min(low0, hn::IfThenElse(counts, at0, far_up));
+    high0 = hn::Max(high0, hn::IfThenElse(counts, at0, far_down));
+    low1 = hn::Min(low1, hn::IfThenElse(counts, at1, far_up));
+    high1 = hn::Max(high1, hn::IfThenElse(counts, at1, far_down));
+  }
+  return {smallest(low0), smallest(low1), largest(high0), largest(high1)};
+}
+
+// The plane on one side. Any slope is right, since both ends of the beam lie inside.
+HWY_INLINE Frustum::Side side_through(const BeamRays& rays, const Frustum& beam, float at_begin, float at_end,
+                                      bool high) {
+  const float inverse_length = 1 / std::max(beam.w_end - beam.w_begin, 1e-3F);
+  const float slope = std::clamp((at_end - at_begin) * inverse_length, -8.0F, 8.0F);
+  const float limit_begin = at_begin - slope * beam.w_begin;
+  const float limit_end = at_end - slope * beam.w_end;
+  Frustum::Side side;
+  side.limit = high ? std::max(limit_begin, limit_end) + rays.pad : std::min(limit_begin, limit_end) - rays.pad;
+  side.slope = slope * rays.sign;
+  side.norm = std::sqrt(1 + slope * slope) * 1.00001F;
+  const bool take_hi = high ? side.slope > 0 : side.slope < 0;
+  side.corner = (take_hi ? 3 * kWidth : 0) + rays.major * kWidth;
+  return side;
+}
+
+}  // namespace frustum
+
+/// Of the kRays rays from lane `begin` on; those that are done (s_best below 0) do not count. False: no ray meets the
+/// bounds of the set.
+template <int kRays>
+HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, int begin, Frustum& out) {
+  const int major = rays.major;
+  out.major = major;
+  out.minor[0] = major == 0 ? 1 : 0;
+  out.minor[1] = major == 2 ? 1 : 2;
+  out.sign = rays.sign;
+  frustum::bound_along<kRays>(tree, rays, begin, out);
   if (!(out.w_begin <= out.w_end)) return false;
 
-  // Across: the least and the largest place of any ray at both ends.
-  const auto w0 = hn::Set(d, out.w_begin);
-  const auto w1 = hn::Set(d, out.w_end);
-  const float inverse_length = 1 / std::max(out.w_end - out.w_begin, 1e-3F);
   out.width = 0;
   out.octant = rays.sign < 0 ? 1 << major : 0;
   for (int k = 0; k < 2; ++k) {
     const int axis = out.minor[k];
-    auto low0 = far_up;
-    auto low1 = far_up;
-    auto high0 = far_down;
-    auto high1 = far_down;
-    for (int lane = begin; lane < begin + kRays; lane += kFloatLanes) {
-      const auto ow = hn::Mul(sign, hn::Load(d, rays.origin[major] + lane));
-      const auto nw = hn::Mul(sign, hn::Load(d, rays.direction[major] + lane));
-      const auto o = hn::Load(d, rays.origin[axis] + lane);
-      const auto slope = hn::Div(hn::Load(d, rays.direction[axis] + lane), nw);
-      const auto at0 = hn::MulAdd(slope, hn::Sub(w0, ow), o);
-      const auto at1 = hn::MulAdd(slope, hn::Sub(w1, ow), o);
-      const auto counts = hn::Ge(hn::Load(d, rays.s_best + lane), hn::Zero(d));
-      low0 = hn::Min(low0, hn::IfThenElse(counts, at0, far_up));
-      high0 = hn::Max(high0, hn::IfThenElse(counts, at0, far_down));
-      low1 = hn::Min(low1, hn::IfThenElse(counts, at1, far_up));
-      high1 = hn::Max(high1, hn::IfThenElse(counts, at1, far_down));
-    }
-    const float l0 = frustum::smallest(low0);
-    const float l1 = frustum::smallest(low1);
-    const float h0 = frustum::largest(high0);
-    const float h1 = frustum::largest(high1);
-    out.width = std::max(out.width, std::max(h0 - l0, h1 - l1));
-    if (l1 + h1 < l0 + h0) out.octant |= 1 << axis;
-
-    // A plane of any slope will do, as long as both ends lie inside.
-    const auto plane = [&](float at0, float at1, bool high) {
-      const float slope = std::clamp((at1 - at0) * inverse_length, -8.0F, 8.0F);
-      const float limit0 = at0 - slope * out.w_begin;
-      const float limit1 = at1 - slope * out.w_end;
-      Frustum::Plane p;
-      p.limit = high ? std::max(limit0, limit1) + rays.pad : std::min(limit0, limit1) - rays.pad;
-      p.slope = slope * rays.sign;
-      p.norm = std::sqrt(1 + slope * slope) * 1.00001F;
-      const bool take_hi = high ? p.slope > 0 : p.slope < 0;
-      p.corner = (take_hi ? 3 * kWidth : 0) + major * kWidth;
-      return p;
-    };
-    out.low[k] = plane(l0, l1, false);
-    out.high[k] = plane(h0, h1, true);
+    const frustum::Across at = frustum::bound_across<kRays>(rays, begin, out, axis);
+    out.width = std::max(out.width, std::max(at.high_begin - at.low_begin, at.high_end - at.low_end));
+    if (at.low_end + at.high_end < at.low_begin + at.high_begin) out.octant |= 1 << axis;
+    out.low[k] = frustum::side_through(rays, out, at.low_begin, at.low_end, false);
+    out.high[k] = frustum::side_through(rays, out, at.high_begin, at.high_end, true);
   }
   return true;
 }
@@ -148,8 +168,8 @@ HWY_INLINE std::uint32_t boxes_in(const WideNode& node, const Frustum& beam, flo
     const auto far_w = hn::Mul(sign, hn::Load(d, far_planes + lane));
     auto inside = hn::And(hn::Le(near_w, hn::Set(d, beam.w_end)), hn::Ge(far_w, hn::Set(d, beam.w_begin)));
     for (int k = 0; k < 2; ++k) {
-      const Frustum::Plane& high = beam.high[k];
-      const Frustum::Plane& low = beam.low[k];
+      const Frustum::Side& high = beam.high[k];
+      const Frustum::Side& low = beam.low[k];
       const auto box_lo = hn::Load(d, node.lo[beam.minor[k]] + lane);
       const auto box_hi = hn::Load(d, node.hi[beam.minor[k]] + lane);
       const auto under = hn::NegMulAdd(hn::Set(d, high.slope), hn::Load(d, boxes + high.corner + lane), box_lo);
@@ -176,8 +196,7 @@ HWY_INLINE std::uint32_t near_to_far(const WideNode& node, int octant, std::uint
     order = x >> (4 * (kWidth - node.child_count));
   }
   std::uint32_t places = 0;
-  using Word = WordTag;
-  const Word w;
+  const WordTag w;
   for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
     const auto number = hn::Iota(w, static_cast<std::uint32_t>(lane));
     const auto low_half = hn::Set(w, static_cast<std::uint32_t>(order));
@@ -199,8 +218,8 @@ HWY_INLINE hn::Mask<FloatTag> spheres_in(const Frustum& beam, const V centre[3],
   auto inside =
       hn::And(hn::Le(hn::Sub(w, radius), hn::Set(d, beam.w_end)), hn::Ge(hn::Add(w, radius), hn::Set(d, beam.w_begin)));
   for (int k = 0; k < 2; ++k) {
-    const Frustum::Plane& high = beam.high[k];
-    const Frustum::Plane& low = beam.low[k];
+    const Frustum::Side& high = beam.high[k];
+    const Frustum::Side& low = beam.low[k];
     const auto c = centre[beam.minor[k]];
     const auto above = hn::NegMulAdd(hn::Set(d, high.slope), major, c);
     const auto below = hn::NegMulAdd(hn::Set(d, low.slope), major, c);

@@ -16,6 +16,8 @@
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/trace/filter_bounds.h"
 #include "bihive/wide/trace/list_tile.h"
+#include "bihive/wide/trace/sphere_filter-inl.h"
+#include "bihive/wide/trace/tuning.h"
 #include "bihive/wide/tree/radii-inl.h"
 #include "bihive/wide/wide_tree.h"
 
@@ -24,19 +26,16 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Rays to fetch before they are needed.
-constexpr std::uint32_t kAhead = 8;
-
 /// Up to sixteen spheres from `slot` on, and a list of rays of the tile.
 struct LeafAndRays {
   const WideTree& tree;
-  kernels::ListTile& tile;
+  ListTile& tile;
   float e;  ///< FilterBounds
   std::uint32_t slot, spheres;
   const std::uint32_t* list;
   std::uint32_t count;
 
-  HWY_INLINE const FilterRay& ray(std::uint32_t i) const { return tile.rays[list[i]]; }
+  HWY_INLINE const LocalRay& ray(std::uint32_t i) const { return tile.rays[list[i]]; }
 
   /// Of the spheres from `lane` on: (r + e)^2, which nothing reaches past the leaf; ids; slots.
   HWY_INLINE Floats padded_squares(std::uint32_t lane) const {
@@ -51,39 +50,26 @@ struct LeafAndRays {
   HWY_INLINE Words slots(std::uint32_t lane) const { return iota_words(slot + lane); }
 };
 
-/// How a ray lies to spheres, in units of distance along it.
-struct Meeting {
-  Floats b, dp;
-};
-
 /// A ray in all lanes.
 struct LeafRay {
   Floats nx, ny, nz, ox, oy, oz;
-  HWY_INLINE explicit LeafRay(const FilterRay& ray)
+  HWY_INLINE explicit LeafRay(const LocalRay& ray)
       : nx(in_all(ray.direction[0])),
         ny(in_all(ray.direction[1])),
         nz(in_all(ray.direction[2])),
         ox(in_all(ray.origin[0])),
         oy(in_all(ray.origin[1])),
         oz(in_all(ray.origin[2])) {}
-  HWY_INLINE Meeting meet(Floats x, Floats y, Floats z, Floats r_squared) const {
-    return met_at(hn::Sub(x, ox), hn::Sub(y, oy), hn::Sub(z, oz), r_squared);
+  HWY_INLINE Meeting to(Floats x, Floats y, Floats z, Floats r_squared) const {
+    return meet(hn::Sub(x, ox), hn::Sub(y, oy), hn::Sub(z, oz), nx, ny, nz, r_squared);
   }
-  /// The same numbers, where vectors are loaded as second operands only.
-  HWY_INLINE Meeting meet(const float* x, const float* y, const float* z, Floats r_squared) const {
+  /// The same numbers from memory. The vector from the centre is used, since the centre is then loaded by the
+  /// subtraction itself; only the sign of b differs.
+  HWY_INLINE Meeting to(const float* x, const float* y, const float* z, Floats r_squared) const {
     const FloatTag d;
-    const Meeting met =
-        met_at(hn::Sub(ox, hn::LoadU(d, x)), hn::Sub(oy, hn::LoadU(d, y)), hn::Sub(oz, hn::LoadU(d, z)), r_squared);
+    const Meeting met = meet(hn::Sub(ox, hn::LoadU(d, x)), hn::Sub(oy, hn::LoadU(d, y)), hn::Sub(oz, hn::LoadU(d, z)),
+                             nx, ny, nz, r_squared);
     return {hn::Neg(met.b), met.dp};
-  }
-
- private:
-  HWY_INLINE Meeting met_at(Floats cx, Floats cy, Floats cz, Floats r_squared) const {
-    const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
-    const auto px = hn::NegMulAdd(b, nx, cx);
-    const auto py = hn::NegMulAdd(b, ny, cy);
-    const auto pz = hn::NegMulAdd(b, nz, cz);
-    return {b, hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)))};
   }
 };
 
@@ -94,7 +80,7 @@ HWY_INLINE FloatMask without_own(FloatMask passes, Words ids, std::uint32_t outw
 
 /// Puts the lanes that pass at the end of the queue; returns its new length. Without a branch: whether some of many
 /// spheres pass cannot be foreseen.
-HWY_INLINE int queue_candidates(kernels::CandidateQueue& queue, int queued, FloatMask passes, const Meeting& met,
+HWY_INLINE int queue_candidates(CandidateQueue& queue, int queued, FloatMask passes, const Meeting& met,
                                 Floats r_squared, Words slots, std::uint32_t ray) {
   const FloatTag d;
   const WordTag words;
@@ -125,12 +111,12 @@ HWY_INLINE int queue_candidates(kernels::CandidateQueue& queue, int queued, Floa
 /// that is full.
 template <class Look, class Finish>
 HWY_INLINE void for_each_ray(const LeafAndRays& leaf, const Finish& finish, const Look& look) {
-  kernels::CandidateQueue& queue = leaf.tile.queue;
+  CandidateQueue& queue = leaf.tile.queue;
   int queued = queue.count;
   for (std::uint32_t i = 0; i < leaf.count; ++i) {
     __builtin_prefetch(&leaf.ray(std::min(i + kAhead, leaf.count - 1)));
     queued = look(i, queued);
-    if (HWY_UNLIKELY(queued >= kernels::kQueue)) {
+    if (HWY_UNLIKELY(queued >= kQueue)) {
       queue.count = queued;
       finish();
       queued = 0;
@@ -140,7 +126,7 @@ HWY_INLINE void for_each_ray(const LeafAndRays& leaf, const Finish& finish, cons
 }
 
 /// All the spheres in one vector, which stays in registers while the rays come.
-template <bool kLeaves, class Finish>
+template <bool kSkipOwn, class Finish>
 HWY_INLINE void look_at_one_vector(const LeafAndRays& leaf, const Finish& finish) {
   const FloatTag d;
   const auto x = hn::LoadU(d, leaf.tree.spheres.x + leaf.slot);
@@ -150,9 +136,9 @@ HWY_INLINE void look_at_one_vector(const LeafAndRays& leaf, const Finish& finish
   const auto slots = leaf.slots(0);
   const auto ids = leaf.ids(0);
   for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
-    const Meeting met = LeafRay(leaf.ray(i)).meet(x, y, z, r_squared);
+    const Meeting met = LeafRay(leaf.ray(i)).to(x, y, z, r_squared);
     auto passes = hn::Ge(met.dp, hn::Zero(d));
-    if constexpr (kLeaves) passes = without_own(passes, ids, leaf.ray(i).outward_id);
+    if constexpr (kSkipOwn) passes = without_own(passes, ids, leaf.ray(i).outward_id);
     return queue_candidates(leaf.tile.queue, queued, passes, met, r_squared, slots, leaf.list[i]);
   });
 }
@@ -173,25 +159,25 @@ struct alignas(64) LeafInMemory {
   }
 
   /// How a ray lies to the spheres from `lane` on, and which of them it may hit.
-  template <bool kLeaves>
+  template <bool kSkipOwn>
   HWY_INLINE Meeting meet(const LeafRay& ray, std::uint32_t outward_id, std::uint32_t lane, FloatMask& passes) const {
     const FloatTag d;
-    const Meeting met = ray.meet(x + lane, y + lane, z + lane, hn::Load(d, r_squared + lane));
+    const Meeting met = ray.to(x + lane, y + lane, z + lane, hn::Load(d, r_squared + lane));
     passes = hn::Ge(met.dp, hn::Zero(d));
-    if constexpr (kLeaves) passes = without_own(passes, hn::Load(WordTag(), ids + lane), outward_id);
+    if constexpr (kSkipOwn) passes = without_own(passes, hn::Load(WordTag(), ids + lane), outward_id);
     return met;
   }
 };
 
 /// Ray after ray against one vector of spheres, or two.
-template <bool kLeaves, std::uint32_t kVectors, class Finish>
+template <bool kSkipOwn, std::uint32_t kVectors, class Finish>
 HWY_INLINE void look_at_few_vectors(const LeafAndRays& leaf, const Finish& finish) {
   const LeafInMemory memory(leaf);
   for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
     const LeafRay ray(leaf.ray(i));
     for (std::uint32_t lane = 0; lane < kVectors * kFloatLanes; lane += kFloatLanes) {
       FloatMask passes;
-      const Meeting met = memory.meet<kLeaves>(ray, leaf.ray(i).outward_id, lane, passes);
+      const Meeting met = memory.meet<kSkipOwn>(ray, leaf.ray(i).outward_id, lane, passes);
       queued = queue_candidates(leaf.tile.queue, queued, passes, met, hn::Load(FloatTag(), memory.r_squared + lane),
                                 hn::Load(WordTag(), memory.slots + lane), leaf.list[i]);
     }
@@ -200,10 +186,10 @@ HWY_INLINE void look_at_few_vectors(const LeafAndRays& leaf, const Finish& finis
 }
 
 /// Ray after ray against several short vectors of spheres, whose candidates are picked one by one.
-template <bool kLeaves, class Finish>
+template <bool kSkipOwn, class Finish>
 HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& finish) {
   const LeafInMemory memory(leaf);
-  kernels::CandidateQueue& queue = leaf.tile.queue;
+  CandidateQueue& queue = leaf.tile.queue;
   alignas(64) float b[kWidth];
   alignas(64) float dp[kWidth];
   for_each_ray(leaf, finish, [&](std::uint32_t i, int queued) HWY_ATTR {
@@ -211,7 +197,7 @@ HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& fin
     std::uint32_t bits = 0;
     for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
       FloatMask passes;
-      const Meeting met = memory.meet<kLeaves>(ray, leaf.ray(i).outward_id, lane, passes);
+      const Meeting met = memory.meet<kSkipOwn>(ray, leaf.ray(i).outward_id, lane, passes);
       bits |= mask_bits(passes) << lane;
       hn::Store(met.b, FloatTag(), b + lane);
       hn::Store(met.dp, FloatTag(), dp + lane);
@@ -230,36 +216,36 @@ HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& fin
 }
 
 /// One ray. The queue must have room for sixteen more.
-template <bool kLeaves>
+template <bool kSkipOwn>
 HWY_INLINE void look_at_pair(const LeafAndRays& leaf) {
   const FloatTag d;
   const WideSpheres& spheres = leaf.tree.spheres;
   const LeafRay ray(leaf.ray(0));
-  kernels::CandidateQueue& queue = leaf.tile.queue;
+  CandidateQueue& queue = leaf.tile.queue;
   int queued = queue.count;
   for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
     const std::uint32_t slot = leaf.slot + lane;
     const auto r_squared = leaf.padded_squares(lane);
-    const Meeting met = ray.meet(spheres.x + slot, spheres.y + slot, spheres.z + slot, r_squared);
+    const Meeting met = ray.to(spheres.x + slot, spheres.y + slot, spheres.z + slot, r_squared);
     auto passes = hn::Ge(met.dp, hn::Zero(d));
-    if constexpr (kLeaves) passes = without_own(passes, leaf.ids(lane), leaf.ray(0).outward_id);
+    if constexpr (kSkipOwn) passes = without_own(passes, leaf.ids(lane), leaf.ray(0).outward_id);
     queued = queue_candidates(queue, queued, passes, met, r_squared, leaf.slots(lane), leaf.list[0]);
   }
   queue.count = queued;
 }
 
-/// The rays against the spheres; finish() empties the queue of the tile. With kLeaves some ray may leave a sphere.
-template <bool kLeaves, class Finish>
+/// The rays against the spheres; finish() empties the queue of the tile. With kSkipOwn some ray may leave a sphere.
+template <bool kSkipOwn, class Finish>
 HWY_INLINE void look_at_leaf(const LeafAndRays& leaf, const Finish& finish) {
   if constexpr (kFloatLanes == kWidth) {
-    look_at_one_vector<kLeaves>(leaf, finish);
+    look_at_one_vector<kSkipOwn>(leaf, finish);
   } else if constexpr (2 * kFloatLanes == kWidth) {
     if (leaf.spheres <= kFloatLanes)
-      look_at_few_vectors<kLeaves, 1>(leaf, finish);
+      look_at_few_vectors<kSkipOwn, 1>(leaf, finish);
     else
-      look_at_few_vectors<kLeaves, 2>(leaf, finish);
+      look_at_few_vectors<kSkipOwn, 2>(leaf, finish);
   } else {
-    look_at_short_vectors<kLeaves>(leaf, finish);
+    look_at_short_vectors<kSkipOwn>(leaf, finish);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "bihive/simd/dispatch.h"
@@ -17,10 +19,15 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 
 void walk_closest(const WideTree& tree, const RaySpan& rays, ListTile& tile, const HitSpan& hits) {
+  std::fill_n(hits.t, rays.count, std::numeric_limits<double>::infinity());
+  std::fill_n(hits.sphere_id, rays.count, kNothing);
+  if (tree.node_count == 0) return;
   ListWalk<false>(tree, rays, tile, hits, nullptr).run();
 }
 
 void walk_occluded(const WideTree& tree, const RaySpan& rays, ListTile& tile, std::uint8_t* hidden) {
+  std::fill_n(hidden, rays.count, std::uint8_t{0});
+  if (tree.node_count == 0) return;
   ListWalk<true>(tree, rays, tile, HitSpan{}, hidden).run();
 }
 
@@ -34,7 +41,7 @@ namespace bihive {
 HWY_EXPORT(walk_closest);
 HWY_EXPORT(walk_occluded);
 
-namespace kernels {
+namespace wide {
 namespace {
 
 ListTile& tile_of_this_thread() {
@@ -51,7 +58,7 @@ void for_each_tile(std::int64_t rays, const Body& body) {
 
 }  // namespace
 
-void closest_hits_lists(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
+void closest_hits_by_lists(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
   ensure_target();
   ListTile& tile = tile_of_this_thread();
   for_each_tile(rays.count, [&](std::int64_t first, std::int64_t count) {
@@ -59,7 +66,7 @@ void closest_hits_lists(const WideTree& tree, const RaySpan& rays, const HitSpan
   });
 }
 
-void occluded_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+void occluded_by_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   ensure_target();
   ListTile& tile = tile_of_this_thread();
   for_each_tile(rays.count, [&](std::int64_t first, std::int64_t count) {
@@ -67,6 +74,6 @@ void occluded_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* hid
   });
 }
 
-}  // namespace kernels
+}  // namespace wide
 }  // namespace bihive
 #endif

@@ -1,4 +1,4 @@
-// Ray lists: many rays walk the wide tree together; public callers use wide/queries.h.
+// Ray lists: tiles of many rays walk the wide tree together, on the active target. Any rays may come.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/wide_tree.h"
 
-namespace bihive::kernels {
+namespace bihive::wide {
 
-void closest_hits_lists(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
-void occluded_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+void closest_hits_by_lists(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
+void occluded_by_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
 
-}  // namespace bihive::kernels
+}  // namespace bihive::wide

@@ -1,5 +1,5 @@
-// From rays as the caller gives them to local rays of the binary32 filter (wide/trace/filter_bounds.h). One body for
-// every target.
+// Local rays of the binary32 filter, made from the caller's rays: wide/trace/filter_bounds.h says what a local ray is.
+// One body serves every target.
 
 #if defined(BIHIVE_WIDE_TRACE_LOCAL_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_LOCAL_RAYS_INL_H_
@@ -23,122 +23,170 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Rays of the caller's, lane by lane, in binary64 and world units.
+template <class D>
+struct WorldLanes {
+  hn::Vec<D> origin[3], direction[3];
+  hn::Vec<D> t_min, t_max;
+  bool has_segment;  ///< false: t_min is 0 and t_max +inf in all lanes, and neither is read
+};
+
+/// Local rays, lane by lane. A distance is s = t * length - shift, where `length` is in stored units.
+template <class D>
+struct LocalLanes {
+  hn::Vec<D> origin[3], direction[3];
+  hn::Vec<D> length, shift;
+  hn::Vec<D> s_min, s_max;  ///< outside the segment by less than W / 2; s_max is -inf for a dead ray
+  hn::Mask<D> alive;    ///< false: it hits nothing, since it is not valid or certainly misses everything; or too_far
+  hn::Mask<D> too_far;  ///< it starts beyond kFarthestOrigin: not for the filter
+};
+
+namespace local_rays {
+
+template <class D>
+HWY_INLINE hn::Vec<D> largest_of(const hn::Vec<D> v[3]) {
+  return hn::Max(hn::Max(hn::Abs(v[0]), hn::Abs(v[1])), hn::Abs(v[2]));
+}
+
+// Sets s_min and s_max: the segment along the unit direction, outward by more than its roundings.
+template <class D>
+HWY_INLINE void set_up_segment(D d, const WorldLanes<D>& world, LocalLanes<D>& local) {
+  const auto farthest = hn::Set(d, double(kFarthestEnd));
+  const auto slack = hn::Mul(hn::Abs(local.shift), hn::Set(d, 0x1p-46));
+  const auto relative = hn::Set(d, 0x1p-22);
+  local.s_min = hn::Neg(local.shift);
+  local.s_max = farthest;
+  if (world.has_segment) {
+    local.alive = hn::And(local.alive, hn::Le(world.t_min, world.t_max));
+    // Infinite ends become large ones, so that no infinity meets another.
+    const auto large = hn::Set(d, 1e30);
+    const auto cut = [&](auto s) HWY_ATTR { return hn::Min(hn::Max(s, hn::Neg(large)), large); };
+    local.s_min = hn::Sub(cut(hn::Mul(world.t_min, local.length)), local.shift);
+    const auto end = hn::Sub(cut(hn::Mul(world.t_max, local.length)), local.shift);
+    local.s_max = hn::Min(farthest, hn::Add(end, hn::MulAdd(hn::Abs(end), relative, slack)));
+    local.s_max = hn::Max(local.s_max, hn::Neg(farthest));
+  }
+  local.s_min = hn::Sub(local.s_min, hn::MulAdd(hn::Abs(local.s_min), relative, slack));
+  local.s_min = hn::Min(hn::Max(local.s_min, hn::Neg(farthest)), farthest);
+}
+
+// Gives rays that are out of the filter's reach harmless numbers.
+template <class D>
+HWY_INLINE void calm_dead_rays(D d, LocalLanes<D>& local) {
+  for (int axis = 0; axis < 3; ++axis) {
+    local.origin[axis] = hn::IfThenElseZero(local.alive, local.origin[axis]);
+    local.direction[axis] =
+        hn::IfThenElse(local.alive, local.direction[axis], axis == 0 ? hn::Set(d, 1.0) : hn::Zero(d));
+  }
+  local.s_max = hn::IfThenElse(local.alive, local.s_max, hn::Set(d, -std::numeric_limits<double>::infinity()));
+  local.s_min = hn::IfThenElseZero(local.alive, local.s_min);
+}
+
+}  // namespace local_rays
+
+/// One body for vectors of rays and for a single one (a vector of one lane). `scale` is the tree's.
+template <class D>
+HWY_INLINE LocalLanes<D> local_lanes(D d, const WorldLanes<D>& world, double scale) {
+  const auto zero = hn::Zero(d);
+  LocalLanes<D> local;
+
+  // Bring the direction to length 1. Squares of binary32 stay finite and above 0 in binary64.
+  const auto dx = world.direction[0];
+  const auto dy = world.direction[1];
+  const auto dz = world.direction[2];
+  const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+  const auto world_length = hn::Sqrt(squared);
+  const auto inverse_length = hn::Div(hn::Set(d, 1.0), world_length);
+  local.direction[0] = hn::Mul(dx, inverse_length);
+  local.direction[1] = hn::Mul(dy, inverse_length);
+  local.direction[2] = hn::Mul(dz, inverse_length);
+
+  // Which rays are valid? Comparisons with NaN are false, and Max may drop one.
+  const auto largest_float = hn::Set(d, double(std::numeric_limits<float>::max()));
+  local.alive = hn::And(hn::Gt(squared, zero), hn::Le(squared, hn::Set(d, 1e80)));
+  for (int axis = 0; axis < 3; ++axis)
+    local.alive = hn::And(local.alive, hn::Le(hn::Abs(world.origin[axis]), largest_float));
+
+  // Bring the origin to stored units, and move it to the point nearest to 0 if it is far.
+  const auto stored = hn::Set(d, scale);
+  for (int axis = 0; axis < 3; ++axis) local.origin[axis] = hn::Mul(world.origin[axis], stored);
+  local.length = hn::Mul(world_length, stored);
+  const auto size = local_rays::largest_of<D>(local.origin);
+  local.too_far = hn::And(local.alive, hn::Gt(size, hn::Set(d, kFarthestOrigin)));
+  local.shift = zero;
+  const auto far_origin = hn::Set(d, kFarOrigin);
+  const auto moved = hn::Gt(size, far_origin);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, moved))) {
+    const auto along =
+        hn::MulAdd(local.origin[0], local.direction[0],
+                   hn::MulAdd(local.origin[1], local.direction[1], hn::Mul(local.origin[2], local.direction[2])));
+    local.shift = hn::IfThenElseZero(moved, hn::Neg(along));
+    for (int axis = 0; axis < 3; ++axis)
+      local.origin[axis] = hn::MulAdd(local.shift, local.direction[axis], local.origin[axis]);
+    // A line that stays this far away misses everything.
+    local.alive = hn::And(local.alive, hn::Le(local_rays::largest_of<D>(local.origin), far_origin));
+  }
+
+  local_rays::set_up_segment(d, world, local);
+  local.alive = hn::AndNot(local.too_far, local.alive);
+  local_rays::calm_dead_rays(d, local);
+  return local;
+}
+
+/// What box tests need of rays along one axis: 1 / direction, finite, and the offset of LocalRay. Directions within
+/// 1e-18 of the axis's plane are moved off it: over the 16 units to anything in the set that is less than any padding.
+template <class D>
+HWY_INLINE void box_factors(D d, hn::Vec<D> origin, hn::Vec<D> direction, hn::Vec<D>& inverse, hn::Vec<D>& offset) {
+  // -0 becomes +0: a sign is what comparison with 0 says.
+  const auto n = hn::Add(direction, hn::Zero(d));
+  const auto clamped = hn::CopySign(hn::Max(hn::Abs(n), hn::Set(d, 1e-18F)), n);
+  inverse = hn::Div(hn::Set(d, 1.0F), clamped);
+  offset = hn::Neg(hn::Mul(origin, inverse));
+}
+
 /// Sixteen local rays as arrays.
 struct alignas(64) LocalRays {
   float origin[3][16];
   float direction[3][16];
-  float s_min[16], s_max[16];  ///< outside the segment by less than W / 2; s_max is -inf for a dead ray
-  std::uint16_t dead;          ///< bit i: ray i hits nothing: it is not valid or certainly misses everything
-  std::uint16_t far;           ///< bit i: ray i starts beyond kFarthestOrigin: not for the filter (dead here)
+  float s_min[16], s_max[16];  ///< as of LocalLanes
+  std::uint16_t dead;          ///< bit i: ray i is not alive
+  std::uint16_t far;           ///< bit i: ray i is too far
   float farthest_origin;       ///< largest coordinate of an origin of rays that are not dead
 };
 
-using DirectionTag = hn::CappedTag<double, 16>;
-using HalfTag = hn::Rebind<float, DirectionTag>;
-
 /// Rays first to first + 15 of `rays`, all of which must exist. `scale` is the tree's.
 HWY_INLINE void set_up_16(const RaySpan& rays, std::int64_t first, double scale, LocalRays& out) {
-  const DirectionTag d;
-  const HalfTag h;
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(DirectionTag()));
-  const auto zero = hn::Zero(d);
-  const auto far_limit = hn::Set(d, kFarthestOrigin);
-  const auto largest_float = hn::Set(d, double(std::numeric_limits<float>::max()));
-  auto farthest = zero;
+  using Doubles = hn::CappedTag<double, 16>;
+  using Half = hn::Rebind<float, Doubles>;
+  const Doubles d;
+  const Half h;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Doubles()));
+  auto farthest = hn::Zero(d);
   std::uint32_t dead_bits = 0;
   std::uint32_t far_bits = 0;
-
   for (int lane = 0; lane < 16; lane += kLanes) {
     const std::int64_t i = first + lane;
-    const auto load = [&](const float* from) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(h, from + i)); };
-    const auto dx = load(rays.direction[0]);
-    const auto dy = load(rays.direction[1]);
-    const auto dz = load(rays.direction[2]);
-    const auto wx = load(rays.origin[0]);
-    const auto wy = load(rays.origin[1]);
-    const auto wz = load(rays.origin[2]);
-
-    // Bring the direction to length 1. Squares of binary32 stay finite and above 0 in binary64.
-    const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const auto length = hn::Sqrt(squared);
-    const auto inverse_length = hn::Div(hn::Set(d, 1.0), length);
-    auto nx = hn::Mul(dx, inverse_length);
-    auto ny = hn::Mul(dy, inverse_length);
-    auto nz = hn::Mul(dz, inverse_length);
-
-    // Which rays are valid? Comparisons with NaN are false.
-    const auto spread = hn::Max(hn::Max(hn::Abs(wx), hn::Abs(wy)), hn::Abs(wz));
-    const auto world_finite = hn::And(hn::Le(hn::Abs(wx), largest_float),
-                                      hn::And(hn::Le(hn::Abs(wy), largest_float), hn::Le(hn::Abs(wz), largest_float)));
-    auto alive = hn::And(hn::And(hn::Gt(squared, zero), hn::Le(squared, hn::Set(d, 1e80))), world_finite);
-
-    // Bring the origin to stored units, and move it to the point nearest to 0 if it is far.
-    const auto scaled = hn::Set(d, scale);
-    auto ox = hn::Mul(wx, scaled);
-    auto oy = hn::Mul(wy, scaled);
-    auto oz = hn::Mul(wz, scaled);
-    const auto size = hn::Mul(spread, scaled);
-    const auto too_far = hn::And(alive, hn::Gt(size, far_limit));
-    auto shift = zero;
-    const auto moved = hn::Gt(size, hn::Set(d, kFarOrigin));
-    if (HWY_UNLIKELY(!hn::AllFalse(d, moved))) {
-      const auto along = hn::MulAdd(ox, nx, hn::MulAdd(oy, ny, hn::Mul(oz, nz)));
-      shift = hn::IfThenElseZero(moved, hn::Neg(along));
-      ox = hn::MulAdd(shift, nx, ox);
-      oy = hn::MulAdd(shift, ny, oy);
-      oz = hn::MulAdd(shift, nz, oz);
-      // A line that stays this far away misses everything.
-      const auto nearest = hn::Max(hn::Max(hn::Abs(ox), hn::Abs(oy)), hn::Abs(oz));
-      alive = hn::And(alive, hn::Le(nearest, hn::Set(d, kFarOrigin)));
+    WorldLanes<Doubles> world;
+    for (int axis = 0; axis < 3; ++axis) {
+      world.origin[axis] = hn::PromoteTo(d, hn::LoadU(h, rays.origin[axis] + i));
+      world.direction[axis] = hn::PromoteTo(d, hn::LoadU(h, rays.direction[axis] + i));
     }
-
-    // The segment along the unit direction, outward by more than its roundings.
-    auto s_min = hn::Neg(shift);
-    auto s_max = hn::Set(d, double(kFarthestEnd));
-    const auto scaled_length = hn::Mul(length, scaled);
-    const auto slack = hn::Mul(hn::Abs(shift), hn::Set(d, 0x1p-46));
-    const auto relative = hn::Set(d, 0x1p-22);
-    if (rays.t_min != nullptr || rays.t_max != nullptr) {
-      const auto t_min = rays.t_min != nullptr ? hn::LoadU(d, rays.t_min + i) : zero;
-      const auto t_max =
-          rays.t_max != nullptr ? hn::LoadU(d, rays.t_max + i) : hn::Set(d, std::numeric_limits<double>::infinity());
-      alive = hn::And(alive, hn::Le(t_min, t_max));
-      // Infinite ends become large ones, so that no infinity meets another.
-      const auto large = hn::Set(d, 1e30);
-      const auto cut = [&](auto s) HWY_ATTR { return hn::Min(hn::Max(s, hn::Neg(large)), large); };
-      s_min = hn::Sub(cut(hn::Mul(t_min, scaled_length)), shift);
-      const auto end = hn::Sub(cut(hn::Mul(t_max, scaled_length)), shift);
-      s_max = hn::Min(s_max, hn::Add(end, hn::MulAdd(hn::Abs(end), relative, slack)));
-      s_max = hn::Max(s_max, hn::Set(d, -double(kFarthestEnd)));
+    world.has_segment = rays.t_min != nullptr || rays.t_max != nullptr;
+    world.t_min = rays.t_min != nullptr ? hn::LoadU(d, rays.t_min + i) : hn::Zero(d);
+    world.t_max =
+        rays.t_max != nullptr ? hn::LoadU(d, rays.t_max + i) : hn::Set(d, std::numeric_limits<double>::infinity());
+    const auto local = local_lanes(d, world, scale);
+    farthest = hn::Max(farthest, local_rays::largest_of<Doubles>(local.origin));
+    for (int axis = 0; axis < 3; ++axis) {
+      hn::Store(hn::DemoteTo(h, local.origin[axis]), h, out.origin[axis] + lane);
+      hn::Store(hn::DemoteTo(h, local.direction[axis]), h, out.direction[axis] + lane);
     }
-    s_min = hn::Sub(s_min, hn::MulAdd(hn::Abs(s_min), relative, slack));
-    s_min = hn::Min(hn::Max(s_min, hn::Set(d, -double(kFarthestEnd))), hn::Set(d, double(kFarthestEnd)));
-
-    // Rays that are out of the filter's reach get harmless numbers.
-    alive = hn::AndNot(too_far, alive);
-    ox = hn::IfThenElseZero(alive, ox);
-    oy = hn::IfThenElseZero(alive, oy);
-    oz = hn::IfThenElseZero(alive, oz);
-    const auto one = hn::Set(d, 1.0);
-    nx = hn::IfThenElse(alive, nx, one);
-    ny = hn::IfThenElseZero(alive, ny);
-    nz = hn::IfThenElseZero(alive, nz);
-    s_max = hn::IfThenElse(alive, s_max, hn::Set(d, -std::numeric_limits<double>::infinity()));
-    s_min = hn::IfThenElseZero(alive, s_min);
-    farthest = hn::Max(farthest, hn::Max(hn::Max(hn::Abs(ox), hn::Abs(oy)), hn::Abs(oz)));
-
-    hn::Store(hn::DemoteTo(h, ox), h, out.origin[0] + lane);
-    hn::Store(hn::DemoteTo(h, oy), h, out.origin[1] + lane);
-    hn::Store(hn::DemoteTo(h, oz), h, out.origin[2] + lane);
-    hn::Store(hn::DemoteTo(h, nx), h, out.direction[0] + lane);
-    hn::Store(hn::DemoteTo(h, ny), h, out.direction[1] + lane);
-    hn::Store(hn::DemoteTo(h, nz), h, out.direction[2] + lane);
-    hn::Store(hn::DemoteTo(h, s_min), h, out.s_min + lane);
-    hn::Store(hn::DemoteTo(h, s_max), h, out.s_max + lane);
+    hn::Store(hn::DemoteTo(h, local.s_min), h, out.s_min + lane);
+    hn::Store(hn::DemoteTo(h, local.s_max), h, out.s_max + lane);
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Not(alive), bits);
+    hn::StoreMaskBits(d, hn::Not(local.alive), bits);
     dead_bits |= static_cast<std::uint32_t>(bits[0]) << lane;
-    hn::StoreMaskBits(d, too_far, bits);
+    hn::StoreMaskBits(d, local.too_far, bits);
     far_bits |= static_cast<std::uint32_t>(bits[0]) << lane;
   }
   out.dead = static_cast<std::uint16_t>(dead_bits);
@@ -171,26 +219,58 @@ HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, 
   set_up_16(few, 0, scale, out);
 }
 
+namespace local_rays {
+
+// Four rays from number `i` on, from arrays of their sixteen components to structures.
+HWY_INLINE void write_four(const float* const components[16], int i, LocalRay* to) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int ray = 0; ray < 4; ++ray) {
+    float row[16];
+    for (int k = 0; k < 16; ++k) std::memcpy(row + k, components[k] + i + ray, sizeof(float));
+    std::memcpy(to + ray, row, sizeof(row));
+  }
+#else
+  const hn::Full128<float> quad;
+  const hn::Full128<double> two;
+  const auto as_two = [&](auto v) HWY_ATTR { return hn::BitCast(two, v); };
+  for (int k = 0; k < 16; k += 4) {
+    const auto a = hn::Load(quad, components[k] + i);
+    const auto b = hn::Load(quad, components[k + 1] + i);
+    const auto c = hn::Load(quad, components[k + 2] + i);
+    const auto e = hn::Load(quad, components[k + 3] + i);
+    const auto ab_low = as_two(hn::InterleaveLower(quad, a, b));
+    const auto ab_high = as_two(hn::InterleaveUpper(quad, a, b));
+    const auto ce_low = as_two(hn::InterleaveLower(quad, c, e));
+    const auto ce_high = as_two(hn::InterleaveUpper(quad, c, e));
+    const auto store = [&](int ray, auto v)
+                           HWY_ATTR { hn::Store(hn::BitCast(quad, v), quad, reinterpret_cast<float*>(to + ray) + k); };
+    store(0, hn::InterleaveLower(two, ab_low, ce_low));
+    store(1, hn::InterleaveUpper(two, ab_low, ce_low));
+    store(2, hn::InterleaveLower(two, ab_high, ce_high));
+    store(3, hn::InterleaveUpper(two, ab_high, ce_high));
+  }
+#endif
+}
+
+}  // namespace local_rays
+
 /// Adds what box tests need and writes `count` of the sixteen rays, rounded up to a multiple of four, to to[0], to[1],
-/// ..., with their outward_id. Directions within 1e-18 of an axis's plane are moved off it: over the 16 units to
-/// anything in the set that is less than any padding.
-HWY_INLINE void write_filter_rays(const LocalRays& rays, const std::uint32_t outward[16], FilterRay* to, int count) {
+/// ..., with their outward_id.
+HWY_INLINE void write_local_rays(const LocalRays& rays, const std::uint32_t outward[16], LocalRay* to, int count) {
   using Tag = hn::CappedTag<float, 16>;
   const Tag d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
   alignas(64) float inverse[3][16];
   alignas(64) float offset[3][16];
-  const auto smallest = hn::Set(d, 1e-18F);
   for (int axis = 0; axis < 3; ++axis)
     for (int lane = 0; lane < 16; lane += kLanes) {
-      // -0 becomes +0: a sign is what comparison with 0 says.
-      const auto n = hn::Add(hn::Load(d, rays.direction[axis] + lane), hn::Zero(d));
-      const auto clamped = hn::CopySign(hn::Max(hn::Abs(n), smallest), n);
-      const auto inv = hn::Div(hn::Set(d, 1.0F), clamped);
-      hn::Store(inv, d, inverse[axis] + lane);
-      hn::Store(hn::Neg(hn::Mul(hn::Load(d, rays.origin[axis] + lane), inv)), d, offset[axis] + lane);
+      hn::Vec<Tag> some_inverse, some_offset;
+      box_factors(d, hn::Load(d, rays.origin[axis] + lane), hn::Load(d, rays.direction[axis] + lane), some_inverse,
+                  some_offset);
+      hn::Store(some_inverse, d, inverse[axis] + lane);
+      hn::Store(some_offset, d, offset[axis] + lane);
     }
-  // Sixteen components of four rays at a time, from arrays to structures; ids as the bits that they are.
+  // Ids go as the bits that they are.
   alignas(64) float outward_id[16];
   std::memcpy(outward_id, outward, sizeof(outward_id));
   const float* const unused = rays.s_min;
@@ -198,36 +278,8 @@ HWY_INLINE void write_filter_rays(const LocalRays& rays, const std::uint32_t out
                                        rays.direction[1], rays.direction[2], inverse[0],     inverse[1],
                                        inverse[2],        offset[0],         offset[1],      offset[2],
                                        rays.s_min,        outward_id,        unused,         unused};
-  static_assert(sizeof(FilterRay) == sizeof(float) * 16);
-#if HWY_TARGET == HWY_SCALAR
-  for (int i = 0; i < count; ++i) {
-    float row[16];
-    for (int k = 0; k < 16; ++k) std::memcpy(row + k, components[k] + i, sizeof(float));
-    std::memcpy(to + i, row, sizeof(row));
-  }
-#else
-  const hn::Full128<float> quad;
-  const hn::Full128<double> two;
-  const auto as_two = [&](auto v) HWY_ATTR { return hn::BitCast(two, v); };
-  for (int i = 0; i < count; i += 4)
-    for (int k = 0; k < 16; k += 4) {
-      const auto a = hn::Load(quad, components[k] + i);
-      const auto b = hn::Load(quad, components[k + 1] + i);
-      const auto c = hn::Load(quad, components[k + 2] + i);
-      const auto e = hn::Load(quad, components[k + 3] + i);
-      const auto ab_low = as_two(hn::InterleaveLower(quad, a, b));
-      const auto ab_high = as_two(hn::InterleaveUpper(quad, a, b));
-      const auto ce_low = as_two(hn::InterleaveLower(quad, c, e));
-      const auto ce_high = as_two(hn::InterleaveUpper(quad, c, e));
-      const auto store = [&](int ray, auto v) HWY_ATTR {
-        hn::Store(hn::BitCast(quad, v), quad, reinterpret_cast<float*>(to + i + ray) + k);
-      };
-      store(0, hn::InterleaveLower(two, ab_low, ce_low));
-      store(1, hn::InterleaveUpper(two, ab_low, ce_low));
-      store(2, hn::InterleaveLower(two, ab_high, ce_high));
-      store(3, hn::InterleaveUpper(two, ab_high, ce_high));
-    }
-#endif
+  static_assert(sizeof(LocalRay) == sizeof(float) * 16);
+  for (int i = 0; i < count; i += 4) local_rays::write_four(components, i, to + i);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -1,5 +1,5 @@
-// Is anything hit by each of a block's 64 neighbouring rays? Made for shadow rays towards a light: the tree is walked
-// from their far ends, rays that are surely hidden leave the beam, and spheres that hid the last blocks are tried
+// Any hit of a block of 64 neighbouring rays. It is made for shadow rays towards a light: the walk starts at the far
+// ends of the rays, rays that are surely hidden leave the beam, and the spheres that hid the last blocks are tried
 // first.
 
 #if defined(BIHIVE_WIDE_TRACE_OCCLUSION_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -13,15 +13,17 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
 #include "bihive/simd/lanes-inl.h"
-#include "bihive/wide/schedule/leftover_rays.h"
 #include "bihive/wide/trace/beam_rays-inl.h"
 #include "bihive/wide/trace/beam_spheres-inl.h"
-#include "bihive/wide/trace/closest_beam-inl.h"
+#include "bihive/wide/trace/beam_walk-inl.h"
 #include "bihive/wide/trace/exact_decision-inl.h"
 #include "bihive/wide/trace/frustum-inl.h"
+#include "bihive/wide/trace/remaining_rays.h"
+#include "bihive/wide/trace/tuning.h"
+#include "bihive/wide/trace/undecided_pairs.h"
+#include "bihive/wide/tree/leaf_extent.h"
 #include "bihive/wide/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,36 +31,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Pairs of rays and spheres of which binary32 cannot tell whether they meet. `hidden` must have been written for their
-/// rays before a flush.
-class Doubts {
- public:
-  Doubts(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) : tree_(tree), rays_(rays), hidden_(hidden) {}
-
-  bool full() const { return count_ > kRoom - kBeamRays; }
-  void add(std::int64_t ray, std::uint32_t slot) { pairs_[count_++] = {static_cast<std::uint32_t>(ray), slot}; }
-
-  void flush() {
-    double t[kExactPairs];
-    for (int first = 0; first < count_; first += kExactPairs) {
-      const int n = std::min(kExactPairs, count_ - first);
-      exact_hits(tree_, rays_, pairs_ + first, n, t);
-      for (int k = 0; k < n; ++k)
-        if (t[k] < std::numeric_limits<double>::infinity()) hidden_[pairs_[first + k].ray] = 1;
-    }
-    count_ = 0;
-  }
-
- private:
-  static constexpr int kRoom = 512;
-  const WideTree& tree_;
-  const RaySpan rays_;
-  std::uint8_t* const hidden_;
-  int count_ = 0;
-  Pair pairs_[kRoom];
-};
-
-/// The spheres that hid rays last, the latest first. A vector of them is tried, so on narrow targets fewer than are
+/// The spheres that hid rays last, the latest first. One vector of them is tried: narrow targets try fewer than are
 /// kept.
 class Occluders {
  public:
@@ -82,54 +55,42 @@ class Occluders {
   int count_ = 0;
 };
 
-/// Beams that are wider than so many leaves are slower than parts of them, or than ray lists. Measured; the first is
-/// flat from 0.7 to 4 on small scenes, the second loses above 2 on large ones.
-constexpr float kWidestInLeaves = 1;
-constexpr float kWidestPartInLeaves = 1.5F;
-/// Of sorted rays. Tried from 0.35 to 3: half of this is up to a sixth slower, more is the same on most scenes.
-constexpr float kWidestSortedInLeaves = 1;
-constexpr float kWidestSortedPartInLeaves = 1;
-/// Groups of fewer rays are left to ray lists; after some of them so are all rays.
-constexpr int kFewestOfGroup = 4;
-constexpr int kMostSmallGroups = 4;
-
-/// Rays of a block and what hides them.
+/// Answers the blocks of one call, one after the other.
 class OcclusionBeam {
  public:
-  /// sorted: neighbours start on any surfaces.
+  /// sorted: neighbours may start on any surfaces.
   OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, std::uint8_t* hidden)
-      : tree_(tree),
-        has_leaves_(span.leaves != nullptr),
-        sorted_(sorted),
-        hidden_(hidden),
-        doubts_(tree, span, hidden) {
-    const float leaf = leaf_extent(tree);
-    width_limit_ = (sorted ? kWidestSortedInLeaves : kWidestInLeaves) * leaf;
-    part_width_limit_ = (sorted ? kWidestSortedPartInLeaves : kWidestPartInLeaves) * leaf;
+      : tree_(tree), span_(span), hidden_(hidden), leave_spheres_(span.leaves != nullptr), sorted_(sorted) {
+    width_limit_ = leaf_extent(tree);
+    run_width_limit_ = sorted ? width_limit_ : kWidestRunInLeaves * width_limit_;
   }
 
   /// The rays of the next block go here, by set_up_beam(), before block().
   BeamRays rays;
 
-  /// Answers the block, but for doubts, and for runs of sixteen rays that are too wide for beams: those are left over.
-  HWY_INLINE void block(std::int64_t first_ray, LeftoverRays& leftover) {
+  /// Answers the block, but for pairs that wait for decide(), and for runs of sixteen rays that are too wide for a
+  /// beam: those are added to `remaining`.
+  HWY_INLINE void block(std::int64_t first_ray, RemainingRays& remaining) {
     first_ray_ = first_ray;
     std::fill_n(hidden_ + first_ray, rays.count, std::uint8_t{0});
-    trace_block(leftover);
+    trace_block(remaining);
   }
 
-  void flush() { doubts_.flush(); }
+  /// The rays of the pairs must have been answered, by block(), before.
+  void decide() {
+    decide_pairs(tree_, span_, pairs_, [&](std::int64_t ray, double, std::uint32_t) HWY_ATTR { hidden_[ray] = 1; });
+  }
 
   /// Spheres that met beams so far, each times the rays of the beam.
   std::int64_t met() const { return met_; }
 
  private:
-  HWY_INLINE void trace_block(LeftoverRays& leftover) {
+  HWY_INLINE void trace_block(RemainingRays& remaining) {
     find_open_vectors();
     Frustum frustum;
     if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return;
 
-    // The spheres that hid the last rays.
+    // Try the spheres that hid the last rays.
     if (occluders_.count() > 0 && try_occluders(frustum)) {
       if (done<kBeamRays>(0)) {
         note_hidden(done_lanes());
@@ -138,10 +99,10 @@ class OcclusionBeam {
       if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return note_hidden(done_lanes());
     }
     if (frustum.width > width_limit_) {
-      if (has_leaves_ && !sorted_) {
-        trace_groups(leftover);
+      if (leave_spheres_ && !sorted_) {
+        trace_groups(remaining);
       } else {
-        trace_parts(leftover);
+        trace_runs(remaining);
       }
       return;
     }
@@ -149,22 +110,23 @@ class OcclusionBeam {
     note_hidden(done_lanes());
   }
 
-  // Runs of neighbours, each by itself.
-  HWY_INLINE void trace_parts(LeftoverRays& leftover) {
+  // Traces runs of sixteen neighbours, each by itself.
+  HWY_INLINE void trace_runs(RemainingRays& remaining) {
     Frustum frustum;
-    for (int begin = 0; begin < rays.count; begin += kPartRays) {
-      if (done<kPartRays>(begin) || !make_frustum<kPartRays>(tree_, rays, begin, frustum)) continue;
-      if (frustum.width <= part_width_limit_) {
-        trace<kPartRays>(begin, frustum);
+    for (int begin = 0; begin < rays.count; begin += kRunRays) {
+      if (done<kRunRays>(begin) || !make_frustum<kRunRays>(tree_, rays, begin, frustum)) continue;
+      if (frustum.width <= run_width_limit_) {
+        trace<kRunRays>(begin, frustum);
       } else {
-        leftover.add(first_ray_ + begin, std::min(kPartRays, rays.count - begin));
+        remaining.add(first_ray_ + begin, std::min(kRunRays, rays.count - begin));
       }
     }
     note_hidden(done_lanes());
   }
 
-  // Rays that leave the same sphere start close together: each such group by itself, the lanes of all others closed.
-  HWY_INLINE void trace_groups(LeftoverRays& leftover) {
+  // Traces each group of rays that leave the same sphere by itself, with the lanes of all others closed: such rays
+  // start close together.
+  HWY_INLINE void trace_groups(RemainingRays& remaining) {
     const FloatTag d;
     alignas(64) float segment[kBeamRays];
     std::copy_n(rays.s_best, kBeamRays, segment);
@@ -172,11 +134,11 @@ class OcclusionBeam {
     std::uint64_t group = 0;
     int small_groups = 0;
     for (std::uint64_t pending = ~hidden; pending != 0; pending &= ~group) {
-      const std::uint32_t id = rays.leaves[__builtin_ctzll(pending)];
+      const std::uint32_t id = rays.left_id[__builtin_ctzll(pending)];
       group = 0;
       for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
         const auto s = hn::Load(d, segment + lane);
-        const auto same = hn::RebindMask(d, hn::Eq(hn::Load(WordTag(), rays.leaves + lane), hn::Set(WordTag(), id)));
+        const auto same = hn::RebindMask(d, hn::Eq(hn::Load(WordTag(), rays.left_id + lane), hn::Set(WordTag(), id)));
         const auto in_group = hn::And(same, hn::Ge(s, hn::Zero(d)));
         hn::Store(hn::IfThenElse(in_group, s, hn::Set(d, -1.0F)), d, rays.s_best + lane);
         group |= std::uint64_t{mask_bits(in_group)} << lane;
@@ -185,10 +147,10 @@ class OcclusionBeam {
       const bool small = __builtin_popcountll(group) < kFewestOfGroup;
       if (small && ++small_groups == kMostSmallGroups) group = pending;
       Frustum frustum;
-      if (small || !make_frustum<kBeamRays>(tree_, rays, 0, frustum) || frustum.width > part_width_limit_) {
+      if (small || !make_frustum<kBeamRays>(tree_, rays, 0, frustum) || frustum.width > run_width_limit_) {
         for (std::uint64_t bits = group; bits != 0; bits &= bits - 1) {
           const int ray = __builtin_ctzll(bits);
-          if (ray < rays.count) leftover.add(first_ray_ + ray, 1);
+          if (ray < rays.count) remaining.add(first_ray_ + ray, 1);
         }
         continue;
       }
@@ -199,13 +161,15 @@ class OcclusionBeam {
   }
 
   const WideTree& tree_;
-  bool has_leaves_, sorted_;
+  const RaySpan& span_;
   std::uint8_t* hidden_;
+  bool leave_spheres_;  ///< some rays may
+  bool sorted_;
   std::int64_t first_ray_ = 0;
   std::int64_t met_ = 0;
   std::uint64_t open_vectors_ = 0;  ///< a bit for each vector with rays that are not hidden yet
-  float width_limit_, part_width_limit_;
-  Doubts doubts_;
+  float width_limit_, run_width_limit_;
+  UndecidedPairs<512> pairs_;
   Occluders occluders_;
 
   // The lanes whose rays have no segment any more.
@@ -252,16 +216,16 @@ class OcclusionBeam {
                                  padded,
                                  padded * padded};
     const beam::RootBounds bounds(rays, sphere);
-    if (HWY_UNLIKELY(doubts_.full())) doubts_.flush();
+    if (HWY_UNLIKELY(!pairs_.has_room(kBeamRays))) decide();
     met_ += kRays;
     bool any = false;
     for (std::uint64_t vectors = open_vectors<kRays>(begin); vectors != 0; vectors &= vectors - 1) {
       const int lane = __builtin_ctzll(vectors) * kFloatLanes;
       // Which rays are not hidden yet, and come near to the sphere, but do not leave it?
       const auto best = hn::Load(d, rays.s_best + lane);
-      const beam::Meeting met = beam::meet<false>(rays, sphere, lane);
-      auto near = has_leaves_ ? beam::near_enough<true>(rays, sphere, met, lane)
-                              : beam::near_enough<false>(rays, sphere, met, lane);
+      const Meeting met = beam::meet_rays<false>(rays, sphere, lane);
+      auto near = leave_spheres_ ? beam::near_enough<true>(rays, sphere, met, lane)
+                                 : beam::near_enough<false>(rays, sphere, met, lane);
       near = hn::And(near, hn::Ge(best, hn::Zero(d)));
       if (hn::AllFalse(d, near)) continue;
 
@@ -274,7 +238,7 @@ class OcclusionBeam {
       }
       for (std::uint32_t bits = mask_bits(hn::AndNot(roots.sure, roots.candidate)); bits != 0; bits &= bits - 1) {
         const int ray = lane + __builtin_ctz(bits);
-        if (ray < rays.count) doubts_.add(first_ray_ + ray, slot);
+        if (ray < rays.count) pairs_.add(first_ray_ + ray, slot);
       }
     }
     return any;
@@ -300,53 +264,27 @@ class OcclusionBeam {
     return any;
   }
 
-  // Spheres of a leaf. True: all rays are hidden.
+  // True: all rays are hidden.
   template <int kRays>
   HWY_INLINE bool meet_leaf(int begin, const Frustum& frustum, std::int64_t first_slot, std::int64_t count) {
-    const FloatTag d;
     bool any = false;
-    for (std::int64_t first = 0; first < count; first += kFloatLanes) {
-      const std::int64_t slot = first_slot + first;
-      const hn::VFromD<FloatTag> centre[3] = {hn::LoadU(d, tree_.spheres.x + slot),
-                                              hn::LoadU(d, tree_.spheres.y + slot),
-                                              hn::LoadU(d, tree_.spheres.z + slot)};
-      const auto padded = hn::Add(beam::radii_at(tree_.spheres, slot), hn::Set(d, rays.e));
-      std::uint32_t bits = mask_bits(spheres_in(frustum, centre, padded));
-      if (count - first < kFloatLanes) bits &= (1U << (count - first)) - 1;
-      for (; bits != 0; bits &= bits - 1) {
-        const auto sphere = static_cast<std::uint32_t>(slot + __builtin_ctz(bits));
+    spheres_of_leaf(tree_, frustum, rays.e, first_slot, count, [&](const SpheresInBeam& some) HWY_ATTR {
+      for (std::uint32_t bits = some.bits; bits != 0; bits &= bits - 1) {
+        const auto sphere = static_cast<std::uint32_t>(some.slot + __builtin_ctz(bits));
         if (!meet_sphere<kRays>(begin, sphere)) continue;
         occluders_.note(sphere);
         any = true;
       }
-    }
+    });
     return any && done<kRays>(begin);
   }
 
-  // From the far end: why, says docs/decisions/0013-any-hit-from-the-far-end.md.
+  // The walk starts at the rays' far ends: docs/decisions/0013-any-hit-from-the-far-end.md says why.
   template <int kRays>
   HWY_INLINE void trace(int begin, const Frustum& frustum) {
-    beam::Waiting waiting[kMostLevels * kWidth];
-    int waiting_count = 0;
-    waiting[waiting_count++] = {0, 0, 0};
-    alignas(64) float w_near[kWidth];
-    while (waiting_count > 0) {
-      const beam::Waiting top = waiting[--waiting_count];
-      if (top.count != 0) {
-        if (meet_leaf<kRays>(begin, frustum, top.node, top.count)) return;
-        continue;
-      }
-      const WideNode& node = tree_.nodes[top.node];
-      const std::uint32_t bits = boxes_in(node, frustum, w_near);
-      if (bits == 0) continue;
-      std::uint64_t order = 0;
-      for (std::uint32_t places = near_to_far(node, 7 - frustum.octant, bits, order); places != 0;) {
-        const int place = 31 - __builtin_clz(places);
-        places ^= 1U << place;
-        const int slot = static_cast<int>(order >> (4 * place) & 15);
-        waiting[waiting_count++] = beam::child_of(node, slot, w_near[slot]);
-      }
-    }
+    walk_beam(tree_, frustum, 7 - frustum.octant, [&](std::int64_t slot, std::int64_t count) HWY_ATTR {
+      return meet_leaf<kRays>(begin, frustum, slot, count);
+    });
   }
 };
 

@@ -1,4 +1,4 @@
-// One ray against the wide tree: sixteen boxes or sixteen spheres at a time.
+// The walk of one ray: sixteen boxes or sixteen spheres at a time, a step each.
 
 #if defined(BIHIVE_WIDE_TRACE_RAY_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_RAY_WALK_INL_H_
@@ -14,12 +14,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "bihive/geometry/scaled_ray.h"
-#include "bihive/geometry/sphere.h"
 #include "bihive/simd/lanes-inl.h"
+#include "bihive/wide/trace/box_test-inl.h"
 #include "bihive/wide/trace/filter_bounds.h"
-#include "bihive/wide/trace/scalar_walk.h"
-#include "bihive/wide/tree/left_sphere.h"
+#include "bihive/wide/trace/local_rays-inl.h"
+#include "bihive/wide/trace/sphere_filter-inl.h"
 #include "bihive/wide/tree/radii-inl.h"
 #include "bihive/wide/wide_tree.h"
 
@@ -30,7 +29,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// A local ray on its way, and what it has found.
 struct SingleRay {
-  FilterRay local;
+  LocalRay local;
   float near_offset[3];   ///< local.offset for planes where it enters boxes, as they are: a lower bound of the distance
   float far_offset[3];    ///< and for those where it leaves them
   float s_best;           ///< upper bound of the best hit so far; the segment's end at first
@@ -38,7 +37,7 @@ struct SingleRay {
   float e, width;         ///< FilterBounds
   std::uint32_t left_id;  ///< of the sphere that it leaves
   bool inward;            ///< into it
-  std::uint32_t winner;   ///< slot of the nearest sure hit
+  std::uint32_t winner;   ///< slot of the nearest sure hit, or kNoSlot
 
   HWY_INLINE void pad_offsets(float box_pad) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,10 +47,8 @@ struct SingleRay {
     }
   }
 };
-constexpr std::uint32_t kNoWinner = std::numeric_limits<std::uint32_t>::max();
-
 /// The octant of a direction: bit k where it is negative along axis k.
-HWY_INLINE int octant_of(const FilterRay& ray) {
+HWY_INLINE int octant_of(const LocalRay& ray) {
   return (std::signbit(ray.inverse[0]) ? 1 : 0) | (std::signbit(ray.inverse[1]) ? 2 : 0) |
          (std::signbit(ray.inverse[2]) ? 4 : 0);
 }
@@ -76,15 +73,11 @@ class WaitingChildren {
       near[axis] = negative ? node.hi[axis] : node.lo[axis];
       far[axis] = negative ? node.lo[axis] : node.hi[axis];
     }
-    const auto test = [&](int lane, auto& s_in) HWY_ATTR {
-      s_in = hn::Set(d, ray.local.s_min);
-      auto s_out = hn::Set(d, ray.s_best);
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto inverse = hn::Set(d, ray.local.inverse[axis]);
-        s_in = hn::Max(s_in, hn::MulAdd(hn::Load(d, near[axis] + lane), inverse, hn::Set(d, ray.near_offset[axis])));
-        s_out = hn::Min(s_out, hn::MulAdd(hn::Load(d, far[axis] + lane), inverse, hn::Set(d, ray.far_offset[axis])));
-      }
-      return hn::Le(s_in, s_out);
+    const BoxRay in_lanes(ray.local, ray.near_offset, ray.far_offset, ray.s_best);
+    const auto test = [&](int lane, Floats& s_in) HWY_ATTR {
+      const BoxLanes boxes(near, far, lane);
+      s_in = in_lanes.entry(boxes);
+      return hn::Le(s_in, in_lanes.exit(boxes));
     };
     const std::uint64_t order = node.order[octant >= 4 ? 7 - octant : octant];
     if constexpr (kFloatLanes == kWidth) {
@@ -94,7 +87,7 @@ class WaitingChildren {
       alignas(64) float s_near[kWidth];
       std::uint32_t bits = 0;
       for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
-        auto s_in = hn::Zero(d);
+        Floats s_in;
         bits |= mask_bits(test(lane, s_in)) << lane;
         hn::Store(s_in, d, s_near + lane);
       }
@@ -162,69 +155,36 @@ class WaitingChildren {
   int count_ = 0;
 };
 
-/// The second look at candidates of the filter, as vectors: bounds of the root that counts.
-template <class V, class M>
-struct Judged {
-  V start;  ///< the root lies here or beyond; if `sure`, by less than W
-  M keep;   ///< may be a hit before s_best
-  M sure;   ///< surely a hit in the segment
-};
-
-/// `own`: the ray leaves the sphere; `inward`: into it. dp >= 0 in all lanes that matter.
-template <class V, class M>
-HWY_INLINE Judged<V, M> judge(V b, V dp, V r_squared, V s_best, V s_min, V sure_min, M own, M inward, float e,
-                              float width) {
-  const FloatTag d;
-  const auto chord = hn::Sqrt(dp);
-  const auto lower = hn::Sub(hn::Sub(b, hn::Set(d, e)), chord);
-  const auto upper = hn::Add(hn::Add(b, hn::Set(d, e)), chord);
-  const auto clear =
-      hn::Ge(dp, hn::MulAdd(hn::Set(d, 0.04F), r_squared, hn::Mul(hn::Set(d, 4 * e), hn::Sqrt(hn::Abs(r_squared)))));
-
-  // Where the near root surely lies before the segment, or is where the ray starts, the far root counts.
-  const auto far_root = hn::And(clear, hn::Or(inward, hn::Lt(hn::Add(lower, hn::Set(d, width)), s_min)));
-  Judged<V, M> judged;
-  judged.start = hn::IfThenElse(far_root, hn::Sub(upper, hn::Set(d, width)), lower);
-  // Going outward a ray never meets the sphere that it leaves.
-  judged.keep = hn::AndNot(hn::AndNot(inward, own), hn::And(hn::Le(judged.start, s_best), hn::Ge(upper, s_min)));
-  judged.sure = hn::And(hn::And(clear, hn::Ge(judged.start, sure_min)), hn::Or(far_root, hn::Not(inward)));
-  return judged;
-}
-
-/// Tests up to sixteen spheres. A sure hit becomes the winner; rival(slot) gets what only binary64 can decide, and
-/// returns true to end the walk. Returns true if the walk is at its end.
-template <bool kAnyHit, class Rival>
-HWY_INLINE bool test_leaf_single(const WideTree& tree, std::int64_t slot, std::int64_t spheres, SingleRay& ray,
-                                 const Rival& rival) {
+/// Tests the spheres of a leaf. A sure hit becomes the winner; undecided(slot) gets each sphere that only binary64 can
+/// decide, and returns true to end the walk. Returns true if the walk is at its end.
+template <bool kAnyHit, class Undecided>
+HWY_INLINE bool test_leaf(const WideTree& tree, std::int64_t slot, std::int64_t spheres, SingleRay& ray,
+                          const Undecided& undecided) {
   const FloatTag d;
   const WordTag words;
+  const float* const n = ray.local.direction;
+  const float* const o = ray.local.origin;
   for (std::int64_t lane = 0; lane < spheres; lane += kFloatLanes) {
-    const auto nx = hn::Set(d, ray.local.direction[0]);
-    const auto ny = hn::Set(d, ray.local.direction[1]);
-    const auto nz = hn::Set(d, ray.local.direction[2]);
-    const auto cx = hn::Sub(hn::LoadU(d, tree.spheres.x + slot + lane), hn::Set(d, ray.local.origin[0]));
-    const auto cy = hn::Sub(hn::LoadU(d, tree.spheres.y + slot + lane), hn::Set(d, ray.local.origin[1]));
-    const auto cz = hn::Sub(hn::LoadU(d, tree.spheres.z + slot + lane), hn::Set(d, ray.local.origin[2]));
-    const auto b = hn::MulAdd(cz, nz, hn::MulAdd(cy, ny, hn::Mul(cx, nx)));
-    const auto px = hn::NegMulAdd(b, nx, cx);
-    const auto py = hn::NegMulAdd(b, ny, cy);
-    const auto pz = hn::NegMulAdd(b, nz, cz);
-    const auto radius = hn::Add(load_radii(tree.spheres, slot + lane), hn::Set(d, ray.e));
+    const std::int64_t first = slot + lane;
+    const auto radius = hn::Add(load_radii(tree.spheres, first), in_all(ray.e));
     const auto r_squared = hn::Mul(radius, radius);
-    const auto dp = hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)));
-    const auto passes = hn::And(hn::FirstN(d, static_cast<std::size_t>(spheres - lane)), hn::Ge(dp, hn::Zero(d)));
+    Meeting met = meet(hn::Sub(hn::LoadU(d, tree.spheres.x + first), in_all(o[0])),
+                       hn::Sub(hn::LoadU(d, tree.spheres.y + first), in_all(o[1])),
+                       hn::Sub(hn::LoadU(d, tree.spheres.z + first), in_all(o[2])), in_all(n[0]), in_all(n[1]),
+                       in_all(n[2]), r_squared);
+    const auto passes = hn::And(hn::FirstN(d, static_cast<std::size_t>(spheres - lane)), hn::Ge(met.dp, hn::Zero(d)));
     if (hn::AllFalse(d, passes)) continue;
 
+    // Which of them may be hit, and which surely are?
+    met.dp = hn::Max(met.dp, hn::Zero(d));
     const auto none = hn::MaskFromVec(hn::Zero(d));
     auto own = none;
     if (ray.left_id != kNoSphere) {
-      const auto id =
-          hn::And(hn::LoadU(words, tree.spheres.word + slot + lane), hn::Set(words, tree.spheres.id_mask()));
+      const auto id = hn::And(hn::LoadU(words, tree.spheres.word + first), hn::Set(words, tree.spheres.id_mask()));
       own = hn::RebindMask(d, hn::Eq(id, hn::Set(words, ray.left_id)));
     }
-    const auto judged =
-        judge(b, hn::Max(dp, hn::Zero(d)), r_squared, hn::Set(d, ray.s_best), hn::Set(d, ray.local.s_min),
-              hn::Set(d, ray.sure_min), own, ray.inward ? own : none, ray.e, ray.width);
+    const auto judged = judge(met, r_squared, in_all(ray.s_best), in_all(ray.local.s_min), in_all(ray.sure_min), own,
+                              ray.inward ? own : none, ray.e, ray.width);
     std::uint32_t bits = mask_bits(hn::And(passes, judged.keep));
     if (bits == 0) continue;
     const std::uint32_t sure = mask_bits(judged.sure);
@@ -233,12 +193,12 @@ HWY_INLINE bool test_leaf_single(const WideTree& tree, std::int64_t slot, std::i
     for (; bits != 0; bits &= bits - 1) {
       const int k = __builtin_ctz(bits);
       if (starts[k] > ray.s_best) continue;
-      const auto candidate = static_cast<std::uint32_t>(slot + lane + k);
+      const auto candidate = static_cast<std::uint32_t>(first + k);
       if ((sure >> k & 1) != 0 && starts[k] < ray.s_best - 2 * ray.width) {
         ray.winner = candidate;
         if (kAnyHit) return true;
         ray.s_best = starts[k] + ray.width;
-      } else if (rival(candidate)) {
+      } else if (undecided(candidate)) {
         return true;
       }
     }
@@ -246,103 +206,105 @@ HWY_INLINE bool test_leaf_single(const WideTree& tree, std::int64_t slot, std::i
   return false;
 }
 
-/// Walks from a node on. To any hit from the far end: docs/decisions/0013-any-hit-from-the-far-end.md.
-template <bool kAnyHit, class Rival>
-HWY_INLINE void walk_single(const WideTree& tree, std::uint32_t number, SingleRay& ray, WaitingChildren& waiting,
-                            const Rival& rival) {
-  const int octant = octant_of(ray.local);
-  waiting.clear();
-  waiting.push_entered<kAnyHit>(tree.nodes[number], number, ray, octant);
-  while (!waiting.empty()) {
-    const std::uint32_t child = waiting.pop();
+/// A ray on its way: memory has been asked for what it meets next. To any hit it walks from the far end:
+/// docs/decisions/0013-any-hit-from-the-far-end.md.
+class RayWalk {
+ public:
+  SingleRay ray;
+
+  /// From a node on, once `ray` is ready.
+  HWY_INLINE void begin(std::int64_t node) {
+    octant_ = octant_of(ray.local);
+    waiting_.clear();
+    next_ = node;
+    next_spheres_ = 0;
+  }
+
+  /// One node or leaf; undecided() as of test_leaf(). False: the walk is at its end.
+  template <bool kAnyHit, class Undecided>
+  HWY_INLINE bool step(const WideTree& tree, const Undecided& undecided) {
+    if (next_spheres_ == 0) {
+      waiting_.push_entered<kAnyHit>(tree.nodes[next_], static_cast<std::uint32_t>(next_), ray, octant_);
+    } else {
+      const float before = ray.s_best;
+      if (test_leaf<kAnyHit>(tree, next_, next_spheres_, ray, undecided)) return false;
+      if (ray.s_best != before) waiting_.drop_beyond(ray.s_best);
+    }
+    return fetch_next(tree);
+  }
+
+ private:
+  // Where the ray goes from here. False: nowhere.
+  HWY_INLINE bool fetch_next(const WideTree& tree) {
+    if (waiting_.empty()) return false;
+    const std::uint32_t child = waiting_.pop();
     const WideNode& node = tree.nodes[child / kWidth];
     const auto slot = static_cast<int>(child % kWidth);
-    if (!node.is_leaf(slot)) {
-      const auto next = static_cast<std::uint32_t>(node.child_node(slot));
-      waiting.push_entered<kAnyHit>(tree.nodes[next], next, ray, octant);
-      continue;
+    if (node.is_leaf(slot)) {
+      next_ = node.sphere_begin(slot);
+      next_spheres_ = static_cast<std::uint32_t>(node.sphere_count(slot));
+      const auto fetch = [&](const auto* from) HWY_ATTR {
+        __builtin_prefetch(from + next_);
+        __builtin_prefetch(from + next_ + next_spheres_ - 1);
+      };
+      fetch(tree.spheres.x);
+      fetch(tree.spheres.y);
+      fetch(tree.spheres.z);
+      fetch(tree.spheres.word);
+      if (tree.spheres.r != nullptr) fetch(tree.spheres.r);
+    } else {
+      next_ = node.child_node(slot);
+      next_spheres_ = 0;
+      const char* const bytes = reinterpret_cast<const char*>(tree.nodes + next_);
+      for (std::size_t line = 0; line < sizeof(WideNode); line += 64) __builtin_prefetch(bytes + line);
     }
-    const float before = ray.s_best;
-    if (test_leaf_single<kAnyHit>(tree, node.sphere_begin(slot), node.sphere_count(slot), ray, rival)) return;
-    if (ray.s_best != before) waiting.drop_beyond(ray.s_best);
+    return true;
   }
-}
 
-/// Makes a ray ready. False: it certainly misses everything. s = t * length - shift.
-HWY_INLINE bool set_up_single(const ScaledRay& scaled, SingleRay& ray, double& length, double& shift) {
-  length = std::sqrt(scaled.direction_squared);
-  const double inverse_length = 1 / length;
-  const Vec3d n = scaled.direction * inverse_length;
-  Vec3d o = scaled.origin;
-  shift = 0;
-  const auto size = [](Vec3d a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); };
-  if (size(o) > kFarOrigin) {
-    shift = -dot(o, n);
-    o = o + shift * n;
-    if (size(o) > kFarOrigin) return false;
+  WaitingChildren waiting_;
+  int octant_;
+  std::int64_t next_;           // a node, or the slot of the first of some spheres
+  std::uint32_t next_spheres_;  // 0: a node
+};
+
+/// Makes a valid ray ready. False: it certainly misses everything, or it starts beyond kFarthestOrigin. s = t * length
+/// - shift.
+HWY_INLINE bool set_up_single(const Ray& world, double scale, SingleRay& ray, double& length, double& shift) {
+  using One = hn::CappedTag<double, 1>;
+  const One d;
+  WorldLanes<One> lanes;
+  for (int axis = 0; axis < 3; ++axis) {
+    lanes.origin[axis] = hn::Set(d, double(world.origin[axis]));
+    lanes.direction[axis] = hn::Set(d, double(world.direction[axis]));
   }
-  const FilterBounds bounds(static_cast<float>(size(o)));
+  lanes.has_segment = true;
+  lanes.t_min = hn::Set(d, world.t_min);
+  lanes.t_max = hn::Set(d, world.t_max);
+  const auto local = local_lanes(d, lanes, scale);
+  if (hn::AllFalse(d, local.alive)) return false;
+
+  length = hn::GetLane(local.length);
+  shift = hn::GetLane(local.shift);
+  const FilterBounds bounds(static_cast<float>(hn::GetLane(local_rays::largest_of<One>(local.origin))));
   ray.e = bounds.e;
   ray.width = bounds.width;
+  const hn::CappedTag<float, 1> f;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto origin = static_cast<float>(o[axis]);
-    const auto direction = static_cast<float>(n[axis]);
-    const float inverse = 1 / std::copysign(std::max(std::abs(direction), 1e-18F), direction);
-    ray.local.origin[axis] = origin;
-    ray.local.direction[axis] = direction;
-    ray.local.inverse[axis] = inverse;
-    ray.local.offset[axis] = -(origin * inverse);
+    ray.local.origin[axis] = static_cast<float>(hn::GetLane(local.origin[axis]));
+    ray.local.direction[axis] = static_cast<float>(hn::GetLane(local.direction[axis]));
+    hn::Vec<decltype(f)> inverse, offset;
+    box_factors(f, hn::Set(f, ray.local.origin[axis]), hn::Set(f, ray.local.direction[axis]), inverse, offset);
+    ray.local.inverse[axis] = hn::GetLane(inverse);
+    ray.local.offset[axis] = hn::GetLane(offset);
   }
   ray.pad_offsets(bounds.box_pad);
-  const double start = std::clamp(scaled.t_min * length, -1e30, 1e30) - shift;
-  const double lower = start - std::abs(start) * 0x1p-22 - std::abs(shift) * 0x1p-46;
-  ray.local.s_min = static_cast<float>(std::clamp(lower, -double(kFarthestEnd), double(kFarthestEnd)));
+  ray.local.s_min = static_cast<float>(hn::GetLane(local.s_min));
   ray.sure_min = ray.local.s_min + ray.width;
-  ray.s_best = upper_distance(scaled.t_max, length, shift);
+  ray.s_best = static_cast<float>(hn::GetLane(local.s_max));
   ray.left_id = kNoSphere;
   ray.inward = false;
-  ray.winner = kNoWinner;
+  ray.winner = kNoSlot;
   return true;
-}
-
-/// The answer to one ray of the caller's.
-template <bool kAnyHit>
-HWY_INLINE Hit answer_single(const WideTree& tree, const Ray& world) {
-  if (!is_valid(world) || tree.node_count == 0) return {};
-  ScaledRay scaled(world, tree.scale);
-  const LeftSphere left(tree, world.leaves);
-  const double farthest = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
-  if (HWY_UNLIKELY(farthest > kFarthestOrigin)) return traverse_scalar<kAnyHit>(tree, scaled, left);
-  SingleRay ray;
-  double length = 0;
-  double shift = 0;
-  if (!set_up_single(scaled, ray, length, shift)) return {};
-  if (world.leaves >= 0 && world.leaves < std::int64_t{kNoSphere}) {
-    ray.left_id = static_cast<std::uint32_t>(world.leaves);
-    ray.inward = world.inside;
-    if (left.is_repeated()) ray.sure_min = std::numeric_limits<float>::infinity();
-  }
-
-  // Rivals are settled at once, the winner at the end.
-  Hit best;
-  const auto settle = [&](std::uint32_t slot) {
-    const Vec3d centre = tree.spheres.centre(slot);
-    const double radius = tree.spheres.radius(slot);
-    scaled.left_centre = centre;
-    scaled.left_radius = left.is(tree, slot) ? radius : -1;
-    best.keep_nearer(sphere_hit(scaled, centre, radius), tree.spheres.id(slot));
-    if (!best.found()) return false;
-    if (kAnyHit) return true;
-    ray.s_best = std::min(ray.s_best, upper_distance(best.t, length, shift));
-    return false;
-  };
-  WaitingChildren waiting;  // NOLINT: written before read
-  walk_single<kAnyHit>(tree, 0, ray, waiting, settle);
-  if (ray.winner != kNoWinner) {
-    if (kAnyHit) return {0, tree.spheres.id(ray.winner)};
-    settle(ray.winner);
-  }
-  return best;
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -1,5 +1,5 @@
-// The wide tree walked in binary64, one ray and one box at a time: for rays that binary32 cannot hold, such as those
-// that start more than 2^20 times the scene's extent away.
+// The walk in binary64, one ray and one box at a time. It is for rays that binary32 cannot hold, such as those that
+// start more than 2^20 times the scene's extent away.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,10 @@
 
 namespace bihive {
 
-/// The same answer as traverse() in bih/traversal.h. `ray` is valid and in the tree's stored units, without its left
-/// sphere, which `left` stands for.
+/// The same answer as traverse() in bih/traversal.h. `ray` is valid and in the tree's stored units. `left`, and
+/// not `ray`, says which sphere it leaves.
 template <bool kAnyHit>
-Hit traverse_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left) {
+Hit walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left) {
   Hit best;
   if (tree.node_count == 0) return best;
   const Slabs slabs(ray);

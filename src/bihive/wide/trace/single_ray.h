@@ -1,13 +1,13 @@
-// One ray at a time on the active target; public callers use wide/queries.h.
+// One ray at a time, on the active target.
 #pragma once
 
 #include "bihive/geometry/hit.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/wide/wide_tree.h"
 
-namespace bihive::kernels {
+namespace bihive::wide {
 
-Hit closest_hit_single(const WideTree& tree, const Ray& ray);
-bool occluded_single(const WideTree& tree, const Ray& ray);
+Hit closest_hit_of_ray(const WideTree& tree, const Ray& ray);
+bool ray_occluded(const WideTree& tree, const Ray& ray);
 
-}  // namespace bihive::kernels
+}  // namespace bihive::wide

@@ -1,4 +1,4 @@
-// Spheres that lie in a beam's way, collected over leaves until they are worth a look: of a leaf's sixteen few do.
+// Spheres that lie in a beam's way. Few of a leaf's sixteen do, so they wait until they fill a vector.
 
 #if defined(BIHIVE_WIDE_TRACE_WAITING_SPHERES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_WAITING_SPHERES_INL_H_
@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 class WaitingSpheres {
  public:
   bool empty() const { return count_ == 0; }
-  /// As many as make a vector, but not so many that a beam comes far without them.
+  /// A vector is full, or there are so many that a beam should meet them before it goes on: a hit ends it sooner.
   bool enough() const { return count_ >= std::min(kFloatLanes, 8); }
 
   /// Those of `mask` among the spheres from `slot` on; not while there are enough().

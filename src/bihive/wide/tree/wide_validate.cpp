@@ -18,7 +18,7 @@ Error wrong(const std::string& what) {
   return {"wide tree: " + what, "", 0, 0, ""};
 }
 
-// A node to visit, and what the one above says of it.
+// A node to visit, with its box, range and level as the node above says them.
 struct Visit {
   std::int64_t node;
   Aabb box;
@@ -44,7 +44,7 @@ bool is_permutation(std::uint64_t order, int children) {
   return seen == (1u << children) - 1;
 }
 
-// What must hold of a node by itself.
+// Checks a node by itself.
 const char* wrong_in(const WideNode& node, const Visit& visit) {
   if (node.child_count < 1 || node.child_count > kWidth) return "has no children, or too many";
   if (node.first_sphere != visit.first || node.begin[0] != 0 ||
@@ -63,7 +63,7 @@ const char* wrong_in(const WideNode& node, const Visit& visit) {
   return nullptr;
 }
 
-// What the slots from `first` on must hold: spheres of the set, each once, inside their box.
+// Checks the slots from `first` on: they hold spheres of the set, each once, inside their box.
 Status check_leaf(const WideTree& tree, const SphereSet& set, const Aabb& box, std::int64_t first, std::int64_t count,
                   std::int64_t at, std::vector<bool>& met) {
   for (std::int64_t i = first; i < first + count; ++i) {

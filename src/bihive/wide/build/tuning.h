@@ -1,0 +1,43 @@
+// The constants of the builder that choose between ways. They change the speed of the build or of rays, and the tree;
+// the answers of rays stay the same.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+// ---- Work for several threads ----
+
+/// The input is read in chunks of this size, or larger ones so that there are at most kMostChunks.
+constexpr std::int64_t kChunkSpheres = 32768;
+constexpr std::int64_t kMostChunks = 256;
+/// Larger sets are first sorted into the cells of a grid.
+constexpr std::int64_t kGridSpheres = 150000;
+/// Ranges of more spheres become tasks of their own.
+constexpr std::int64_t kTaskSpheres = 8192;
+/// Subtrees of at most this many spheres are collapsed by one task.
+constexpr std::int64_t kSubtreeSpheres = 65536;
+
+// ---- Where to split ----
+
+/// From this depth on ranges are halved by count: a guard against hostile sets.
+constexpr int kDeepestMidpoint = 48;
+/// Ranges up to this size choose between the midpoint and a plane that leaves full leaves.
+constexpr std::int64_t kChoosingSpheres = 4096;
+/// The midpoint must be this much better than full leaves, which save memory: more so in the ranges of up to two nodes'
+/// spheres that decide how full the lowest nodes are. Chosen so that molecules stay below 19 bytes a sphere.
+constexpr std::int64_t kLowestSpheres = 512;
+constexpr float kLowestBias = 0.87F;
+constexpr float kMidpointBias = 0.95F;
+/// Rounds of the search for a plane by interpolation; after them the floats between are halved.
+constexpr int kInterpolations = 4;
+
+// ---- Which children a wide node gets ----
+
+/// So many levels before the last allowed one, children are no longer chosen by cost but by count, so that levels
+/// suffice on any set.
+constexpr int kLevelsByCost = 40;
+
+}  // namespace bihive

@@ -1,0 +1,36 @@
+// Rays of a span in another order, copied side by side; their answers go back to the places of the rays.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/wide/ray_batch.h"
+
+namespace bihive::wide {
+
+/// Use: fill order(), gather(), answer rays() (or a part of them) into hits() or hidden(), put the answers back. Memory
+/// is kept for the next use.
+class ReorderedBatch {
+ public:
+  /// order()[k] is the number of the ray that comes k-th: each number at most once.
+  std::vector<std::uint32_t>& order() { return order_; }
+
+  void gather(const RaySpan& rays);
+  RaySpan rays() const { return rays_.span(); }
+
+  /// Room for the answers of `count` rays.
+  HitSpan hits(std::int64_t count);
+  std::uint8_t* hidden(std::int64_t count);
+
+  /// The answers of rays() from `first` on are the first `count` of hits() or hidden().
+  void put_back(std::int64_t first, std::int64_t count, const HitSpan& to) const;
+  void put_back(std::int64_t first, std::int64_t count, std::uint8_t* to) const;
+
+ private:
+  std::vector<std::uint32_t> order_;
+  RayBatch rays_;
+  HitBatch hits_;
+  std::vector<std::uint8_t> hidden_;
+};
+
+}  // namespace bihive::wide

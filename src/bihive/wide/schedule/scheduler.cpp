@@ -1,0 +1,216 @@
+// Which order the rays of a call take, and which walker answers them. A walker returns the rays that are not for it;
+// the next pass answers those. No pass calls an earlier one:
+//
+//   closest hits   blocks: beams -> the remaining ones: lists
+//                  any:    scattered? in the order of cells: lists
+//   occluded       blocks: beams -> the remaining ones: as any
+//                  any:    to one light? in that order: beams -> the remaining ones: lists
+//                          scattered? in the order of cells: lists
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "bihive/wide/queries.h"
+#include "bihive/wide/schedule/cell_order.h"
+#include "bihive/wide/schedule/light_order.h"
+#include "bihive/wide/schedule/reordered_batch.h"
+#include "bihive/wide/schedule/tuning.h"
+#include "bihive/wide/trace/beams.h"
+#include "bihive/wide/trace/lists.h"
+#include "bihive/wide/trace/single_ray.h"
+#include "bihive/wide/trace/tuning.h"
+
+namespace bihive {
+namespace wide {
+namespace {
+
+// Kept by each thread between calls.
+struct Memory {
+  CellOrder by_cell;
+  LightOrder by_light;
+  ReorderedBatch sorted, remaining_of_blocks, remaining_of_sorted;
+};
+
+Memory& memory_of_this_thread() {
+  thread_local const std::unique_ptr<Memory> memory(new Memory);
+  return *memory;  // NOLINT(clang-analyzer-cplusplus.NewDelete): it takes the memory for freed at once
+}
+
+// Calls body(first, count) for at most `at_a_time` of `total` after the other.
+template <class Body>
+void for_some(std::int64_t total, std::int64_t at_a_time, const Body& body) {
+  for (std::int64_t first = 0; first < total; first += at_a_time) body(first, std::min(at_a_time, total - first));
+}
+
+// Rays that remain after a walker. Long runs go to in_place(first, count); the others are gathered in `batch`, and
+// gathered() is called whenever it is full.
+template <class InPlace, class Gathered>
+void for_remaining(const RaySpan& rays, const RemainingRays& remaining, ReorderedBatch& batch, const InPlace& in_place,
+                   const Gathered& gathered) {
+  std::vector<std::uint32_t>& order = batch.order();
+  order.clear();
+  const auto finish = [&] {
+    if (order.empty()) return;
+    batch.gather(rays);
+    gathered();
+    order.clear();
+  };
+  for (const RemainingRays::Run& run : remaining.runs()) {
+    if (run.count >= kLongRun) {
+      in_place(run.first, run.count);
+      continue;
+    }
+    if (static_cast<std::int64_t>(order.size()) + run.count > kRemainingAtATime) finish();
+    for (std::int64_t i = 0; i < run.count; ++i) order.push_back(static_cast<std::uint32_t>(run.first + i));
+  }
+  finish();
+}
+
+// ---- Closest hits ----
+
+void closest_hits_by_cell(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
+  Memory& memory = memory_of_this_thread();
+  ReorderedBatch& batch = memory.sorted;
+  for_some(rays.count, kScatteredAtATime, [&](std::int64_t first, std::int64_t count) {
+    const RaySpan some = rays.part(first, count);
+    memory.by_cell.find(tree, some, batch.order());
+    batch.gather(some);
+    // Hits go back to their places while they are in the cache.
+    for_some(count, kTileRays, [&](std::int64_t from, std::int64_t n) {
+      closest_hits_by_lists(tree, batch.rays().part(from, n), batch.hits(kTileRays));
+      batch.put_back(from, n, hits.part(first));
+    });
+  });
+}
+
+void closest_hits_in_any_order(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
+  if (scattered(tree, rays)) {
+    closest_hits_by_cell(tree, rays, hits);
+  } else {
+    closest_hits_by_lists(tree, rays, hits);
+  }
+}
+
+void closest_hits_in_blocks(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
+  if (!beams_take(tree, rays)) return closest_hits_by_lists(tree, rays, hits);
+  const RemainingRays remaining = closest_hits_by_beams(tree, rays, hits);
+  if (remaining.count() == 0) return;
+  ReorderedBatch& batch = memory_of_this_thread().remaining_of_blocks;
+  for_remaining(
+      rays, remaining, batch,
+      [&](std::int64_t first, std::int64_t count) {
+        closest_hits_by_lists(tree, rays.part(first, count), hits.part(first));
+      },
+      [&] {
+        const RaySpan some = batch.rays();
+        closest_hits_by_lists(tree, some, batch.hits(some.count));
+        batch.put_back(0, some.count, hits);
+      });
+}
+
+// ---- Any hit ----
+
+using Occluded = void (*)(const WideTree&, const RaySpan&, std::uint8_t*);
+
+// By `answer`.
+void occluded_remaining(const WideTree& tree, const RaySpan& rays, const RemainingRays& remaining,
+                        ReorderedBatch& batch, Occluded answer, std::uint8_t* hidden) {
+  for_remaining(
+      rays, remaining, batch,
+      [&](std::int64_t first, std::int64_t count) { answer(tree, rays.part(first, count), hidden + first); },
+      [&] {
+        const RaySpan some = batch.rays();
+        answer(tree, some, batch.hidden(some.count));
+        batch.put_back(0, some.count, hidden);
+      });
+}
+
+void occluded_by_cell(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+  Memory& memory = memory_of_this_thread();
+  ReorderedBatch& batch = memory.sorted;
+  for_some(rays.count, kScatteredAtATime, [&](std::int64_t first, std::int64_t count) {
+    const RaySpan some = rays.part(first, count);
+    memory.by_cell.find(tree, some, batch.order());
+    batch.gather(some);
+    for_some(count, kTileRays, [&](std::int64_t from, std::int64_t n) {
+      occluded_by_lists(tree, batch.rays().part(from, n), batch.hidden(kTileRays));
+      batch.put_back(from, n, hidden + first);
+    });
+  });
+}
+
+// Do beams pay, by those that tried `tried` rays? Not where most of them remain, or where beams met many spheres.
+bool beams_pay(const SortedBeams& trial, std::int64_t tried) {
+  const std::int64_t answered = tried - trial.remaining.count();
+  return trial.remaining.count() <= tried / 2 && trial.spheres_met <= answered * kMostSpheresMet;
+}
+
+// Sorted beams, or lists where the rays are not for those.
+void occluded_to_light(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+  Memory& memory = memory_of_this_thread();
+  ReorderedBatch& batch = memory.sorted;
+  if (!beams_take(tree, rays) || !memory.by_light.find(tree, rays, batch.order()))
+    return occluded_by_lists(tree, rays, hidden);
+  batch.gather(rays);
+  const RaySpan sorted = batch.rays();
+  std::uint8_t* const sorted_hidden = batch.hidden(rays.count);
+
+  // Try some blocks from everywhere. If beams do not pay, lists do best with all rays in the caller's order.
+  const std::int64_t blocks = (rays.count + kBeamRays - 1) / kBeamRays;
+  const std::int64_t step = std::max(kBlocksPerTrial, blocks / kSortedTrialBlocks);
+  const SortedBeams trial = occluded_by_sorted_beams(tree, sorted, {step, false}, sorted_hidden);
+  if (!beams_pay(trial, (blocks + step - 1) / step * kBeamRays)) return occluded_by_lists(tree, rays, hidden);
+  const SortedBeams rest = occluded_by_sorted_beams(tree, sorted, {step, true}, sorted_hidden);
+  for (const SortedBeams* some : {&trial, &rest})
+    occluded_remaining(tree, sorted, some->remaining, memory.remaining_of_sorted, occluded_by_lists, sorted_hidden);
+  batch.put_back(0, rays.count, hidden);
+}
+
+void occluded_in_any_order(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+  if (converge(rays)) {
+    for_some(rays.count, kToLightAtATime, [&](std::int64_t first, std::int64_t count) {
+      occluded_to_light(tree, rays.part(first, count), hidden + first);
+    });
+  } else if (scattered(tree, rays)) {
+    occluded_by_cell(tree, rays, hidden);
+  } else {
+    occluded_by_lists(tree, rays, hidden);
+  }
+}
+
+void occluded_in_blocks(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
+  if (!beams_take(tree, rays)) return occluded_by_lists(tree, rays, hidden);
+  const RemainingRays remaining = occluded_by_beams(tree, rays, hidden);
+  if (remaining.count() == 0) return;
+  occluded_remaining(tree, rays, remaining, memory_of_this_thread().remaining_of_blocks, occluded_in_any_order, hidden);
+}
+
+}  // namespace
+}  // namespace wide
+
+void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
+  if (order == RayOrder::blocks) {
+    wide::closest_hits_in_blocks(tree, rays, hits);
+  } else {
+    wide::closest_hits_in_any_order(tree, rays, hits);
+  }
+}
+
+void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) {
+  if (order == RayOrder::blocks) {
+    wide::occluded_in_blocks(tree, rays, hidden);
+  } else {
+    wide::occluded_in_any_order(tree, rays, hidden);
+  }
+}
+
+Hit closest_hit(const WideTree& tree, const Ray& ray) {
+  return wide::closest_hit_of_ray(tree, ray);
+}
+
+bool occluded(const WideTree& tree, const Ray& ray) {
+  return wide::ray_occluded(tree, ray);
+}
+
+}  // namespace bihive
