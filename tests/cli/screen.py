@@ -22,10 +22,10 @@ class Screen:
         os.close(write)
         with os.fdopen(read) as number:
             self.display = ":" + number.readline().strip()
-        # The server starts anew when its last client goes; this one stays.
+        # The server restarts when its last client goes; this client stays.
         self.client = Xlib.display.Display(self.display)
         if dpi is not None:
-            # Where desktops leave what their user has chosen.
+            # Desktops keep their users' choices here.
             resources = f"Xft.dpi:\t{dpi}\n".encode()
             self.root().change_property(Xlib.Xatom.RESOURCE_MANAGER, Xlib.Xatom.STRING, 8, resources)
             self.client.sync()

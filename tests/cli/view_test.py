@@ -207,7 +207,7 @@ class Window(ProgramTest):
         self.assertEqual(self.saved()["size"], (700, 400))
         self.press("h")
 
-        # A file that is wrong leaves the scene; another takes its place.
+        # A file with an error leaves the scene; another file replaces it.
         def open_file(name):
             self.press("o")
             self.tool("type", "--delay", "20", name)
@@ -242,7 +242,7 @@ class Window(ProgramTest):
         self.screen.drop(self.window, [self.path("pair of 100 %.csv")])
         self.title("pair of 100 %.csv - bihive")
         self.assertEqual(self.saved()["scene"], self.path("pair of 100 %.csv"))
-        # What is wrong leaves the scene; of several files the first is shown.
+        # A file with an error leaves the scene; of several files the first is shown.
         self.screen.drop(self.window, [self.path("broken.csv")])
         self.title("pair of 100 %.csv - bihive")
         self.screen.drop(self.window, [self.path("one.xyz"), self.path("broken.csv")])

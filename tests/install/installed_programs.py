@@ -15,7 +15,7 @@ import urllib.request
 
 PREFIX = pathlib.Path(sys.argv[1]).resolve()
 PAGE = PREFIX / "share/bihive/web"
-# Nothing of the user's own settings.
+# Without the user's own settings.
 ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
 
 
