@@ -8,7 +8,7 @@ from markdown import commands_block
 
 
 def load(folder):
-    """What scripts/bench measured: part -> report. Raises origin.Mixed where a report is not of one machine and commit."""
+    """The reports of scripts/bench: part -> report. Raises origin.Mixed where a report is not of one machine and commit."""
     reports = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))}
     reports = {name: report for name, report in reports.items() if report.get("part") == name}
     for name, report in reports.items():

@@ -22,7 +22,7 @@ def ratio(result, kind):
 
 
 def title_of(result):
-    """The scene, and of a molecule the file, without its folders."""
+    """The scene; for a molecule also the name of its file."""
     return re.sub(r"\(.*/(.*)\)", r"(\1)", result["input"])
 
 
@@ -37,7 +37,7 @@ def lowest_cell(value, scene, kind):
 
 
 def summary(report):
-    """Every target of the engine against the worst that was measured."""
+    """Every target of the engine beside the worst measured value."""
     columns = [
         ("primary", ["primary"]),
         ("random", ["random"]),
@@ -69,7 +69,7 @@ def summary(report):
 
 
 def scene_rows(results, kinds):
-    """A line a scene: ours and, in brackets, Embree's, with the ratio; what misses its floor is marked."""
+    """A line for each scene: our rate, Embree's in brackets, and the ratio."""
     rows = []
     for result in results.values():
         row = [title_of(result), f"{result['spheres']:,}"]
@@ -122,7 +122,7 @@ def build_section(title, results):
 
 
 def rays_of_calls(results):
-    """How many rays a call had, in words."""
+    """The number of rays in a call, in words."""
     tiles = [result["tile"] for result in results]
     if not isinstance(tiles[0], dict):
         return f"A call has up to {max(tiles):,} rays."

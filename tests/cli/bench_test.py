@@ -1,4 +1,4 @@
-"""bihive-bench: what its JSON holds, that both ray tracers agree, and how it fails."""
+"""bihive-bench: the content of its JSON, the agreement of both ray tracers, and its errors."""
 
 import json
 import os

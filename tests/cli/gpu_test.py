@@ -1,4 +1,4 @@
-"""--engine gpu: what is said where it cannot be used. (tests/gl has what needs a driver.)"""
+"""--engine gpu: the messages when it cannot be used. (tests/gl tests everything that needs a driver.)"""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Ctrl-C, full disks and paths that may not be written: nothing is left behind."""
+"""Ctrl-C, full disks and paths that may not be written: no partial file is left."""
 
 import os
 import pty
@@ -19,7 +19,7 @@ LONG = ["scenario3", "--size", "4000x4000", "--samples", "64", "--shadows"]
 
 
 def let_work(process, seconds):
-    """Waits until the program has used so much processor time: a busy machine takes longer."""
+    """Waits until the program has used this much processor time; on a busy machine that takes longer."""
     ticks = os.sysconf("SC_CLK_TCK")
     while process.poll() is None:
         with open(f"/proc/{process.pid}/stat") as stat_file:
@@ -31,7 +31,7 @@ def let_work(process, seconds):
 
 class Interrupt(ProgramTest):
     def interrupted(self, arguments, delay_s, number=signal.SIGINT):
-        """Runs, sends the signal after so much work, and returns exit code, stdout and stderr."""
+        """Runs the program, sends the signal after this much work, and returns exit code, stdout and stderr."""
         process = subprocess.Popen(
             [BIHIVE, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )

@@ -1,5 +1,5 @@
-"""A screen for windows to open on (Xvfb), with what xdotool cannot do: how fine its pixels are, and files that are
-dragged onto a window and dropped there, by the protocol that file managers use (XDND, version 5)."""
+"""A screen for windows to open on (Xvfb), with two things that xdotool cannot do: it sets the size of pixels, and drops
+files onto a window by the protocol of file managers (XDND, version 5)."""
 
 import os
 import pathlib
@@ -77,7 +77,7 @@ class Drag:
         self.client.sync()
 
     def answer(self, name, uris):
-        """The words of the window's next message of that name; hands over the names of the files when they are asked for."""
+        """The words of the window's next message of that name. Sends the names of the files when the window asks for them."""
         deadline = time.monotonic() + self.SECONDS
         while time.monotonic() < deadline:
             if not self.client.pending_events():

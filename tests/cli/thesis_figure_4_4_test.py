@@ -1,4 +1,4 @@
-"""Figure 4.4 at small size: its tables and charts say what was measured, and its verdicts follow their rules."""
+"""Figure 4.4 at small size: its tables and charts show the measurements, and its verdicts follow their rules."""
 
 import json
 import os

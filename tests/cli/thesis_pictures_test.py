@@ -32,7 +32,7 @@ class Pictures(ProgramTest):
             return json.load(file)
 
     def with_changed(self, figure, name, value):
-        """A folder of values in which one of them is another."""
+        """A folder of values with one of them changed."""
         document = self.stated(figure)
         self.assertIn(name, document["values"])
         self.assertNotEqual(document["values"][name]["value"], value)

@@ -41,7 +41,7 @@ class Report(ProgramTest):
         return self.read(out + "/report.html").decode()
 
     def results(self, out):
-        """results.json, which must be as its schema says."""
+        """results.json, checked against its schema."""
         with open(os.path.join(SOURCE, "docs/results.schema.json")) as file:
             schema = json.load(file)
         jsonschema.Draft7Validator.check_schema(schema)

@@ -1,4 +1,4 @@
-"""bihive thesis: Table 4.2, Figure 4.5 and section D against what is known without the program."""
+"""bihive thesis: Table 4.2, Figure 4.5 and section D against values that are known without the program."""
 
 import copy
 import csv
@@ -29,7 +29,7 @@ def rows_of_csv(name):
 
 
 def verdicts(results):
-    """(experiment, name) -> verdict of everything that does not depend on time."""
+    """(experiment, name) -> verdict, for all verdicts that do not depend on time."""
     found = {}
     for experiment in results["experiments"]:
         data = experiment["data"]

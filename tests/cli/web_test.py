@@ -1,4 +1,4 @@
-"""`bihive web`: what it serves, what it refuses, and how it ends. A made-up page stands for the real one."""
+"""`bihive web`: its answers, its refusals, and its end. A small page takes the place of the real one."""
 
 import gzip
 import http.client
@@ -42,7 +42,7 @@ class WebTest(ProgramTest):
             self.environment.pop(name, None)
 
     def start(self, *arguments, port="0", browser=False, warns=False):
-        """The running server; its port is in self.port, what it said in self.said."""
+        """The running server; its port is in self.port, its output in self.said."""
         words = [*arguments, "--json"] + ([] if browser else ["--no-browser"]) + (["--port", port] if port else [])
         process = subprocess.Popen(
             [BIHIVE, "web", *words], cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -71,7 +71,7 @@ class WebTest(ProgramTest):
         return answer.status, answer.headers, answer.read()
 
     def ask_raw(self, data):
-        """Everything that comes back for these bytes until the server closes or is silent."""
+        """The whole answer to these bytes, until the server closes the connection or is silent."""
         with socket.create_connection(("127.0.0.1", self.port), timeout=20) as client:
             client.sendall(data)
             client.shutdown(socket.SHUT_WR)
@@ -487,7 +487,7 @@ class End(WebTest):
 
 class Browser(WebTest):
     def fake_desktop(self):
-        """A desktop whose browser writes down what it is asked for."""
+        """A desktop whose browser records the requested address."""
         os.mkdir(self.path("desktop"))
         self.write("desktop/xdg-open", f'#!/bin/sh\necho "$*" > {self.path("opened")}.new && mv {self.path("opened")}.new {self.path("opened")}\n')
         os.chmod(self.path("desktop/xdg-open"), stat.S_IRWXU)

@@ -1,4 +1,4 @@
-"""scripts/performance_page: verdicts and charts of made-up measurements, and docs/performance.md as it was generated."""
+"""scripts/performance_page: verdicts, charts and refusals for made-up measurements; and docs/performance.md equals its generator's output."""
 
 import json
 import os
