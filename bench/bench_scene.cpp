@@ -50,7 +50,7 @@ BenchScene load_bench_scene(const BenchOptions& options) {
     return bench;
   }
 
-  // A molecule, or whatever bihive can read.
+  // A molecule, or any input of bihive.
   cli::InputOptions wanted = options.input;
   const bool molecule = name == "mol" || name == "mol5";
   if (molecule) wanted.input = options.molecule.empty() ? "demo" : options.molecule;

@@ -1,4 +1,4 @@
-// What is measured: spheres, a camera, a light, and the box from which random rays start.
+// A scene to be measured: spheres, a camera, a light, and the box in which random rays start.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct BenchScene {
   std::string description;
 };
 
-/// A scene of the benchmark by its name, else an input of bihive. Fails as bihive does on what cannot be read.
+/// A scene of the benchmark by its name, else an input of bihive. Fails as bihive does on an unreadable input.
 ///
 /// s1 s2 s3: 4096 spheres of radius 1 in the cube [-20, 20]^3: a grid, eight corner cubes of side 10, half and half
 /// (the thesis's scenarios are the same with corner cubes of side 8 and another rounding of the grid). uN: N uniform

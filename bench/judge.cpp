@@ -9,7 +9,7 @@
 namespace bihive::bench {
 namespace {
 
-// The truth for one ray and one sphere: +inf where it is not hit, or there is no such sphere.
+// The true t of one ray and one sphere: +inf if it is not hit, or if there is no such sphere.
 double true_t(const SphereSet& spheres, const Ray& ray, std::int64_t id) {
   if (id < 0 || !is_valid(ray)) return std::numeric_limits<double>::infinity();
   return sphere_hit(ScaledRay(ray, spheres), spheres.stored_centre(id), spheres.stored_radius(id));
@@ -38,7 +38,7 @@ Verdict judge(const SphereSet& spheres, const WideTree& tree, const RaySet& set,
     const Ray ray = rays.at(i);
     const std::int64_t theirs = peer[static_cast<std::size_t>(i)];
     if (set.facts.any_hit) {
-      // Who says that the ray is hidden has to name a sphere that it meets.
+      // An answer "hidden" must name a sphere that the ray meets.
       const bool hidden = ours.hidden[static_cast<std::size_t>(i)] != 0;
       if (hidden == (theirs != 0)) continue;
       ++verdict.differ;

@@ -1,4 +1,4 @@
-// Whose answer is right where ours and a peer's differ: the scalar truth decides (geometry/sphere.h).
+// Decides which answer is right if ours and a peer's differ: by the scalar truth (geometry/sphere.h).
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@ struct Answers {
 
 struct Verdict {
   std::int64_t compared = 0;    ///< rays
-  std::int64_t differ = 0;      ///< rays that were answered differently
-  std::int64_t ours_wrong = 0;  ///< a nearer sphere, or any, was missed, or the distance has another bit
+  std::int64_t differ = 0;      ///< rays with different answers
+  std::int64_t ours_wrong = 0;  ///< a nearer sphere (or any sphere) was missed, or a bit of the distance is wrong
   std::int64_t peer_wrong = 0;
 };
 
-/// Our hits alone: does each one's distance have the bits of the truth for the sphere that it names?
+/// Our hits alone: does each distance have the bits of the truth for the named sphere?
 Verdict judge_alone(const SphereSet& spheres, const RaySet& set, const Answers& ours);
 
-/// `peer` as EmbreeRays::answers() gives it. `name_peers_hit`: the sphere that the peer names for one ray.
+/// `peer` as EmbreeRays::answers() returns it. `name_peers_hit`: the sphere that the peer names for one ray.
 Verdict judge(const SphereSet& spheres, const WideTree& tree, const RaySet& set, const Answers& ours,
               const std::vector<std::int64_t>& peer, const std::function<std::int64_t(const Ray&)>& name_peers_hit);
 

@@ -9,8 +9,8 @@
 
 namespace bihive::bench {
 
-/// primary: 8 x 8 pixel blocks of a camera. random: any origin, any direction. shadow: from what the primary rays hit
-/// to the light. mirrorK: mirrored K times. mirror_shadowK: from what mirrorK hits to the light.
+/// primary: 8 x 8 pixel blocks of a camera. random: any origin, any direction. shadow: from the hits of the primary
+/// rays to the light. mirrorK: mirrored K times. mirror_shadowK: from the hits of mirrorK to the light.
 enum class Kind { primary, random, shadow, mirror1, mirror2, mirror3, mirror_shadow2, mirror_shadow3 };
 
 struct KindFacts {
@@ -21,7 +21,7 @@ struct KindFacts {
   std::int64_t tile;  ///< rays that a thread takes at a time, at most, unless the user says another number
 };
 
-/// Of random rays a thread takes its whole share: the engine sorts them, and the more there are the better it can.
+/// A thread takes all its random rays in one call, because the engine sorts them, and sorts more of them better.
 constexpr std::int64_t kTile = 131072, kRandomTile = 1048576;
 
 constexpr std::array<KindFacts, 8> kKinds{{{Kind::primary, "primary", false, RayOrder::blocks, kTile},

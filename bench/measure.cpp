@@ -23,11 +23,11 @@ constexpr double kShortestTimingMs = 20;
 // Builds are repeated until they have taken this long, but at least kFewestBuilds times.
 constexpr double kBuildBudgetMs = 6000;
 constexpr std::int64_t kFewestBuilds = 3;
-// A timing longer than this takes some tiles of the rays only: at least kFewestTiles, the same for ours and the peer.
+// A timing longer than this takes only some tiles of the rays: at least kFewestTiles, the same for ours and the peer.
 constexpr double kLongestTimingMs = 200;
 constexpr std::int64_t kFewestTiles = 8;
-// Of the modes of the peer, those that come this close to the fastest on a sample are measured in full. One that is
-// slower than kHopeless times the best so far at its first try gets no other.
+// The modes of the peer that come this close to the fastest on a sample are measured in full. A mode that is slower
+// than kHopeless times the best so far at its first try gets no second try.
 constexpr double kCloseToBest = 1.1;
 constexpr double kHopeless = 1.5;
 constexpr int kTries = 3;
@@ -50,7 +50,7 @@ Built measure_builds(const BenchScene& bench, const BenchOptions& options, Embre
   const SphereSet& spheres = bench.scene.spheres;
   const auto threads = static_cast<int>(options.threads);
 
-  // The first build of the process, for its memory.
+  // The first build of the process shows its memory.
   Built built;
   forget_peak();
   const std::int64_t before = resident_bytes();
@@ -63,7 +63,7 @@ Built measure_builds(const BenchScene& bench, const BenchOptions& options, Embre
   built.result.bytes_per_sphere = static_cast<double>(built.tree->used_bytes()) / n;
   if (peer != nullptr) peer->build_fresh_ms();
 
-  // In turn: from nothing, and again in memory that was kept.
+  // Take turns: a build from nothing, and a build in kept memory.
   std::vector<double> fresh, again, peer_fresh, peer_again;
   const Timer total;
   for (std::int64_t rep = 0; options.build && rep < std::max(options.reps, kFewestBuilds); ++rep) {
@@ -116,7 +116,7 @@ struct Contender {
   std::vector<double> ms;
 };
 
-// Every mode on a sample of the rays; the best, and what comes close to it.
+// Tries every mode on a sample of the rays; returns the best one, and those that come close to it.
 std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const Tiles& sample) {
   struct Tried {
     double ms;
@@ -144,14 +144,14 @@ std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const T
   return contenders;
 }
 
-// The size of tiles of at most `most` rays, and a number of them that the threads can share evenly.
+// The size of tiles of at most `most` rays, such that the threads share the tiles evenly.
 std::int64_t even_tile(std::int64_t rays, std::int64_t most, std::int64_t threads) {
   const std::int64_t rounds = (rays + most * threads - 1) / (most * threads);
   const std::int64_t tiles = rounds * threads;
   return (rays + 64 * tiles - 1) / (64 * tiles) * 64;
 }
 
-// How often to repeat work that takes so long once.
+// How often to repeat work that takes this long once.
 std::int64_t passes_for(double ms) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kShortestTimingMs / std::max(ms, 1e-3))));
 }
@@ -170,7 +170,7 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   result.rays = set.rays.size();
   if (result.rays == 0) return result;
 
-  // A first pass of each warms up, and says how often a timing must repeat it.
+  // A first pass of each warms up, and tells how often a timing must repeat it.
   Answers answers;
   if (set.facts.any_hit) {
     answers.hidden.resize(static_cast<std::size_t>(result.rays));
@@ -214,7 +214,7 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
     return result;
   }
 
-  // The best of the peer counts; its answers are compared.
+  // The peer's best mode counts; its answers are compared.
   const auto best = std::min_element(contenders.begin(), contenders.end(),
                                      [](const auto& a, const auto& b) { return median(a.ms) < median(b.ms); });
   result.peer_ms = median(best->ms);

@@ -1,4 +1,4 @@
-// Everything that is timed: ours and the peer's in turn, medians.
+// All timings: ours and the peer's in turn, medians.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace bihive::bench {
 
-/// Of builds. `fresh` starts without any memory of an earlier one, `again` has it.
+/// Times of builds. `fresh` starts without memory of an earlier build, `again` has it.
 struct BuildTimes {
   double fresh_ms = 0, again_ms = 0;
   double best_ms() const { return again_ms < fresh_ms ? again_ms : fresh_ms; }
@@ -21,7 +21,7 @@ struct BuildTimes {
 struct BuildResult {
   BuildTimes ours, peer;
   double bytes_per_sphere = 0, peer_bytes_per_sphere = 0;
-  std::int64_t peak_bytes = 0;  ///< by which the first build made the process grow, at its peak
+  std::int64_t peak_bytes = 0;  ///< growth of the process during the first build, at its peak
   std::int64_t levels = 0, nodes = 0;
 };
 
@@ -37,7 +37,7 @@ struct KindResult {
   double peer_mray_per_s() const { return static_cast<double>(rays) / peer_ms / 1000; }
 };
 
-/// A whole picture with what the scene says of materials, light and plane, as radiance.
+/// A whole picture with the scene's own materials, light and plane, as radiance.
 struct FrameResult {
   double ms = 0;  ///< 0: not asked for
   std::int64_t width_px = 0, height_px = 0;
@@ -52,7 +52,7 @@ struct Measured {
   FrameResult frame;
 };
 
-/// Fails with kBadInput where the tree cannot be built, with kEnvironment where the peer cannot start.
+/// Fails with kBadInput if the tree cannot be built, with kEnvironment if the peer cannot start.
 Measured measure(const BenchScene& bench, const BenchOptions& options);
 
 }  // namespace bihive::bench

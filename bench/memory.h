@@ -1,14 +1,14 @@
-// How much memory this process holds, and held at most.
+// The memory that this process holds, and its peak.
 #pragma once
 
 #include <cstdint>
 
 namespace bihive::bench {
 
-/// Resident bytes now; 0 where the system does not say.
+/// Resident bytes now; 0 if the system does not say.
 std::int64_t resident_bytes();
 
-/// Resident bytes at most since forget_peak().
+/// The peak of resident bytes since forget_peak().
 std::int64_t peak_bytes();
 void forget_peak();
 

@@ -16,7 +16,7 @@ constexpr const char* kExamples =
     "  bihive-bench scenario1 --peer embree --threads 2\n"
     "  bihive-bench molecule.pdb --peer embree --only build,primary,shadow --target avx2 --json";
 
-// An option with one value of its own syntax: `parse` makes a Result of the text.
+// An option with one value of its own syntax: `parse` turns the text into a Result.
 template <class Target, class Parse>
 void add_value(CLI::App& app, const std::string& name, Target& target, const std::string& type, const std::string& help,
                Parse parse) {

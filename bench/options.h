@@ -19,13 +19,13 @@ struct BenchOptions {
   std::vector<Kind> kinds;  ///< in the order of kKinds
   bool build = true, frame = true;
   std::int64_t reps = 7;
-  std::int64_t rays = 1024 * 1024;  ///< primary and random rays, pixels of the frame; the others follow from these
+  std::int64_t rays = 1024 * 1024;  ///< primary and random rays, pixels of the frame; the others follow
   std::int64_t tile = 0;            ///< rays that a thread takes at a time, at most; 0: what the kind's facts say
   std::string target;               ///< empty: the best
   bool json = false;
 };
 
-/// Fails with kBadUsage on what cannot be understood. A text to be printed instead (help) comes back as a string.
+/// Fails with kBadUsage on unknown or wrong options. A text to be printed instead (help) comes back as a string.
 struct ParsedOptions {
   BenchOptions options;
   std::optional<std::string> text;

@@ -17,7 +17,7 @@ constexpr std::int64_t kChunk = 16384;
 constexpr std::uint64_t kSeed = 7;
 constexpr int kBlock = 8;
 
-// Rays, and the place of each one's pixel on the Z-curve.
+// Rays, each with the place of its pixel on the Z-curve.
 struct PixelRaySet {
   RayBatch rays;
   std::vector<std::uint32_t> place;
@@ -51,7 +51,7 @@ PixelRaySet primary_rays(const Scene& scene, int side) {
       set.place.push_back(z_code(x, y));
     }
   }
-  // Rays that say nothing beyond origin and direction carry nothing beyond them.
+  // Removes the arrays that hold only defaults.
   set.rays.t_min.clear();
   set.rays.t_max.clear();
   set.rays.leaves.clear();
@@ -80,7 +80,7 @@ RayBatch random_rays(const BenchScene& bench, std::int64_t count) {
   return rays;
 }
 
-// What rays hit, and what starts there: the mirrored rays, and those to the light where the surface faces it.
+// The hits of rays, and the rays that start there: the mirrored ones, and those to the light if the surface faces it.
 struct Next {
   PixelRaySet mirrored, shadow;
 };
@@ -114,7 +114,7 @@ Next next_rays(const Scene& scene, const WideTree& tree, const PixelRaySet& from
     next.shadow.rays.push_back(shadow);
     next.shadow.place.push_back(place);
   }
-  // As the renderer gives them: a segment starts at 0, mirrored rays have no end.
+  // As in the renderer: a segment starts at 0, mirrored rays have no end.
   next.mirrored.rays.t_min.clear();
   next.mirrored.rays.t_max.clear();
   next.shadow.rays.t_min.clear();
@@ -131,7 +131,7 @@ std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& place) {
 }  // namespace
 
 std::vector<RaySet> make_ray_sets(const BenchScene& bench, const WideTree& tree, const BenchOptions& options) {
-  // Mirrored rays need those that they are mirrored from: generation by generation, as far as somebody asks.
+  // Mirrored rays need the rays from which they are mirrored: make generation after generation, as far as needed.
   std::vector<RaySet> sets;
   const auto asked = [&](Kind kind) {
     return std::find(options.kinds.begin(), options.kinds.end(), kind) != options.kinds.end();

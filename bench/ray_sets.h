@@ -1,4 +1,4 @@
-// The rays of every kind that is measured.
+// The rays of every kind.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ namespace bihive::bench {
 struct RaySet {
   KindFacts facts;
   RayBatch rays;
-  /// For peers that trace packets of 4, 8 or 16: the same rays so that a packet's pixels form a square or half of one.
+  /// For peers that trace packets of 4, 8 or 16: the same rays in an order in which a packet's pixels form a square or
+  /// half of one.
   std::vector<std::uint32_t> packet_order;
 };
 

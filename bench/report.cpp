@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The processor's name, as the system gives it.
+// The processor's name from the system.
 std::string machine() {
   std::ifstream cpuinfo("/proc/cpuinfo");
   std::string line;

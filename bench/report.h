@@ -1,4 +1,4 @@
-// What was measured, for people and for machines.
+// Reports of the measurements, for people and for machines.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace bihive::bench {
 
-/// One JSON object. What was not measured is null.
+/// One JSON object. Missing measurements are null.
 std::string json_report(const Measured& measured, const BenchOptions& options);
 std::string text_report(const Measured& measured, const BenchOptions& options);
 

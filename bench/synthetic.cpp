@@ -47,7 +47,7 @@ void add_corners(Spheres& spheres, std::int64_t count, float radius, SplitMix64&
   }
 }
 
-// Uniform in the cube, of a radius with which they fill a tenth of it.
+// Uniform in the cube. The radius makes them fill a tenth of it.
 void add_uniform(Spheres& spheres, std::int64_t count, SplitMix64& random) {
   const double cube = std::pow(2.0 * double(kCubeHalf), 3);
   const double ball = 4.0 / 3.0 * 3.14159265358979;
@@ -59,7 +59,7 @@ void add_uniform(Spheres& spheres, std::int64_t count, SplitMix64& random) {
   }
 }
 
-// N of "uN", a power of ten from 1e3 to 1e8; 0 if it is no such name.
+// N of "uN", a power of ten from 1e3 to 1e8; 0 for any other name.
 std::int64_t uniform_count(const std::string& name) {
   if (name.size() != 4 || name.rfind("u1e", 0) != 0 || name[3] < '3' || name[3] > '8') return 0;
   std::int64_t count = 1;
@@ -67,7 +67,7 @@ std::int64_t uniform_count(const std::string& name) {
   return count;
 }
 
-// The spheres of a name; empty if there is none.
+// The spheres of a name; empty for an unknown name.
 Spheres spheres_of(const std::string& name) {
   Spheres spheres;
   SplitMix64 random(kSeed);

@@ -1,4 +1,4 @@
-// The scenes of the benchmark that are made, not read.
+// The synthetic scenes of the benchmark.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace bihive::bench {
 
-/// Half the side of the cube around the origin in which they lie.
+/// Half the side of the cube around the origin that holds the spheres.
 constexpr float kCubeHalf = 20;
 
 /// s1 s2 s3, c1e6, or uN with N from 1e3 to 1e8 (bench_scene.h); nothing for any other name. All spheres are the

@@ -1,4 +1,4 @@
-// Which rays of a set are traced: all, or some tiles spread over them where all would take too long.
+// The rays of a set that are traced: all, or some tiles spread over the set if all would take too long.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class Tiles {
     const std::int64_t begin = (first_ + i * step_) * size_;
     return {begin, std::min(begin + size_, rays_)};
   }
-  /// Rays in all of them.
+  /// The number of rays in all these tiles.
   std::int64_t rays() const {
     std::int64_t sum = 0;
     for (std::int64_t i = 0; i < count_; ++i) sum += range(i).end - range(i).begin;

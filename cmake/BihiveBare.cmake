@@ -1,6 +1,6 @@
-# What WebAssembly and other builds for another machine need instead of installed libraries. Header-only libraries are
-# taken from this system through a private folder of links: with -I/usr/include the compiler would mix up the system's C
-# library and its own.
+# The replacement for installed libraries in builds of WebAssembly and for other machines. Header-only libraries are
+# taken from this system through a private folder of links: with -I/usr/include the compiler would mix the system's C
+# library with its own.
 
 set(BIHIVE_BARE_INCLUDE ${PROJECT_BINARY_DIR}/bare_include)
 file(MAKE_DIRECTORY ${BIHIVE_BARE_INCLUDE})

@@ -1,12 +1,12 @@
 # The libraries that bihive needs. Sets BIHIVE_LIBRARY_DEPENDENCIES and BIHIVE_CLI_DEPENDENCIES.
 
-# Stops with a message that says what to install.
+# Stops with a message that says which package to install.
 function(bihive_missing what debian_package)
   message(FATAL_ERROR "${what} was not found. On Debian or Ubuntu: apt-get install ${debian_package}, "
                       "or scripts/setup demo for everything that the program needs.")
 endfunction()
 
-# Finds a package that comes with a CMake configuration.
+# Finds a package that has a CMake configuration.
 macro(bihive_require package debian_package)
   find_package(${package} QUIET ${ARGN})
   if(NOT ${package}_FOUND)
@@ -24,7 +24,7 @@ function(bihive_require_header header debian_package)
   endif()
 endfunction()
 
-# Header-only libraries are never linked to an installed bihive: they matter while it is built.
+# Header-only libraries are never linked to an installed bihive: only its build needs them.
 set(BIHIVE_LIBRARY_DEPENDENCIES "")
 set(BIHIVE_CLI_DEPENDENCIES "")
 
@@ -52,7 +52,7 @@ bihive_require(hwy libhwy-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES PNG::PNG ZLIB::ZLIB fmt::fmt hwy::hwy)
 bihive_require(nlohmann_json nlohmann-json3-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
-# Headers alone: EGL and OpenGL ES are looked for when they are wanted.
+# Headers alone: the program looks for EGL and OpenGL ES only when it needs them.
 bihive_require_header(EGL/egl.h libegl-dev)
 bihive_require_header(GLES3/gl3.h libgles-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES ${CMAKE_DL_LIBS})
@@ -74,15 +74,15 @@ if(BIHIVE_BUILD_TESTS)
   endif()
 endif()
 
-# What was found is not remembered: packages that come later are made use of by the next configuration.
-# The window is built where GLFW and Dear ImGui are: nothing else needs them.
+# Results are not cached, so that the next configuration finds packages that were installed later.
+# The window is built if GLFW and Dear ImGui are installed; nothing else needs them.
 set(BIHIVE_BUILD_VIEWER AUTO CACHE STRING "Build bihive-view (needs GLFW and Dear ImGui): ON, OFF, or AUTO: where they are")
 set(viewer_can_be_built OFF)
 if(BIHIVE_BUILD_CLI AND NOT BIHIVE_SANITIZE)
   find_package(glfw3 3.3 QUIET)
   find_path(BIHIVE_IMGUI_FOLDER backends/imgui_impl_glfw.h PATH_SUFFIXES imgui)
   find_library(BIHIVE_IMGUI_LIBRARY imgui)
-  find_library(BIHIVE_STB_LIBRARY stb) # of whose fonts and packing ImGui makes use
+  find_library(BIHIVE_STB_LIBRARY stb) # ImGui uses its fonts and packing
   mark_as_advanced(BIHIVE_IMGUI_FOLDER BIHIVE_IMGUI_LIBRARY BIHIVE_STB_LIBRARY)
   if(glfw3_FOUND AND BIHIVE_IMGUI_FOLDER AND BIHIVE_IMGUI_LIBRARY AND BIHIVE_STB_LIBRARY)
     set(viewer_can_be_built ON)
@@ -100,7 +100,7 @@ if(BIHIVE_BUILD_VIEWER)
   target_link_libraries(bihive_imgui INTERFACE ${BIHIVE_IMGUI_LIBRARY} ${BIHIVE_STB_LIBRARY} ${CMAKE_DL_LIBS} m)
 endif()
 
-# The benchmark is built where Embree is: nothing else needs it.
+# The benchmark is built if Embree is installed; nothing else needs it.
 set(BIHIVE_BUILD_BENCH AUTO CACHE STRING "Build bihive-bench (needs Embree 3): ON, OFF, or AUTO: where it is")
 set(bench_can_be_built OFF)
 if(BIHIVE_BUILD_CLI AND NOT BIHIVE_SANITIZE AND NOT BIHIVE_OWN_POOL)

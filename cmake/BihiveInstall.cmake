@@ -1,4 +1,4 @@
-# cmake --install: the program, the library, its headers, and what find_package(bihive) needs.
+# cmake --install: the program, the library, its headers, and the files that find_package(bihive) needs.
 
 include(CMakePackageConfigHelpers)
 
@@ -18,7 +18,7 @@ install(FILES ${PROJECT_BINARY_DIR}/bihiveConfig.cmake ${PROJECT_BINARY_DIR}/bih
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET bihive)
   install(TARGETS bihive)
-  # The page of `bihive web`, where `make web` has built it.
+  # The page of `bihive web`, if `make web` has built it.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build-web/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bihive/web OPTIONAL)
 endif()
 if(TARGET bihive-view)

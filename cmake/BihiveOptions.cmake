@@ -9,7 +9,7 @@ option(BIHIVE_WERROR "Treat warnings as errors" OFF)
 set(BIHIVE_SANITIZE "" CACHE STRING "Sanitizers: empty, asan (address and undefined behaviour) or tsan (threads)")
 set_property(CACHE BIHIVE_SANITIZE PROPERTY STRINGS "" asan tsan)
 
-# Builds for another machine have no libraries of that machine's: header-only ones are enough for pictures in memory.
+# Builds for another machine have no libraries of that machine. Header-only libraries are enough for pictures in memory.
 set(BIHIVE_BARE OFF)
 if(EMSCRIPTEN OR CMAKE_CROSSCOMPILING)
   set(BIHIVE_BARE ON)
@@ -32,10 +32,11 @@ endif()
 
 add_library(bihive_options INTERFACE)
 
-# The same bits everywhere: no fused multiply-add, and never fast-math.
+# The same bits everywhere: no fused multiply-add and no fast-math.
 target_compile_options(bihive_options INTERFACE -ffp-contract=off)
-# GCC 12 drops the rounding of a binary64 number to binary32 and back where it turns neighbouring conversions into a vector of two
-# (tests/unit/vec3_test.cpp). Whether later versions do is not known, so none of them gets the chance.
+# GCC 12 drops the rounding of a binary64 number to binary32 and back when it turns neighbouring conversions into a
+# vector of two (tests/unit/vec3_test.cpp). Later versions were not checked, so this optimisation is off for all of
+# them.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(bihive_options INTERFACE -fno-tree-slp-vectorize)
 endif()
@@ -57,7 +58,7 @@ endif()
 
 target_compile_options(bihive_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 sees overlaps in string concatenations where there are none (GCC bug 105651).
+  # GCC 12 reports overlaps in string concatenations that have none (GCC bug 105651).
   target_compile_options(bihive_options INTERFACE -Wno-restrict)
 endif()
 if(BIHIVE_WERROR)
@@ -65,14 +66,14 @@ if(BIHIVE_WERROR)
 endif()
 
 if(BIHIVE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # Known to be wrong about instrumented code.
+  # These warnings are wrong about instrumented code.
   target_compile_options(bihive_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overread
                                                 -Wno-stringop-overflow)
 endif()
 if(BIHIVE_SANITIZE STREQUAL "asan")
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=address,undefined)
-  # An index beyond the end of a vector is found even where the memory after it is valid.
+  # Finds an index beyond the end of a vector, even if the memory after it is valid.
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
 elseif(BIHIVE_SANITIZE STREQUAL "tsan")
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -g1)

@@ -1,4 +1,4 @@
-# How tests are declared.
+# The functions that declare tests.
 
 # The name of the test in a file: unit.tree for tests/unit/tree_test.cpp; kind and target too if asked for.
 function(bihive_test_name file name)

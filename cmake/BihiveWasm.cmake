@@ -1,4 +1,4 @@
-# How WebAssembly is compiled and linked.
+# Compile and link options of WebAssembly.
 
 # Exceptions: the header-only libraries throw, and the library turns that into errors. SIMD: every browser of the last
 # years has it. Threads are workers with shared memory, which a page only has where its server sends certain headers.
@@ -10,8 +10,8 @@ if(BIHIVE_WASM_THREADS)
   add_link_options(-pthread)
 endif()
 
-# wasm-opt would put every function that is called from one place into its caller. The kernels and the steps of a wave
-# would become a single function, in which V8 keeps next to nothing in registers.
+# wasm-opt would move every function that has one caller into that caller. The wide engine and the steps of a wave would
+# become a single function, in which V8 keeps next to nothing in registers.
 add_link_options(-sBINARYEN_EXTRA_PASSES=--one-caller-inline-max-function-size=1)
 
 # Debian keeps the JavaScript modules that em++ needs for linking here.

@@ -1,7 +1,7 @@
-# Run by bihive_embed_version(): writes OUTPUT, and leaves it alone where nothing changed.
+# Run by bihive_embed_version(): writes OUTPUT if its content changes.
 
-# The commit, with "-dirty" where tracked files differ from it. Only if SOURCE itself is the top of a clone: a release
-# unpacked inside another project must not take on that project's commit.
+# The commit, with "-dirty" if tracked files differ from it. Only if SOURCE itself is the top of a clone: a release
+# unpacked inside another project must not take that project's commit.
 set(commit "")
 if(GIT AND EXISTS ${SOURCE}/.git)
   execute_process(

@@ -1,4 +1,4 @@
-// Whole pictures: what is drawn, and how long it takes.
+// Whole pictures and their times.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace bihive::bench {
 
 /// A square picture with shadows, recursion 5.
 RenderSettings whole_picture(int threads, int side_px = 1024);
-/// As the thesis measured frames: 1136 x 640 pixels, primary rays, no shadows.
+/// The thesis's frames: 1136 x 640 pixels, primary rays, no shadows.
 RenderSettings thesis_frame(int threads);
 
-/// Milliseconds of one picture: to linear radiance, and on to bytes.
+/// Milliseconds of one picture: to linear radiance, then to bytes.
 struct FrameMs {
   double render = 0, to_bytes = 0;
   double all() const { return render + to_bytes; }
@@ -26,7 +26,7 @@ struct FrameTimes {
   std::vector<FrameMs> times;
   RenderCounts rays;
   std::uint64_t hash = 0;
-  Film film;  ///< the last one, whose memory the next one takes
+  Film film;  ///< the last one; the next one takes its memory
 
   /// Medians.
   double render_ms() const;

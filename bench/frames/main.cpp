@@ -40,7 +40,7 @@ ordered_json counts(const RenderCounts& rays) {
   return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"reflected", rays.reflected}};
 }
 
-// Whole pictures, in turn with Tachyon's. Each draws one first that does not count; ours and its are left in the
+// Whole pictures, in turn with Tachyon's. Both first draw one picture that does not count; both pictures stay in the
 // folder.
 ordered_json pictures(const Wish& wish) {
   ordered_json json = described(wish);

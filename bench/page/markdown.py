@@ -28,14 +28,10 @@ def picture(name, words):
 
 
 def commands_block(report):
-    """The commands behind a section's numbers, folded up where they are many."""
+    """The programs that a section's command ran, folded up."""
     commands = list(dict.fromkeys(run["command"] for run in report["runs"]))
-    seconds = sum(run["seconds"] for run in report["runs"])
-    block = ["```sh", f"scripts/bench {report['part']}", *(f"# runs {command}" for command in commands), "```", ""]
-    words = f"Measured at commit {report['commit']} in {seconds:.0f} s by"
-    if len(commands) <= 2:
-        return [words, "", *block]
-    return [f"<details><summary>{words} <code>scripts/bench {report['part']}</code></summary>", "", *block, "</details>", ""]
+    words = "The program that this command ran" if len(commands) == 1 else f"The {len(commands)} programs that this command ran"
+    return [f"<details><summary>{words}</summary>", "", "```sh notest", *commands, "```", "", "</details>", ""]
 
 
 def verdict(value, floor, at_most=False):

@@ -2,52 +2,49 @@
 
 import json
 
+import origin
 import sections
 from markdown import commands_block
 
 
 def load(folder):
-    """What scripts/bench measured: part -> report."""
+    """The reports of scripts/bench: part -> report. Raises origin.Mixed where a report is not of one machine and commit."""
     reports = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))}
-    return {name: report for name, report in reports.items() if report.get("part") == name}
+    reports = {name: report for name, report in reports.items() if report.get("part") == name}
+    for name, report in reports.items():
+        origin.check(f"{name}.json", report)
+    return reports
 
 
-def head(reports):
-    lines = ["# Performance: what was measured", ""]
-    lines += ["Every number on this page was measured by", "", "```sh"]
-    lines += ["make bench                             # writes out/bench/*.json"]
-    lines += ["scripts/performance_page out/bench     # writes this page, its charts and docs/performance/*.json"]
-    lines += ["```", ""]
-    machines = {json.dumps(report["machine"], sort_keys=True): report["machine"] for report in reports.values()}
-    for machine in machines.values():
-        vectors = {"avx512f": "AVX-512", "avx2": "AVX2", "sse4_1": "SSE4"}.get(machine["vectors"], machine["vectors"])
-        lines.append(
-            f"on {machine['processor']}, {machine['cpus']} cores, {vectors}, caches {machine['l1d']}, {machine['l2']}, "
-            f"{machine['l3']}; {machine['memory_gb']} GB; {machine['system']}; {machine['compiler']}."
-        )
-    dates = sorted({f"{report['date']} at commit {report['commit']}" for report in reports.values()})
-    lines += [f"Measured {', '.join(dates)}.", ""]
-    lines += [
-        "Timings of two runs differ by ten percent and more; what counts are the ratios, of jobs that took turns in one",
-        "process (Tachyon: one after the other). Each number is a median. Every answer has the bits of the scalar",
-        "reference ([precision.md](precision.md)); Embree and Tachyon calculate in binary32.",
-        "",
-    ]
-    return lines
+HEAD = """\
+# Performance: what was measured
+
+This page is generated; nothing in it is written by hand. Two commands make it:
+
+```sh
+make bench                             # measures; writes out/bench/*.json
+scripts/performance_page out/bench     # writes this page, its charts and docs/performance/*.json
+```
+
+Each section says its own machine, commit, date and command.
+[performance_findings.md](performance_findings.md) says what was tried, where the time goes and why a floor is missed.
+
+Timings of two runs differ by ten percent and more. The ratios count: both programs took turns in one process (Tachyon: one
+program after the other). Each number is a median. Every answer has the bits of the scalar reference
+([precision.md](precision.md)); Embree and Tachyon calculate in binary32.
+"""
 
 
-def files_of(kept, notes):
+def files_of(reports):
     """Name below docs -> content."""
-    reports = load(kept)
     files = {}
-    lines = head(reports)
+    lines = HEAD.splitlines() + [""]
     for name, make in sections.SECTIONS:
         if name not in reports:
             continue
-        section, charts = make(reports[name], reports)
+        section, charts = make(reports[name])
         files.update({f"performance/{chart}": content for chart, content in charts.items()})
-        lines += [*section, *commands_block(reports[name])]
-    if notes.is_file():
-        lines += [notes.read_text(encoding="utf-8").rstrip(), ""]
+        title, *body = section
+        lines += [title, "", *origin.lines_of(reports[name]), *body[1:], *commands_block(reports[name])]
     files["performance.md"] = "\n".join(lines).rstrip() + "\n"
     return files

@@ -22,7 +22,7 @@ def ratio(result, kind):
 
 
 def title_of(result):
-    """The scene, and of a molecule the file, without its folders."""
+    """The scene; for a molecule also the name of its file."""
     return re.sub(r"\(.*/(.*)\)", r"(\1)", result["input"])
 
 
@@ -37,7 +37,7 @@ def lowest_cell(value, scene, kind):
 
 
 def summary(report):
-    """Every target of the engine against the worst that was measured."""
+    """Every target of the engine beside the worst measured value."""
     columns = [
         ("primary", ["primary"]),
         ("random", ["random"]),
@@ -69,7 +69,7 @@ def summary(report):
 
 
 def scene_rows(results, kinds):
-    """A line a scene: ours and, in brackets, Embree's, with the ratio; what misses its floor is marked."""
+    """A line for each scene: our rate, Embree's in brackets, and the ratio."""
     rows = []
     for result in results.values():
         row = [title_of(result), f"{result['spheres']:,}"]
@@ -112,23 +112,23 @@ def build_section(title, results):
     lines = [
         f"### {title}",
         "",
-        "Milliseconds, in brackets Embree's: again in the memory of the tree before (Embree's faster way of both is in",
-        "brackets), and from nothing. Bytes a sphere are all that tracing needs; the peak is what the first build added to the",
-        "process's memory at most (below a megabyte it is not seen). The picture: 1024 x 1024 pixels with what the scene says of",
-        "mirrors and plane, shadows, recursion 5 (where empty, it was not measured).",
+        "Milliseconds, with Embree's in brackets. \"Again\" builds in the memory of the tree before (in brackets: Embree's faster",
+        "way of both); \"from nothing\" takes new memory. Bytes a sphere are all that tracing needs. The peak is the memory that the",
+        "first build added at most; a peak below a megabyte is not seen. The picture has 1024 x 1024 pixels, the scene's own mirrors",
+        "and plane, shadows and recursion 5; an empty field was not measured.",
         "",
     ]
     return lines + table(BUILD_HEADS, build_rows(results))
 
 
 def rays_of_calls(results):
-    """How many rays a call had, in words."""
+    """The number of rays in a call, in words."""
     tiles = [result["tile"] for result in results]
     if not isinstance(tiles[0], dict):
         return f"A call has up to {max(tiles):,} rays."
     most = {kind: max(tile.get(kind, 0) for tile in tiles) for kind in targets.KINDS}
     others = max(most[kind] for kind in targets.KINDS if kind != "random")
-    return f"A call has up to {others:,} rays, of random ones up to {most['random']:,}: those are sorted first where it pays."
+    return f"A call has up to {others:,} rays, of random ones up to {most['random']:,}."
 
 
 def ratio_chart(results, title, kinds, target_of):
@@ -139,20 +139,22 @@ def ratio_chart(results, title, kinds, target_of):
     return svg.bar_panels(title, panels)
 
 
-def scenes(report, _reports):
+def scenes(report):
     lines = ["## Against Embree", ""]
     first = report["runs"][0]["result"]
     lines += [
-        f"The nine scenes, with one thread and two, against Embree {first['peer']['version']} in the same process. Its spheres are",
-        "points with radii; each kind of ray is tried one at a time and in packets of 4, 8 and 16, each with and without its",
-        "flag for coherent rays, and the fastest counts. Its rays lie ready in its own layout, packets as squares of pixels;",
-        "ours are set up, sorted and written out within the time. Where a ray leaves a sphere, ours skip that sphere, and",
-        "Embree's start 0.001 radii later.",
+        f"The nine scenes with one thread and with two, beside Embree {first['peer']['version']} in the same process. Embree's spheres are",
+        "points with radii. Each kind of ray is given to Embree one at a time and in packets of 4, 8 and 16, each with and without",
+        "the flag for coherent rays; the fastest way counts. Embree's rays lie ready in its own layout, packets as squares of pixels.",
+        "Our time includes the set-up, the sorting and the output of the rays. A ray of ours that leaves a sphere skips that sphere;",
+        "Embree's ray starts 0.001 radii later.",
         "",
-        "s1 s2 s3: 4096 spheres of radius 1 (grid, corners, both). mol: PDB entry 1TII; mol5: 5 x 5 x 5 copies. u1e5 u1e6 u1e7:",
-        "uniform, a tenth of the cube filled. c1e6: a million spheres in eight corners. Rays: 1024 x 1024 primary in blocks of 8 x 8",
-        "pixels; as many random ones; from what the primary rays hit to the light; mirrored one to three times; from what those of",
-        "bounce 2 and 3 hit to the light.",
+        "Scenes: s1 s2 s3 have 4096 spheres of radius 1 (grid, corners, both). mol is PDB entry 1TII, mol5 is 5 x 5 x 5 copies of it.",
+        "u1e5 u1e6 u1e7 are uniform and fill a tenth of the cube. c1e6 has a million spheres in eight corners.",
+        "",
+        "Rays: primary rays are those of 1024 x 1024 pixels, in blocks of 8 x 8 pixels; there are as many random rays. First shadow",
+        "rays go to the light from what the primary rays hit. Mirror 1 to 3 are rays mirrored once to three times. Shadows of mirror",
+        "2 and 3 go to the light from what those rays hit.",
         "",
     ]
     results = [r["result"] for r in report["runs"]]
@@ -165,7 +167,7 @@ def scenes(report, _reports):
     ]
     if first["target"] == "avx512":
         lines += ["### The targets", ""]
-        lines += ['Floor and aim, and the worst of each group of scenes. "Floors missed" below says why.', ""]
+        lines += ["Floor and aim, and the lowest ratio in each group of scenes.", ""]
         lines += table(["scenes", "what", "floor (aim)", "lowest, 1 thread", "lowest, 2 threads", ""], summary(report))
     charts = {}
     for threads in (1, 2):
@@ -173,7 +175,7 @@ def scenes(report, _reports):
         if not found:
             continue
         words = f"{threads} thread" + ("s" if threads > 1 else "")
-        lines += [f"### Rays, {words}", "", "Million rays a second, in brackets Embree's, and the ratio.", ""]
+        lines += [f"### Rays, {words}", "", "Million rays a second, Embree's in brackets, and the ratio.", ""]
         lines += table(["scene", "spheres", *(targets.TITLES[k] for k in targets.KINDS)], scene_rows(found, targets.KINDS))
         name = f"ratios_{threads}.svg"
         title = f"Times as fast as Embree, {words}: floor as a stroke, aim dashed"
@@ -187,9 +189,9 @@ def scenes(report, _reports):
     return lines, charts
 
 
-def avx2(report, _reports):
+def avx2(report):
     lines = ["## AVX2", "", "Both restricted to AVX2. The floors are for all nine scenes; the shadows of mirrors have none."]
-    lines += ['"Floors missed" below says which are not met, and why.', ""]
+    lines += [""]
     lines += [rays_of_calls([run["result"] for run in report["runs"]]), ""]
     by_threads = {n: by_scene(report, n) for n in (1, 2)}
     by_threads = {n: found for n, found in by_threads.items() if found}
@@ -213,7 +215,7 @@ def avx2(report, _reports):
     return lines, charts
 
 
-def pictures(report, _reports):
+def pictures(report):
     result = report["runs"][0]["result"]
     floor, aim = targets.PICTURE
     rows, bars = [], []
@@ -237,7 +239,8 @@ def pictures(report, _reports):
         "## Whole pictures against Tachyon",
         "",
         f"1024 x 1024 pixels, {result['threads']} threads: spheres of reflection 0.3 over a plane, one light, shadows, recursion 5",
-        "(Tachyon: ray depth 5). Milliseconds: the picture as radiance; with its bytes; what Tachyon says of its tracing.",
+        "(Tachyon: ray depth 5). Columns 2 to 4 count rays. Columns 5 to 7 are milliseconds: the picture as radiance, the picture with",
+        "its bytes, and the time that Tachyon prints for its tracing.",
         f"The floor is {floor}x, the aim {aim}x.",
         "",
     ]
@@ -247,7 +250,7 @@ def pictures(report, _reports):
     return lines + table(heads, rows) + picture("pictures.svg", title), charts
 
 
-def thesis(report, _reports):
+def thesis(report):
     result = report["runs"][0]["result"]
     floor, aim = targets.THESIS_FPS
     rows, bars = [], []
@@ -269,35 +272,38 @@ def thesis(report, _reports):
     return lines + picture("thesis_frames.svg", title), charts
 
 
-def growth(report, reports):
+GROWTH_HEADS = ["spheres", "build ms", "ns a sphere", "bytes a sphere", "peak MB", "primary", "random"]
+
+
+def growth_words(threads):
+    return [
+        f"Uniform spheres that fill a tenth of the cube, {threads} threads. The peak is the memory that the first build of the process",
+        "added at most: tree and working memory, not the set itself. A peak below a megabyte is not seen. Rays in millions a second.",
+        "",
+    ]
+
+
+def growth_rows(results):
+    return [
+        [
+            f"{r['spheres']:,}",
+            number(r["build_ms"]),
+            number(r["build_ms"] * 1e6 / r["spheres"]),
+            number(r["bytes_per_sphere"]),
+            number(r["build_peak_bytes"] / 1e6),
+            number(r["mray_per_s"]["primary"]),
+            number(r["mray_per_s"]["random"]),
+        ]
+        for r in results
+    ]
+
+
+def growth(report):
     runs = [run["result"] for run in report["runs"]]
-    if "huge" in reports:
-        runs += [run["result"] for run in reports["huge"]["runs"]]
-    rows = []
-    for r in runs:
-        rows.append(
-            [
-                f"{r['spheres']:,}",
-                number(r["build_ms"]),
-                number(r["build_ms"] * 1e6 / r["spheres"]),
-                number(r["bytes_per_sphere"]),
-                number(r["build_peak_bytes"] / 1e6),
-                number(r["mray_per_s"]["primary"]),
-                number(r["mray_per_s"]["random"]),
-            ]
-        )
     n_log_n = [(r["spheres"], r["build_ms"]) for r in runs]
     first = runs[0]
     scale = first["build_ms"] / (first["spheres"] * len(str(first["spheres"])))
     guide = [(n, scale * n * len(str(n))) for n, _ in n_log_n]
-    lines = [
-        "## Growth",
-        "",
-        f"Uniform spheres that fill a tenth of the cube, {first['threads']} threads. The peak is what the first build of the process added to",
-        "its memory at most (tree and working memory, not the set itself; below a megabyte it is not seen). Rays in millions a second.",
-        "",
-    ]
-    heads = ["spheres", "build ms", "ns a sphere", "bytes a sphere", "peak MB", "primary", "random"]
     charts = {
         "growth_build.svg": svg.log_lines(
             "Build time", "spheres", "ms", [("build", n_log_n, False), ("n log n", guide, True)]
@@ -309,11 +315,18 @@ def growth(report, reports):
             [(k, [(r["spheres"], r["mray_per_s"][k]) for r in runs], False) for k in ("primary", "random")],
         ),
     }
-    lines += table(heads, rows)
+    lines = ["## Growth", "", *growth_words(first["threads"]), *table(GROWTH_HEADS, growth_rows(runs))]
     return lines + picture("growth_build.svg", "Build time") + picture("growth_rays.svg", "Rays by spheres"), charts
 
 
-def rebuild(report, _reports):
+def huge(report):
+    """A table of its own: it may be measured on another machine than the smaller sets."""
+    runs = [run["result"] for run in report["runs"]]
+    lines = ["## A hundred million spheres", "", *growth_words(runs[0]["threads"])]
+    return lines + table(GROWTH_HEADS, growth_rows(runs)), {}
+
+
+def rebuild(report):
     result = report["runs"][0]["result"]
     rows = [
         [
@@ -330,18 +343,22 @@ def rebuild(report, _reports):
     lines = [
         "## A new tree for every frame",
         "",
-        f"Every sphere moves a little in each frame; {result['threads']} threads. Milliseconds of the first build, of the new sphere set, and",
-        "of a build in the memory of the tree before; bytes a sphere of tree and working memory together.",
+        f"Every sphere moves a little in each frame; {result['threads']} threads. The columns are milliseconds of the first build, of the new",
+        "sphere set, and of a build in the memory of the tree before; and bytes a sphere of tree and working memory together.",
         "",
     ]
     heads = ["scene", "spheres", "first build", "set", "build", "builds a second", "bytes held"]
     return lines + table(heads, rows), {}
 
 
-def wasm(report, _reports):
+def is_node(run):
+    return " node " in " " + run["command"]
+
+
+def wasm(report):
     runs = report["runs"]
-    native = [run["result"] for run in runs if not run["command"].startswith("node ")]
-    web = [run["result"] for run in runs if run["command"].startswith("node ")]
+    native = [run["result"] for run in runs if not is_node(run)]
+    web = [run["result"] for run in runs if is_node(run)]
     rows = []
     for scene in native[0]:
         ours = sorted(r[scene]["render_ms"] for r in native)[len(native) // 2]
@@ -352,13 +369,14 @@ def wasm(report, _reports):
     lines = [
         "## WebAssembly",
         "",
-        f"The whole pictures above, natively and under node, two threads, in turn. At most {targets.WASM}x the native time is allowed.",
+        "The scenes of the whole pictures, by the native program and by WebAssembly under node in turn, two threads. WebAssembly may",
+        f"take at most {targets.WASM} times as long.",
         "",
     ]
     return lines + table(["scene", "native ms", "WebAssembly ms", "times as long", "", "same picture"], rows), {}
 
 
-def gpu(report, _reports):
+def gpu(report):
     found = {}
     for run in report["runs"]:
         scene = run["command"].split(" render ")[1].split(" --engine ")[0]
@@ -381,16 +399,16 @@ def gpu(report, _reports):
     lines = [
         "## The graphics processor",
         "",
-        f"One frame of 640 x 360 pixels, one sample each, with what the scene says of recursion and shadows, by {', '.join(sorted(devices))}.",
-        "With `llvmpipe` the graphics processor is this machine's CPU, pretending: what is seen is that the shader works and what it costs",
-        "there. Beside it the CPU engine on the same cores.",
+        f"One frame of 640 x 360 pixels, one sample a pixel, recursion and shadows as the scene has them, by {', '.join(sorted(devices))}.",
+        "`llvmpipe` is a driver that runs shaders on this machine's CPU: its figures show that the shader works, not how fast a graphics",
+        "processor is. The last column is the CPU engine on the same cores.",
         "",
     ]
     heads = ["scene", "spheres", "GPU ms", "frames a second", "Mray/s of all kinds", "CPU ms"]
     return lines + table(heads, rows), {}
 
 
-def page(report, _reports):
+def page(report):
     sizes, measured = (run["result"] for run in report["runs"])
     rows = []
     for variant, (raw, gzip, brotli) in sizes.items():
@@ -401,15 +419,15 @@ def page(report, _reports):
     lines = [
         "## The page",
         "",
-        f"What a visitor downloads, in MB, molecule and all; at most {targets.PAGE_MB} compressed.",
+        f"The download of a visitor in MB, with the molecule; at most {targets.PAGE_MB} compressed with gzip.",
         "",
         *table(["module", "raw", "gzip", "brotli", ""], rows),
         f"The first picture of the molecule is on the screen of Chromium {measured['chromium']} after {number(first)} ms, the median of",
         f"{len(measured['first_picture_ms'])} visits with nothing cached ({targets.FIRST_PICTURE_MS} allowed: {verdict(first, targets.FIRST_PICTURE_MS, at_most=True)}).",
         "",
-        "After a key press the scene turns. How long until every pixel is drawn again, with one sample, and what the page says while keys",
-        "are pressed all the time (it then draws fewer pixels, so that a frame keeps to its budget). WebGL2 is SwiftShader's: drawn by the",
-        "CPU, and the GPU engine works as it would on a graphics processor.",
+        "A key press turns the scene. The third column is the time until every pixel is drawn again with one sample. The next columns are",
+        "what the page shows while keys are pressed all the time; it then draws fewer pixels, so that a frame keeps to its budget. WebGL2",
+        "is SwiftShader, which draws on the CPU.",
         "",
     ]
     rows = [
@@ -431,6 +449,7 @@ SECTIONS = [
     ("pictures", pictures),
     ("thesis", thesis),
     ("growth", growth),
+    ("huge", huge),
     ("rebuild", rebuild),
     ("wasm", wasm),
     ("gpu", gpu),

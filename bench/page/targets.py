@@ -1,4 +1,4 @@
-"""What was aimed at: ratios to Embree's best mode in the same run, a floor and an aim."""
+"""The targets: ratios to Embree's best mode in the same run, each a floor and an aim."""
 
 SCENES = ["s1", "s2", "s3", "mol", "u1e5", "mol5", "c1e6", "u1e6", "u1e7"]
 GROUPS = [["s1", "s2", "s3", "mol"], ["u1e5", "mol5"], ["c1e6", "u1e6", "u1e7"]]
@@ -15,7 +15,7 @@ TITLES = {
     "build": "build",
 }
 
-# A line a group of scenes: (floor, aim) of primary, random, first shadow, mirror, their shadows, build.
+# A line for each group of scenes: (floor, aim) of primary, random, first shadow, mirror, their shadows, build.
 _RATIOS = [
     [(7, 12), (2, 4), (4.5, 8), (2.1, 4), (2, 3.5), (5.5, 10)],
     [(4.5, 10), (2, 3.5), (1.9, 5), (1.9, 4), (1.7, 3.5), (4.5, 10)],
@@ -29,7 +29,7 @@ AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4, "mirror2":
 PICTURE = (4, 8)  # times as fast as Tachyon
 THESIS_FPS = (240, 500)
 WASM = 4  # times the native time, at most
-PAGE_MB = 2  # what a visitor downloads, compressed with gzip, at most
+PAGE_MB = 2  # a visitor's download, compressed with gzip, at most
 FIRST_PICTURE_MS = 2000  # until it is on the screen, at most
 
 

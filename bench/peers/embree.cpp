@@ -12,10 +12,10 @@
 namespace bihive::bench {
 namespace {
 
-// Embree has no notion of the sphere that a ray leaves: its rays start a little later, this much of the radius.
+// Embree does not know the sphere that a ray leaves. So its rays start a little later, by this share of the radius.
 constexpr double kStartOfRadius = 1e-3;
 
-// Embree calls it before it takes memory, and after it has given some back.
+// Embree calls it before it takes memory, and after it has returned some.
 bool count_bytes(void* counter, ssize_t bytes, bool /*post*/) {
   static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes);
   return true;
@@ -24,7 +24,7 @@ bool count_bytes(void* counter, ssize_t bytes, bool /*post*/) {
 }  // namespace
 
 Result<std::unique_ptr<Embree>> Embree::start(const SphereSet& spheres, int threads, const std::string& target) {
-  // Its names for instruction sets.
+  // Embree's names for instruction sets.
   std::string config = "threads=" + std::to_string(threads);
   if (target == "sse4") config += ",isa=sse4.2";
   if (target == "avx2" || target == "avx512") config += ",isa=" + target;
@@ -90,7 +90,7 @@ float Embree::start_of(const Ray& ray) const {
 }
 
 std::unique_ptr<EmbreeRays> Embree::prepare(const RaySet& set, int width) const {
-  // Rays in the order that suits packets.
+  // The rays in the order that suits packets.
   std::vector<Ray> rays;
   rays.reserve(set.packet_order.size());
   const RaySpan span = set.rays.span();

@@ -13,7 +13,7 @@
 namespace bihive::bench {
 namespace {
 
-// The calls of one packet width, under one name. Of a ray with its hit, and of a ray alone.
+// The calls of one packet width, under one name, for a ray with its hit and for a ray alone.
 template <int width>
 struct Calls;
 template <>
@@ -49,7 +49,7 @@ struct Calls<16> {
   static constexpr auto* occluded = rtcOccluded16;
 };
 
-// One ray's field, whether it is a field or an array of them.
+// One ray's field; it may be a field or an array.
 template <class T>
 T& lane(T& field, std::int64_t /*i*/) {
   return field;
@@ -59,7 +59,7 @@ T& lane(T (&field)[n], std::int64_t i) {
   return field[i];
 }
 
-// Numbers below the normal range count as 0, as Embree recommends for speed; as before afterwards.
+// Numbers below the normal range count as 0, as Embree recommends for speed. The destructor restores the former state.
 class FlushToZero {
  public:
   FlushToZero() : before_(_mm_getcsr()) { _mm_setcsr(before_ | kFlushAndDenormalsAreZero); }

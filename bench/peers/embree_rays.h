@@ -10,7 +10,8 @@
 
 namespace bihive::bench {
 
-/// `rays` in the order in which they are packed; ray k is number order[k] of the set whose order the answers have.
+/// `rays` in the order in which they are packed. Ray k is number order[k] of the set; the answers have the order of the
+/// set.
 std::unique_ptr<EmbreeRays> make_embree_rays(const std::vector<Ray>& rays, const std::vector<std::uint32_t>& order,
                                              bool any_hit, int width);
 

@@ -13,7 +13,7 @@
 namespace bihive::bench {
 namespace {
 
-// Tachyon looks at a world in a mirror: its x runs the other way.
+// Tachyon shows a mirrored world: its x runs the other way.
 std::string place(Vec3d v) {
   return fmt::format("{:.9g} {:.9g} {:.9g}", -v.x, v.y, v.z);
 }
@@ -49,7 +49,7 @@ std::string in_its_language(const Scene& scene, const RenderSettings& settings) 
   return text + "End_Scene\n";
 }
 
-// What a program prints. Nothing if it does not end with 0.
+// The output of a program; nothing if it does not end with 0.
 Result<std::string> output_of(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return Error{"cannot run " + command, "", 0, 0, ""};

@@ -1,4 +1,4 @@
-// Tachyon beside us, as a program: the same scene in its own language, and the time that it says.
+// Tachyon as a peer, as a program: the same scene in its own language, and the time that it prints.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ class Tachyon {
   /// file cannot be written.
   static Result<Tachyon> start(const Scene& scene, const RenderSettings& settings, const std::string& path);
 
-  /// Milliseconds of one picture, without reading the scene, making its grid, and writing a file. `picture`: where to
-  /// write a PNG; empty: nowhere.
+  /// Milliseconds of one picture, without reading the scene, making its grid, and writing a file. `picture`: the path
+  /// of a PNG; empty: no file.
   Result<double> render_ms(const std::string& picture = "") const;
 
  private:

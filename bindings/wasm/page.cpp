@@ -36,7 +36,7 @@ std::string done_or(const Status& status) {
   return status ? "{}" : failure(status.error());
 }
 
-// Memory is the one thing that runs out by an exception.
+// Lack of memory is the only failure that throws.
 template <class Work>
 std::string with_memory(const Work& work) {
   try {

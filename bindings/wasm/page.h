@@ -1,6 +1,6 @@
-// What the page's worker calls: the viewer, with text and bytes instead of C++ types.
+// The functions that the page's worker calls: the viewer, with text and bytes instead of C++ types.
 //
-// Every method that can fail returns a JSON text; where it failed, {"error": {"message", "file", "line", "column",
+// Every method that can fail returns a JSON text; after a failure {"error": {"message", "file", "line", "column",
 // "hint"}}. Everything runs on the thread of the caller, and on the threads that the library makes.
 #pragma once
 
@@ -21,13 +21,13 @@ class Page {
  public:
   // The scene. Answers: {"facts": {...}, "settings": {...}}.
 
-  /// Room for the bytes of a file, as a view of memory; load() takes what was written there.
+  /// Room for the bytes of a file, as a view of memory. load() takes the bytes written there.
   emscripten::val room(double bytes);
   std::string load(const std::string& name);
   /// `count` 0: the scenario's own number of spheres.
   std::string load_built_in(const std::string& name, double count);
 
-  // What is seen. Settings are JSON texts (viewer/viewer_json.h); what set() is not told stays as it is.
+  // The settings, as JSON texts (viewer/viewer_json.h). set() leaves settings unchanged that its text does not name.
 
   std::string settings() const;
   std::string set(const std::string& changes);
@@ -54,19 +54,19 @@ class Page {
   void show(int width_px, int height_px);
   std::string statistics() const { return viewer_.statistics_json(); }
 
-  // A picture to be saved, a step a call. frame() and set() drop it.
+  // A picture to be saved, one step for each call. frame() and set() drop it.
 
   std::string begin_picture(int width_px, int height_px, int samples_per_pixel);
   std::string step_picture(double budget_ms);  ///< {"done": 0 to 1}
-  std::string take_picture();                  ///< of what is done; as take_image()
+  std::string take_picture();                  ///< the finished share; as take_image()
   void drop_picture() { viewer_.drop_picture(); }
 
-  // Figure 4.4, a step a call.
+  // Figure 4.4, one step for each call.
 
   std::string begin_thesis(bool quick);
   /// {"finished", "done", "seconds_left", "configurations_done", "configurations", "scenario", "spheres"}.
   std::string step_thesis();
-  /// Of what was measured so far: {"result": JSON text, "charts": [SVG text]}.
+  /// The results so far: {"result": JSON text, "charts": [SVG text]}.
   std::string end_thesis(const std::string& device);
 
  private:

@@ -1,4 +1,4 @@
-"""bihive-bench: what its JSON holds, that both ray tracers agree, and how it fails."""
+"""bihive-bench: the content of its JSON, the agreement of both ray tracers, and its errors."""
 
 import json
 import os
@@ -41,7 +41,7 @@ class BenchTest(ProgramTest):
         # A whole picture has more rays than pixels.
         self.assertGreater(report["frame_ms"], 0)
         self.assertGreater(report["frame_rays"], 4096)
-        self.assertEqual(report["tile"]["random"], 2048)  # a thread's share
+        self.assertEqual(report["tile"]["random"], 2048)  # a thread's part of the rays
 
     def test_every_kind_of_input_agrees_with_the_peer(self):
         # Two crossing spheres in a file, the four spheres, a molecule: framed by the program itself.
@@ -66,7 +66,7 @@ class BenchTest(ProgramTest):
         self.assertGreater(report["frame_ms"], 0)
 
     def test_a_kind_without_rays_is_null(self):
-        # A single sphere: nothing that is mirrored meets anything.
+        # A single sphere: mirrored rays meet nothing.
         self.write("one.xyz", "1\n\nC 0 0 0\n")
         report = self.succeed_json("one.xyz", "--peer", "embree", *QUICK)
         self.assertGreater(report["mray_per_s"]["mirror1"], 0)

@@ -1,4 +1,4 @@
-"""--engine gpu: what is said where it cannot be used. (tests/gl has what needs a driver.)"""
+"""--engine gpu: the messages when it cannot be used. (tests/gl tests everything that needs a driver.)"""
 
 import os
 
@@ -12,7 +12,7 @@ class Gpu(ProgramTest):
             said = self.fail_with(3, "render", "scenario1", "--engine", engine, "--count", "8", "-o", "a.png", env=environment)
             self.assertIn("there is no EGL (/nowhere/libEGL.so)", said)
             self.assertIn("apt-get install libegl1 libgl1-mesa-dri", said)
-        # A library that is no EGL.
+        # A library that is not EGL.
         environment["BIHIVE_EGL"] = "libz.so.1"
         said = self.fail_with(3, "render", "scenario1", "--engine", "gpu", "--count", "8", "-o", "a.png", env=environment)
         self.assertIn("libz.so.1 is no EGL", said)

@@ -1,4 +1,4 @@
-"""Ctrl-C, full disks and paths that may not be written: nothing is left behind."""
+"""Ctrl-C, full disks and paths that may not be written: no partial file is left."""
 
 import os
 import pty
@@ -19,7 +19,7 @@ LONG = ["scenario3", "--size", "4000x4000", "--samples", "64", "--shadows"]
 
 
 def let_work(process, seconds):
-    """Waits until the program has used so much processor time: a busy machine takes longer."""
+    """Waits until the program has used this much processor time; on a busy machine that takes longer."""
     ticks = os.sysconf("SC_CLK_TCK")
     while process.poll() is None:
         with open(f"/proc/{process.pid}/stat") as stat_file:
@@ -31,7 +31,7 @@ def let_work(process, seconds):
 
 class Interrupt(ProgramTest):
     def interrupted(self, arguments, delay_s, number=signal.SIGINT):
-        """Runs, sends the signal after so much work, and returns exit code, stdout and stderr."""
+        """Runs the program, sends the signal after this much work, and returns exit code, stdout and stderr."""
         process = subprocess.Popen(
             [BIHIVE, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
@@ -65,15 +65,15 @@ class Interrupt(ProgramTest):
         rays[:, 2] = 100
         rays[:, 3:] = numpy.random.default_rng(1).uniform(-20, 20, (len(rays), 3)) - [0, 0, 100]
         numpy.save(self.path("rays.npy"), rays)
-        # Each ray meets all spheres here, so a chunk must be the smaller the more there are.
+        # Each ray meets all spheres here, so a chunk must be smaller if there are more spheres.
         command = ["trace", "scenario3", "--count", "20000", "--radius", "0.1", "--engine", "brute", "--threads", "1"]
         files = ["--rays", "rays.npy", "--t", "t.npy", "--id", "id.npy"]
         self.assertEqual(self.interrupted(command + files, 0.5), (130, "", ""))
         self.assertEqual(os.listdir(self.folder), ["rays.npy"])
 
     def test_a_signal_that_comes_twice_is_one_request(self):
-        # The report of what was done is still written; a second signal that counted would have ended that. On a busy
-        # machine the two can come too far apart.
+        # The report of the finished steps is still written; a second signal that counted would have prevented that. On
+        # a busy machine the two signals can come too far apart.
         for attempt in range(3):
             folder = f"report{attempt}"
             process = subprocess.Popen([BIHIVE, "thesis", "figure-4.4", "--out", folder], cwd=self.folder)
@@ -139,7 +139,7 @@ class FullDisk(ProgramTest):
             self.assertIn("File too large", self.fail_input(*command, preexec_fn=limit))
 
     def test_a_disk_without_room(self):
-        # A disk of 48 kB in a mount namespace of its own: room for t.npy (32 kB), not for id.npy as well.
+        # A disk of 48 kB in its own mount namespace: room for t.npy (32 kB), but not for id.npy too.
         disk = self.path("disk")
         os.mkdir(disk)
         mount = 'mount -t tmpfs -o size=48k none "$0" && '
@@ -160,7 +160,7 @@ class Unwritable(ProgramTest):
     def run_as_user(self, *arguments):
         if os.getuid() != 0:
             return self.run_bihive(*arguments)
-        # The program's own place may be closed to others; a copy is not.
+        # Other users may not be allowed to read the program's folder; a copy is readable.
         program = self.path("program")
         if not os.path.exists(program):
             shutil.copy(BIHIVE, program)

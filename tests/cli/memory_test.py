@@ -1,4 +1,4 @@
-"""What cannot fit the machine's memory is refused before anything is made, with the same words by every command."""
+"""Every command refuses an input that cannot fit the machine's memory, before any work and with the same words."""
 
 import os
 
@@ -21,7 +21,7 @@ class Memory(ProgramTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_window(self):
-        """Before it is opened: there need be no screen."""
+        """The window program refuses it before it opens a window, so this needs no screen."""
         if "BIHIVE_VIEW" not in os.environ:
             self.skipTest("bihive-view was not built")
         self.assertIn("the tree of 1,631 spheres would take about", self.refused(20000, "view", "demo"))

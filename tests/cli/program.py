@@ -1,4 +1,4 @@
-"""What the tests of the program share: running it, scratch folders, PNG chunks."""
+"""Helpers of the program's tests: they run it, make scratch folders, and read PNG chunks."""
 
 import json
 import os
@@ -31,7 +31,7 @@ class ProgramTest(unittest.TestCase):
             return file.read()
 
     def contents(self):
-        """Every path below the folder, with its bytes; of what is no regular file, None."""
+        """Every path below the folder, with its bytes; None if it is not a regular file."""
         found = {}
         for top, folders, files in os.walk(self.folder):
             for name in folders + files:
@@ -49,7 +49,7 @@ class ProgramTest(unittest.TestCase):
         return subprocess.run([BIHIVE, *arguments], stderr=subprocess.PIPE, text=True, timeout=300, **options)
 
     def succeed(self, *arguments):
-        """Runs, demands exit code 0 and silence on stderr, and returns stdout."""
+        """Runs the program, demands exit code 0 and an empty stderr, and returns stdout."""
         done = self.run_bihive(*arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
         return done.stdout

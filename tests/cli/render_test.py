@@ -1,4 +1,4 @@
-"""bihive render: what is written, what is said, and that it is the same however it is made."""
+"""bihive render: its picture, its output, and the same picture by every engine and number of threads."""
 
 import json
 import os

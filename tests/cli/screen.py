@@ -1,5 +1,5 @@
-"""A screen for windows to open on (Xvfb), with what xdotool cannot do: how fine its pixels are, and files that are
-dragged onto a window and dropped there, by the protocol that file managers use (XDND, version 5)."""
+"""A screen for windows to open on (Xvfb), with two things that xdotool cannot do: it sets the size of pixels, and drops
+files onto a window by the protocol of file managers (XDND, version 5)."""
 
 import os
 import pathlib
@@ -22,10 +22,10 @@ class Screen:
         os.close(write)
         with os.fdopen(read) as number:
             self.display = ":" + number.readline().strip()
-        # The server starts anew when its last client goes; this one stays.
+        # The server restarts when its last client goes; this client stays.
         self.client = Xlib.display.Display(self.display)
         if dpi is not None:
-            # Where desktops leave what their user has chosen.
+            # Desktops keep their users' choices here.
             resources = f"Xft.dpi:\t{dpi}\n".encode()
             self.root().change_property(Xlib.Xatom.RESOURCE_MANAGER, Xlib.Xatom.STRING, 8, resources)
             self.client.sync()
@@ -77,7 +77,7 @@ class Drag:
         self.client.sync()
 
     def answer(self, name, uris):
-        """The words of the window's next message of that name; hands over the names of the files when they are asked for."""
+        """The words of the window's next message of that name. Sends the names of the files when the window asks for them."""
         deadline = time.monotonic() + self.SECONDS
         while time.monotonic() < deadline:
             if not self.client.pending_events():

@@ -1,4 +1,4 @@
-"""bihive stats: the keys of its JSON, and what they are for trees that are known."""
+"""bihive stats: the keys of its JSON, and their values for known trees."""
 
 from program import ProgramTest, main
 

@@ -1,4 +1,4 @@
-"""BIHIVE_TARGET: every instruction set that the machine has can be forced, says so, and gives the same bytes."""
+"""BIHIVE_TARGET: every instruction set of the machine can be forced, is named in the output, and gives the same bytes."""
 
 import json
 import os
@@ -13,7 +13,7 @@ class Targets(ProgramTest):
         return self.run_bihive(*arguments, env={**os.environ, "BIHIVE_TARGET": target})
 
     def targets(self):
-        """Those that an error about an unknown one names."""
+        """The targets in the error message about an unknown target."""
         done = self.with_target("abacus", "info", "demo")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assert_one_error_line(done.stderr)

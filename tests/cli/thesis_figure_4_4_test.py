@@ -1,4 +1,4 @@
-"""Figure 4.4 at small size: its tables and charts say what was measured, and its verdicts follow their rules."""
+"""Figure 4.4 at small size: its tables and charts show the measurements, and its verdicts follow their rules."""
 
 import json
 import os
@@ -78,7 +78,7 @@ class Figure44(ProgramTest):
         ours = self.rows(experiment, "Which")["BIH 8 is the best"][1]
         self.assertEqual((ours["text"], ours["verdict"]), (f"in {wins} of 4", "differs"))
 
-        # The shape of each curve; less than three percent is none.
+        # The shape of each curve; changes below three percent do not count.
         for (scenario, count), (_, first, last) in fps.items():
             shape = "only rises" if last > 1.03 * first else "only falls" if first > 1.03 * last else "up and down, or flat"
             thesis, ours = self.rows(experiment, "The curve")[f"Scenario {scenario}, {count} spheres"][:2]
@@ -99,7 +99,7 @@ class Figure44(ProgramTest):
         self.assertEqual(len(wide["configurations"]), len(fps))
         self.assertEqual(self.rows(experiment, "Frames", "wide").keys(), self.rows(experiment, "Frames").keys())
 
-        # So has the graphics processor, where there is one; its name is said.
+        # The graphics processor has them too, if there is one; the report names it.
         if "BIHIVE_EGL" not in os.environ:
             gpu = experiment["data"]["gpu"]
             self.assertEqual(gpu.keys(), measured.keys())
@@ -117,7 +117,7 @@ class Figure44(ProgramTest):
         self.assertIn(f"<title>BF, 64: {float(f'{fps[3, 64][0]:.4g}'):g}</title>", svg_of(self, 3))
 
     def test_verdicts_follow_the_stated_values(self):
-        # With the best gain said to be a thousand times what it is, and brute force said to depend on the scenario.
+        # With a stated best gain of a thousand times its value, and brute force stated to depend on the scenario.
         experiment = self.measure(**{"scenario2.gain_percent.best": 1495000, "brute.dependence_on_scenario": 1})
         self.assertEqual(self.rows(experiment, "Gains")["Scenario 2, most"][1]["verdict"], "differs")
         times = experiment["data"]["reference"]["brute_force_by_scenario"]

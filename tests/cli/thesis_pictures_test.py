@@ -32,7 +32,7 @@ class Pictures(ProgramTest):
             return json.load(file)
 
     def with_changed(self, figure, name, value):
-        """A folder of values in which one of them is another."""
+        """A folder of values with one of them changed."""
         document = self.stated(figure)
         self.assertIn(name, document["values"])
         self.assertNotEqual(document["values"][name]["value"], value)
@@ -85,7 +85,7 @@ class Pictures(ProgramTest):
         self.assertEqual([entry["depth"] for entry in coding["depths"]], [0, 1, 2, 3, 4, 5])
         self.assertEqual(sum(entry["pixels"] for entry in coding["depths"]), coding["pixels"])
 
-        # What was counted is what the picture shows.
+        # The counts are those of the picture.
         pixels = self.pixels("figure-4.2/depth_colours.png")
         self.assertEqual(len(pixels), coding["pixels"])
         for entry in coding["depths"]:
@@ -137,7 +137,8 @@ class Pictures(ProgramTest):
         self.assertEqual((trees["e"]["leaves"], trees["e"]["spheres_per_leaf_max"], trees["e"]["depth"]), (2, 32, 2))
         self.assertEqual((trees["f"]["inner_nodes"], trees["f"]["leaves"], trees["f"]["depth"]), (63, 64, 7))
 
-        # With MAX_PRIMS unlimited, as it says of (a) to (c), its own words on (b) and (c) do not hold.
+        # With MAX_PRIMS unlimited, which the text states for (a) to (c), the text's own words on (b) and (c) do not
+        # hold.
         stated = self.verdicts(experiment, "statements_as_stated")
         self.assertEqual(stated["as_stated.a.leaves"], "agrees")
         self.assertEqual(stated["as_stated.b.leaves"], "differs")

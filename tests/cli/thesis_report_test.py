@@ -41,7 +41,7 @@ class Report(ProgramTest):
         return self.read(out + "/report.html").decode()
 
     def results(self, out):
-        """results.json, which must be as its schema says."""
+        """results.json, checked against its schema."""
         with open(os.path.join(SOURCE, "docs/results.schema.json")) as file:
             schema = json.load(file)
         jsonschema.Draft7Validator.check_schema(schema)
@@ -87,7 +87,7 @@ class Report(ProgramTest):
         process.send_signal(signal.SIGINT)
         self.assertEqual((process.communicate(timeout=60), process.returncode), (("", ""), 130))
 
-        # The report shows what is done and names what is not.
+        # The report shows the finished steps and names the missing ones.
         done = self.step_files("out", "figure-4.4")
         results = self.results("out")
         (experiment,) = results["experiments"]
@@ -101,7 +101,7 @@ class Report(ProgramTest):
             self.assertIn(step, report)
         self.assertGreaterEqual(len(experiment["tables"]), 1)
 
-        # The same command does what was missing, and nothing else.
+        # The same command runs the missing steps, and nothing else.
         self.succeed(*command)
         after = self.step_files("out", "figure-4.4")
         self.assertEqual(set(after), set(done) | set(missing))
@@ -111,7 +111,7 @@ class Report(ProgramTest):
         self.assertEqual(results["experiments"][0]["missing_steps"], [])
         self.assertNotIn('class="banner"', self.report("out"))
 
-        # And once all is done, nothing.
+        # When everything is done it runs nothing.
         self.succeed(*command)
         self.assertEqual(self.step_files("out", "figure-4.4"), after)
 
@@ -132,7 +132,7 @@ class Report(ProgramTest):
         ]
         self.assertEqual([row[0] for row in green], ["agrees"])
         self.assertEqual([row[0] for row in red], ["differs"])
-        # Counted in the scenario's own table: others hold verdicts of times, which vary from run to run.
+        # Counted in the scenario's own table, because verdicts on times in other tables vary from run to run.
         counts = []
         for out in ("as_it_is", "changed"):
             rows = self.results(out)["experiments"][0]["tables"][0]["rows"]
@@ -142,7 +142,7 @@ class Report(ProgramTest):
         self.assertEqual(counts[1]["agrees"], counts[0]["agrees"] - 1)
 
     def test_text_of_the_values_is_text(self):
-        # Sentences come from a file: none of them may become a part of the page.
+        # Sentences come from a file: none of them may become part of the page's code.
         shutil.copytree(os.path.join(SOURCE, "thesis"), self.path("values"))
         changed = "values/figure-4.4/values.json"
         document = json.loads(self.read(changed))

@@ -1,4 +1,4 @@
-"""bihive thesis: Table 4.2, Figure 4.5 and section D against what is known without the program."""
+"""bihive thesis: Table 4.2, Figure 4.5 and section D against values that are known without the program."""
 
 import copy
 import csv
@@ -12,9 +12,9 @@ from program import ProgramTest, main
 
 SOURCE = os.environ["BIHIVE_SOURCE"]
 EXPERIMENTS = ["table-4.2", "figure-4.5", "section-d"]
-# Of times, which no test can know.
+# Verdicts on times, which no test can know.
 TIMED = {"shortest_build", "longest_build", "best_build_gain", "shallower", "whole_picture", "box_rays"}
-# What the text says and neither its table nor we have: see docs/thesis_map.md.
+# Statements that the text makes, but that neither its table nor our trees confirm: see docs/thesis_map.md.
 DISAGREE = {"leaf_each", "contradictions"}
 
 
@@ -29,7 +29,7 @@ def rows_of_csv(name):
 
 
 def verdicts(results):
-    """(experiment, name) -> verdict of everything that does not depend on time."""
+    """(experiment, name) -> verdict, for all verdicts that do not depend on time."""
     found = {}
     for experiment in results["experiments"]:
         data = experiment["data"]
@@ -43,7 +43,7 @@ def verdicts(results):
 class ThesisTables(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        # One run for all tests that only look at it.
+        # One run for all tests that only read its results.
         test = cls("run_bihive")
         test.folder = tempfile.mkdtemp(prefix="bihive_thesis_")
         cls.addClassCleanup(shutil.rmtree, test.folder)
@@ -215,7 +215,7 @@ class ThesisTables(ProgramTest):
         self.assertEqual(after.keys(), before.keys())
 
     def test_a_changed_statement_turns_its_row_and_no_other(self):
-        # By one unit of the last digit, where ours is exact.
+        # A change by one unit of the last digit, where our value is exact.
         self.write_values("table-4.2", most_optimized__scenario=3, reduction_percent__scenario1=87.52)
         before = {key: verdict for key, verdict in verdicts(self.results).items() if key[0] == "table-4.2"}
         after = verdicts(self.run_thesis("changed", "--values", self.path("values"), experiments=["table-4.2"]))

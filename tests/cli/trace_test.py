@@ -10,7 +10,7 @@ NAN = numpy.nan
 class Trace(ProgramTest):
     def setUp(self):
         super().setUp()
-        # Sphere 0 around the origin, 1 behind it, 2 exactly where 1 is, 3 of radius 0 before all.
+        # Sphere 0 around the origin, 1 behind it, 2 exactly at the place of 1, 3 of radius 0 in front of all.
         self.write("s.csv", "x,y,z,r\n0,0,0,1\n0,0,-10,2\n0,0,-10,2\n0,0,50,0\n")
 
     def trace(self, rays, *options, given="s.csv", dtype=numpy.float32, warning=None):
@@ -80,7 +80,7 @@ class Trace(ProgramTest):
         self.write("s.json", '{"bihive_scene": 1, "spheres": [[0, 0, 0, 1], [20, -4, 0, 1]], ' + plane + "}")
         rays = [[30, 0, 0, 0, -1, 0], [20, 0, 0, 0, -1, 0]]
         t, ids = self.trace(rays, "--plane", given="s.json")
-        # Where plane and sphere are equally far, the sphere goes first.
+        # If plane and sphere are equally far, the sphere is hit.
         self.assertEqual((t, ids), ([3, 3], [-2, 1]))
         self.assertEqual(self.trace(rays, given="s.json"), ([INF, 3], [-1, 1]))
 

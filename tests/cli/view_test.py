@@ -1,4 +1,4 @@
-"""bihive view: the window on a screen of its own (Xvfb), what is in it, and what keys and pointer do (xdotool)."""
+"""bihive view: the window on a screen of its own (Xvfb), its content, and the effect of keys and pointer (xdotool)."""
 
 import json
 import os
@@ -32,7 +32,7 @@ class NoWindow(ProgramTest):
         self.assertIn("no window can be opened here", self.fail_with(3, "view", "demo", env=environment))
 
     def test_without_the_program(self):
-        """A copy of bihive in a folder of its own, and nowhere else to look."""
+        """A copy of bihive alone in a folder, with no other place to look for bihive-view."""
         with tempfile.TemporaryDirectory() as folder:
             alone = shutil.copy(BIHIVE, folder)
             done = subprocess.run([alone, "view", "demo"], env={"PATH": folder}, capture_output=True, text=True)
@@ -207,7 +207,7 @@ class Window(ProgramTest):
         self.assertEqual(self.saved()["size"], (700, 400))
         self.press("h")
 
-        # A file that is wrong leaves the scene; another takes its place.
+        # A file with an error leaves the scene; another file replaces it.
         def open_file(name):
             self.press("o")
             self.tool("type", "--delay", "20", name)
@@ -242,7 +242,7 @@ class Window(ProgramTest):
         self.screen.drop(self.window, [self.path("pair of 100 %.csv")])
         self.title("pair of 100 %.csv - bihive")
         self.assertEqual(self.saved()["scene"], self.path("pair of 100 %.csv"))
-        # What is wrong leaves the scene; of several files the first is shown.
+        # A file with an error leaves the scene; of several files the first is shown.
         self.screen.drop(self.window, [self.path("broken.csv")])
         self.title("pair of 100 %.csv - bihive")
         self.screen.drop(self.window, [self.path("one.xyz"), self.path("broken.csv")])

@@ -1,4 +1,4 @@
-"""`bihive web`: what it serves, what it refuses, and how it ends. A made-up page stands for the real one."""
+"""`bihive web`: its answers, its refusals, and its end. A small page takes the place of the real one."""
 
 import gzip
 import http.client
@@ -42,7 +42,7 @@ class WebTest(ProgramTest):
             self.environment.pop(name, None)
 
     def start(self, *arguments, port="0", browser=False, warns=False):
-        """The running server; its port is in self.port, what it said in self.said."""
+        """The running server; its port is in self.port, its output in self.said."""
         words = [*arguments, "--json"] + ([] if browser else ["--no-browser"]) + (["--port", port] if port else [])
         process = subprocess.Popen(
             [BIHIVE, "web", *words], cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -71,7 +71,7 @@ class WebTest(ProgramTest):
         return answer.status, answer.headers, answer.read()
 
     def ask_raw(self, data):
-        """Everything that comes back for these bytes until the server closes or is silent."""
+        """The whole answer to these bytes, until the server closes the connection or is silent."""
         with socket.create_connection(("127.0.0.1", self.port), timeout=20) as client:
             client.sendall(data)
             client.shutdown(socket.SHUT_WR)
@@ -124,7 +124,7 @@ class Serves(WebTest):
             status, headers, body = self.ask("/assets/page.js", Accept_Encoding=refused)
             self.assertEqual((status, headers["Content-Encoding"], body), (200, None, SCRIPT))
             self.assertEqual(headers["Vary"], "Accept-Encoding")
-        # Pictures are packed already.
+        # Pictures are already compressed.
         self.assertIsNone(self.ask("/picture.png", Accept_Encoding="gzip")[1]["Content-Encoding"])
 
     def test_a_browser_that_has_the_file_is_told_so(self):
@@ -203,7 +203,7 @@ class Source(WebTest):
                 self.assertEqual(urllib.parse.unquote(url), "file/" + name)
                 status, headers, body = self.ask("/" + url)
                 self.assertEqual((status, body), (200, (name * 100000).encode()))
-                # Whatever it holds, no browser shows or runs it.
+                # No browser shows or runs it, whatever its content.
                 self.assertEqual(headers["Content-Type"], "application/octet-stream")
                 process.kill()
 
@@ -288,7 +288,7 @@ class Refuses(WebTest):
             (b"GET / HTTP/1.1\r\n" + host + host + b"\r\n", 400),
         ]:
             with self.subTest(data=data[:50]):
-                # What follows is not taken for a request of its own.
+                # The following bytes are not taken for a request.
                 answer = self.ask_raw(data + b"GET /start.json HTTP/1.1\r\nHost: localhost\r\n\r\n")
                 self.assertTrue(answer.startswith(b"HTTP/1.1 %d " % status) or
                                 answer.startswith(b"HTTP/1.0 %d " % status), answer[:60])
@@ -355,7 +355,7 @@ class Addresses(WebTest):
         self.assertIn("in use", message)
 
     def test_the_next_port_that_is_free(self):
-        # The second server finds what the first has taken, whatever else runs on this machine.
+        # The second server finds the port that the first has taken, whatever else runs on this machine.
         self.start(port=None)
         first = self.port
         self.start(port=None)
@@ -430,7 +430,7 @@ class Page(WebTest):
         done = subprocess.run([program, "web", "--port", "0"], env=environment, capture_output=True, text=True, timeout=60)
         self.assertEqual((done.returncode, done.stdout), (3, ""))
         self.assertIn("make web", done.stderr)
-        # An installed page is found from wherever the program lies.
+        # An installed page is found from any folder of the program.
         os.makedirs(self.path("share/bihive"))
         os.rename(self.page, self.path("share/bihive/web"))
         process = subprocess.Popen([program, "web", "--port", "0", "--json", "--no-browser"], env=environment, stdout=subprocess.PIPE, text=True)
@@ -487,7 +487,7 @@ class End(WebTest):
 
 class Browser(WebTest):
     def fake_desktop(self):
-        """A desktop whose browser writes down what it is asked for."""
+        """A desktop whose browser records the requested address."""
         os.mkdir(self.path("desktop"))
         self.write("desktop/xdg-open", f'#!/bin/sh\necho "$*" > {self.path("opened")}.new && mv {self.path("opened")}.new {self.path("opened")}\n')
         os.chmod(self.path("desktop/xdg-open"), stat.S_IRWXU)

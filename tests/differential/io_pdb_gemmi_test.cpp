@@ -1,4 +1,4 @@
-// The PDB reader against gemmi's own, on the bundled molecule and on the odd corners of a made one: the same atoms at
+// The PDB reader against gemmi's own, on the bundled molecule and on a made file with special cases: the same atoms at
 // the same places with the same elements.
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ struct Atom {
   float occupancy, b_factor;
 };
 
-// The atoms of gemmi's first model, by serial number, which gives file order back.
+// The atoms of gemmi's first model, sorted by serial number, which restores file order.
 std::vector<Atom> atoms_of_gemmi(const std::string& text) {
   std::vector<Atom> atoms;
   const gemmi::Structure structure = gemmi::read_pdb_string(text, "test");
@@ -61,7 +61,8 @@ TEST(PdbReaderAndGemmi, AgreeOnTheBundledMolecule) {
 }
 
 TEST(PdbReaderAndGemmi, AgreeOnElementsFromEveryNameAndColumn) {
-  // Names of four columns over letters that make and break elements; with the element's columns and without.
+  // Names of four columns with letters that are elements and letters that are not; with the element's columns and
+  // without.
   const std::string letters = " CAHGNOFESZ12'";
   std::string text;
   int serial = 0;

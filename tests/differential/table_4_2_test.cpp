@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Table42, Table42Scenario,
                          testing::Values(std::pair{2, 1}, std::pair{2, 8}, std::pair{3, 1}, std::pair{3, 8}));
 
 TEST(Table42, TotalNodesShrinkAsPublished) {
-  // Scenario 1 prints the same percentage; of the other two the thesis shows one sample each.
+  // Scenario 1 prints the same percentage. The thesis shows one sample each of the other two.
   const double published[3] = {87.51, 81.85, 81.02};
   const double before = rows_of(statistics_of(spheres_of(1, 4096, 1, 1), 1)).at("total_nodes");
   const double after = rows_of(statistics_of(spheres_of(1, 4096, 1, 1), 8)).at("total_nodes");
@@ -129,7 +129,7 @@ TEST(Table42, TotalNodesShrinkAsPublished) {
 }
 
 TEST(Table42, Scenario1HalvesWithEachLevel) {
-  // Leaves hold equally many, twice as many for each level removed, and no node is optimized.
+  // All leaves hold equally many spheres, twice as many for each level removed, and no node is optimized.
   for (std::int64_t max_depth = 1; max_depth <= 13; ++max_depth) {
     const TreeStatistics s = statistics_of(spheres_of(1, 4096, 1, 1), 1, max_depth);
     EXPECT_EQ(s.spheres_per_leaf.min, std::int64_t{4096} >> (max_depth - 1));
@@ -174,7 +174,7 @@ TEST(TreeMemory, Scenario1IsExactAndTheOthersAgreeInTheMean) {
           << count << " spheres, max_prims " << max_prims;
       continue;
     }
-    // No standard deviation is published: ours over the seeds stands for both samples.
+    // No standard deviation is published, so ours over the seeds stands for both samples.
     const Spread ours = spread_over_seeds(scenario, count, kRadius, max_prims);
     const double allowed = 4 * ours.sd.at("bytes") * std::sqrt(1.0 / kSeeds + 1.0 / kMemorySeeds) + 0.5;
     EXPECT_NEAR(ours.mean.at("bytes"), bytes, allowed)

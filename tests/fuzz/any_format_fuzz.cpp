@@ -1,4 +1,4 @@
-// Whatever the bytes are: gzip, detection, every reader, and the steps behind them.
+// gzip, detection, every reader, and the steps behind them, on any bytes.
 #include "read_and_check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-// What every fuzz target of a reader asks of it: an answer that agrees with itself, or an error in one line.
+// The checks of every fuzz target of a reader: an answer that agrees with itself, or an error in one line.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ inline void check_attributes(const SphereAttributes& attributes, std::size_t siz
   for (const float opacity : attributes.opacity) require(opacity >= 0 && opacity <= 1);
 }
 
-/// A reader's own answer. The first byte of the input chooses the frame.
+/// One reader's answer. The first byte of the input chooses the frame.
 template <class Reader>
 void read_raw(Reader reader, const std::uint8_t* data, std::size_t size) {
   if (size == 0) return;

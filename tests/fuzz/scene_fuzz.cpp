@@ -1,4 +1,4 @@
-// parse_scene() on any bytes: an answer or an error, never a crash; and what it writes again, it reads again.
+// parse_scene() on any bytes: an answer or an error, never a crash. A scene that it writes again is read again.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

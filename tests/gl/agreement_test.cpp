@@ -47,7 +47,7 @@ RenderSettings settings_of(const Scene& scene, int width_px = 480, int height_px
 
 enum class Structure { tree, brute };
 
-// Both pictures, and how they compare.
+// Both pictures, and their comparison.
 Agreement compare(const Scene& scene, const RenderSettings& settings, Structure structure = Structure::tree) {
   const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   const Rendered cpu = render(scene, tracer, settings).value();
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(all, Scenes,
                          ::testing::Values("scenario1", "scenario2", "scenario3", "four_spheres", "molecule"),
                          [](const auto& scene) { return scene.param; });
 
-// Spheres in turn red and transparent, seen from the front, with a light.
+// Red and transparent spheres in turn, seen from the front, with a light.
 Scene scene_around(SphereSet spheres) {
   Scene scene;
   scene.materials = {red_material(), transparent_material()};
@@ -177,7 +177,7 @@ TEST(Agreement, little_of_everything) {
       expect_agreement(compare(scene, settings), kAtDepth5);
     }
   };
-  // One sphere; one sphere without a light; nothing but a radius of 0; nothing but the plane; nothing.
+  // One sphere; one sphere without a light; only a sphere of radius 0; only the plane; nothing.
   const auto spheres = [](double radius) {
     return SphereSet::from_world(std::vector<double>{1}, {2}, {3}, {radius}).value();
   };

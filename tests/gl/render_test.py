@@ -1,4 +1,4 @@
-"""bihive render --engine gpu: what is written and said. Pictures are compared pixel by pixel in agreement_test.cpp."""
+"""bihive render --engine gpu: its files and its output. Pictures are compared pixel by pixel in agreement_test.cpp."""
 
 import os
 import signal

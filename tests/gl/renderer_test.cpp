@@ -1,4 +1,4 @@
-// The renderer's contract beside its pictures: errors, progress, what is shown, and drivers' messages.
+// The rest of the renderer's contract: errors, progress, the shown picture, and drivers' messages.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +24,7 @@ RenderSettings small() {
   return settings;
 }
 
-// A picture of 8 bits that show() can be asked for.
+// A picture of 8 bits, drawn by show().
 class Screen {
  public:
   Screen(const GlFunctions& gl, int width, int height) : gl_(gl), width_(width), height_(height) {
@@ -45,7 +45,7 @@ class Screen {
   Screen& operator=(const Screen&) = delete;
 
   std::uint32_t framebuffer() const { return framebuffer_; }
-  // Rows from below, as OpenGL counts.
+  // Rows from below, in OpenGL's order.
   std::array<int, 3> at(int x, int y) {
     std::vector<std::uint8_t> rgba(4 * std::size_t(width_) * std::size_t(height_));
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);

@@ -37,7 +37,7 @@ void choose(Viewer& viewer, ViewerEngine engine) {
   ASSERT_TRUE(status) << status.error().to_string();
 }
 
-// What show() draws into a framebuffer as large as the picture.
+// The output of show() in a framebuffer as large as the picture.
 Image shown(Viewer& viewer, int width = kWidth, int height = kHeight) {
   GLuint texture = 0, framebuffer = 0;
   gl().GenTextures(1, &texture);
@@ -117,7 +117,7 @@ TEST(GpuViewer, moves_and_shows_the_last_picture_meanwhile) {
   settle(viewer);
   const Image before = shown(viewer, 400, 300);
 
-  // Nothing new is shown until it is complete, and then it is coarser.
+  // A new picture is shown only when it is complete, and then it is coarser.
   viewer.orbit(60, 0);
   Result<FrameReport> report = viewer.frame(1e-3);
   for (int i = 0; i < 1000 && report && !report->drawn; ++i) {

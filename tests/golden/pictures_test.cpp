@@ -79,7 +79,7 @@ TEST(Traversal, figure_4_3) {
 }
 
 TEST(Tree, drawn_at_a_readable_size) {
-  // All that a tree can hold: gaps, overlaps, clip nodes, one-sided nodes; above each other, and side by side.
+  // All kinds of nodes: gaps, overlaps, clip nodes, one-sided nodes; with the parts above each other, and side by side.
   const Scene scene = scenario_scene(Scenario::corners, {256, 1, 1}).value();
   const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   RenderSettings settings;

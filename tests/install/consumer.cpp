@@ -1,4 +1,4 @@
-// The smallest program with the library: how many atoms has the bundled molecule, and does a ray through it hit one?
+// The smallest program with the library: it counts the atoms of the bundled molecule, and sends a ray through it.
 #include <bihive/base/version.h>
 #include <bihive/io/bundled.h>
 #include <bihive/io/read_spheres.h>

@@ -1,4 +1,4 @@
-"""The programs of a moved installation: help, and everything that they look for beside themselves.
+"""The programs of a moved installation: help, and all files that they look for beside themselves.
 
 Usage: installed_programs.py PREFIX
 
@@ -15,7 +15,7 @@ import urllib.request
 
 PREFIX = pathlib.Path(sys.argv[1]).resolve()
 PAGE = PREFIX / "share/bihive/web"
-# Nothing of the user's own settings.
+# Without the user's own settings.
 ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
 
 
@@ -38,7 +38,7 @@ def test_help():
 
 
 def test_window():
-    """Without a screen the window cannot be opened; that it is missing would be another message."""
+    """Without a screen the window cannot open. A missing window program would give another message."""
     text = bihive("view", "demo", code=3)
     if (PREFIX / "bin/bihive-view").exists():
         assert "no window can be opened here" in text, text

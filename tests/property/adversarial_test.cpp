@@ -1,6 +1,6 @@
 // Hill climbing, in units in the last place, towards the rays on which two answers could differ: silhouettes, equal t,
 // and hits that lie farther outside their box than any other. On every ray of the way, the tree must give brute force's
-// bits, and both an answer that the oracle accepts.
+// bits, and the oracle must accept the answer.
 //
 // BIHIVE_LONG=N in the environment climbs from N times as many starts (scripts/verify).
 #include <gtest/gtest.h>
@@ -24,10 +24,10 @@
 namespace bihive {
 namespace {
 
-// Of the rays, one in so many goes to the wide engine as well.
+// The wide engine gets one ray in this many as well.
 const std::int64_t kWideShare = std::max<std::int64_t>(1, test::ray_share() / 2);
 
-/// A world with its trees, and how much of the padding any hit has used.
+/// A world with its trees, and the largest share of the padding that any hit has used.
 class Arena {
  public:
   explicit Arena(const test::World& world)
@@ -64,7 +64,7 @@ class Arena {
     for_wide_.clear();
   }
 
-  /// How far the hit lies outside the sphere's box, in paddings.
+  /// The distance of the hit outside the sphere's box, in paddings.
   double padding_used(const Ray& ray, const Hit& hit) const {
     const ScaledRay scaled(ray, spheres_);
     const Aabb box = spheres_.stored_box(hit.sphere_id);
@@ -97,7 +97,7 @@ Ray moved(Ray ray, SplitMix64& rng) {
   return ray;
 }
 
-/// Goes to ever smaller values of the objective, checking each ray that is looked at.
+/// Moves to smaller and smaller values of the objective. Checks each ray that it visits.
 void climb(Arena& arena, Ray ray, int steps, std::uint64_t seed, const std::function<double(const Ray&)>& objective) {
   SplitMix64 rng(seed);
   double best = objective(ray);
@@ -154,7 +154,7 @@ TEST(Adversarial, Silhouettes) {
   climb_everywhere([](const Arena& arena, const Ray&, SplitMix64& rng) {
     const std::int64_t id = static_cast<std::int64_t>(rng.next_below(arena.world().size()));
     return [&arena, id](const Ray& ray) {
-      // The distance between line and surface, by the library's own sum; ties of the float grid are broken by the sign.
+      // The distance between line and surface, by the library's own sum. Its sign breaks ties of the float grid.
       const ScaledRay scaled(ray, arena.spheres());
       const Vec3d oc = arena.spheres().stored_centre(id) - scaled.origin;
       const Vec3d p = oc - dot(oc, scaled.direction) / scaled.direction_squared * scaled.direction;
@@ -185,7 +185,7 @@ TEST(Adversarial, EqualT) {
         const double t_closest = dot(oc, scaled.direction) / scaled.direction_squared;
         const Vec3d p = oc - t_closest * scaled.direction;
         const double r = arena.spheres().stored_radius(id);
-        // Beside the sphere the objective leads back to it.
+        // Beside the sphere the objective leads back to the sphere.
         const double inside = (r * r - dot(p, p)) / scaled.direction_squared;
         t[k] = t_closest - (inside >= 0 ? std::sqrt(inside) : -std::sqrt(-inside));
       }

@@ -1,5 +1,5 @@
-// The bounds of wide/trace/beam_bounds.h: hill climbing for the pair of a ray and a sphere on which a beam of that one
-// ray is most wrong. See filter_bounds_test.cpp.
+// The bounds of wide/trace/beam_bounds.h: hill climbing for the pair of a ray and a sphere with the largest error of a
+// beam of that one ray. See filter_bounds_test.cpp.
 #include "bihive/wide/trace/beam_bounds.h"
 
 #include <gtest/gtest.h>
@@ -23,10 +23,10 @@ using test::expect_used;
 using test::Real;
 using test::Truth;
 
-// A beam is slow to set up for one ray, and a frustum is made anew a dozen times at each look.
+// A beam is slow to set up for one ray, and each evaluation makes a frustum a dozen times.
 constexpr std::uint64_t kStarts = 1000, kFewStarts = 200;
 
-// A tree without spheres that is as large as trees can be.
+// A tree without spheres, of the largest possible size.
 const WideTree& empty_tree() {
   static const WideTree tree = [] {
     WideTree made;
@@ -36,7 +36,7 @@ const WideTree& empty_tree() {
   return tree;
 }
 
-// A beam of one ray; false where the library makes none.
+// A beam of one ray; false if the library makes none.
 bool set_up(const Pair& pair, here::BeamRays& rays) {
   RayBatch batch;
   for (int axis = 0; axis < 3; ++axis) {
@@ -47,7 +47,7 @@ bool set_up(const Pair& pair, here::BeamRays& rays) {
   return here::set_up_beam(empty_tree(), span, 0, 1, rays);
 }
 
-// What a beam makes of a sphere.
+// The beam's result for a sphere.
 struct Meeting {
   float b, dp, lower, upper;
   bool sure;
@@ -67,7 +67,7 @@ struct Meeting {
     m.dp = padded * padded - mul_add(p[2], p[2], mul_add(p[1], p[1], p[0] * p[0]));
     const float chord = std::sqrt(std::max(m.dp, 0.0F));
     m.lower = m.b - rays.e - chord;
-    // The least that an approximate reciprocal root may be.
+    // The smallest possible value of an approximate reciprocal root.
     const float reciprocal = (1 - 2e-3F) / std::max(chord, 1e-30F);
     m.upper = m.lower + mul_add(kWidthShare * rays.e * padded, reciprocal, rays.e + rays.e);
     m.sure = m.dp > kSureShare * rays.e * padded;
@@ -127,7 +127,7 @@ TEST(BeamBounds, ASureRootLiesInItsInterval) {
               0.25);
 }
 
-// The smallest share of the padding with which the frustum of one ray still keeps what the ray hits.
+// The smallest share of the padding with which the frustum of one ray still contains the ray's hit.
 template <class Kept>
 double least_padding(const Pair& pair, const Kept& kept) {
   const ScaledRay scaled(pair.ray, 1.0);
@@ -163,7 +163,7 @@ TEST(BeamBounds, FrustumsKeepBoxes) {
       return (here::boxes_in(node, frustum, w_near) & 1) != 0 && w_near[0] <= frustum.w_end;
     });
   };
-  // The bound adds up what slopes of 5 and places of 13 F may do; no pair of the search comes near to that.
+  // The bound adds the largest effects of slopes of 5 and of places of 13 F; no pair of the search comes near that sum.
   expect_used("padding of frustums, boxes", test::most_used(used, kFewStarts), 0.01);
 }
 
@@ -178,7 +178,7 @@ TEST(BeamBounds, FrustumsKeepSpheres) {
       return (here::mask_bits(inside) & 1) != 0;
     });
   };
-  // Radii are enlarged by e besides, so less than nothing of the padding is needed.
+  // Radii are enlarged by e besides, so the needed share of the padding may be negative.
   expect_used("padding of frustums, spheres", test::most_used(used, kFewStarts), -1);
 }
 

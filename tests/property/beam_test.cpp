@@ -73,7 +73,7 @@ void check(const test::World& world, const std::string& kind, const SphereSet& s
   ASSERT_TRUE(use_target("").ok());
 }
 
-// Rays that say no more than origin and direction, as primary rays do.
+// Rays with origin and direction only, as primary rays are.
 void keep_lines_only(RayBatch& rays) {
   rays.t_min.clear();
   rays.t_max.clear();

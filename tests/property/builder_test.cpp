@@ -1,4 +1,4 @@
-// The reference builder on random and degenerate sets: always a valid tree, within its limits, in sane time.
+// The reference builder on random and degenerate sets: always a valid tree, within its limits, in reasonable time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace bihive {
 namespace {
 
-/// Every statement that holds for any tree.
+/// All properties that hold for any tree.
 void check_tree(const SphereSet& spheres, const BuildParameters& parameters, const std::string& name) {
   SCOPED_TRACE(name + ", max_prims " + std::to_string(parameters.max_prims) + ", max_depth " +
                std::to_string(parameters.max_depth));
@@ -63,7 +63,7 @@ TEST(Builder, IsRightOnRandomSets) {
 }
 
 TEST(Builder, IsRightAndQuickOnLargeSets) {
-  // Ten seconds each would mean that the time grows faster than the count; each takes well below one.
+  // Each takes well below a second. Ten seconds would mean that the time grows faster than the count.
   std::vector<test::World> worlds;
   worlds.push_back(test::random_world("100,000 random", 41, 100000, 10, 0.01, 0.1));
   worlds.push_back(test::pile("100,000 in one place", 100000, 0, 0, 0, 1));

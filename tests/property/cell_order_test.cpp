@@ -1,5 +1,5 @@
-// Rays that are sorted first get the reference traversal's answers on every target, each at its own place; and
-// scattered rays are known as such.
+// Rays that are sorted first get the reference traversal's answers on every target, each at its own place; and the
+// engine recognises scattered rays.
 #include "bihive/wide/schedule/cell_order.h"
 
 #include <gtest/gtest.h>
@@ -82,7 +82,7 @@ TEST(CellOrder, AreAnsweredAsByTheReference) {
     const std::vector<Hit> truths = truths_of(tested, rays.span());
     for (const std::int64_t at_a_time : {rays.size() / 3, rays.size()})
       check_sorted(world.name, tested, rays.span(), at_a_time, truths);
-    // Alone the origins and directions; some of the other arrays.
+    // Only origins and directions; then some of the other arrays.
     for (const bool segments : {false, true}) {
       RaySpan some = rays.span();
       some.leaves = nullptr;
@@ -94,8 +94,8 @@ TEST(CellOrder, AreAnsweredAsByTheReference) {
   }
 }
 
-// Enough rays for cells in each octant. Flat, tiny and huge sets: the cells have no size along an axis, or places on
-// the grid leave the range of binary32.
+// Enough rays for several cells in each octant. Flat, tiny and huge sets: the cells have no size along an axis, or
+// places on the grid leave the range of binary32.
 TEST(CellOrder, AreSortedIntoCells) {
   const int count = test::ray_share() > 1 ? 5003 : 20011;  // two cells along each axis, or four
   const World base = test::random_world("base", 81, 700, 10, 0.1, 1.5);
@@ -132,7 +132,7 @@ TEST(CellOrder, OfAnEmptySetHitNothing) {
   check_sorted("empty", tested, rays.span(), 40, std::vector<Hit>(100));
 }
 
-// `count` rays in any directions: from anywhere among the spheres, or each from close to where the last one starts.
+// `count` rays in any directions: from anywhere among the spheres, or each from close to the start of the ray before.
 RayBatch rays_in_a_cube(double half, std::int64_t count, bool close, std::uint64_t seed) {
   SplitMix64 rng(seed);
   RayBatch rays;
@@ -151,19 +151,19 @@ TEST(CellOrder, AreKnownAsSuch) {
   const test::WideUnderTest small(test::random_world("small", 76, 4000, 50, 1, 1));
   RayBatch rays = rays_in_a_cube(50, 70000, false, 77);
   EXPECT_TRUE(wide::scattered(large.tree(), rays.span()));
-  EXPECT_FALSE(wide::scattered(small.tree(), rays.span()));                // all of it is in the cache anyway
+  EXPECT_FALSE(wide::scattered(small.tree(), rays.span()));                // the whole tree is in the cache anyway
   EXPECT_FALSE(wide::scattered(large.tree(), rays.span().part(0, 5000)));  // too few
   EXPECT_FALSE(wide::scattered(large.tree(), {}));
   EXPECT_FALSE(wide::scattered(large.tree(), rays_in_a_cube(50, 70000, true, 78).span()));
 
-  // Origins that are no numbers are not far from anything.
+  // Origins that are not numbers are not far from anything.
   std::fill(rays.origin[1].begin(), rays.origin[1].end(), std::numeric_limits<float>::quiet_NaN());
   std::fill(rays.origin[0].begin(), rays.origin[0].end(), 0.0F);
   std::fill(rays.origin[2].begin(), rays.origin[2].end(), 0.0F);
   EXPECT_FALSE(wide::scattered(large.tree(), rays.span()));
 }
 
-// As a caller asks: more rays than a list holds, to be sorted without having been told so.
+// As a caller asks: more rays than a list holds. The engine must sort them by itself.
 TEST(CellOrder, AreSortedForTheCaller) {
   const test::WideUnderTest tested(test::random_world("large", 79, 70000, 50, 0.3, 0.3));
   const RayBatch batch = rays_in_a_cube(50, 70003, false, 80);

@@ -1,7 +1,7 @@
-// The bounds of wide/trace/filter_bounds.h: hill climbing for the pair of a ray and a sphere on which the binary32
-// filter is most wrong. It must stay within its bounds, and the bounds must not be far beyond what it can be wrong by.
+// The bounds of wide/trace/filter_bounds.h: hill climbing for the pair of a ray and a sphere with the largest error of
+// the binary32 filter. The error must stay within the bounds, and the bounds must not be far above the largest error.
 //
-// What is bounded is the sequence of operations in wide/trace/filter_bounds.h; here it stands once with fused
+// The bounds are for the sequence of operations in wide/trace/filter_bounds.h. This file repeats it once with fused
 // multiply-adds and once without, because targets differ in that. Truth is long double.
 #include "bihive/wide/trace/filter_bounds.h"
 
@@ -31,7 +31,7 @@ using test::expect_used;
 using test::Real;
 using test::Truth;
 
-// What the filter makes of a pair.
+// The filter's result for a pair.
 struct Filtered {
   float b, dp, lower, upper;
 
@@ -62,7 +62,7 @@ struct Filtered {
   }
 };
 
-// Ready for the filter; false where the library does not use it.
+// Prepares the ray for the filter; false if the library does not use the filter for it.
 bool set_up(const Pair& pair, OneRay& local) {
   const ScaledRay scaled(pair.ray, 1.0);
   const double farthest = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
@@ -70,7 +70,7 @@ bool set_up(const Pair& pair, OneRay& local) {
   return farthest <= kFarthestOrigin && here::set_up_single(pair.ray, 1.0, local, length, shift);
 }
 
-// The largest value of `used` over pairs that the filter sees.
+// The largest value of `used` over pairs that the filter may get.
 template <class Used>
 double most_used_of(const Used& used) {
   return test::most_used([&](const Pair& pair) {
@@ -79,7 +79,7 @@ double most_used_of(const Used& used) {
   });
 }
 
-// All ways of rounding at once.
+// All ways of rounding together.
 template <class Used>
 double most_used_by_filter(const Used& used) {
   return most_used_of([&](const Pair& pair, const OneRay& local, const Truth& truth) {
@@ -99,7 +99,7 @@ TEST(FilterBounds, DistanceAlongTheRay) {
 }
 
 TEST(FilterBounds, DistanceFromTheRay) {
-  // dp < 0 must be a certain miss: at the silhouette dp is too small by less than what e adds to r^2.
+  // dp < 0 must be a certain miss: at the silhouette the error of dp is smaller than the part that e adds to r^2.
   expect_used("e against |p|",
               most_used_by_filter([](const Pair& pair, const OneRay& local, const Truth& truth, const Filtered& f) {
                 const Real r = Real(pair.radius), e = Real(local.e);
@@ -110,7 +110,7 @@ TEST(FilterBounds, DistanceFromTheRay) {
 }
 
 TEST(FilterBounds, RootsLieBetweenTheirBounds) {
-  // Both hold the error of b and that of the chord, which is smallest where the line meets the centre: 2 e at least.
+  // Both contain the error of b and that of the chord, which is smallest if the line meets the centre: at least 2 e.
   expect_used("lower bound of the near root",
               most_used_by_filter([](const Pair&, const OneRay& local, const Truth& truth, const Filtered& f) {
                 if (!truth.meets) return -HUGE_VAL;
@@ -138,8 +138,8 @@ TEST(FilterBounds, ASureRootLiesInItsInterval) {
               0.25);
 }
 
-// How much of the padding of boxes is used where a ray enters a box, or leaves it, that its hit lies in. Lists move the
-// planes outward, single rays their offsets.
+// The used share of the padding of boxes, for a ray that enters or leaves a box that contains its hit. Lists move the
+// planes outward, single rays move their offsets.
 template <bool kNear, bool kFused, bool kPlanesMoved>
 double box_padding_used(const Pair& pair, const OneRay& local, const Truth& truth) {
   const ScaledRay scaled(pair.ray, 1.0);
@@ -184,7 +184,7 @@ TEST(FilterBounds, BoxesKeepTheirHits) {
 }
 
 TEST(FilterBounds, EndsOfTheSegment) {
-  // Ends lie outside the true ones, by less than W / 2.
+  // Computed ends lie outside the true ones, by less than W / 2.
   SplitMix64 rng(7);
   double most = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -213,7 +213,7 @@ TEST(FilterBounds, EndsOfTheSegment) {
 }
 
 TEST(FilterBounds, ManyRaysAreSetUpAsOne) {
-  // set_up_16() is what lists and beams use: the same local ray up to roundings of binary64.
+  // set_up_16() makes local rays for lists and beams: the same local ray up to roundings of binary64.
   SplitMix64 rng(8);
   for (int round = 0; round < 2000; ++round) {
     RayBatch batch;

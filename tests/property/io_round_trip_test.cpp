@@ -25,7 +25,7 @@ std::string digits(double value) {
   return text;
 }
 
-// Any finite magnitude that single precision has, of either sign.
+// Any finite magnitude of single precision, of either sign.
 double random_coordinate(SplitMix64& rng) {
   const double magnitude = std::ldexp(1 + rng.next_double(), static_cast<int>(rng.next_below(240)) - 120);
   return rng.next() & 1 ? magnitude : -magnitude;

@@ -26,7 +26,7 @@
 namespace bihive {
 namespace {
 
-constexpr int kRays = 2563;  // not a multiple of anything
+constexpr int kRays = 2563;  // no multiple of a vector or a block
 constexpr int kFewerRays = 1000, kMoreRays = 3205;
 
 struct Box {
@@ -54,7 +54,7 @@ Vec3d unit(SplitMix64& rng) {
   }
 }
 
-// Far away, beside the set, in its middle (so that directions go everywhere), in the middle of a sphere.
+// Lights far away, beside the set, in its middle (so that directions go everywhere), in the middle of a sphere.
 Vec3d some_light(const test::World& world, const Box& box, int which, SplitMix64& rng) {
   switch (which) {
     case 0:
@@ -70,7 +70,7 @@ Vec3d some_light(const test::World& world, const Box& box, int which, SplitMix64
   }
 }
 
-// From surfaces, some of them inward, some from nowhere, a few up to elsewhere than the light.
+// Rays from surfaces, some of them inward, some from no surface, a few that lead to another point than the light.
 RayBatch rays_to(Vec3d light, const test::World& world, const Box& box, bool plain, SplitMix64& rng,
                  int count = kRays) {
   RayBatch rays;
@@ -145,7 +145,7 @@ TEST(LightOrder, AreAnsweredAsByTheReference) {
     ASSERT_TRUE(tree.ok());
     const Box box = box_of(world);
     for (int which = 0; which < 4; ++which) {
-      // Each light somewhere, where all everywhere would take too long.
+      // Each light in some scenes only, because all of them in all scenes would take too long.
       if (test::ray_share() > 1 && which != taken % 4) continue;
       const Vec3d light = some_light(world, box, which, rng);
       const int count = which == 1 ? kFewerRays : which == 2 ? kMoreRays : kRays;
@@ -168,7 +168,7 @@ TEST(LightOrder, AreKnownAsSuch) {
   EXPECT_FALSE(wide::converge(rays.span().part(0, 100)));  // sorting would not pay
   EXPECT_FALSE(wide::converge({}));
 
-  // One that leads elsewhere is enough, wherever it is.
+  // One ray that leads to another point is enough, at any place.
   rays.direction[1][2001] += 1;
   EXPECT_FALSE(wide::converge(rays.span()));
   rays.direction[1][2001] = std::numeric_limits<float>::quiet_NaN();
@@ -215,8 +215,8 @@ double spheres_met(const WideTree& tree, const RaySpan& rays) {
   return static_cast<double>(done.spheres_met) / static_cast<double>(rays.count - done.remaining.count());
 }
 
-// From everywhere on one side of a world of small spheres, of which none is in the way of more than a ray or two:
-// sorted they are narrow enough, but each beam passes a hundred spheres and more.
+// From everywhere on one side of a world of small spheres. Each sphere is in the way of only one or two rays. Sorted
+// beams are narrow enough, but each beam passes a hundred spheres and more.
 TEST(LightOrder, RaysGoToTheListsWhereBeamsDoNotPay) {
   const test::World small = test::random_world("small", 69, 120000, 100, 0.01, 0.15);
   const SphereSet spheres = test::sphere_set(small);
@@ -249,7 +249,7 @@ TEST(LightOrder, RaysGoToTheListsWhereBeamsDoNotPay) {
     EXPECT_GT(spheres_met(**tree, rays.span()), wide::kMostSpheresMet) << target;
     occluded(**tree, rays.span(), RayOrder::any, hidden.data());
     EXPECT_EQ(hidden, expected) << target;
-    // Closer together they pass fewer.
+    // Closer together they pass fewer spheres.
     EXPECT_LT(spheres_met(**tree, from_a_square(3).span()), wide::kMostSpheresMet) << target;
   }
   ASSERT_TRUE(use_target("").ok());

@@ -1,4 +1,4 @@
-// The same picture bit for bit: any number of threads, tree or brute force, and trees of any parameters.
+// The same picture bit for bit: with any number of threads, with tree or brute force, and with trees of any parameters.
 #include "bihive/render/renderer.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST_P(EveryScene, brute_force_and_every_tree_agree) {
 INSTANTIATE_TEST_SUITE_P(scenes, EveryScene, ::testing::Values(1, 2, 3, 4));
 
 TEST(Renderer, a_picture_in_other_units_is_the_same_picture) {
-  // Everything times a power of two: every step of the way scales exactly.
+  // Everything times a power of two: every step scales exactly.
   const auto draw = [](double unit) {
     Scene scene = thesis_scene_without_spheres();
     scene.plane.reset();

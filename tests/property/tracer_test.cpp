@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kRays = 5000;
 
-// Rays between points of a cube around the scene; some leave a sphere, some end early, some are none.
+// Rays between points of a cube around the scene; some leave a sphere, some end early, some are invalid.
 RayBatch mixed_rays(std::int64_t spheres) {
   SplitMix64 rng(11);
   const auto coordinate = [&] { return static_cast<float>(80 * rng.next_double() - 40); };

@@ -192,7 +192,8 @@ TEST(Observer, CountsWhatIsVisited) {
 }
 
 TEST(Observer, SeesEverythingWhereNothingCanBeSpared) {
-  // All spheres overlap in the middle, and a ray that starts there and leaves each of them last meets every node.
+  // All spheres overlap in the middle. A ray that starts there, and reaches every surface at its end only, meets every
+  // node.
   const test::World world = test::random_world("overlapping", 54, 100, 1, 4, 4.5);
   const SphereSet spheres = test::sphere_set(world);
   const Tree tree = build_reference_tree(spheres, {1, kUnlimited});

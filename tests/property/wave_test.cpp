@@ -1,4 +1,5 @@
-// Pictures drawn wave by wave have the bits of one ray after the other (render/integrator.h), on every instruction set.
+// Pictures drawn wave by wave have the same bits as pictures drawn ray by ray (render/integrator.h), on every
+// instruction set.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,8 +19,8 @@
 namespace bihive {
 namespace {
 
-// Spheres of many materials, lights and a plane, all by chance: reflecting, letting through, both or neither; inside
-// each other; with opacities and colours of their own.
+// Random spheres of many materials, lights and a plane: reflecting, transparent, both or neither; inside each other;
+// with opacities and colours of their own.
 Scene random_scene(std::uint64_t seed) {
   SplitMix64 rng(seed);
   const auto between = [&](double lo, double hi) { return lo + (hi - lo) * rng.next_double(); };
@@ -81,7 +82,7 @@ Scene random_scene(std::uint64_t seed) {
   return scene;
 }
 
-// The picture as the readable code makes it, pixel after pixel.
+// The picture by the readable code, pixel after pixel.
 struct Expected {
   Film film;
   RenderCounts rays;
@@ -117,7 +118,8 @@ void expect_same(const Expected& expected, const Rendered& rendered, const std::
   EXPECT_EQ(rendered.rays.transmitted, expected.rays.transmitted) << what;
 }
 
-// From one seed to the next: a part of them where all would take too long. Coprime to what they are taken modulo of.
+// Steps from one seed to the next, so that only a part is tested if all would take too long. Each step is coprime to
+// its modulus.
 std::uint64_t step() {
   return test::ray_share() > 1 ? 11 : 1;
 }
@@ -152,7 +154,7 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
   }
 }
 
-// A picture is rounded to binary32; what is added in another order shows before that.
+// A picture is rounded to binary32, which hides another order of a sum; so compare before the rounding.
 TEST(Wave, sums_are_the_same_before_they_are_rounded) {
   const BestTargetAgain restore;
   const int width = 40, height = 20;
@@ -199,7 +201,7 @@ TEST(Wave, sums_are_the_same_before_they_are_rounded) {
   }
 }
 
-// One pass shades primary rays without shadows; the last vector of a tile is seldom full.
+// One pass shades primary rays without shadows; the last vector of a tile is rarely full.
 TEST(Wave, primary_rays_alone_with_unfilled_vectors) {
   const BestTargetAgain restore;
   constexpr std::array<std::array<int, 2>, 6> kSizes{{{1, 1}, {3, 1}, {2, 3}, {7, 5}, {13, 11}, {17, 9}}};
@@ -216,7 +218,7 @@ TEST(Wave, primary_rays_alone_with_unfilled_vectors) {
     const Expected expected = one_after_the_other(scene, settings);
     for (const std::string& target : test::targets_under_test()) {
       ASSERT_TRUE(use_target(target));
-      // What another picture left behind in the thread's memory must not matter.
+      // Data of an earlier picture in the thread's memory must not matter.
       Scene before = scene;
       before.plane = thesis_plane();
       RenderSettings normals = settings;
@@ -230,14 +232,14 @@ TEST(Wave, primary_rays_alone_with_unfilled_vectors) {
 }
 
 TEST(Wave, generations_that_grow_too_large_are_cut) {
-  // Every surface sends on two rays, sixteen generations deep: many more at once than a piece may hold.
+  // Every surface sends two rays, sixteen generations deep: many more at once than a piece may hold.
   Scene scene = four_spheres_scene();
   for (Material& material : scene.materials) {
     material.reflective = 0.4;
     material.transmissive = 0.5;
     material.refraction_index = 1.3;
   }
-  // From within a sphere around everything no ray is lost.
+  // From inside a sphere around everything, every ray hits something.
   scene.plane.reset();
   scene.spheres =
       SphereSet::from_world(std::vector<double>{0, 0, 3, -4}, {0, 0, 1, 2}, {0, 0, 5, -5}, {20, 30, 3, 4}).value();

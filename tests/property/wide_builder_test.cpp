@@ -1,4 +1,4 @@
-// Building the wide tree holds its promises on sets made to break them: time, memory, running out of it.
+// The wide builder keeps its promises on hostile sets: time, memory, and the error when memory is short.
 #include "bihive/wide/wide_builder.h"
 
 #include <gtest/gtest.h>
@@ -110,8 +110,8 @@ TreePointer built(WideBuilder& builder, const SphereSet& spheres, const WidePara
   return *tree;
 }
 
-// The work of the least of three builds on one thread, as this thread's processor time: what else the machine does does
-// not count.
+// The work of the fastest of three builds on one thread, as this thread's processor time, so that other work on the
+// machine does not count.
 double build_ms(const SphereSet& spheres) {
   WideBuilder builder;
   double shortest = 1e9;
@@ -131,8 +131,8 @@ TEST(WideBuilderHostile, RightTreesInTimeThatGrowsAsNLogN) {
       const Status status = validate_wide_tree(*built(builder, *spheres), *spheres);
       EXPECT_TRUE(status.ok()) << set.name << ": " << (status.ok() ? "" : status.error().to_string());
     }
-    // Sixteen times the spheres: n log n is 21 times the work, n to the power of 1.5 already 64 times. Between them is
-    // room for caches and a machine that is busy (14 to 32 times were seen beside other work).
+    // Sixteen times the spheres: n log n is 21 times the work, n to the power of 1.5 already 64 times. The limit
+    // between them leaves room for caches and a busy machine (14 to 32 times were seen beside other work).
     const double few_ms = build_ms(few), many_ms = build_ms(many);
     EXPECT_LT(many_ms, 50 * few_ms + 5) << set.name << ": " << few_ms << " ms, then " << many_ms << " ms";
   }
@@ -151,7 +151,7 @@ TEST(WideBuilderHostile, PeakMemoryIsBounded) {
 }
 
 TEST(WideBuilderHostile, UsedMemoryIsAsPredicted) {
-  // Scenes as people have them: packed, scattered, clustered, of one radius and of many.
+  // Sets as users have them: packed, scattered, clustered, of one radius and of many.
   std::vector<test::World> worlds;
   for (int s = 0; s < 3; ++s)
     for (const int n : {64, 4096, 50000})
@@ -175,7 +175,7 @@ TEST(WideBuilderHostile, UsedMemoryIsAsPredicted) {
 }
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// In a process of its own: leaves it 16 MiB, which are too few for either block of arrays (40 MB), and builds.
+// In a process of its own: it leaves itself 16 MiB, which is too little for either block of arrays (40 MB), and builds.
 void run_out_of_memory(const SphereSet& spheres) {
   std::int64_t pages = 0;
   std::FILE* const file = std::fopen("/proc/self/statm", "r");

@@ -1,4 +1,4 @@
-// The wide engine from several threads: queries while others query, and while the next frame's tree is built.
+// The wide engine from several threads: queries beside queries, and beside the build of the next frame's tree.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -36,7 +36,7 @@ Frame frame(std::uint64_t number) {
   return made;
 }
 
-// How many answers differ from the reference's.
+// The number of answers that differ from the reference's.
 std::int64_t wrong_answers(const WideTree& tree, const Frame& frame, RayOrder order) {
   HitBatch hits;
   hits.resize(frame.rays.size());
@@ -58,7 +58,7 @@ TEST(WideThreads, QueriesGoOnWhileTheNextTreeIsBuilt) {
   std::vector<Frame> frames;
   for (std::uint64_t number = 0; number < kFrames; ++number) frames.push_back(frame(number));
 
-  // One thread builds frame after frame and hands out the newest tree; three trace whatever is newest.
+  // One thread builds frame after frame and hands out the newest tree; three threads trace the newest one.
   WideBuilder builder;
   std::mutex mutex;
   std::pair<TreePointer, int> newest{*builder.build(frames[0].spheres), 0};

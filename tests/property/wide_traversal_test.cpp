@@ -1,7 +1,7 @@
 // The wide engine gives the scalar reference's bits: every form of query, on every target, for any spheres and any ray.
 //
-// BIHIVE_LONG=N in the environment repeats everything with N seeds (scripts/verify); support/effort.h says how to do
-// less.
+// BIHIVE_LONG=N in the environment repeats everything with N seeds (scripts/verify); support/effort.h does less on slow
+// machines.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,10 +82,11 @@ TEST(WideTraversal, EqualsTheReferenceOnHostileSets) {
   });
 }
 
-// Sets on which a tree, a layout or a unit of length could go wrong.
+// Sets that are hard for a tree, a memory layout or a unit of length.
 std::vector<World> special_worlds(std::uint64_t seed) {
   std::vector<World> worlds;
-  // Radii: a palette that is just full, just too full, and without any repetition; one radius of 0 among few.
+  // Radii: a palette that is exactly full, one that is too full by one, one without any repetition; one radius of 0
+  // among few.
   for (const int radii : {31, 32, 33, 400}) {
     worlds.push_back(test::random_world(std::to_string(radii) + " radii", seed + 1, 800, 10, 1, 1));
     for (std::size_t i = 0; i < worlds.back().size(); ++i)
@@ -161,7 +162,7 @@ TEST(WideTraversal, DeepTreesAndLongLists) {
     }
   WideUnderTest wide(world, {{1, 0}});
   EXPECT_GT(wide.tree().levels, 8);
-  // Through the corner, or past it at any scale; a few thousand spheres are met exactly.
+  // Rays through the corner, or past it at any scale; a few thousand spheres are met exactly.
   std::vector<Ray> rays;
   for (std::int64_t i = 0; i < 17000 / kShareOfAll; ++i) {
     const Vec3d eye{test::uniform(rng, -1, 2), test::uniform(rng, -1, 2), test::uniform(rng, -1, 2)};
@@ -176,8 +177,8 @@ TEST(WideTraversal, DeepTreesAndLongLists) {
   wide.check(query_rays(world, wide, 72, 4000 / kShareOfAll), 200);
   EXPECT_GT(wide.hits(), 2000 / kShareOfAll);
 
-  // All of one octant, from deep inside towards the corner: no list gets shorter on the way to where they start, until
-  // there is no more room for another, and a stream of all of them goes on.
+  // All rays of one octant, from deep inside towards the corner. No list gets shorter on the way to the rays' start. At
+  // last there is no room for another list, and one stream of all rays goes on.
   rays.clear();
   for (std::int64_t i = 0; i < 32768 / kShareOfAll; ++i) {
     const double near = std::ldexp(1, -60 - static_cast<int>(rng.next_below(50)));
@@ -192,7 +193,7 @@ TEST(WideTraversal, DeepTreesAndLongLists) {
 }
 
 TEST(WideTraversal, LargeSets) {
-  // So many that the builder sorts them into a grid first, evenly and in clusters.
+  // Enough spheres that the builder sorts them into a grid first, evenly and in clusters.
   for (const bool clusters : {false, true}) {
     World world = test::random_world(clusters ? "large, clusters" : "large", 73, 160000, 20, 0.02, 0.1);
     if (clusters)
@@ -214,7 +215,7 @@ TEST(WideTraversal, AnyNumberOfRays) {
   for (const std::int64_t n : {0, 1, 2, 3, 15, 16, 17, 31, 33, 63, 64, 65, 127, 129, 1000, 4096, 4097, 16384, 70000}) {
     if (n > all.size() || testing::Test::HasFatalFailure()) break;
     wide.check(all.span().part(0, n), 0);
-    // Arrays that start anywhere, and end with the last ray.
+    // Arrays that start at any address, and end with the last ray.
     const std::int64_t first = all.size() - n;
     wide.check(all.span().part(first, n), 0);
   }
@@ -240,7 +241,7 @@ TEST(WideTraversal, TheOrderOfTheRaysDoesNotShow) {
   WideUnderTest wide(world);
   const auto closest = [&](const Ray& ray) { return wide.truth(ray); };
   std::vector<Ray> rays = test::blocks_of_rays(world, 57, 64, closest);
-  // A good ray and a bad one in turn, then each octant in turn, then all the same, then shuffled.
+  // A valid ray and an invalid one in turn, then each octant in turn, then all the same, then shuffled.
   std::vector<Ray> alternating = rays;
   for (std::size_t i = 1; i < alternating.size(); i += 2) alternating[i].direction = {0, 0, 0};
   wide.check(alternating, 100);
@@ -252,7 +253,7 @@ TEST(WideTraversal, TheOrderOfTheRaysDoesNotShow) {
   SplitMix64 rng(58);
   for (std::size_t i = rays.size() - 1; i > 0; --i) std::swap(rays[i], rays[rng.next_below(i + 1)]);
   wide.check(rays, 100);
-  // One that starts too far away for binary32 among near ones, everywhere in its block.
+  // One ray that starts too far away for binary32 among near ones, at each place of its block.
   for (std::size_t place = 0; place < 64; place += 7) {
     std::vector<Ray> mixed(rays.begin(), rays.begin() + 64);
     mixed[place].origin = {1e12f, 2e12f, -1e12f};
@@ -279,7 +280,7 @@ TEST(WideTraversal, OfEqualSpheresTheSmallestIdIsHit) {
   std::vector<Ray> rays(70, Ray{{0.25f, 0.5f, 5}, {0, 0, -1}});
   wide.check(rays);
   EXPECT_EQ(closest_hit(wide.tree(), rays[0]).sphere_id, 0);
-  // A ray that leaves one leaves all of them.
+  // A ray that leaves one of several equal spheres leaves all of them.
   for (std::size_t i = 0; i < rays.size(); ++i) {
     rays[i].leaves = static_cast<std::int64_t>(i * 14);
     rays[i].inside = i % 2 == 0;

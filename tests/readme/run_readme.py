@@ -5,7 +5,7 @@ Usage: run_readme.py README.md TOP_OF_THE_SOURCES SCRATCH_FOLDER
 
 Every fenced block marked `sh` is run, in order, by `bash -e` from the top of the copy. Not run, and said so:
 - blocks marked `sh notest`;
-- commands that fetch, install or run everything else (SKIPPED below). `make demo` is done without the installing.
+- commands that fetch or install packages, or run all other tests (SKIPPED below). `make demo` runs without the installation.
 """
 
 import pathlib
@@ -16,7 +16,7 @@ import sys
 
 FENCE = re.compile(r"^(\s*)```+\s*(.*?)\s*$")
 
-# How a command begins, what is run in its place, and why.
+# The beginning of a command, the command to run instead, and the reason.
 SKIPPED = [
     (r"(sudo )?apt(-get)? ", "", "installs packages"),
     (r"git clone ", "", "the scratch copy takes the clone's place"),
@@ -53,7 +53,7 @@ def commands_of(body):
 
 
 def replacement(command):
-    """What to run in place of a command, and why; (command, None) where it is run as it is."""
+    """The command to run instead, and the reason; (command, None) if the command runs as it is."""
     for pattern, instead, reason in SKIPPED:
         if re.match(pattern, command.strip()):
             return instead, reason
@@ -61,7 +61,7 @@ def replacement(command):
 
 
 def copy_sources(top, scratch):
-    """What a clone would hold: the files that git tracks or would, or everything but build folders."""
+    """Copies the files of a clone: those that git tracks or would track; without git all but build folders."""
     if scratch.exists():
         shutil.rmtree(scratch)
     listed = subprocess.run(

@@ -1,4 +1,4 @@
-"""scripts/check_includes finds what it is there to find, and is content with this project."""
+"""scripts/check_includes finds every kind of offence, and finds none in this project."""
 
 import importlib.machinery
 import importlib.util
@@ -18,7 +18,7 @@ loader.exec_module(check_includes)
 
 class CheckIncludes(unittest.TestCase):
     def offences(self, files):
-        """Of a little project: its files by path."""
+        """Runs on a small project, given as path -> content."""
         with tempfile.TemporaryDirectory() as folder:
             for name, text in files.items():
                 path = pathlib.Path(folder) / name

@@ -1,4 +1,4 @@
-"""scripts/performance_page: verdicts and charts of made-up measurements, and docs/performance.md as it was generated."""
+"""scripts/performance_page: verdicts, charts and refusals for made-up measurements; and docs/performance.md equals its generator's output."""
 
 import json
 import os
@@ -63,11 +63,18 @@ class PerformancePageTest(unittest.TestCase):
         measured.mkdir()
         for made in reports:
             (measured / f"{made['part']}.json").write_text(json.dumps(made))
-        (self.folder / "docs").mkdir()
-        (self.folder / "docs/performance_notes.md").write_text("## Where the time goes\n\nBy hand.\n")
         command = [sys.executable, TOP / "scripts/performance_page", measured, "--docs", self.folder / "docs"]
-        subprocess.run(command, check=True)
-        return (self.folder / "docs/performance.md").read_text()
+        self.ran = subprocess.run(command, stderr=subprocess.PIPE, text=True)
+        page = self.folder / "docs/performance.md"
+        return page.read_text() if page.is_file() else None
+
+    def assert_refused(self, made, *words):
+        """No page, no kept file, and a message with these words."""
+        self.assertIsNone(self.generate([report("thesis", [{"threads": 2, "configurations": []}]), made]))
+        self.assertEqual(self.ran.returncode, 1)
+        for word in words:
+            self.assertIn(word, self.ran.stderr)
+        self.assertEqual(list((self.folder / "docs/performance").glob("*")), [])
 
     def test_targets_are_judged_by_the_worst_scene(self):
         # Random rays: floor 2, aim 4. s2 with two threads is below; s1 alone would be fine.
@@ -91,10 +98,57 @@ class PerformancePageTest(unittest.TestCase):
         self.assertTrue(rows["random"].endswith("| aim met |"), rows["random"])
         self.assertTrue(rows["bytes a sphere, at most"].endswith("| met |"))
 
-    def test_commands_notes_and_charts(self):
+    def test_a_section_says_its_own_machine_commit_date_and_command(self):
+        wide = report("scenes", [result_of("s1", 1, 3)])
+        narrow = dict(report("avx2", [dict(result_of("s1", 1, 3), target="avx2")]), commit="fedcba321", date="2026-03-04")
+        narrow["machine"] = dict(MACHINE, processor="Q", vectors="avx2")
+        narrow["command"] = "BIHIVE_TARGET=avx2 scripts/bench avx2"
+        page = self.generate([wide, narrow])
+        first, second = page.split("\n## AVX2\n")
+        for words in ["Machine: P, 2 cores with AVX-512", "run: AVX-512", "Commit: abcdef123", "Date: 2026-01-02", "`scripts/bench scenes` (1 s)"]:
+            self.assertIn(words, first)
+        for words in ["Machine: Q, 2 cores with AVX2", "run: AVX2", "Commit: fedcba321", "Date: 2026-03-04", f"`{narrow['command']}` (1 s)"]:
+            self.assertIn(words, second)
+        self.assertNotIn("Machine", first.split("\n## ")[0])
+
+    def test_a_report_of_two_commits_is_refused(self):
+        results = [dict(result_of("s1", n, 3), commit=commit) for n, commit in ((1, "abcdef123"), (2, "0123abcde"))]
+        self.assert_refused(report("scenes", results), "scenes.json", "more than one commit", "0123abcde, abcdef123")
+
+    def test_a_report_of_other_programs_than_it_says_is_refused(self):
+        made = report("growth", [dict(result_of("u1e3", 2, 1), commit="0123abcde")])
+        self.assert_refused(made, "growth.json", "more than one commit", "0123abcde, abcdef123")
+
+    def test_a_report_of_uncommitted_changes_is_refused(self):
+        made = dict(report("growth", [result_of("u1e3", 2, 1)]), commit="abcdef123-dirty")
+        self.assert_refused(made, "growth.json", "abcdef123-dirty")
+
+    def test_a_report_of_two_machines_is_refused(self):
+        results = [dict(result_of("s1", n, 3), machine=machine) for n, machine in ((1, "P"), (2, "Q"))]
+        self.assert_refused(report("scenes", results), "scenes.json", "more than one machine", "P, Q")
+
+    def test_a_run_that_names_another_machine_is_refused(self):
+        made = report("growth", [result_of("u1e3", 2, 1)])
+        made["runs"][0]["machine"] = dict(MACHINE, l2="larger")
+        self.assert_refused(made, "growth.json", "more than one machine")
+
+    def test_a_report_of_two_instruction_sets_is_refused(self):
+        results = [dict(result_of("s1", n, 3), target=target) for n, target in ((1, "avx512"), (2, "avx2"))]
+        self.assert_refused(report("scenes", results), "more than one instruction set", "avx2, avx512")
+
+    def test_a_hundred_million_spheres_have_a_table_of_their_own(self):
+        huge = dict(report("huge", [dict(result_of("u1e8", 2, 1), spheres=10**8)]), commit="fedcba321")
+        growth = [dict(result_of("u1e3", 2, 1), spheres=10**k, build_ms=10.0**k / 1e4) for k in (3, 4)]
+        page = self.generate([report("growth", growth), huge])
+        small, large = page.split("\n## A hundred million spheres\n")
+        self.assertIn("| 100,000,000 |", large)
+        self.assertIn("fedcba321", large)
+        self.assertNotIn("fedcba321", small)
+
+    def test_commands_and_charts(self):
         growth = [dict(result_of("u1e3", 2, 1), spheres=10**k, build_ms=10.0**k / 1e4) for k in (3, 4, 5)]
         page = self.generate([report("growth", growth), report("scenes", [result_of("s1", 1, 3)])])
-        for words in ["make bench", "# runs measure growth 2", "# runs measure scenes 0", "abcdef123", "By hand."]:
+        for words in ["make bench", "measure growth 2\n", "measure scenes 0\n", "(performance_findings.md)"]:
             self.assertIn(words, page)
         charts = sorted(path.name for path in (self.folder / "docs/performance").glob("*.svg"))
         self.assertEqual(charts, ["growth_build.svg", "growth_rays.svg", "ratios_1.svg"])
@@ -108,7 +162,6 @@ class PerformancePageTest(unittest.TestCase):
     def test_the_page_in_docs_is_what_its_measurements_give(self):
         docs = self.folder / "docs"
         shutil.copytree(TOP / "docs/performance", docs / "performance")
-        shutil.copyfile(TOP / "docs/performance_notes.md", docs / "performance_notes.md")
         for chart in (docs / "performance").glob("*.svg"):
             chart.unlink()
         subprocess.run([sys.executable, TOP / "scripts/performance_page", "--docs", docs], check=True)

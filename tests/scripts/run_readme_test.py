@@ -1,4 +1,4 @@
-"""tests/readme/run_readme.py finds, skips and runs what it says."""
+"""tests/readme/run_readme.py finds, skips and runs the right commands."""
 
 import contextlib
 import importlib.util
@@ -19,7 +19,7 @@ spec.loader.exec_module(run_readme)
 
 class RunReadme(unittest.TestCase):
     def run_text(self, text):
-        """What run_blocks returns, and the files that are there afterwards."""
+        """The result of run_blocks, and the files that exist afterwards."""
         with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
             count = run_readme.run_blocks(text, folder)
             return count, sorted(path.name for path in pathlib.Path(folder).iterdir())

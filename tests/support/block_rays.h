@@ -1,4 +1,4 @@
-// Blocks of 64 neighbouring rays, as beams like them: cameras, shadows, parallel light; and such as they do not.
+// Blocks of 64 neighbouring rays that suit beams (cameras, shadows, parallel light), and blocks that do not.
 #pragma once
 
 #include <cmath>
@@ -42,7 +42,7 @@ class BlockRays {
     }
   }
 
-  /// 64 rays from neighbouring points of some spheres to one light. They know what they leave.
+  /// 64 rays from neighbouring points of some spheres to one light. They know the sphere that they leave.
   void add_shadow(RayBatch& rays) {
     const std::size_t target = some_sphere();
     const Vec3d light = middle_ + unit() * (size_ * uniform(rng_, 0.2, 3));

@@ -37,7 +37,7 @@ inline std::vector<CsvRow> csv_table(const std::string& name) {
   return rows;
 }
 
-/// Half a unit of the last decimal that the cell prints: what rounding may have taken or added.
+/// Half a unit of the last decimal in the cell: the largest effect of rounding.
 inline double print_rounding(const std::string& cell) {
   const std::size_t point = cell.find('.');
   double half = 0.5;

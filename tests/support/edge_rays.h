@@ -1,4 +1,4 @@
-// Rays built to sit exactly on the edges of decisions: box faces, tangent points, surfaces, far-away origins.
+// Rays that lie exactly on the edges of decisions: box faces, tangent points, surfaces, far-away origins.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace bihive::test {
 
-/// Text for a failing test: enough to make the ray again, bit for bit.
+/// Text for a failing test that tells the ray bit for bit.
 inline std::string text_of(const Ray& ray) {
   char line[400];
   std::snprintf(line, sizeof line, "ray {{%a, %a, %a}, {%a, %a, %a}, %a, %a, %lld, %d}", double(ray.origin.x),
@@ -54,7 +54,7 @@ class EdgeRays {
         ray.direction = to_float(touch - to_double(ray.origin));
         break;
       }
-      case 3:  // From the surface, outward or inward, knowing it.
+      case 3:  // From the surface, outward or inward, with the sphere that it leaves.
       case 4: {
         const Vec3d along = to_double(ray.direction);
         const Vec3d out{double(signed_unit()), double(signed_unit()), double(signed_unit())};
@@ -64,7 +64,7 @@ class EdgeRays {
         if (rng_.next_below(8) == 0) ray.inside = !ray.inside;
         break;
       }
-      case 5: {  // From very far: binary64 itself is coarse there, and the tree must be as coarse.
+      case 5: {  // From very far: binary64 itself is coarse there, and so must the tree be.
         const double far = std::ldexp(1, static_cast<int>(rng_.next_below(60)));
         ray.origin = to_float(to_double(ray.origin) * std::min(far, 1e37 / (1 + largest(ray.origin))));
         ray.direction = to_float((centre - to_double(ray.origin)) * 0.5);

@@ -1,4 +1,4 @@
-// Who answers the rays of the differential test: the real program by way of files, or the library directly.
+// The engine that answers the rays of the differential test: the real program by way of files, or the library directly.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Answers {
   std::vector<std::int64_t> id;
 };
 
-/// Empty answers mean that the engine failed; why has been printed. `target` is one of available_targets()
+/// Empty answers mean that the engine failed; the reason has been printed. `target` is one of available_targets()
 /// (simd/target.h), or empty for the library's own choice.
 class EngineUnderTest {
  public:

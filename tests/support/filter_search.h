@@ -1,4 +1,4 @@
-// Hill climbing for the pair of a ray and a sphere on which binary32 is most wrong.
+// Hill climbing for the pair of a ray and a sphere with the largest error of binary32.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ struct Truth {
   }
 };
 
-/// Starting points: from near and far, past the silhouette by little or much, sizes of all kinds, axes among them.
+/// Starting points: from near and far, past the silhouette by little or much, with sizes of all kinds, also along axes.
 inline RayAndSphere random_pair(SplitMix64& rng) {
   RayAndSphere pair;
   do {
@@ -89,7 +89,7 @@ inline RayAndSphere random_pair(SplitMix64& rng) {
       aside[k] = uniform(rng, -1, 1);
     }
     Vec3d origin = centre + ahead * reach;
-    // A corner of what needs no moving, seen from the opposite one: the errors are largest where all is.
+    // A corner of the space that needs no moved origin, seen from the opposite corner: all errors are largest there.
     if (rng.next_below(3) == 0)
       for (int k = 0; k < 3; ++k) {
         const double sign = rng.next_below(2) == 0 ? 1 : -1;
@@ -116,11 +116,11 @@ inline RayAndSphere moved(RayAndSphere pair, SplitMix64& rng) {
   return pair;
 }
 
-/// The largest value of `used` found; NaN counts as -inf. BIHIVE_LONG=N in the environment starts N times as often;
-/// where tests do less (effort.h) it starts less often.
+/// The largest value of `used` found; NaN counts as -inf. BIHIVE_LONG=N in the environment starts N times as often. If
+/// tests do less (effort.h) it starts less often.
 inline double most_used(const std::function<double(const RayAndSphere&)>& used, std::uint64_t usual_starts = 3000) {
   const char* const number = std::getenv("BIHIVE_LONG");
-  // Of many starts a quarter comes nearly as close to the bounds; of few it does not.
+  // With many starts a quarter of them suffices to come nearly as close to the bounds; with few it does not.
   const std::uint64_t share = ray_share() > 1 && usual_starts >= 1000 ? 4 : 1;
   const std::uint64_t starts = usual_starts * (number == nullptr ? 1 : std::strtoull(number, nullptr, 10)) / share;
   const auto value_of = [&](const RayAndSphere& pair) {
@@ -144,7 +144,7 @@ inline double most_used(const std::function<double(const RayAndSphere&)>& used, 
   return most;
 }
 
-/// A bound holds, and is at most 1 / `tight` times what was found.
+/// A bound holds, and is at most 1 / `tight` times the largest value found.
 inline void expect_used(const std::string& what, double most, double tight) {
   testing::Test::RecordProperty(what, std::to_string(most));
   std::printf("  %s: %.3f of the bound is used\n", what.c_str(), most);

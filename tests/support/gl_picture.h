@@ -12,7 +12,7 @@ namespace bihive::test {
 
 class GlPictures {
  public:
-  /// Ends the program where there is no EGL: these tests need it (scripts/setup all).
+  /// Ends the program if there is no EGL, because these tests need it (scripts/setup all).
   static GlPictures& get() {
     static GlPictures pictures;
     return pictures;

@@ -18,7 +18,7 @@ void expect_golden(const std::string& name, const Image& image) {
     return;
   }
 
-  // Leave the three pictures behind when they are not the same.
+  // If the pictures differ, leave all three behind.
   const Result<PngFile> reference = read_png(kept);
   const std::string left = "golden_failures/" + name;
   std::filesystem::create_directories(std::filesystem::path(left).parent_path());

@@ -1,4 +1,4 @@
-// Degenerate and extreme sets of spheres, small enough to trace by brute force: what a tree must survive.
+// Degenerate and extreme sets of spheres, small enough to trace by brute force.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The least of NumPy's .npy format that a test needs, written without the library: little-endian, C order, version 1.0.
+// The part of NumPy's .npy format that tests need, written without the library: little-endian, C order, version 1.0.
 #pragma once
 
 #include <cstdint>

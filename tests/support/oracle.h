@@ -26,16 +26,16 @@ namespace bihive::test {
 
 static_assert(LDBL_MANT_DIG >= 64, "the oracle needs a long double wider than binary64");
 
-/// What happens between one ray and one sphere that it may meet.
+/// One ray and one sphere that it may meet.
 struct Encounter {
   std::int64_t id = -1;
   long double t_near = 0, t_far = 0;     ///< exact roots (a tangent line's where only the error bound reaches it)
-  long double near_lo = 0, near_hi = 0;  ///< where binary64 may put the near root
-  long double far_lo = 0, far_hi = 0;    ///< and the far one
+  long double near_lo = 0, near_hi = 0;  ///< interval of the near root in binary64
+  long double far_lo = 0, far_hi = 0;    ///< interval of the far root
   bool exists = false;                   ///< the line meets the sphere
   bool surely_exists = false;            ///< and binary64 cannot miss it
   bool near_counts = true;               ///< false for the sphere from whose surface the ray goes inside
-  long double t_error_unit = 0;          ///< u (L + r) / D, to measure errors with
+  long double t_error_unit = 0;          ///< u (L + r) / D, the unit of errors
   long double discriminant_share = 0;    ///< discriminant / r^2
 };
 
@@ -61,7 +61,8 @@ class Oracle {
     return list;
   }
 
-  /// The nearest hit: of each sphere the near root if it lies in the segment, else the far one; equal t: smaller id.
+  /// The nearest hit: for each sphere the near root if it lies in the segment, else the far one; of equal t the smaller
+  /// id.
   static Answer closest(const Ray& ray, const std::vector<Encounter>& list) {
     Answer best;
     for (const Encounter& e : list) {
@@ -84,7 +85,7 @@ class Oracle {
     bool possible = false;
     for (const Encounter& e : list) {
       if (e.id != id) {
-        // Nothing else is surely nearer, and no equal sphere with a smaller id could have been meant.
+        // No other sphere is surely nearer, and no equal sphere with a smaller id could be the answer.
         if (sure_bound(ray, e) < t) return false;
         if (e.id < id && same_sphere(e.id, id)) return false;
         continue;
@@ -127,7 +128,7 @@ class Oracle {
     return e.surely_exists && lo >= Real(ray.t_min) && hi <= Real(ray.t_max);
   }
 
-  /// A t that the sphere's hit surely does not exceed; infinite where it may be no hit at all.
+  /// An upper bound of the t of the sphere's hit; infinite if there may be no hit.
   static Real sure_bound(const Ray& ray, const Encounter& e) {
     if (e.near_counts && surely_in(ray, e, e.near_lo, e.near_hi)) return e.near_hi;
     if (surely_in(ray, e, e.far_lo, e.far_hi)) return e.far_hi;
@@ -174,7 +175,7 @@ class Oracle {
     const Real discriminant = r * r - p2;
     const Real t_closest = (x * dx + y * dy + z * dz) / dd;
 
-    // Bound what binary64 makes of it.
+    // Bound the errors of binary64.
     const Real slack = kSlack * (4 * kU * L * p + 6 * kU * p2 + 2 * kU * r * r + 130 * kU * kU * L * L);
     if (discriminant + slack < 0) return;
     Encounter e;

@@ -1,4 +1,4 @@
-// How far another renderer's picture is from the CPU's, and whether each pixel that differs lies on an edge.
+// Compares another renderer's picture with the CPU's, and finds out whether each differing pixel lies on an edge.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ struct Agreement {
   }
 };
 
-/// One pixel of the CPU's picture, by its scalar integrator and views, its rays moved by so many pixels.
+/// One pixel of the CPU's picture, by its scalar integrator and views. The rays are moved by this many pixels.
 class CpuPixel {
  public:
   /// `tracer` needs a tree for View::traversal; `range` matters to View::distance alone.
@@ -94,7 +94,7 @@ class CpuPixel {
   Integrator integrator_;
 };
 
-/// The distances that View::distance runs between, as the CPU's renderer finds them.
+/// The range of distances for View::distance, as the CPU's renderer finds it.
 inline DistanceRange distance_range(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
   const PixelRays rays(scene.camera, settings.width_px, settings.height_px);
   DistanceRange range{INFINITY, -INFINITY};
@@ -136,7 +136,7 @@ inline Agreement agreement_of(const Scene& scene, const Tracer& tracer, const Re
       if (difference <= Agreement::kTolerance) continue;
       ++agreement.differing;
 
-      // Look around it, then between it and its neighbours.
+      // Look at its neighbourhood, then between it and its neighbours.
       bool edge = false;
       for (int v = std::max(0, y - 1); v <= std::min(cpu.height - 1, y + 1); ++v)
         for (int u = std::max(0, x - 1); u <= std::min(cpu.width - 1, x + 1); ++u)

@@ -1,5 +1,4 @@
-// Rays that look for trouble in the queries for many rays: those of edge_rays.h, and numbers at the ends of their
-// ranges.
+// Rays that are hard for the queries for many rays: those of edge_rays.h, and numbers at the ends of their ranges.
 #pragma once
 
 #include <cmath>
@@ -15,8 +14,8 @@
 
 namespace bihive::test {
 
-/// One ray at a time, for a set that has spheres. `closest` (any callable Hit(Ray)) is asked where a segment is to end
-/// exactly at a hit.
+/// One ray at a time, for a set with spheres. `closest` (any callable Hit(Ray)) tells the hit at which a segment is to
+/// end.
 template <class Closest>
 class QueryRays {
  public:
@@ -131,11 +130,11 @@ class QueryRays {
     ray.t_max = kEnds[below(kCount)];
     if (below(8) == 0) ray.t_min = std::numeric_limits<double>::quiet_NaN();
     if (below(8) == 0) ray.t_max = std::numeric_limits<double>::quiet_NaN();
-    // One in four is left with t_min > t_max.
+    // One in four keeps t_min > t_max.
     if (below(2) == 0 && ray.t_min > ray.t_max) std::swap(ray.t_min, ray.t_max);
   }
 
-  // Leaves what it does not start on, or what there is not.
+  // The ray leaves a sphere on which it does not start, or a sphere that does not exist.
   void strange_surface(Ray& ray) {
     const auto size = static_cast<std::int64_t>(world_->size());
     const auto some = static_cast<std::int64_t>(below(static_cast<std::uint64_t>(size)));
@@ -157,7 +156,7 @@ class QueryRays {
     if (hit.found()) ray.leaves = hit.sphere_id;
   }
 
-  // Makes it a ray that is none.
+  // Makes the ray invalid.
   void spoil(Ray& ray) {
     const float inf = std::numeric_limits<float>::infinity();
     const float bad[] = {std::numeric_limits<float>::quiet_NaN(), inf, -inf};
@@ -173,8 +172,8 @@ class QueryRays {
     }
   }
 
-  // From up to 1e30 times the extent away, aimed beside a sphere by up to 2 radii; from where the library changes its
-  // ways (a few and 2^20 extents) more often.
+  // From up to 1e30 times the extent away, aimed beside a sphere by up to 2 radii. More often from the distances at
+  // which the library changes its method (a few extents and 2^20 extents).
   void from_afar(Ray& ray) {
     const std::size_t target = sphere();
     const double exponents[] = {uniform(rng_, 0, 30), uniform(rng_, 0.8, 1.1), uniform(rng_, 5.9, 6.2)};
@@ -195,8 +194,8 @@ class QueryRays {
   }
 };
 
-/// Blocks of 64 rays as RayOrder::blocks promises them, more or less: 8 x 8 pixels of a camera close or far, their rays
-/// towards a point, parallel rays; in some blocks a ray or two are something else.
+/// Blocks of 64 rays that keep the promise of RayOrder::blocks more or less: 8 x 8 pixels of a camera close or far,
+/// their rays towards a point, parallel rays. In some blocks one or two rays are different.
 template <class Closest>
 std::vector<Ray> blocks_of_rays(const World& world, std::uint64_t seed, std::int64_t blocks, Closest closest) {
   SplitMix64 rng(seed);
@@ -224,7 +223,7 @@ std::vector<Ray> blocks_of_rays(const World& world, std::uint64_t seed, std::int
     Vec3d right = cross(ahead, unit());
     right = dot(right, right) > 1e-6 ? normalized(right) : Vec3d{ahead.y, ahead.z, ahead.x};
     const Vec3d up = cross(right, ahead);
-    // How far apart neighbours are where the target is: from far below a radius to the whole set.
+    // The distance of neighbours at the target: from far below a radius to the whole set.
     const double step = (rng.next_below(2) == 0 ? double(world.r[big]) : extent) * log_uniform(rng, 1e-4, 1);
     const std::uint64_t kind = rng.next_below(6);
     const Vec3d light = target + unit() * (extent * log_uniform(rng, 0.1, 100));
@@ -238,7 +237,7 @@ std::vector<Ray> blocks_of_rays(const World& world, std::uint64_t seed, std::int
         ray.origin = to_float(place - ahead * distance);
         ray.direction = to_float(ahead);
       }
-      if (kind == 2 || kind == 3) {  // from what a camera sees towards a light
+      if (kind == 2 || kind == 3) {  // from the hits of a camera's rays towards a light
         const Hit hit = closest(ray);
         ray.leaves = hit.sphere_id;
         const Vec3d from = hit.found() ? to_double(ray.origin) + to_double(ray.direction) * hit.t : place;

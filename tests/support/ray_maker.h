@@ -1,4 +1,4 @@
-// Rays that look for trouble in a set of spheres.
+// Rays that are hard for a set of spheres.
 #pragma once
 
 #include <algorithm>
@@ -124,7 +124,7 @@ class RayMaker {
     }
     const double back = world_->view_distance > 0 ? world_->view_distance : size_ * uniform(rng, 0.2, 3);
     ray.origin = to_float(past - ahead * back);
-    // Keep the other coordinates exactly where they were meant, as far as binary32 allows.
+    // Keep the other coordinates exactly at their intended values, as far as binary32 allows.
     for (int k = 0; k < 3; ++k)
       if (ahead[k] == 0) ray.origin[k] = static_cast<float>(past[k]);
     ray.direction = to_float(ahead);

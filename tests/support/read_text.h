@@ -1,4 +1,4 @@
-// Reads spheres from text in a test, and says what went wrong in one line.
+// Reads spheres from text in a test, and reports an error in one line.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,14 +11,14 @@
 
 namespace bihive::test {
 
-/// The file that the text stands for; the test fails where there is an error.
+/// The spheres of a file with this text; the test fails on an error.
 inline SphereFile read_text(std::string_view text, const std::string& name, const ReadOptions& options = {}) {
   Result<SphereFile> file = read_spheres_from_memory(text, name, options);
   EXPECT_TRUE(file.ok()) << file.error().to_string();
   return file.ok() ? *file : SphereFile{};
 }
 
-/// The message that the text gets; the test fails where there is none.
+/// The error message for this text; the test fails if there is no error.
 inline std::string error_of(std::string_view text, const std::string& name, const ReadOptions& options = {}) {
   const Result<SphereFile> file = read_spheres_from_memory(text, name, options);
   EXPECT_FALSE(file.ok()) << name << " was read, but should not have been";

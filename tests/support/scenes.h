@@ -1,4 +1,4 @@
-// Hostile sets of spheres, by name: what the differential test traces.
+// Hostile sets of spheres, by name, for the differential test.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,8 @@ inline World coincident_world(std::uint64_t seed, int places, int copies) {
   return world;
 }
 
-/// Shells around common centres, and shells that touch from inside (radii and offsets are powers of two: exactly).
+/// Shells around common centres, and shells that touch from inside (radii and offsets are powers of two, so they touch
+/// exactly).
 inline World nested_world(std::uint64_t seed, int places) {
   const World once = random_world("nested", seed, places, 10, 1, 2);
   World world;
@@ -72,7 +73,7 @@ inline World nested_world(std::uint64_t seed, int places) {
   return world;
 }
 
-/// Every scene of the differential test. `count` spheres each, about (the scenarios: `scenario_count`).
+/// Every scene of the differential test, with about `count` spheres each (the scenarios: `scenario_count`).
 inline std::vector<World> hostile_worlds(std::int64_t scenario_count, int count) {
   std::vector<World> worlds;
   const char* const names[3] = {"scenario1", "scenario2", "scenario3"};

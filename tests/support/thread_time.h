@@ -1,4 +1,4 @@
-// The processor time of the calling thread: what else the machine does does not count.
+// The processor time of the calling thread, so that other work on the machine does not count.
 #pragma once
 
 #include <time.h>

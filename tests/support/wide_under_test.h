@@ -54,13 +54,13 @@ class WideUnderTest {
   std::int64_t queries() const { return queries_; }
   std::int64_t hits() const { return hits_; }
 
-  /// By brute force where that is quick.
+  /// By brute force if that is fast enough.
   Hit truth(const Ray& ray) const {
     return spheres_.size() <= 64 ? closest_hit(spheres_, ray) : closest_hit(reference_, spheres_, ray);
   }
 
-  /// Every form of query on every target and tree; stops at the first ray that differs. Single calls are made for at
-  /// most `singles` rays.
+  /// Every form of query on every target and tree; stops at the first ray that differs. At most `singles` rays are also
+  /// asked one by one.
   void check(const RaySpan& rays, std::int64_t singles = 2000) {
     std::vector<Hit> truths(static_cast<std::size_t>(rays.count));
     for (std::int64_t i = 0; i < rays.count; ++i) {

@@ -1,4 +1,4 @@
-// Spheres in world units as a user gives them, binary32, without anything of the library's own storage.
+// Spheres in world units as a user gives them, in binary32, without the library's own storage.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace bihive::test {
 struct World {
   std::string name;
   std::vector<float> x, y, z, r;
-  double view_distance = 0;  ///< where rays start, from the middle; 0: around the set and in it
+  double view_distance = 0;  ///< distance of rays' starts from the middle; 0: around the set and in it
 
   std::size_t size() const { return x.size(); }
   void add(double cx, double cy, double cz, double radius) {
@@ -38,7 +38,7 @@ inline SphereSet sphere_set(const World& world) {
   return std::move(*set);
 }
 
-/// The way back: exact, because the scale is a power of two (where nothing underflows).
+/// The inverse: exact, because the scale is a power of two (if nothing underflows).
 inline World world_of(const SphereSet& set, const std::string& name) {
   World world;
   world.name = name;

@@ -70,7 +70,7 @@ TEST(CheckCamera, names_what_is_wrong) {
   EXPECT_FALSE(check_camera(camera)) << "a ray's origin is binary32";
 }
 
-// Every sphere's silhouette must lie inside the picture, and one must come close to its border.
+// Every sphere's silhouette must lie inside the picture, and one silhouette must come close to the border.
 class Framing : public ::testing::TestWithParam<std::tuple<ViewFrom, double>> {};
 
 TEST_P(Framing, whole_set_in_view_and_as_large_as_it_fits) {

@@ -1,4 +1,4 @@
-// What the build puts into the library: the bundled molecule byte for byte, the version.
+// The data that the build puts into the library: the bundled molecule byte for byte, the version.
 #include <gtest/gtest.h>
 
 #include <algorithm>

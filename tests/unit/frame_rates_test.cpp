@@ -1,4 +1,4 @@
-// The run of Figure 4.4 in steps: what is measured in which order, and what is made of it.
+// The run of Figure 4.4 in steps: the order of the measurements, and their results.
 #include "bihive/viewer/frame_rates.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
       std::max(json["configurations"][1]["fps"].get<double>(), json["configurations"][2]["fps"].get<double>());
   EXPECT_NEAR(gain, 100 * (best / brute - 1), 1e-9 * std::abs(gain) + 1e-9);
   EXPECT_EQ(json["stated"]["brute.fps.spheres256"]["value"], 1.87);
-  // What was chosen where the thesis is silent is not stated.
+  // Values that were chosen, because the thesis states none, do not count as stated.
   EXPECT_FALSE(json["stated"].contains("width_px"));
 }
 

@@ -15,7 +15,7 @@ SphereSet spheres(Scenario scenario, std::int64_t count, float radius = 1, std::
 }
 
 TEST(SplitMix, known_sequence) {
-  // The first numbers of the generator for seed 0, as its authors' reference program prints them.
+  // The first numbers of the generator for seed 0, from its authors' reference program.
   SplitMix64 random(0);
   EXPECT_EQ(random.next(), 0xE220A8397B1DCDAFu);
   EXPECT_EQ(random.next(), 0x6E789E6AA1B965F4u);

@@ -54,7 +54,7 @@ TEST(Transfer, the_table_of_bytes_is_the_curve) {
       expect_same(radiance);
     for (int i = 0; i < 100000; ++i) expect_same(rng.next_float());
 
-    // On both sides of where each byte begins.
+    // Just below and at the first radiance of each byte.
     for (int byte = 1; byte <= 255; ++byte) {
       const double begins = (byte - 0.5) / 255;
       auto radiance = static_cast<float>(transfer == Transfer::srgb ? linear_from_srgb(begins) : begins);

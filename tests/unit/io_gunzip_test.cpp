@@ -49,7 +49,7 @@ TEST(Gunzip, RefusesCutData) {
     if (size == first) continue;
     const Result<std::string> back = gunzip(packed.substr(0, size), "a.gz");
     ASSERT_FALSE(back.ok()) << "cut at " << size;
-    if (size < first + 2) continue;  // its second member is no gzip yet
+    if (size < first + 2) continue;  // its second member is not gzip yet
     EXPECT_EQ(back.error().to_string(), "a.gz: the gzip data is cut: it ends before its end mark");
   }
 }

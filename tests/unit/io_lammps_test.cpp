@@ -95,11 +95,12 @@ TEST(LammpsDump, NamesTheLineWhereItIsCut) {
   EXPECT_EQ(error_of(whole.substr(0, whole.find("ITEM: ATOMS")), "d"),
             "d:8: the file ends in frame 0: expected ITEM: ATOMS and one line an atom");
 
-  // Wherever the second frame is cut but at its last end of line or inside its last number, there is an error.
+  // The second frame is cut at every place. Each cut is an error, except at its last line end or inside its last
+  // number.
   for (std::size_t size = whole.size() + 1; size + 2 < two.size(); ++size)
     EXPECT_FALSE(error_of(two.substr(0, size), "d").empty()) << "cut at " << size;
 
-  // A missing end of line is the only trace of a cut inside the last number.
+  // A missing line end is the only sign of a cut inside the last number.
   const SphereFile no_end = read_text(two.substr(0, two.size() - 1), "d");
   EXPECT_EQ(no_end.warnings.size(), 2u);
   EXPECT_EQ(no_end.warnings[0], "the last line of d has no end: the file may be cut");

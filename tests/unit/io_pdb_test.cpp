@@ -94,7 +94,7 @@ TEST(Pdb, TakesTheLikeliestOfAlternateLocationsAndOfEqualOnesTheFirst) {
   add(6, " CA ", "A", 0.1, "   2");             // stays: another residue
   add(7, " CA ", "B", 0.1, "   1", "X");        // stays: another insertion code
   add(8, " CA ", "B", 0.1, "   1", " ", " B");  // stays: another chain
-  add(9, " N  ", " ", 1);                       // stays: no mark, whatever its name
+  add(9, " N  ", " ", 1);                       // stays: no mark, with any name
   const SphereFile file = read_text(text, "a.pdb");
   EXPECT_EQ(xs(file), (Xs{0, 2, 3, 6, 7, 8, 9}));
   EXPECT_EQ(numbers_of(file, "occupancy"), (std::vector<double>{1, 0.5, 0.6, 0.1, 0.1, 0.1, 1}));
@@ -103,7 +103,7 @@ TEST(Pdb, TakesTheLikeliestOfAlternateLocationsAndOfEqualOnesTheFirst) {
 }
 
 TEST(Pdb, TakesARepeatedMarkForAnotherSite) {
-  // A simulation counts residues round and round: the same names come again.
+  // A simulation uses residue numbers again and again, so the same names come again.
   std::string text;
   for (int i = 0; i < 4; ++i) {
     Atom atom;

@@ -128,7 +128,7 @@ TEST(ReadSpheres, RecentersInDoubleAndOffersIt) {
   EXPECT_NEAR(recentred.spheres.centre(0).x, -0.01, 1e-9);
   EXPECT_NEAR(recentred.spheres.centre(2).x, 0.01, 1e-9);
 
-  // Where the extent itself is too large, there is no use in offering it again.
+  // If the extent itself is too large, the message does not suggest the same option again.
   const SphereFile wide = read_text("-1000000.01 0 0 1e-3\n1000000.02 0 0 1e-3\n5 0 0 1e-3\n", "a", options);
   ASSERT_EQ(wide.warnings.size(), 1u);
   EXPECT_EQ(wide.warnings[0].find("--recenter"), std::string::npos);

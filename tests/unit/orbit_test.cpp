@@ -1,4 +1,4 @@
-// What the pointer does to a camera, in worlds of any size.
+// Camera moves by the pointer, in worlds of any size.
 #include "bihive/viewer/orbit.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ double off_the_pole(const Camera& camera) {
   return length(cross(normalized(camera.eye - camera.look_at), normalized(camera.up)));
 }
 
-// Where a point of the world is seen.
+// The picture position of a point of the world.
 Vec3d seen(const Camera& camera, Vec3d world) {
   const PixelPlaces places(camera, kSize.width, kSize.height);
   const Vec3d point = places.from_eye(world);
@@ -81,7 +81,7 @@ TEST(Orbited, stops_before_the_pole_and_comes_back) {
     camera = orbited(camera, 0, -direction * 100, kSize);
     EXPECT_GT(off_the_pole(camera), 0.5);
   }
-  // A single huge move does not go over it either.
+  // A single huge move does not go over the pole either.
   EXPECT_GT(orbited(camera_in(1), 0, 1e6, kSize).eye.y, 0);
 }
 
@@ -139,7 +139,7 @@ TEST(Zoomed, ends_at_the_limits_and_comes_back) {
     EXPECT_NEAR(distance_of(camera) / limits.farthest, 1, 1e-9);
     EXPECT_TRUE(check_camera(camera));
 
-    // From beyond a limit: no further, but back.
+    // From beyond a limit the camera goes no further, but may come back.
     const DistanceLimits narrow{2 * limits.farthest, 3 * limits.farthest};
     EXPECT_EQ(zoomed(camera, 2, camera.look_at, narrow).eye, camera.eye);
     EXPECT_GT(distance_of(zoomed(camera, 0.5, camera.look_at, narrow)), 1.9 * distance_of(camera));

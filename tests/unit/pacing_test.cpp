@@ -1,4 +1,4 @@
-// How fine the next picture may be.
+// The fineness of the next picture.
 #include "bihive/viewer/pacing.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ std::int64_t pixels_at(int width, int height, int divisor) {
   return std::int64_t{divided(width, divisor)} * divided(height, divisor);
 }
 
-// Known to cost so much, from pictures of two sizes.
+// A cost that is known from pictures of two sizes.
 PictureCost cost_of(double fixed_ms, double ms_per_pixel) {
   PictureCost cost;
   for (int i = 0; i < 100; ++i)
@@ -40,7 +40,7 @@ TEST(DivisorFor, the_finest_that_keeps_to_the_budget) {
 }
 
 TEST(DivisorFor, is_no_coarser_than_what_every_picture_takes_makes_sense) {
-  // 60 ms for nothing: 40 x 23 pixels would be no quicker than 160 x 90.
+  // 60 ms for any picture: 40 x 23 pixels would be no faster than 160 x 90.
   EXPECT_LE(divisor_for(640, 360, cost_of(60, 3e-3), kBudgetMs), 4);
   EXPECT_EQ(divisor_for(640, 360, cost_of(60, 1), kBudgetMs), kCoarsestDivisor);
 }
@@ -99,8 +99,8 @@ TEST(PictureCost, tells_what_every_picture_takes_from_what_a_pixel_takes) {
   EXPECT_NEAR(cost.ms_per_pixel(), 3e-4, 2e-5);
 }
 
-// Somebody turns a scene for a while, and pauses now and then, on a machine that does other things too: every picture
-// takes up to a third more or less, each 20th three times as long. The divisor at the end, most of the time.
+// A user turns a scene for a while, with pauses, on a machine with other work: every picture takes up to a third more
+// or less, each 20th takes three times as long. Returns the divisor at the end, most of the time.
 template <class TrueMs>
 int divisor_after_turning(int width, int height, double budget_ms, const TrueMs& true_ms) {
   PictureCost cost;
@@ -126,17 +126,17 @@ int divisor_after_turning(int width, int height, double budget_ms, const TrueMs&
 }
 
 TEST(Pacing, a_slow_start_or_small_pictures_that_are_dear_do_not_keep_it_coarse) {
-  // As measured with drivers on the CPU: 640 x 360 in 141 ms.
+  // Figures measured with drivers on the CPU: 640 x 360 in 141 ms.
   EXPECT_LE(divisor_after_turning(640, 360, kBudgetMs, [](double pixels) { return 1 + 6e-4 * pixels; }), 4);
   EXPECT_LE(divisor_after_turning(640, 360, 25, [](double pixels) { return 1 + 6e-4 * pixels; }), 3);
   // Pictures of a few tiles use one thread of two.
   const auto tiles = [](double pixels) { return 1 + 6e-4 * pixels * (pixels < 8000 ? 1.8 : 1); };
   EXPECT_LE(divisor_after_turning(932, 800, kBudgetMs, tiles), 6);
-  // A driver in another process, behind a slow wire.
+  // A driver in another process, behind a slow connection.
   EXPECT_LE(divisor_after_turning(640, 360, 25, [](double pixels) { return 40 + 1e-3 * pixels; }), 4);
-  // Where there is time for every pixel, every pixel is drawn.
+  // If there is time for every pixel, every pixel is drawn.
   EXPECT_EQ(divisor_after_turning(640, 360, kBudgetMs, [](double pixels) { return 0.3 + 3e-5 * pixels; }), 1);
-  // And what is slow stays coarse.
+  // And slow pictures stay coarse.
   EXPECT_EQ(divisor_after_turning(640, 360, kBudgetMs, [](double pixels) { return 1 + 1 * pixels; }), kCoarsestDivisor);
 }
 
@@ -147,7 +147,7 @@ TEST(FrameRate, of_the_last_second_that_moved) {
   EXPECT_EQ(rate.fps(), 0) << "one frame is no rate";
   for (int i = 1; i <= 100; ++i) rate.moved(100 + 20 * i);
   EXPECT_NEAR(rate.fps(), 50, 1e-9);
-  // After a pause only what came since.
+  // After a pause only frames since the pause count.
   rate.moved(60000);
   EXPECT_EQ(rate.fps(), 0);
   rate.moved(60100);

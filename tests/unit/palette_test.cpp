@@ -13,7 +13,7 @@
 namespace bihive {
 namespace {
 
-// What a linear colour looks like on the screen, as 0xRRGGBB.
+// The screen's colour for a linear colour, as 0xRRGGBB.
 std::uint32_t on_screen(Vec3f linear) {
   std::uint32_t rgb = 0;
   for (int channel = 0; channel < 3; ++channel)

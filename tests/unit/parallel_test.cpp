@@ -1,4 +1,4 @@
-// parallel_for: every index once, whatever the number of threads. parallel_tasks: every task.
+// parallel_for: every index once, with any number of threads. parallel_tasks: every task.
 #include "bihive/base/parallel.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(Parallel, SeveralThreadsMayCallAtOnce) {
   EXPECT_EQ(sum, 200);
 }
 
-// Adds two tasks a level; counts the tasks.
+// Adds two tasks at each level; counts the tasks.
 void add_tree(TaskList& list, int levels, std::atomic<int>& tasks) {
   ++tasks;
   for (int k = 0; levels > 0 && k < 2; ++k) list.add([&list, &tasks, levels] { add_tree(list, levels - 1, tasks); });

@@ -1,4 +1,4 @@
-// The scene file: what it says is what the scene is, and what is wrong with it is said well.
+// The scene file: the scene is as the file says, and errors are clear.
 
 #include "bihive/scene/scene_file.h"
 

@@ -1,4 +1,4 @@
-// Whitted shading on scenes with answers known by hand.
+// Whitted shading on scenes with answers calculated by hand.
 #include "bihive/render/shading.h"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(Shading, refraction_follows_snell) {
   EXPECT_NEAR(sine_in, sine_out / 1.5, 1e-6);
   EXPECT_LT(direction.x, 0) << "bent towards the normal";
 
-  // It leaves by the far side under the angle at which it came.
+  // It leaves on the far side at the angle at which it entered.
   const SceneHit exit = scene_hit(scene, tracer, inside);
   ASSERT_EQ(exit.id, 0);
   const Surface far = surface_at(scene, inside, exit);

@@ -50,7 +50,7 @@ TEST(SphereSet, ScalesTheSmallestAndTheLargestOfBinary32) {
 }
 
 TEST(SphereSet, TakesNumbersBelowBinary32WithoutBreaking) {
-  // A file may hold any binary64; what vanishes is stated, and nothing becomes NaN or infinite.
+  // A file may hold any binary64. Vanishing radii are counted, and nothing becomes NaN or infinite.
   for (const double r : {5e-324, 1e-310, 1e-300, 1e-60}) {
     const SphereSet set = one(r, 0, -r, r);
     EXPECT_LE(set.scale_exponent(), 149);
@@ -63,7 +63,7 @@ TEST(SphereSet, TakesNumbersBelowBinary32WithoutBreaking) {
 }
 
 TEST(SphereSet, RoundsOnce) {
-  // 1 + 2^-24 + 2^-50 rounds up; by way of another rounding it could go to even, which is down.
+  // 1 + 2^-24 + 2^-50 rounds up; with an intermediate rounding it could go to even, which is down.
   const double x = 1 + 0x1p-24 + 0x1p-50;
   EXPECT_EQ(one(x, 0, 0, 0.5).centre(0).x, 1 + 0x1p-23);
 }

@@ -1,4 +1,4 @@
-// Targets of the kernels: each one that the machine has can be forced, and then it is its code that runs.
+// Targets of the wide engine: each target of the machine can be forced, and then its code runs.
 #include "bihive/simd/target.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct Expected {
 };
 constexpr Expected kExpected[] = {{"avx512", "AVX3", 16}, {"avx2", "AVX2", 8}, {"sse4", "SSE4", 4},
                                   {"neon", "NEON", 4},    {"wasm", "WASM", 4}, {"scalar", "EMU128", 4},
-                                  {"scalar", "SCALAR", 1}};  // the last where Highway mistrusts the compiler (GCC)
+                                  {"scalar", "SCALAR", 1}};  // the last if Highway distrusts the compiler (GCC)
 
 TEST(Target, EachRunsItsOwnCode) {
   const std::vector<std::string> names = available_targets();

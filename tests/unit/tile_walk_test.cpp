@@ -1,4 +1,4 @@
-// In how many draws a pass is made, by what they take.
+// The number of draws in a pass, by the time that they take.
 #include "bihive/gl/tile_walk.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ struct Pass {
   double ms = 0, longest_ms = 0;
 };
 
-// The third of three passes on a processor where a draw takes so long, and each block so much longer.
+// The third of three passes on a processor with this time for a draw, and this much more for each block.
 Pass third_pass(double fixed_ms, double block_ms) {
   TileWalk walk;
   Pass pass;
@@ -49,7 +49,7 @@ TEST(TileWalk, blocks_that_take_longer_than_wanted_come_a_few_at_a_time) {
 }
 
 TEST(TileWalk, a_processor_that_is_far_away_is_asked_less_often) {
-  // Each draw waits 8 ms: block after block that would be 240 times.
+  // Each draw waits 8 ms: block by block that would happen 240 times.
   const Pass pass = third_pass(8, 1);
   EXPECT_LE(pass.draws, 80);
   EXPECT_LE(pass.longest_ms, 8 + 3 * kWantedMs);

@@ -44,7 +44,7 @@ void expect_colour(Canvas& canvas, int x, int y, Vec3d colour) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], colour[i], 1e-6) << "(" << x << ", " << y << ") channel " << i;
 }
 
-// How many pixels have this colour.
+// The number of pixels with this colour.
 int pixels_of(Canvas& canvas, Vec3d colour) {
   int pixels = 0;
   for (int y = 0; y < canvas.height(); ++y)
@@ -104,7 +104,7 @@ TEST(Bars, clip_one_sided_and_forced_nodes_have_their_colours) {
   EXPECT_GT(pixels_of(clip, colours::kClip), 0);
   EXPECT_GT(pixels_of(clip, colours::kClip * 0.4), 0);
 
-  // Spheres in one half only of the box that a larger one spans.
+  // Spheres in only one half of the box of a larger sphere.
   const SphereSet two = scenario_spheres(Scenario::corners, {256, 1, 1}).value();
   Canvas one_sided = bars_of(two, {8, kUnlimited}, 400, 160);
   EXPECT_GT(pixels_of(one_sided, colours::kEmpty * 0.4), 0);

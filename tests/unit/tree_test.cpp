@@ -1,4 +1,4 @@
-// The reference builder on sets small enough to follow by hand.
+// The reference builder on sets that are small enough to follow by hand.
 #include "bihive/bih/tree.h"
 
 #include <gtest/gtest.h>
@@ -122,7 +122,7 @@ test::World world_with_an_empty_half() {
 
 TEST(Tree, RemembersTheLatestEmptyHalfByAOneSidedNode) {
   // The left pair: y is halved at 0, x at -5.25, y at -4.75, x at -7.875, each with the other half empty; then y at
-  // -7.125 parts them. Of the four empty halves only the last becomes a node.
+  // -7.125 separates the two spheres. Only the last of the four empty halves becomes a node.
   const Tree tree = built(world_with_an_empty_half(), 1);
   const Node& above = at(tree, at(tree, 0).left_child());
   ASSERT_EQ(above.kind, NodeKind::one_left);

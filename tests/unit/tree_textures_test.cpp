@@ -20,7 +20,7 @@ TEST(TreeTextures, hold_every_sphere_in_leaf_order) {
   const SceneTextures textures = pack_scene(scene, &tree, 2048).value();
   ASSERT_EQ(textures.sphere_count, 5000);
   EXPECT_EQ(textures.spheres.height(), 3);
-  // Within a leaf, ids rise.
+  // Within a leaf, ids ascend.
   std::vector<std::int64_t> ids = tree.sphere_ids;
   for (const Node& node : tree.nodes)
     if (node.is_leaf()) std::sort(ids.begin() + node.first, ids.begin() + node.first + node.sphere_count);

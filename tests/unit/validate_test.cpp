@@ -1,4 +1,4 @@
-// Every way in which a tree can be wrong is found.
+// validate_tree() finds every kind of fault in a tree.
 #include "bihive/bih/validate.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ class Validate : public testing::Test {
   const SphereSet spheres_ = test::sphere_set(test::random_world("random", 3, 200, 10, 0.1, 0.6));
   const Tree right_ = build_reference_tree(spheres_, {4, kUnlimited});
 
-  /// The message for the right tree after `harm`, or "" if nothing is found.
+  /// The message for a right tree after `harm`, or "" if nothing is found.
   std::string after(const std::function<void(Tree&)>& harm) const {
     Tree tree = right_;
     harm(tree);

@@ -10,7 +10,7 @@
 namespace bihive {
 namespace {
 
-// Not inlined, so that the compiler may make of it what it makes of the library's code.
+// Not inlined, so that the compiler treats it as it treats the library's code.
 [[gnu::noinline]] Vec3d rounded_to_binary32(Vec3d value) {
   return to_double(to_float(value));
 }
@@ -48,7 +48,7 @@ TEST(Vec3, NormalizedIsRightToFiveRoundings) {
     ASSERT_LT(error_of_unit(normalized(any), any), 5) << i;
     ASSERT_LT(error_of_unit(normalized_again(any), any), 5) << i;
 
-    // Lengths on both sides of where the series ends.
+    // Lengths on both sides of the series' limit.
     const Vec3d almost = (1 + 0x1p-17 * (random.next_double() - 0.5)) * normalized(any);
     ASSERT_LT(error_of_unit(normalized_again(almost), almost), 5) << i;
     const Vec3d direction = to_double(to_float(normalized(any)));

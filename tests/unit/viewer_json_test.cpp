@@ -1,4 +1,4 @@
-// Settings as JSON: exact on the way there and back, and clear about what is wrong.
+// Settings as JSON: exact in both directions, with clear errors.
 #include "bihive/viewer/viewer_json.h"
 
 #include <gmock/gmock.h>

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr double kBudgetMs = 5;
 
-// Frames until all is drawn, and what each said.
+// Frames until the picture is complete, and the report of each.
 std::vector<FrameReport> settle(Viewer& viewer) {
   std::vector<FrameReport> reports;
   for (int i = 0; i < 100000; ++i) {
@@ -33,7 +33,7 @@ std::vector<FrameReport> settle(Viewer& viewer) {
   return reports;
 }
 
-// What `bihive render` makes of the scene.
+// The picture that `bihive render` makes of the scene.
 Image rendered(const Viewer& viewer, Engine engine, const RenderSettings& settings) {
   Scene scene = viewer.scene();
   scene.camera = viewer.settings().camera;
@@ -123,8 +123,8 @@ TEST(Viewer, moving_begins_anew_and_is_coarser_where_the_budget_is_small) {
   settle(viewer);
   const std::uint64_t before = picture_hash(viewer.image());
 
-  // Each move is answered by a picture, however small the budget. How coarse depends on what the machine takes for any
-  // picture, however small: only those that are finer than a third are sure not to be made.
+  // Each move is answered by a picture, however small the budget is. Its coarseness depends on the time that the
+  // machine takes for any picture. Only pictures finer than a third are surely not made.
   viewer.orbit(40, 0);
   const Result<FrameReport> first = viewer.frame(1e-3);
   ASSERT_TRUE(first);
@@ -238,7 +238,7 @@ TEST(Viewer, a_camera_that_shows_all_does_so_at_any_size) {
   EXPECT_EQ(viewer.settings().camera.eye, expected.eye);
   EXPECT_NE(expected.eye, square);
 
-  // Moved by hand it stays where it is.
+  // A camera moved by hand stays at its place.
   viewer.orbit(5, 5);
   const Vec3d moved = viewer.settings().camera.eye;
   viewer.resize(300, 100);
@@ -260,7 +260,7 @@ TEST(Viewer, a_picture_to_be_saved_has_any_size_and_does_not_disturb) {
   settle(viewer);
   EXPECT_EQ(picture_hash(viewer.image()), before);
 
-  // In the middle of a picture too.
+  // Also in the middle of a picture.
   viewer.orbit(10, 0);
   (void)viewer.frame(1e-3);
   ASSERT_TRUE(viewer.picture(20, 10, 1));
@@ -278,7 +278,7 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
   const Result<Image> whole = viewer.picture(300, 200, 1);
   ASSERT_TRUE(whole);
 
-  // Moves on the way do not show in it.
+  // Moves in the meantime do not change it.
   ASSERT_TRUE(viewer.begin_picture(300, 200, 1));
   EXPECT_FALSE(viewer.take_picture()) << "it is not finished";
   double before = 0;
@@ -296,7 +296,7 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
   EXPECT_EQ(picture_hash(*in_steps), picture_hash(*whole));
   EXPECT_FALSE(viewer.take_picture()) << "once";
 
-  // What draws something else drops it.
+  // Drawing something else drops it.
   const auto expect_dropped = [&](const char* by, const auto& act) {
     ASSERT_TRUE(viewer.begin_picture(300, 200, 1)) << by;
     ASSERT_TRUE(viewer.advance_picture(1e-3)) << by;
@@ -333,7 +333,7 @@ TEST(Viewer, what_does_not_fit_into_memory_is_refused_and_the_scene_stays) {
   expect_refused(viewer.picture(100, 100, 1), "so large a picture would take about 180 kB");
   EXPECT_EQ(viewer.facts().name, "four-spheres");
 
-  // Enough for the tree that is drawn, not for the other one.
+  // Memory for the drawn tree, but not for the other one.
   Viewer small;
   ViewerSettings settings = small.settings();
   settings.view = View::traversal;

@@ -49,7 +49,7 @@ bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
 }
 
-// Lengths of almost 1 and any others, also beside each other.
+// Lengths of almost 1 and other lengths, also beside each other.
 TEST_P(EachTarget, vectors_are_normalized_as_one_by_one) {
   constexpr std::int64_t kCount = 1 << 14;
   SplitMix64 rng(1);

@@ -75,7 +75,7 @@ TEST_P(EachTarget, shading_powers_are_shading_power) {
   std::vector<double> x(kCount), y(kCount), powers(kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
     x[i] = 1.0000001 * rng.next_double() + 1e-12;
-    // Some lanes are not asked for.
+    // Some lanes are not wanted.
     if (i % 7 == 3) x[i] = i % 2 == 0 ? -x[i] : std::numeric_limits<double>::quiet_NaN();
     // Runs of one power, whole or not, and powers that change from lane to lane.
     if (i % 32 < 16 && i % 16 != 0)

@@ -1,4 +1,4 @@
-// The wide tree is right for any spheres and parameters, and memory goes round.
+// The wide tree is right for any spheres and parameters, and its memory is used again.
 #include "bihive/wide/wide_builder.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TreePointer built(WideBuilder& builder, const SphereSet& spheres, const WidePara
   return *tree;
 }
 
-// Everything that tracing reads, byte by byte.
+// All bytes that tracing reads.
 std::string bytes_of(const WideTree& tree) {
   std::string bytes;
   const auto add = [&](const void* data, std::size_t size) {
@@ -163,7 +163,7 @@ TEST(WideBuilder, AHeldTreeStaysAsItIs) {
     }
     EXPECT_EQ(bytes_of(*held), before);
   }
-  // It outlives its builder.
+  // The tree outlives its builder.
   EXPECT_TRUE(validate_wide_tree(*held, spheres).ok());
 }
 

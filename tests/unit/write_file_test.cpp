@@ -1,4 +1,4 @@
-// Files come into being whole or not at all.
+// Files are written whole or not at all.
 #include "bihive/base/write_file.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The page in a real browser, as a desktop's user meets it: pictures, controls, files, links, errors.
+// The page in a real browser, as a desktop's user sees it: pictures, controls, files, links, errors.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -26,7 +26,7 @@ after(async () => {
   plain?.close();
 });
 
-// How fast is for the benchmark to say (scripts/bench page): other tests may keep the machine busy.
+// Speed is measured by the benchmark (scripts/bench page), because other tests may keep the machine busy.
 for (const [name, is_plain] of [['threads', false], ['no threads', true]])
   test(`the molecule comes without being asked for, with ${name}`, async () => {
     const { page, context, complaints } = await open_page(browser, (is_plain ? plain : server).url);
@@ -175,7 +175,7 @@ for (const [way, put] of Object.entries(ways_in))
       assert.equal(await page.getAttribute('#picture', 'aria-label'), words.slice(0, words.lastIndexOf(',')).replace(':', ','));
       const { source: from } = await link_state(page);
       assert.deepEqual(from, way === 'address' ? { url: `file/${name}` } : { built_in: 'demo' }, 'no link holds a file');
-      // A built-in scene in between, so that a file that is not taken shows.
+      // A built-in scene in between shows whether the file was really taken.
       if (name === 'four.xyz') await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
     }
     no_complaints(complaints);
@@ -287,7 +287,7 @@ test('a link brings everything back', async () => {
   no_complaints(other.complaints);
   await other.context.close();
 
-  // A damaged one is said to be so, and the molecule shown.
+  // A damaged file gives a message, and the molecule is shown.
   const damaged = await open_page(browser, `${server.url}#state=abc`);
   assert.match(await shown_error(damaged.page), /damaged/);
   no_complaints(damaged.complaints);

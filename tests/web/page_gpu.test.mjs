@@ -9,7 +9,7 @@ import {
 } from './page_kit.mjs';
 import { serve } from './page_server.mjs';
 
-// The worker's WebGL2 context, where a test can reach it.
+// Keeps the worker's WebGL2 context, so that a test can use it.
 const catch_context = `{
   const get_context = OffscreenCanvas.prototype.getContext;
   OffscreenCanvas.prototype.getContext = function (kind, ...options) {
@@ -30,7 +30,7 @@ after(async () => {
   server?.close();
 });
 
-// What is on the screen, without what lies over it.
+// The picture on the screen, without the controls over it.
 async function shown_picture(page) {
   const covers = (visibility) =>
     page.evaluate((value) => {
@@ -83,7 +83,7 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
   await context.close();
 });
 
-// Before the worker's script: a browser whose WebGL2 draws into no textures of floating point.
+// Runs before the worker's script: a browser whose WebGL2 cannot draw into textures of floating point.
 const without_floats = `{
   const hidden = /^EXT_color_buffer_(half_)?float$/;
   const { getExtension, getSupportedExtensions } = WebGL2RenderingContext.prototype;
@@ -222,7 +222,7 @@ for (const engine of ['cpu', 'gpu'])
     await page.click('#thesis_open');
     assert.ok(await page.isChecked('#thesis_quick'));
 
-    // Cancelled while it runs, with what was complete.
+    // Cancelled while it runs; the complete results are kept.
     await page.click('#thesis_run');
     await page.waitForFunction(() => /^[1-9]\d* of 54 configurations, about /.test(document.querySelector('#thesis_text').textContent));
     await page.click('#thesis_cancel');

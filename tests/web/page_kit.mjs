@@ -11,7 +11,7 @@ export const folder = process.env.PAGE;
 export const source = process.env.SOURCE;
 export const scratch = process.env.SCRATCH;
 
-// No sandbox: it cannot be had by root or in a container. WebGL2 by software.
+// No sandbox: root and containers cannot have one. Software draws WebGL2.
 const flags = [
   '--no-sandbox',
   '--disable-dev-shm-usage',

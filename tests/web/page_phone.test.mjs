@@ -16,7 +16,7 @@ after(async () => {
   server?.close();
 });
 
-// Fingers on the picture, each along a line, as the browser sees them.
+// Fingers on the picture, each moving along a line, as events of the browser.
 async function touch(page, lines) {
   const session = await page.context().newCDPSession(page);
   const points = (share) =>
@@ -38,7 +38,7 @@ for (const scheme of ['light', 'dark'])
     const width = () => page.evaluate(() => document.documentElement.scrollWidth);
     assert.equal(await width(), 360);
     const state = async () => {
-      // On a busy machine a tap right after two fingers can be taken for a part of what they did.
+      // On a busy machine a tap right after two fingers can count as part of their gesture.
       const is_open = async () => (await page.getAttribute('#panel_toggle', 'aria-expanded')) === 'true';
       for (let i = 0; i < 3 && !(await is_open()); ++i) {
         await page.tap('#panel_toggle');

@@ -1,5 +1,5 @@
 // A small server of static files for tests of the page: with the headers that let a page share memory among threads, or
-// without. `bihive web` is what users have; this one can do without the headers, and change files on the way.
+// without them. Users have `bihive web`; this server can leave the headers out, and change files.
 import { createReadStream, readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';

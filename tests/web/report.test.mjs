@@ -12,26 +12,26 @@ const windows = {
   desktop: { viewport: { width: 1280, height: 900 }, colorScheme: 'light' },
   phone: { viewport: { width: 360, height: 740 }, colorScheme: 'dark', isMobile: true, hasTouch: true, deviceScaleFactor: 2 },
 };
-// A picture with a larger share of one colour is blank, or as good as blank. (A tree of one leaf is drawn with two colours.)
+// A picture with a larger share of one colour is almost blank. (A tree of one leaf is drawn with two colours.)
 const largestShare = 0.99;
 // The least height of a chart's text that can be read on a phone, in CSS pixels.
 const leastTextHeight = 8;
 
-// No sandbox: it cannot be had by root or in a container. Shared memory is small or missing there too.
+// No sandbox: root and containers cannot have one. Shared memory is small or missing there too.
 let browser;
 before(async () => {
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox', '--disable-dev-shm-usage'] });
 });
 after(() => browser?.close());
 
-// Runs inside the page: what it shows, and all that is wrong with it.
+// Runs inside the page: collects its content and its faults.
 async function look({ width, largestShare, leastTextHeight }) {
   const faults = [];
   const check = (good, fault) => good || faults.push(fault);
   const nameOf = (element) => element.closest('figure')?.querySelector('figcaption')?.textContent ?? element.tagName;
   const root = document.documentElement;
 
-  // Nothing is wider than the window: what is, scrolls inside its own box.
+  // Nothing is wider than the window; wider things scroll inside their own box.
   check(root.scrollWidth <= width, `the page is ${root.scrollWidth} wide in a window of ${width}`);
   for (const box of document.querySelectorAll('.scroll'))
     check(box.getBoundingClientRect().right <= width, `a table's box leaves the window: ${box.ariaLabel}`);
@@ -70,7 +70,7 @@ async function look({ width, largestShare, leastTextHeight }) {
     check(share <= largestShare, `a picture with ${share} of one colour: "${nameOf(image)}"`);
   }
 
-  // The contents lead somewhere, and say how each experiment went by a colour and a word.
+  // The contents lead to the sections, and show each experiment's state by a colour and a word.
   const entries = [...document.querySelectorAll('.contents li')];
   for (const entry of entries) {
     const link = entry.querySelector('a');
@@ -81,7 +81,7 @@ async function look({ width, largestShare, leastTextHeight }) {
   return { faults, drawings: drawings.length, pictures: pictures.length, entries: entries.length };
 }
 
-// Opens the file in a window; what the browser complains of counts as a fault too.
+// Opens the file in a window; errors of the browser also count as faults.
 async function inspect(file, window) {
   const context = await browser.newContext(window);
   const page = await context.newPage();

@@ -9,7 +9,7 @@ export function chart_element(text: string): SVGSVGElement {
 
 const copied = ['fill', 'stroke', 'stroke-width', 'stroke-linejoin', 'font-family', 'font-size', 'font-weight', 'color'];
 
-// A copy that looks the same without any style sheet.
+// A copy that needs no style sheet and looks the same.
 function with_looks(chart: SVGSVGElement): SVGSVGElement {
   const copy = chart.cloneNode(true) as SVGSVGElement;
   const originals = [chart, ...chart.querySelectorAll('*')];
@@ -20,7 +20,7 @@ function with_looks(chart: SVGSVGElement): SVGSVGElement {
   return copy;
 }
 
-// Words in lines that are no wider than `width`, except for a word that is.
+// Breaks words into lines no wider than `width`; a longer word has a line of its own.
 function lines_of(context: CanvasRenderingContext2D, text: string, width: number): string[] {
   const lines: string[] = [];
   for (const word of text.split(' ')) {

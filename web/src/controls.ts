@@ -1,4 +1,4 @@
-// The panel's controls for settings: shown as they are, and what the user changes is handed on.
+// The panel's controls for settings. They show the settings, and report the user's changes.
 import { element, RadioGroup } from './dom';
 import type { EngineName, Move, Settings, SideName, ViewName } from './protocol';
 
@@ -26,7 +26,7 @@ class Slider {
     this.show(value);
   }
 
-  // A value beyond the slider's end is still said.
+  // A value beyond the slider's end is shown as it is.
   private show(value = Number(this.input.value)): void {
     this.output.textContent = this.words(value);
     this.input.setAttribute('aria-valuetext', this.words(value));
@@ -71,7 +71,7 @@ export class Controls {
     return this.shown;
   }
 
-  // The drawing of the tree is the CPU's: whoever asks for one gets the other.
+  // Only the CPU engine draws the tree, so a choice of one of them changes the other.
   set_engine(engine: EngineName): void {
     this.actions.change(engine === 'gpu' && this.shown?.view === 'tree' ? { engine, view: 'shaded' } : { engine });
   }

@@ -1,4 +1,4 @@
-// The worker as the page sees it: requests go out, answers come in by type.
+// The worker from the page's side: requests go out, answers come in by type.
 import type { Answer, Request } from './protocol';
 
 type Handlers = { [Type in Answer['type']]: (answer: Extract<Answer, { type: Type }>) => void };

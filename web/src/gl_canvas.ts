@@ -1,4 +1,4 @@
-// The canvas of the graphics processor: its WebGL2 context, known to the C++ module, and what happens when it is lost.
+// The canvas of the graphics processor: its WebGL2 context, which the C++ module uses, and the loss of that context.
 import type { GpuState } from './protocol';
 import type { Module } from './module';
 
@@ -10,8 +10,8 @@ const attributes: WebGLContextAttributes = {
   powerPreference: 'high-performance',
 };
 
-// WebGL2 without a graphics processor: the CPU engine is faster than that. Browsers do not say so themselves; the
-// names of the programs that they use do.
+// Recognises WebGL2 without a graphics processor: the CPU engine is faster. Browsers do not say so directly, but the
+// names of their software renderers do.
 function is_software(context: WebGL2RenderingContext): boolean {
   const unmasked = context.getExtension('WEBGL_debug_renderer_info');
   const name = String(context.getParameter(unmasked ? unmasked.UNMASKED_RENDERER_WEBGL : context.RENDERER));
@@ -62,7 +62,7 @@ export class GlCanvas {
     return { here: this.here, software: this.is_software, why_not: this.why_not, description };
   }
 
-  // Anew after a loss too: extensions are asked for again, and names of lost objects forgotten.
+  // Also after a loss: it asks for the extensions again and forgets the names of lost objects.
   private register(): void {
     const handle = this.module.GL.registerContext(this.context!, {
       majorVersion: 2,

@@ -1,4 +1,4 @@
-// Files packed with gzip, unpacked by the browser before the module sees them.
+// Unpacks files packed with gzip by the browser, before the module sees them.
 import { BadInput } from './module';
 
 export function is_packed(bytes: Uint8Array): boolean {

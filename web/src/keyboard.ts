@@ -1,4 +1,4 @@
-// The picture by keys.
+// Moves the picture by keys.
 import type { EngineName, Move, ViewName } from './protocol';
 
 const step_px = 24; // of the page

@@ -41,7 +41,7 @@ export function state_of(hash: string): State | null {
     );
     if (state) return state;
   } catch {
-    // said below
+    // reported below
   }
   throw new Error('The link is damaged: it does not hold a scene');
 }

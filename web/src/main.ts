@@ -1,4 +1,4 @@
-// The page: starts the worker, shows what it says, and hands on what the user does.
+// The page: it starts the worker, shows the worker's answers, and passes on the user's actions.
 import { Controls } from './controls';
 import { element, grouped } from './dom';
 import { Engine } from './engine';
@@ -104,7 +104,7 @@ function device_words(): string {
   return `${drawn_by}; ${navigator.userAgent}`;
 }
 
-// What the worker says.
+// Answers of the worker.
 
 function show_settings(now: Settings): void {
   settings = now;
@@ -151,11 +151,11 @@ function show_frame(report: FrameReport, width: number, height: number): void {
     ? `${width} × ${height}`
     : `${width} × ${height}${report.divisor > 1 ? ` / ${report.divisor}` : ''} · ${Math.floor(100 * report.done)} %`;
   picture.dataset['settled'] = String(report.settled);
-  // For whoever measures how long the page takes.
+  // For measurements of the page's start.
   if (report.drawn && performance.getEntriesByName('first picture').length === 0) performance.mark('first picture');
 }
 
-// What the user does.
+// Actions of the user.
 
 async function open(what: Promise<Wanted>, name: string, wanted: Partial<Settings> | null = null): Promise<void> {
   const id = (loading = engine.new_id());
@@ -206,7 +206,7 @@ async function copy_link(): Promise<void> {
   }
 }
 
-// The state of the address, of `bihive web FILE`, or the molecule.
+// The first input: the state in the address, the FILE of `bihive web FILE`, or the molecule.
 async function first_state(): Promise<State> {
   const linked = state_of(location.hash);
   if (linked) return linked;

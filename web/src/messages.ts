@@ -1,4 +1,4 @@
-// What the page has to say: notes that go away by themselves, errors that stay until they are read.
+// The page's messages: notes that disappear by themselves, and errors that stay until the user closes them.
 import { element } from './dom';
 
 const note_ms = 7000;

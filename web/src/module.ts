@@ -1,4 +1,4 @@
-// The C++ module: which of its two builds is loaded, and what it offers (bindings/wasm/page.h).
+// The C++ module: the choice of one of its two builds, and its functions (bindings/wasm/page.h).
 
 export interface Page {
   room(bytes: number): Uint8Array;

@@ -26,7 +26,7 @@ export function start_panel(): void {
     from_y = null;
     dragged = true;
   });
-  // The click that ends a drag is none. One that comes without a finger's down is.
+  // The click that ends a drag does not count. A click without a finger's down event does.
   toggle.addEventListener(
     'click',
     (event) => {

@@ -1,4 +1,4 @@
-// In the worker: a picture to be saved, drawn in steps between which messages are read, a cancel among them.
+// In the worker: draws a picture to be saved in steps. Messages are read between two steps, so a cancel takes effect.
 import { value_of, type BadInput, type Page } from './module';
 
 const step_ms = 50;

@@ -1,5 +1,5 @@
 // Mouse, touch and pen on the picture: one finger or the left button turns, two fingers or the right button move, the
-// wheel and a pinch come closer.
+// wheel and a pinch zoom.
 import type { Move } from './protocol';
 
 const zoom_per_wheel_px = 0.0015;
@@ -49,7 +49,7 @@ export function listen_for_pointers(picture: HTMLElement, scale: () => number, s
     'wheel',
     (event) => {
       event.preventDefault();
-      // Lines and pages as pixels; a pinch on a touchpad comes as a fine wheel with Ctrl.
+      // Turns lines and pages into pixels. A pinch on a touchpad arrives as small wheel steps with Ctrl.
       const unit = event.deltaMode === 1 ? 16 : event.deltaMode === 2 ? 400 : 1;
       const speed = event.ctrlKey ? 8 : 1;
       const factor = Math.exp(-event.deltaY * unit * speed * zoom_per_wheel_px);

@@ -1,4 +1,4 @@
-// What the page and its worker say to each other. The worker owns the C++ module and both canvases; the page owns the
+// The messages between the page and its worker. The worker owns the C++ module and both canvases; the page owns the
 // controls. Numbers and names of settings are those of the C++ library.
 
 export type EngineName = 'cpu' | 'gpu';

@@ -1,4 +1,4 @@
-// "Save picture": its size, how far it is, and the way out.
+// "Save picture": its size, its progress, and its cancel button.
 import { element } from './dom';
 import { save } from './download';
 import { busy, note } from './messages';
@@ -34,7 +34,7 @@ export class Saving {
     this.id = this.actions.draw(Number(this.width.value), Number(this.height.value));
   }
 
-  // The focus goes to the button that takes the other's place.
+  // The focus moves to the button that takes the place of the other.
   private set_running(running: boolean): void {
     const [shown, hidden] = running ? [this.cancel, this.start] : [this.start, this.cancel];
     const has_focus = document.activeElement === hidden;

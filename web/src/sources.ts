@@ -1,4 +1,4 @@
-// Where scenes come from: built-in names, files that are picked or dropped, addresses on this server.
+// The sources of scenes: built-in names, files that are picked or dropped, addresses on this server.
 import { element } from './dom';
 import { busy } from './messages';
 import type { Source } from './protocol';
@@ -29,7 +29,7 @@ async function fetched(url: string): Promise<Wanted> {
 }
 
 async function with_progress(response: Response, name: string): Promise<ArrayBuffer> {
-  // A packed answer is longer than the server says.
+  // An unpacked answer is longer than its Content-Length.
   const length = response.headers.get('Content-Encoding') ? 0 : Number(response.headers.get('Content-Length') ?? 0);
   if (!response.body || length === 0) return response.arrayBuffer();
   const bytes = new Uint8Array(length);
@@ -71,7 +71,7 @@ export function listen_for_sources(open_source: (source: Source) => void, open_f
   const file = element<HTMLInputElement>('file');
   file.addEventListener('change', () => {
     if (file.files?.[0]) open_file(file.files[0]);
-    file.value = ''; // the same file may be picked again
+    file.value = ''; // so that the same file may be picked again
   });
 
   element<HTMLFormElement>('url_form').addEventListener('submit', (event) => {

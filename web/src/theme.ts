@@ -1,4 +1,4 @@
-// Light and dark: the system's choice, or the user's, which this browser remembers.
+// Light and dark: the system's choice, or the user's choice, which this browser remembers.
 import { RadioGroup } from './dom';
 
 const key = 'bihive-theme';
@@ -8,7 +8,7 @@ export function start_theme(): void {
     if (theme === 'light' || theme === 'dark') document.documentElement.dataset['theme'] = theme;
     else delete document.documentElement.dataset['theme'];
   };
-  // Storage may be forbidden: the choice then lasts as long as the page.
+  // If the browser forbids storage, the choice lasts as long as the page.
   const storage = (work: (store: Storage) => string | null | void) => {
     try {
       return work(localStorage);

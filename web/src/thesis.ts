@@ -21,7 +21,7 @@ interface PictureSize {
   height_px: number;
 }
 
-// A quick run's frame rates are those of small pictures: it is said beside them.
+// A quick run's frame rates are those of small pictures; a note beside them says so.
 const pixels = ({ width_px, height_px }: PictureSize) => `pictures of ${width_px} × ${height_px}`;
 
 export class ThesisDialog {
@@ -37,7 +37,7 @@ export class ThesisDialog {
   private result = '';
 
   constructor(private readonly actions: ThesisActions) {
-    // "?quick" chooses the quick run for whoever only wants to see that it works.
+    // "?quick" chooses the quick run, for a quick try.
     this.quick.checked = new URLSearchParams(location.search).has('quick');
     element('thesis_open').addEventListener('click', () => this.dialog.showModal());
     element('thesis_close').addEventListener('click', () => this.dialog.close());

@@ -34,7 +34,7 @@ function settings(): Settings {
   return JSON.parse(page.settings()) as Settings;
 }
 
-// Runs what the user asked for; what is wrong with it becomes a message.
+// Runs a request of the user; an exception becomes a message.
 async function attempt(id: number | null, work: () => void | Promise<void>): Promise<void> {
   try {
     await work();
@@ -54,7 +54,7 @@ function attach_gl(): void {
   }
 }
 
-// Asked for only when somebody wants it where it is drawn by software: it takes a while there.
+// A software driver takes a while to start, so it is started only when the user asks for it.
 function ensure_gl(): void {
   if (gl_description !== '') return;
   if (!gl.here) throw new BadInput('This browser has no WebGL2: the CPU engine draws instead');
@@ -89,7 +89,7 @@ function on_restored(): void {
 function ask_for_frame(): void {
   if (frame_pending || !has_scene || thesis || saving) return;
   frame_pending = true;
-  // Not every browser has the clock of the display in workers.
+  // Not every browser has the display's clock in workers.
   if (typeof requestAnimationFrame === 'function') requestAnimationFrame(() => void next_frame());
   else setTimeout(() => void next_frame(), 8);
 }
@@ -126,7 +126,7 @@ function show_cpu_image(): void {
   cpu_context.putImageData(image_data(width, height), 0, 0);
 }
 
-// A copy of the module's pixels: the browser takes no shared memory for pictures.
+// A copy of the module's pixels, because the browser takes no shared memory for pictures.
 function image_data(width: number, height: number): ImageData {
   return new ImageData(new Uint8ClampedArray(page.pixels()), width, height);
 }
@@ -137,7 +137,7 @@ function show_gpu_image(): void {
   page.show(size_px.width, size_px.height);
 }
 
-// Its context is lost, though the event may still be on its way.
+// Its context is lost, although the event may still be on its way.
 const on_lost_gpu = ({ engine }: Settings) => engine === 'gpu' && !gl.here;
 
 function report_or_loss(now: Settings): FrameReport | null {
@@ -184,8 +184,8 @@ interface Loaded {
 
 let engine_chosen = false;
 
-// The settings of a link, or of the scene; the engine is the user's, at first the faster one. Returns what could not be
-// done.
+// The settings of a link, or of the scene. The engine is the user's choice, at first the faster one. Returns the
+// message of a setting that failed.
 function choose_settings(wanted: Partial<Settings>): string[] {
   const notes: string[] = [];
   if (!engine_chosen && !wanted.engine && gl.here && !gl.software) wanted = { ...wanted, engine: 'gpu' };
@@ -224,7 +224,7 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   ask_for_frame();
 }
 
-// A picture to be saved: frames rest meanwhile.
+// A picture to be saved. No frames are drawn meanwhile.
 async function picture(request: Request & { type: 'picture' }): Promise<void> {
   if (!has_scene || thesis || saving) throw new BadInput('There is no picture to be saved just now');
   apply_moves();
@@ -241,7 +241,7 @@ async function picture(request: Request & { type: 'picture' }): Promise<void> {
   }
 }
 
-// The thesis's measurements: frames rest meanwhile.
+// The thesis's measurements. No frames are drawn meanwhile.
 
 function run_thesis(quick: boolean, device: string): void {
   if (thesis) return;
@@ -262,7 +262,7 @@ function step_thesis(): void {
     if (!run.cancelled) {
       const progress = value_of<ThesisProgress>(page.step_thesis());
       send({ type: 'thesis_progress', progress });
-      // Between two steps the page's messages are read: a cancel among them.
+      // The page's messages are read between two steps, so a cancel takes effect.
       if (!progress.finished) return void setTimeout(step_thesis);
     }
     const { result, charts } = value_of<{ result: string; charts: string[] }>(page.end_thesis(run.device));

@@ -1,4 +1,4 @@
-// A block of memory on cache-line borders, on huge pages where the system has them, that only grows.
+// A block of memory that only grows. It lies on cache-line borders, and on huge pages if the system has them.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class AlignedBuffer {
   }
   ~AlignedBuffer() { std::free(data_); }
 
-  /// Makes room for at least `bytes`. What the block held is lost if it has to grow. Throws std::bad_alloc.
+  /// Makes room for at least `bytes`. The content is lost if the block has to grow. Throws std::bad_alloc.
   void reserve(std::size_t bytes);
 
   void* data() { return data_; }

@@ -1,4 +1,4 @@
-// The memory that there is, and whether something would fit.
+// The size of this machine's memory, and the test whether something fits into it.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace bihive {
 
-/// Bytes of this machine's memory; in a browser, of the page's heap at most. Where the environment has BIHIVE_MEMORY, a
-/// number of bytes, as if there were no more than that.
+/// Bytes of this machine's memory; in a browser, the largest heap of the page. BIHIVE_MEMORY in the environment, a
+/// number of bytes, replaces it.
 double memory_bytes();
 
-/// Error: so many bytes are more than memory_bytes(); the message begins with `what`, "the tree of 12 spheres".
+/// An error if `bytes` is more than memory_bytes(). Its message begins with `what`: "the tree of 12 spheres".
 Status check_memory(double bytes, const std::string& what);
 
 }  // namespace bihive

@@ -10,11 +10,11 @@ namespace bihive {
 int hardware_threads();
 
 /// Calls body(i) once for each 0 <= i < count, on at most `threads` threads (0 = hardware_threads()), in any order, and
-/// returns when all calls have. Whatever the body writes must depend on i alone, so that the thread count cannot show.
-/// The body must not throw.
+/// returns after all calls. The output of the body must depend on i alone, so that the number of threads cannot change
+/// it. The body must not throw.
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body);
 
-/// Where a running task leaves further tasks.
+/// A running task adds further tasks here.
 class TaskList {
  public:
   /// Runs `task` now or later, on this thread or another. Any thread that runs a task of this list may call it.
@@ -24,8 +24,8 @@ class TaskList {
   ~TaskList() = default;
 };
 
-/// Runs `first` and every task that it and they add, on at most `threads` threads (0 = hardware_threads()), in any
-/// order, and returns when all are done. With one thread each task runs where it is added. The rules of parallel_for
+/// Runs `first` and all tasks that are added, on at most `threads` threads (0 = hardware_threads()), in any order, and
+/// returns when all are done. With one thread a task runs at the place where it is added. The rules of parallel_for
 /// hold.
 void parallel_tasks(int threads, const std::function<void(TaskList&)>& first);
 

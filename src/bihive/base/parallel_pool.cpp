@@ -19,13 +19,13 @@ constexpr bool kHasThreads = true;
 
 namespace {
 
-// Tasks that run where they are added.
+// Runs each task at the place where it is added.
 class Inline final : public TaskList {
  public:
   void add(std::function<void()> task) override { task(); }
 };
 
-// Tasks that wait for a thread; the latest is taken first.
+// Tasks that wait for a thread. The thread takes the latest task first.
 class Waiting final : public TaskList {
  public:
   void add(std::function<void()> task) override {
@@ -36,7 +36,7 @@ class Waiting final : public TaskList {
     changed_.notify_one();
   }
 
-  // Runs tasks until none waits and none runs that could add one.
+  // Runs tasks until none is waiting and no running task could add one.
   void work() {
     std::unique_lock lock(mutex_);
     while (true) {
@@ -61,7 +61,7 @@ class Waiting final : public TaskList {
   int running_ = 0;
 };
 
-// Calls work() on that many threads, this one among them.
+// Calls work() on that many threads, including this one.
 template <class Work>
 void on_threads(std::int64_t threads, const Work& work) {
   std::vector<std::thread> helpers;
@@ -82,7 +82,7 @@ void parallel_for(int threads, std::int64_t count, const std::function<void(std:
     for (std::int64_t i = 0; i < count; ++i) body(i);
     return;
   }
-  // Every thread, this one too, takes the next index until none is left.
+  // Every thread, including this one, takes the next index until none is left.
   std::atomic<std::int64_t> next{0};
   const auto work = [&] {
     for (std::int64_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) body(i);

@@ -14,7 +14,7 @@
 namespace bihive {
 namespace {
 
-// Tasks that run where they are added.
+// Runs each task at the place where it is added.
 class Inline final : public TaskList {
  public:
   void add(std::function<void()> task) override { task(); }
@@ -32,7 +32,7 @@ class Group final : public TaskList {
 // Calls body() in an arena of that many threads.
 template <class Body>
 void in_arena(int threads, const Body& body) {
-  // Raise oneTBB's limit where more threads are asked for than the machine runs at once.
+  // Raise oneTBB's limit if the caller wants more threads than the machine runs at once.
   std::optional<oneapi::tbb::global_control> limit;
   if (threads > hardware_threads())
     limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -48,7 +48,7 @@ int hardware_threads() {
 
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body) {
   if (threads == 0) threads = hardware_threads();
-  // One thread: a plain loop, so that a single-threaded run involves no scheduler at all.
+  // One thread runs a plain loop, so it needs no scheduler.
   if (threads == 1 || count <= 1) {
     for (std::int64_t i = 0; i < count; ++i) body(i);
     return;

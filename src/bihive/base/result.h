@@ -1,7 +1,7 @@
 // A value, or the reason why there is none.
 //
-// The library never prints, exits or throws on bad input: it returns a Result. An Error says what was wrong, where
-// (file, and line and column where they are known) and what to do about it.
+// The library never prints, exits or throws on bad input: it returns a Result. An Error says the fault, its place
+// (file, and line and column if they are known) and the remedy.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace bihive {
 
-/// What was wrong, where, and what to do. `line` and `column` count from 1; 0 means unknown.
+/// A fault, its place and its remedy. `line` and `column` count from 1; 0 means unknown.
 struct Error {
-  std::string message;  ///< what was wrong and what was expected, one line, no final full stop
-  std::string file;     ///< the file as the user named it; empty where there is none
+  std::string message;  ///< the fault and the expected value, one line, no final full stop
+  std::string file;     ///< the file as the user named it; may be empty
   std::int64_t line = 0;
   std::int64_t column = 0;
-  std::string hint;  ///< what the user can do, one line; may be empty
+  std::string hint;  ///< advice for the user, one line; may be empty
 
-  /// "file:line:column: message; hint", leaving out what is unknown. Always one line.
+  /// "file:line:column: message; hint" without the unknown parts. Always one line.
   std::string to_string() const;
 };
 
-/// Either a T or an Error. Asking for the one that is not there is a programmer's error and ends the program.
+/// Either a T or an Error. A call for the absent one is a programmer's error and ends the program.
 template <class T>
 class [[nodiscard]] Result {
  public:

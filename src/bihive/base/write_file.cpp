@@ -22,13 +22,14 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// The file that the path leads to, so that a link is followed and not replaced. A path to nothing is kept.
+// The file at the end of the path's links, so that a link is followed and not replaced. A path to nothing stays as it
+// is.
 std::string follow_links(const std::string& path) {
   char resolved[PATH_MAX];
   return realpath(path.c_str(), resolved) != nullptr ? std::string(resolved) : path;
 }
 
-// Writes everything; 0, or the errno of what failed.
+// Writes everything; returns 0, or the errno of the failure.
 int write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
@@ -41,7 +42,7 @@ int write_all(int file, std::string_view bytes) {
   return 0;
 }
 
-// A pipe or a device: there is nothing to rename onto.
+// A pipe or a device: a rename would replace it.
 Status write_in_place(const std::string& path, std::string_view bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return system_error("cannot be written", path, errno);
@@ -60,7 +61,7 @@ Status write_file(const std::string& given_path, std::string_view bytes) {
   const bool exists = ::stat(path.c_str(), &info) == 0;
   if (exists && !S_ISREG(info.st_mode)) return write_in_place(path, bytes);
 
-  // Make a file of a name that is not taken, beside the target so that the rename stays on one disk.
+  // Make a file with a new name in the folder of the target, so that the rename stays on one disk.
   std::string aside = path + ".XXXXXX";
   const int file = ::mkstemp(aside.data());
   if (file < 0) return system_error("cannot be created", given_path, errno);
@@ -68,7 +69,7 @@ Status write_file(const std::string& given_path, std::string_view bytes) {
   ::umask(mask);
   const mode_t mode = exists ? (info.st_mode & 07777) : (0666 & ~mask);
 
-  // Write, flush, rename; on any failure take the file away again.
+  // Write, flush, rename. Remove the new file after any failure.
   int code = write_all(file, bytes);
   if (code == 0 && ::fchmod(file, mode) != 0) code = errno;
   if (code == 0 && ::fsync(file) != 0) code = errno;
@@ -110,7 +111,7 @@ Result<std::string> read_file(const std::string& path) {
     return Error{"is a folder, not a file", path, 0, 0, "name a file"};
   }
 
-  // Read to the end; the size is only a hint, since a pipe has none and a file may grow.
+  // Read to the end. The size is only a hint: a pipe has none, and a file may grow.
   if (code == 0 && info.st_size > 0) bytes.reserve(static_cast<std::size_t>(info.st_size));
   std::string buffer(1 << 16, '\0');
   while (code == 0) {

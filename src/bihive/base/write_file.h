@@ -1,4 +1,4 @@
-// Files come into being whole or not at all.
+// Writes files whole or not at all.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace bihive {
 
-/// Writes the bytes to a new file beside `path`, flushes it to the disk, and renames it onto `path`, so that a reader
-/// sees the old file or the whole new one. A symbolic link is followed. Something that is not a regular file (a pipe, a
-/// device) is written to directly. On an error (missing folder, no permission, full disk) nothing is left behind.
+/// Writes the bytes to a new file beside `path`, flushes it to the disk, and renames it to `path`. So a reader sees the
+/// old file or the whole new one. A symbolic link is followed. A pipe, a device or another file that is not regular is
+/// written directly. After an error (missing folder, no permission, full disk) no partial file is left.
 Status write_file(const std::string& path, std::string_view bytes);
 
 /// An error if write_file(path) would surely fail now (missing folder, a folder in its place, no permission). Call it
-/// before long work, so that the user need not wait for the bad news.
+/// before long work, so that the user sees the error at once.
 Status check_writable(const std::string& path);
 
 /// The whole file. Errors: missing, a folder, unreadable.

@@ -13,11 +13,11 @@ struct ChildBoxes {
   Aabb second;  ///< of a split's right child; the node's own box otherwise
 };
 
-/// Of an inner node; `box` in stored units, as the planes above the node cut it (the root's is Tree::aabb).
+/// For an inner node. `box` is in stored units, as the planes above the node cut it (the root's is Tree::aabb).
 inline ChildBoxes child_boxes(const Node& node, const Aabb& box) {
   ChildBoxes boxes{box, box};
   const int axis = node.split_axis;
-  // A clip node's planes bound its child from below and above, a split's the other way round.
+  // The planes of a clip node bound its child from below and above, those of a split the other way round.
   const bool clip = node.kind == NodeKind::clip;
   if (clip || node.kind == NodeKind::one_right)
     boxes.first.lo[axis] = std::max(box.lo[axis], clip ? node.left_clip : node.right_clip);

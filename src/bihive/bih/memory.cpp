@@ -8,14 +8,14 @@
 namespace bihive {
 namespace {
 
-// Inner nodes and leaves of a tree with so many leaves: inner = leaves - 1 + optimized.
+// Inner nodes and leaves of a tree with that many leaves: inner = leaves - 1 + optimized.
 struct Shape {
   double leaves;
   double optimized_per_leaf;
   double one_sided_per_leaf;
 
   std::int64_t nodes() const { return static_cast<std::int64_t>(2 * leaves - 1 + leaves * optimized_per_leaf); }
-  // An empty leaf is not stored; there is one for each one-sided node.
+  // Empty leaves are not stored; each one-sided node has one.
   std::int64_t stored_nodes() const {
     return static_cast<std::int64_t>(static_cast<double>(nodes()) - leaves * one_sided_per_leaf);
   }
@@ -35,9 +35,8 @@ MemoryPrediction predict_tree_memory(std::int64_t spheres, const BuildParameters
   const double max_prims = static_cast<double>(std::min<std::int64_t>(parameters.max_prims, spheres));
 
   // Measured over the scenarios (64 to 100,000 spheres, radius 0.001 and 1), random sets and molecules at max_prims 1
-  // to 64: 0.84 (grids that overlap themselves) to 2.6 times as many leaves as full ones would be, 1.45 a sphere at
-  // max_prims 1, with up to 0.41 clip nodes a leaf. A limited depth can leave leaves out where a chain of nodes ends
-  // it.
+  // to 64: 0.84 (grids that overlap themselves) to 2.6 times as many leaves as full leaves would be, 1.45 a sphere at
+  // max_prims 1, with up to 0.41 clip nodes a leaf. A limited depth can end a chain of nodes early, which saves leaves.
   const double full_leaves = n / std::max(1.0, max_prims);
   const bool limited = most_leaves < full_leaves;
   const Shape low{std::max(1.0, limited ? 0.25 * most_leaves : 0.8 * full_leaves), 0, 0.05};

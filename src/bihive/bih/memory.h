@@ -1,4 +1,4 @@
-// The memory of a tree, predicted from the number of spheres before anything is built.
+// Predicts the memory of a tree from the number of spheres, before it is built.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
-// Hooks into a traversal: what it visits, one call each. A hook that does nothing costs nothing.
+// Hooks into a traversal: one call for each node, leaf, gap and test. A hook that does nothing costs nothing.
 #pragma once
 
 #include <cstdint>
 
 namespace bihive {
 
-/// The observer of a traversal that nobody watches. Any class with these members will do.
+/// The observer for a traversal without an observer. Any class with these members will do.
 struct NoObserver {
   void node_visit() {}   ///< an inner node is entered
   void leaf_visit() {}   ///< a leaf is entered (empty leaves are not stored and never entered)

@@ -10,21 +10,21 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-// A node's box must be this many times longer than what it holds before a clip node is worth its memory. Found by
-// fitting the thesis's counts of optimized nodes [Aroxa2014, Table 4.2].
+// A clip node is made if the node's box is this many times longer than its content. Found by fitting the thesis's
+// counts of optimized nodes [Aroxa2014, Table 4.2].
 constexpr float kClipGain = 1.3f;
 
-// Guards for hostile sets. Each turn halves one side of a box of at most 2 stored units, and binary32 ends 150 halvings
-// below that: a node takes at most about 450 turns.
+// Limits for hostile sets. Each turn halves one side of a box of at most 2 stored units, and binary32 ends 150 halvings
+// below that. So a node takes at most about 450 turns.
 constexpr int kMostTurns = 1000;
 constexpr std::int64_t kDeepest = 1000;
 
-// A range of the index array that still has to become a subtree at nodes[node].
+// A range of the index array that has yet to become a subtree at nodes[node].
 struct Job {
   std::int64_t node;
   std::int64_t first, last;  // half-open, positions in sphere_ids
   Aabb grid;                 // the box that is halved
-  Aabb box;                  // the box that bounds the range as the planes above say
+  Aabb box;                  // the box of the range that the planes above promise
   std::int64_t depth;
 };
 
@@ -37,7 +37,7 @@ struct Partition {
   float highest = -kInf;    // largest upper bound of all
 };
 
-// The half that the latest turn of the loop found to be really empty.
+// The half that the latest turn of the loop found really empty.
 struct EmptyHalf {
   bool exists = false;
   int axis = 0;
@@ -99,7 +99,7 @@ class Builder {
       const bool all_right = part.middle == job.first;
       if (!all_left && !all_right) return make_split(job, axis, split, part, grid, empty);
 
-      // All on one side: keep the occupied half, and remember whether the other is really empty.
+      // All spheres are on one side: keep that half, and remember whether the other half is really empty.
       if (axis == previous_axis && split == previous_split) return make_leaf(job, true);
       previous_axis = axis;
       previous_split = split;
@@ -122,7 +122,7 @@ class Builder {
     return y > z ? 1 : 2;
   }
 
-  // Sends a sphere left when the middle of its box is at or below the split, in place.
+  // Sends a sphere left if the middle of its box is at or below the split. Works in place.
   Partition partition(const Job& job, int axis, float split) {
     Partition part;
     std::int64_t left = job.first;
@@ -179,7 +179,7 @@ class Builder {
 
   void make_split(const Job& job, int axis, float split, const Partition& part, const Aabb& grid,
                   const EmptyHalf& empty) {
-    // Put a one-sided node above the split if the turn before found an empty half. Its empty leaf is only counted.
+    // Put a one-sided node above the split if the turn before found an empty half. The empty leaf is only counted.
     std::int64_t position = job.node;
     std::int64_t depth = job.depth;
     if (empty.exists && depth + 1 < std::min(tree_.parameters.max_depth, kDeepest)) {

@@ -1,4 +1,4 @@
-// What a tree looks like in numbers: the rows of the thesis's Table 4.2, and its memory.
+// The statistics of a tree: the rows of the thesis's Table 4.2, and its memory.
 #pragma once
 
 #include <array>

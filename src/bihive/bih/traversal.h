@@ -1,8 +1,7 @@
 // The scalar reference traversal: one loop for closest hit and any hit, short enough to read aloud.
 //
-// Bounds only ever cull too little. A plane of the tree is a bound of boxes rounded to nearest in binary32, and the
-// sphere test itself rounds in binary64; `Slabs` pads every plane by more than both together (docs/precision.md,
-// "Padding").
+// Bounds never cull too much. A plane of the tree is a bound of boxes rounded to nearest in binary32, and the sphere
+// test itself rounds in binary64. `Slabs` pads every plane by more than both together (docs/precision.md, "Padding").
 #pragma once
 
 #include <algorithm>
@@ -22,25 +21,25 @@
 
 namespace bihive {
 
-/// Cuts a ray's interval at planes across an axis, generously.
+/// Cuts a ray's interval at planes across an axis. It pads the planes, so it never cuts too much.
 class Slabs {
  public:
   explicit Slabs(const ScaledRay& ray) : ray_(ray) {
-    // Bounds in stored units are at most 1, so rounding one to nearest moves it by at most 2^-25. What binary64 can add
-    // is a few 2^-53 of the distance between the origin and anything in the set.
+    // Bounds in stored units are at most 1, so rounding one to nearest moves it by at most 2^-25. Binary64 adds an
+    // error of a few 2^-53 of the distance between the origin and the farthest point of the set.
     const double farthest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)}) + 2.0;
     pad_ = 0x1p-24 + 0x1p-46 * farthest;
   }
 
-  /// How far every plane is moved outward, in stored units.
+  /// The distance by which every plane is moved outward, in stored units.
   double pad() const { return pad_; }
 
-  /// The part at or below `plane` (bounding what lies lower) on the axis.
+  /// The part at or below `plane` on the axis. `plane` bounds a child that lies lower.
   Interval below(Interval part, int axis, double plane) const { return cut(part, axis, plane + pad_, true); }
   /// The part at or above `plane`.
   Interval above(Interval part, int axis, double plane) const { return cut(part, axis, plane - pad_, false); }
 
-  /// The unpadded question of the traversal view: does the part overlap the open slab lo < coordinate < hi?
+  /// For the traversal view, without padding: does the part overlap the open slab lo < coordinate < hi?
   bool overlaps(Interval part, int axis, double lo, double hi) const {
     if (part.empty() || !(lo < hi)) return false;
     const double origin = ray_.origin[axis];
@@ -72,7 +71,7 @@ class Slabs {
   double pad_;
 };
 
-/// The closest hit, or with kAnyHit some hit, of a valid ray in the stored units of `spheres`. A hit's t is exact as
+/// The closest hit of a valid ray in the stored units of `spheres`; with kAnyHit some hit. A hit's t is exact as
 /// geometry/sphere.h defines it, and of equal t the smaller id wins: the same answer as brute force, bit for bit.
 template <bool kAnyHit, class Observer>
 Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Observer& observer) {
@@ -86,8 +85,8 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
   Hit best;
   if (part.empty() || tree.aabb.empty()) return best;
 
-  // A tree is at most 1000 levels deep, and each level leaves at most one child waiting. Without an Interval, which
-  // would be set to 0 a thousand times for each ray.
+  // A tree is at most 1000 levels deep, and each level leaves at most one child waiting. An array of Interval would be
+  // set to 0 a thousand times for each ray; this one is not.
   struct Waiting {
     std::int64_t node;
     double t_near, t_far;
@@ -112,7 +111,7 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
         if (kAnyHit && best.found()) return best;
       }
     } else if (node.kind == NodeKind::split) {
-      // Go to the child on the ray's near side first, and let the other wait.
+      // Go to the child on the ray's near side first. The other child waits.
       observer.node_visit();
       const Interval open{part.t_near, std::min(part.t_far, best.t)};
       if (slabs.overlaps(open, axis, double(node.left_clip), double(node.right_clip))) observer.empty_gap();
@@ -138,7 +137,7 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
             slabs.below(next_part, axis, double(node.kind == NodeKind::clip ? node.right_clip : node.left_clip));
     }
 
-    // Enter the next node that may still hold something as near as the best; at equal t a smaller id may wait there.
+    // Enter the next node that may still hold a hit as near as the best; at equal t it may hold a smaller id.
     while (next < 0 || next_part.empty() || next_part.t_near > best.t) {
       if (waiting_count == 0) return best;
       const Waiting& top = waiting[static_cast<std::size_t>(--waiting_count)];

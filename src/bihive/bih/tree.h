@@ -19,16 +19,16 @@ struct BuildParameters {
   std::int64_t max_depth = kUnlimited;  ///< no leaf lies deeper; the root has depth 1; >= 1
 };
 
-/// Immutable once built. Everything is in the stored units of the sphere set that it was built from.
+/// Immutable after the build. Everything is in the stored units of the sphere set from which it was built.
 struct Tree {
   BuildParameters parameters;
   Aabb aabb;                             ///< of all spheres: the test before the root
   std::vector<Node> nodes;               ///< nodes[0] is the root; the children of a split are neighbours
-  std::vector<std::int64_t> sphere_ids;  ///< leaf order -> id; a leaf owns a contiguous range
+  std::vector<std::int64_t> sphere_ids;  ///< leaf order -> id; a leaf owns neighbouring entries
   std::int64_t empty_leaves = 0;         ///< counted, not stored: each is the missing child of a one-sided node
-  std::int64_t forced_leaves = 0;        ///< leaves over max_prims, above max_depth: no progress was possible
+  std::int64_t forced_leaves = 0;        ///< leaves over max_prims and above max_depth, because no split made progress
 
-  /// Bytes really held by the tree.
+  /// Bytes that the tree really holds.
   std::int64_t allocated_bytes() const {
     return static_cast<std::int64_t>(sizeof(Tree) + nodes.capacity() * sizeof(Node) +
                                      sphere_ids.capacity() * sizeof(std::int64_t));

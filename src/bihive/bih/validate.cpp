@@ -60,7 +60,7 @@ Status validate_tree(const Tree& tree, const SphereSet& spheres) {
   if (static_cast<std::int64_t>(tree.sphere_ids.size()) != spheres.size())
     return wrong("the index array has not one entry a sphere", 0);
 
-  // Walk the tree; mark nodes and spheres as they are met.
+  // Walk the tree; mark each node and sphere that it reaches.
   std::vector<bool> node_met(tree.nodes.size()), sphere_met(tree.sphere_ids.size());
   std::int64_t oversized = 0;
   std::vector<Visit> pending{{0, tree.aabb, 1}};
@@ -80,7 +80,7 @@ Status validate_tree(const Tree& tree, const SphereSet& spheres) {
       continue;
     }
 
-    // A leaf: every sphere once, and inside what the planes above promise.
+    // A leaf holds every sphere once, inside the planes above it.
     const std::int64_t end = node.first_sphere() + node.sphere_count;
     if (node.first_sphere() < 0 || node.sphere_count < 0 || end > spheres.size())
       return wrong("has a range outside the index array", at);
@@ -97,7 +97,7 @@ Status validate_tree(const Tree& tree, const SphereSet& spheres) {
     }
   }
 
-  // Everything was met, and the counts agree.
+  // The walk reached everything, and the counts agree.
   for (std::size_t i = 0; i < node_met.size(); ++i)
     if (!node_met[i]) return wrong("is not reached from the root", static_cast<std::int64_t>(i));
   for (std::size_t i = 0; i < sphere_met.size(); ++i)

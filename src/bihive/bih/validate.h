@@ -1,4 +1,4 @@
-// Is a tree right for its spheres?
+// Checks a tree against its spheres.
 #pragma once
 
 #include "bihive/base/result.h"
@@ -7,9 +7,9 @@
 
 namespace bihive {
 
-/// Done if every sphere is in exactly one leaf, every clip plane bounds the boxes of all spheres below it, every node
-/// is reached exactly once, inner = leaves - 1 + optimized, no leaf is deeper than max_depth, and no leaf is larger
-/// than max_prims unless forced or at max_depth. Otherwise an Error with the first thing found wrong.
+/// Success if every sphere is in exactly one leaf, every clip plane bounds the boxes of all spheres below it, every
+/// node is reached exactly once, inner = leaves - 1 + optimized, no leaf is deeper than max_depth, and no leaf is
+/// larger than max_prims unless forced or at max_depth. Otherwise an Error with the first fault.
 Status validate_tree(const Tree& tree, const SphereSet& spheres);
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// The answer to a closest-hit query. The normal is computed later, where it is wanted.
+// The answer to a closest-hit query. The normal is computed later, by the code that needs it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Hit {
 
   bool found() const { return sphere_id != kNothing; }
 
-  /// Takes the candidate if it is nearer; of equal t the smaller id wins, so that no order of tests can show.
+  /// Takes the candidate if it is nearer. Of equal t the smaller id wins, so the order of tests cannot change the hit.
   void keep_nearer(double candidate_t, std::int64_t candidate_id) {
     if (candidate_t < t || (candidate_t == t && found() && candidate_id < sphere_id)) {
       t = candidate_t;

@@ -1,4 +1,4 @@
-// A ray: the half-line, the segment of it that counts, and the surface it leaves.
+// A ray: a half-line, the segment of it that counts, and the surface on which it starts.
 #pragma once
 
 #include <cmath>
@@ -16,9 +16,9 @@ constexpr std::int64_t kPlane = -2;
 /// Points origin + t direction with t_min <= t <= t_max, both inclusive.
 ///
 /// `direction` may have any finite length above 0; t counts in lengths of it. Units are the sphere set's own (world)
-/// units. `leaves` names the surface on which the ray starts: kNothing, kPlane or a sphere's id. Spheres are convex, so
-/// a ray that leaves sphere k outward (`inside` false) never meets k again, and one that goes into it (`inside` true)
-/// meets it at the far root alone. That replaces every epsilon: there is nothing to offset and nothing to tune.
+/// units. `leaves` names the surface on which the ray starts: kNothing, kPlane or a sphere's id. Spheres are convex. So
+/// a ray that leaves sphere k outward (`inside` false) never meets k again, and a ray that goes into it (`inside` true)
+/// meets it at the far root alone. This rule replaces every epsilon: there is no offset and nothing to tune.
 struct Ray {
   Vec3f origin;
   Vec3f direction;
@@ -28,7 +28,7 @@ struct Ray {
   bool inside = false;
 };
 
-/// False for a ray that hits nothing by definition: NaN anywhere, an infinite origin or direction, a zero direction, or
+/// False for an invalid ray, which hits nothing: NaN anywhere, an infinite origin or direction, a zero direction, or
 /// t_min > t_max.
 inline bool is_valid(const Ray& ray) {
   const bool nonzero = ray.direction.x != 0 || ray.direction.y != 0 || ray.direction.z != 0;

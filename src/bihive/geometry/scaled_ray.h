@@ -9,8 +9,8 @@
 
 namespace bihive {
 
-/// Stored units are world units times a power of two, which is exact and multiplies origin and direction alike, so t is
-/// unchanged. The sphere that the ray leaves is known by its centre and radius, not by its id: spheres that coincide
+/// Stored units are world units times a power of two. The scaling is exact and multiplies origin and direction alike,
+/// so t is unchanged. The ray keeps centre and radius of the sphere that it leaves, not the id: spheres that coincide
 /// share one surface, and a ray that starts on it leaves all of them.
 struct ScaledRay {
   Vec3d origin;
@@ -21,7 +21,7 @@ struct ScaledRay {
   Vec3d left_centre;        ///< of the sphere that the ray leaves
   double left_radius = -1;  ///< -1: it leaves none
 
-  /// A valid ray that leaves no sphere, or whose sphere does not matter.
+  /// A valid ray that leaves no sphere, or for which that sphere does not matter.
   ScaledRay(const Ray& ray, double scale)
       : origin(to_double(ray.origin) * scale),
         direction(to_double(ray.direction) * scale),

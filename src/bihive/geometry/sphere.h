@@ -12,12 +12,13 @@
 
 namespace bihive {
 
-/// The two parameters at which the whole line meets a sphere, t_near <= t_far; NaN in both where it does not.
+/// The two parameters at which the whole line meets a sphere, t_near <= t_far; NaN in both if the line misses it.
 struct SphereRoots {
   double t_near, t_far;
 };
 
-/// `centre` and `radius` in the ray's (stored) units. A radius of 0 is never hit. A tangent line has two equal roots.
+/// `centre` and `radius` in the ray's (stored) units. A sphere of radius 0 is never hit. A tangent line has two equal
+/// roots.
 inline SphereRoots sphere_roots(const ScaledRay& ray, Vec3d centre, double radius) {
   // Find the point of the line that is closest to the centre, and the vector from it to the centre.
   const Vec3d oc = centre - ray.origin;
@@ -34,8 +35,8 @@ inline SphereRoots sphere_roots(const ScaledRay& ray, Vec3d centre, double radiu
   return {t_closest - half_chord, t_closest + half_chord};
 }
 
-/// The t at which the ray hits the sphere: the nearer root if it lies in the segment, else the farther, else +inf.
-/// Of the sphere that the ray leaves, nothing (going outward) or the farther root only (going inside).
+/// The t at which the ray hits the sphere: the nearer root if it lies in the segment, else the farther one, else +inf.
+/// For the sphere that the ray leaves: no root if the ray goes outward, the farther root only if it goes inside.
 inline double sphere_hit(const ScaledRay& ray, Vec3d centre, double radius) {
   const bool own = ray.leaves(centre, radius);
   constexpr double inf = std::numeric_limits<double>::infinity();

@@ -7,10 +7,10 @@
 namespace bihive {
 namespace {
 
-// Radii below this share of the extent are stated: their squares still fit binary32, but little else does.
+// The set counts radii below this share of the extent: their squares still fit binary32, but little else does.
 constexpr double kVanishingShare = 0x1p-60;
 
-// Brings the smallest number of binary32, 2^-149, to 1. A binary64 file may hold smaller sets, but no ray can see them,
+// Scales the smallest number of binary32, 2^-149, to 1. A binary64 file may hold smaller sets, but no ray can see them,
 // and a larger scale could overflow.
 constexpr int kLargestScaleExponent = 149;
 

@@ -1,9 +1,9 @@
 // The sphere set: structure of arrays of centres and radii, with optional attributes.
 //
-// Centres and radii are binary32 in *stored units* = world units times 2^scale_exponent, chosen so that every bound of
-// the set lies in [-1, 1]. The power of two is exact, and it keeps squares of binary32 away from overflow and underflow
-// for worlds measured in 1e-20 as in 1e20. Ids are 0-based positions in the order in which the set was read; counts are
-// 64-bit.
+// Centres and radii are binary32 in *stored units* = world units times 2^scale_exponent. The exponent brings every
+// bound of the set into [-1, 1]. The power of two is exact, and it keeps squares of binary32 away from overflow and
+// underflow for worlds measured in 1e-20 as in 1e20. Ids are 0-based positions in the order in which the set was read;
+// counts are 64-bit.
 #pragma once
 
 #include <cmath>
@@ -17,13 +17,14 @@
 
 namespace bihive {
 
-/// One number a sphere under a name, as a column of a file gives it (charge, velocity, temperature ...).
+/// One number for each sphere under a name, like a column of a file (charge, velocity, temperature ...).
 struct NamedNumbers {
   std::string name;
   std::vector<double> values;
 };
 
-/// What a file says of the spheres beyond place and size. Each array is empty (not known) or has one entry a sphere.
+/// The attributes of the spheres in a file, beyond place and size. Each array is empty (not known) or has one entry for
+/// each sphere.
 struct SphereAttributes {
   std::vector<std::uint8_t> element;  ///< atomic number; 0 = unknown
   std::vector<std::int32_t> type;     ///< the file's own particle type
@@ -38,7 +39,7 @@ class SphereSet {
 
   /// Takes world units, n entries each; rounds once, to binary32 in stored units. Error: NaN, an infinity, a coordinate
   /// or radius beyond binary32's range (3.4e38), or a radius below 0; the message names the sphere's position. A radius
-  /// of 0 is allowed and never hit. Arrays of unequal length are a programmer's error.
+  /// of 0 is allowed; that sphere is never hit. Arrays of unequal length are a programmer's error.
   static Result<SphereSet> from_world(const std::vector<double>& x, const std::vector<double>& y,
                                       const std::vector<double>& z, const std::vector<double>& r);
   static Result<SphereSet> from_world(const std::vector<float>& x, const std::vector<float>& y,
@@ -77,7 +78,8 @@ class SphereSet {
   };
   Bounds bounds() const;
 
-  /// How many radii are above 0 but below 2^-60 of the set's extent: too small to be told apart from 0 reliably.
+  /// The number of radii above 0 but below 2^-60 of the set's extent: such a radius cannot be told apart from 0
+  /// reliably.
   std::int64_t vanishing_radii() const { return vanishing_radii_; }
 
   SphereAttributes& attributes() { return attributes_; }

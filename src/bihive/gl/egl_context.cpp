@@ -18,7 +18,7 @@ Error no_egl(const std::string& what) {
           "install an EGL driver (Debian: apt-get install libegl1 libgl1-mesa-dri), or choose an engine of the CPU"};
 }
 
-// EGL's functions, as one library gives them.
+// EGL's functions, all from one library.
 struct EglFunctions {
   decltype(&eglBindAPI) BindAPI = nullptr;                       // NOLINT(readability-identifier-naming)
   decltype(&eglChooseConfig) ChooseConfig = nullptr;             // NOLINT(readability-identifier-naming)
@@ -35,7 +35,7 @@ struct EglFunctions {
   PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString = nullptr;    // NOLINT(readability-identifier-naming)
 };
 
-// The library stays loaded: drivers do not like to be unloaded.
+// The library stays loaded, because some drivers crash when they are unloaded.
 Result<EglFunctions> load_egl() {
   const char* const named = std::getenv("BIHIVE_EGL");  // NOLINT(concurrency-mt-unsafe)
   const char* const file = named != nullptr ? named : "libEGL.so.1";
@@ -61,7 +61,7 @@ Result<EglFunctions> load_egl() {
   take(egl.Terminate, "eglTerminate");
   if (!complete) return no_egl(std::string(file) + " is no EGL");
 
-  // Extensions that any EGL of the last ten years has, and that may be missing.
+  // Extensions that every EGL of the last ten years has; still, check for them.
   const auto take_extension = [&](auto& function, const char* name) {
     function = reinterpret_cast<std::decay_t<decltype(function)>>(egl.GetProcAddress(name));
   };
@@ -75,7 +75,7 @@ bool lists(const char* extensions, std::string_view extension) {
   return extensions != nullptr && std::string_view(extensions).find(extension) != std::string_view::npos;
 }
 
-// Every display worth a try, the best first: graphics processors, Mesa without any device, software, the default.
+// All displays to try, the best first: graphics processors, Mesa without any device, software, the default.
 std::vector<EGLDisplay> displays(const EglFunctions& egl) {
   std::vector<EGLDisplay> found;
   const char* const extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);

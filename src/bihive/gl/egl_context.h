@@ -1,4 +1,4 @@
-// A context of OpenGL ES 3 without a window, through EGL. Not there under WebAssembly.
+// A context of OpenGL ES 3 without a window, through EGL. Not available under WebAssembly.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace bihive {
 
-/// EGL is looked for when it is wanted, in libEGL.so.1 or the file that the environment names as BIHIVE_EGL. A graphics
-/// processor goes before Mesa's software.
+/// The program looks for EGL only when it needs a context: in libEGL.so.1, or in the file that BIHIVE_EGL in the
+/// environment names. A graphics processor is preferred to Mesa's software.
 class EglContext {
  public:
   /// Makes a context and makes it current in this thread. Error: there is no EGL, or it gives no such context; the hint
@@ -18,7 +18,7 @@ class EglContext {
   static Result<EglContext> create();
   EglContext(EglContext&& other) noexcept;
   EglContext& operator=(EglContext&& other) noexcept;
-  /// Whatever was made in the context must be gone before.
+  /// All objects of the context must be deleted before.
   ~EglContext();
 
   const GlFunctions& functions() const;

@@ -1,8 +1,9 @@
 // The film on the graphics processor: two textures of the same size, so that a pass reads what the pass before wrote.
 //
-// A texel is four numbers of binary32. Where a context draws into no textures of floating point (WebGL2 without
-// EXT_color_buffer_float, some phones), it holds their bits as integers, which every context draws into: pictures are
-// the same to the last bit, which binary16 could not promise. Shaders know by FILM_OF_BITS (shaders/film_texel.glsl).
+// A texel is four numbers of binary32. Some contexts cannot draw into textures of floating point (WebGL2 without
+// EXT_color_buffer_float, some phones). There a texel holds the bits of the numbers as integers, and every context can
+// draw those. So pictures are the same to the last bit; binary16 could not promise that. FILM_OF_BITS tells the shaders
+// (shaders/film_texel.glsl).
 #pragma once
 
 #include <array>
@@ -14,14 +15,14 @@
 
 namespace bihive {
 
-/// Of the functions' context, which must be current in every call.
+/// `functions` belong to a context that must be current in every call.
 class FilmTextures {
  public:
   explicit FilmTextures(const GlFunctions& gl) : gl_(&gl) {}
 
-  /// Finds out what the context can draw into: numbers, else their bits. Error: neither.
+  /// Finds out whether the context can draw into numbers, else into their bits. Error: neither.
   Status choose_format();
-  /// Error: the context has no room for it.
+  /// Error: the context has no room for the film.
   Status resize(int width_px, int height_px);
   void destroy();
 
@@ -29,13 +30,13 @@ class FilmTextures {
   int height() const { return height_; }
   bool of_bits() const { return format_ == GL_RGBA32UI; }
 
-  /// Draws go into texture `index` (0 or 1) from now on; all of it is seen.
+  /// Draws go into texture `index` (0 or 1) from now on, into all of it.
   void draw_into(int index) const;
   void fill(int index, Vec3f colour) const;
   GLuint texture(int index) const { return textures_[static_cast<std::size_t>(index)]; }
   /// Rows y0 to y1 - 1 of a texture, four numbers a pixel. Waits until they are drawn.
   void read(int index, int y0, int y1, std::vector<float>& rgba) const;
-  /// Waits until everything is drawn. glFinish() may return early in a browser; reading a pixel cannot.
+  /// Waits until everything is drawn. It reads a pixel, because glFinish() may return early in a browser.
   void wait(int index) const;
 
  private:

@@ -17,7 +17,7 @@
 namespace bihive {
 namespace {
 
-// One draw takes this share of the budget, and never longer than a driver's patience allows by far.
+// One draw takes this share of the budget, and always much less time than drivers allow for one draw.
 constexpr double kShareOfBudget = 0.25;
 constexpr double kLongestDrawMs = 50;
 constexpr int kRowsAtOnce = 64;
@@ -90,7 +90,7 @@ class GlRenderer::Implementation {
     camera_ = *at;
     settings_ = settings;
 
-    // The distance view needs the range of distances first.
+    // The distance view first needs the range of distances.
     finding_range_ = settings.view == View::distance;
     Result<GlProgram*> program = scene_.program_for(settings.view, settings.recursion);
     if (program && finding_range_) program = scene_.program_for_distance_range();
@@ -245,7 +245,7 @@ class GlRenderer::Implementation {
     gl_.Enable(GL_SCISSOR_TEST);
   }
 
-  // Whoever shares the context may have left anything behind.
+  // Other code that uses the context may have left any state.
   void take_state() {
     gl_.BindVertexArray(vertices_);
     for (const GLenum off : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_DITHER, GL_STENCIL_TEST}) gl_.Disable(off);
@@ -269,12 +269,12 @@ class GlRenderer::Implementation {
   std::string description_;
   bool abandoned_ = false;
 
-  // The picture in the making.
+  // The unfinished picture.
   RenderSettings settings_;
   CameraUniforms camera_;
-  GlProgram* program_ = nullptr;  // null: none was begun
+  GlProgram* program_ = nullptr;  // null: no picture was begun
   TileWalk walk_;
-  int pass_ = 0;  // complete ones, of the picture or of its range of distances
+  int pass_ = 0;  // complete passes, of the picture or of its range of distances
   bool finding_range_ = false;
   float nearest_ = 0, farthest_ = 0;
 };

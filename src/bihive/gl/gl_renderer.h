@@ -1,9 +1,9 @@
-// Whitted's pictures on a graphics processor: OpenGL ES 3.00, a window's or the browser's, or none but a context.
+// Whitted's pictures on a graphics processor by OpenGL ES 3.00, in a window, in a browser, or without either.
 //
-// One fragment shader traces a pixel: the reference tree by an explicit stack, binary32 throughout, both reflected and
-// transmitted rays by a second stack of at most recursion + 1 pending rays (gl/shaders). The picture is made in passes,
-// one sample of every pixel each, and a pass in tiles, so that no draw call takes long and whoever shows the picture
-// may stop in between. Colours agree with the CPU's within a tolerance (docs/gpu.md), not bit for bit.
+// One fragment shader traces a pixel. It walks the reference tree with an explicit stack, in binary32, and follows
+// reflected and transmitted rays with a second stack of at most recursion + 1 pending rays (gl/shaders). The picture is
+// made in passes of one sample for every pixel, and a pass in tiles. So no draw call takes long, and the caller may
+// stop in between. Colours agree with the CPU's within a tolerance (docs/gpu.md), not bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct GlViewport {
   int x, y, width, height;
 };
 
-/// All calls, the destructor too, must find the same context current as create() did; when that context is lost, call
-/// abandon() and create another renderer. Not to be used from two threads.
+/// All calls, the destructor too, need the context of create() to be current. If that context is lost, call abandon()
+/// and create another renderer. Not to be used from two threads.
 class GlRenderer {
  public:
   /// Error: the context is too old, or cannot draw into textures of 128 bits a texel.
@@ -35,32 +35,33 @@ class GlRenderer {
   GlRenderer& operator=(GlRenderer&& other) noexcept;
   ~GlRenderer();
 
-  /// Packs and uploads the spheres, their looks, plane, lights and background; with `tree` (of these very spheres) rays
-  /// walk it, without (null) every sphere is tested: the thesis's brute force. Nothing of either is kept. Ends a
-  /// picture that was begun. Error: more spheres or nodes than the context's textures hold, or the shader is refused;
-  /// the scene before stays.
+  /// Packs and uploads the spheres, their looks, plane, lights and background. With `tree` (of these spheres) rays walk
+  /// it. Without it (null) every sphere is tested: the thesis's brute force. The renderer keeps neither scene nor tree.
+  /// Ends a picture that was begun. Error: more spheres or nodes than the context's textures hold, or the shader is
+  /// refused; the scene before stays.
   Status set_scene(const Scene& scene, const Tree* tree);
 
-  /// Takes the lights anew, for a light that goes along with the camera; everything else is as set_scene() took it.
-  /// Ends a picture that was begun. Error: more lights than a texture holds.
+  /// Uploads new lights, for a light that moves with the camera; everything else stays as set_scene() took it. Ends a
+  /// picture that was begun. Error: more lights than a texture holds.
   Status set_lights(const Scene& scene);
 
-  /// Starts a picture. Settings as for render() (render/renderer.h; threads mean nothing), but View::tree is an Error,
-  /// and View::traversal one where there is no tree. A scene must have been set.
+  /// Starts a picture. Settings as for render() (render/renderer.h) without `threads`. View::tree is an Error, and so
+  /// is View::traversal without a tree. A scene must have been set.
   Status begin(const Camera& camera, const RenderSettings& settings);
 
-  /// Draws tiles until about `budget_ms` have passed, at least one. Waits for the processor to be done with them.
+  /// Draws tiles until about `budget_ms` have passed, at least one tile. Waits until the graphics processor has drawn
+  /// them.
   Status advance(double budget_ms);
 
   bool finished() const;
   double done() const;       ///< share of the whole picture, 0 to 1
-  int samples_done() const;  ///< passes that every pixel has been through
+  int samples_done() const;  ///< passes that are complete for every pixel
 
   /// Draws the picture so far, stretched to the viewport; the transfer applies to View::shaded. Before the first pass
   /// is complete, pixels not yet drawn are the background's.
   void show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer);
 
-  /// The finished picture and the number of rays: `primary`, and the others added up as `others`.
+  /// The finished picture and the numbers of rays: `primary`, and all others as `others`.
   struct Picture {
     Film film;
     std::int64_t primary = 0, others = 0;
@@ -70,7 +71,7 @@ class GlRenderer {
   /// "Mesa, llvmpipe (LLVM 15), OpenGL ES 3.2": for reports.
   std::string description() const;
 
-  /// The context is gone: forget its objects without asking it to delete them.
+  /// The context is gone: forgets its objects without deleting them.
   void abandon();
 
  private:

@@ -12,18 +12,18 @@
 
 namespace bihive {
 
-/// Of the functions' context, which must be current in every call. Not deleted by itself: lost contexts take their
-/// programs with them.
+/// The functions' context must be current in every call. The destructor deletes nothing, because a lost context takes
+/// its programs with it.
 class GlProgram {
  public:
-  /// The chunk `name` as fragment shader, on a triangle that covers the target. Error: the compiler's messages with
-  /// chunk and line.
+  /// Links the chunk `name` as fragment shader, on a triangle that covers the target. Error: the compiler's messages
+  /// with chunk and line.
   static Result<GlProgram> link(const GlFunctions& gl, const std::string& name,
                                 const std::vector<std::string>& defines);
   void destroy();
 
   void use() const { gl_->UseProgram(program_); }
-  // Of the program in use. A uniform that the program does not have is left out.
+  // Sets a uniform of the program in use. Does nothing if the program has no such uniform.
   void set(const char* uniform, int value);
   void set(const char* uniform, bool value) { set(uniform, value ? 1 : 0); }
   void set(const char* uniform, float value);

@@ -23,7 +23,7 @@ void upload(const GlFunctions& gl, const Texels<std::uint32_t, 2>& texels) {
                 texels.channels.data());
 }
 
-// Few different numbers, so that few programs are compiled.
+// A few stack sizes only, so that few programs are compiled.
 int rounded_up(int number, int step) {
   return (std::max(number, 1) + step - 1) / step * step;
 }
@@ -31,7 +31,7 @@ int rounded_up(int number, int step) {
 }  // namespace
 
 Status SceneOnGpu::set(const Scene& scene, const Tree* tree) {
-  // Pack and upload beside the scene before, which stays if anything fails.
+  // Pack and upload into new objects; the scene before stays if anything fails.
   GLint most_rows = 0;
   gl_->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most_rows);
   const Result<SceneTextures> packed = pack_scene(scene, tree, most_rows);
@@ -56,7 +56,7 @@ Status SceneOnGpu::set(const Scene& scene, const Tree* tree) {
     status = Error{"the graphics processor has no room for " + std::to_string(scene.spheres.size()) + " spheres", "", 0,
                    0, "choose an engine of the CPU"};
 
-  // Link the program of the shaded view: a driver that refuses it refuses the scene.
+  // Link the program of the shaded view now: if a driver refuses it, the scene is refused.
   const bool had_tree = std::exchange(has_tree_, tree != nullptr);
   const int had_stack = std::exchange(stack_size_, rounded_up(packed->most_waiting, 8));
   if (status)
@@ -111,7 +111,7 @@ Result<GlProgram*> SceneOnGpu::program(const std::string& chunk, int pending_ray
 }
 
 Result<GlProgram*> SceneOnGpu::program_for(View view, int recursion) {
-  // Of each generation but the last two one ray may wait; recursion 1 to 6, and 7 to 16.
+  // Each generation but the last two may leave one ray waiting; one size for recursion 1 to 6, one for 7 to 16.
   const int pending_rays = recursion <= 6 ? 6 : 16;
   switch (view) {
     case View::shaded:
@@ -123,7 +123,7 @@ Result<GlProgram*> SceneOnGpu::program_for(View view, int recursion) {
     case View::normal:
     case View::distance:
     case View::id:
-    case View::tree:  // is not drawn here
+    case View::tree:  // not drawn here
       break;
   }
   return program("view_first_hit", 0, false);

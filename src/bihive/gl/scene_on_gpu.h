@@ -14,12 +14,12 @@
 
 namespace bihive {
 
-/// Of the functions' context, which must be current in every call.
+/// The functions' context must be current in every call.
 class SceneOnGpu {
  public:
   explicit SceneOnGpu(const GlFunctions& gl) : gl_(&gl) {}
 
-  /// What programs draw into from now on holds bits (gl/film_textures.h).
+  /// From now on, programs draw into a film of bits (gl/film_textures.h).
   void set_film_of_bits(bool film_of_bits) { film_of_bits_ = film_of_bits; }
 
   /// As GlRenderer::set_scene().
@@ -33,8 +33,8 @@ class SceneOnGpu {
   double scale() const { return scale_; }
   Vec3f background() const { return uniforms_.background; }
 
-  /// Links what draws a view, or the range of distances, unless it was linked before. The pointer lives until
-  /// destroy(). Error: the shader is refused.
+  /// Links the program of a view, or of the range of distances, at its first use. The pointer lives until destroy().
+  /// Error: the shader is refused.
   Result<GlProgram*> program_for(View view, int recursion);
   Result<GlProgram*> program_for_distance_range();
   /// Binds the textures, from texture unit 1 on, and puts every uniform of the scene into the program in use.

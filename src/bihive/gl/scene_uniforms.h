@@ -1,4 +1,4 @@
-// Everything of a scene and a camera that a shader takes as single numbers, in stored units.
+// All single numbers of a scene and a camera that a shader takes, in stored units.
 #pragma once
 
 #include "bihive/base/result.h"
@@ -20,13 +20,13 @@ struct SceneUniforms {
 
   SceneUniforms() = default;
   SceneUniforms(const Scene& scene, const Tree* tree, const SceneTextures& textures);
-  /// Into the program in use.
+  /// Sets the uniforms of the program in use.
   void put(GlProgram& program) const;
 };
 
 struct CameraUniforms {
   Vec3f eye, forward, right, down;
-  Vec3f forward_lower, right_lower, down_lower;  // what binary32 leaves of them
+  Vec3f forward_lower, right_lower, down_lower;  // the rest after rounding to binary32
   float half_width = 0, half_height = 0;
 
   /// Error: as check_camera(), or an eye so far away (1e15 times the extent of the spheres) that squares leave

@@ -1,4 +1,4 @@
-// The chunks of GLSL that the library carries within itself: gl/shaders/NAME.glsl for each NAME.
+// The chunks of GLSL inside the library: gl/shaders/NAME.glsl for each NAME.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ namespace bihive {
 BIHIVE_SHADER_CHUNKS(BIHIVE_SHADER_CHUNK)
 #undef BIHIVE_SHADER_CHUNK
 
-/// The text of a chunk; nothing if there is none of that name.
+/// The text of a chunk; nothing if no chunk has that name.
 std::optional<std::string_view> shader_chunk(std::string_view name);
 
 }  // namespace bihive

@@ -23,7 +23,7 @@ class Assembler {
  public:
   explicit Assembler(const ChunkFinder& find) : find_(find) {}
 
-  // Appends a chunk that is not there yet; `from` and `line` say who wants it.
+  // Appends a chunk unless it is there already; `from` and `line` say where it is included.
   Status append(std::string_view name, const std::string& from, std::int64_t line, ShaderSource& source) {
     const std::optional<std::string_view> text = find_(name);
     if (!text)

@@ -13,7 +13,7 @@
 namespace bihive {
 
 struct ShaderSource {
-  /// Where a line of the text comes from, counted from 1; an empty chunk: from no chunk.
+  /// The origin of a line of the text: chunk and line, counted from 1. The empty chunk means no chunk.
   struct Origin {
     std::string chunk;
     std::int64_t line = 0;
@@ -22,20 +22,20 @@ struct ShaderSource {
   std::vector<Origin> lines;        ///< of the text
   std::vector<std::string> chunks;  ///< in the order in which they begin
 
-  /// A compiler's messages with chunk and its line in the place of the text's line: "0:213(7): error" becomes
-  /// "sphere.glsl:13(7): error". (#line would do the same if drivers kept to it: Mesa forgets the chunk's number.)
+  /// A compiler's messages with the chunk and its line instead of the text's line: "0:213(7): error" becomes
+  /// "sphere.glsl:13(7): error". (#line would do the same if all drivers obeyed it: Mesa forgets the chunk's number.)
   std::string with_names(std::string_view log) const;
 };
 
 /// The text of a chunk by its name, or nothing.
 using ChunkFinder = std::function<std::optional<std::string_view>(std::string_view name)>;
 
-/// The chunk `name` behind "#version 300 es" and a #define for each of `defines` ("STACK_SIZE 32"). A line
-/// `#include "other"` becomes the chunk of that name where it stands first, and nothing later; so what two branches of
-/// an #if need must be included before it. Error: there is no such chunk; it names file and line of the #include.
+/// The chunk `name` behind "#version 300 es" and a #define for each of `defines` ("STACK_SIZE 32"). The first line
+/// `#include "other"` becomes the chunk `other`; later ones become nothing. So a chunk that two branches of an #if need
+/// must be included before the #if. Error: there is no such chunk; it names file and line of the #include.
 Result<ShaderSource> assemble_shader(std::string_view name, const std::vector<std::string>& defines,
                                      const ChunkFinder& find);
-/// From the library's own chunks.
+/// As above, from the library's own chunks.
 Result<ShaderSource> assemble_shader(std::string_view name, const std::vector<std::string>& defines);
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// The order in which a pass is drawn: blocks of pixels row by row, as many in one draw as take a wanted time.
+// The order in which a pass is drawn: blocks of pixels row by row. One draw takes as many blocks as fill a wanted time.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace bihive {
 
-/// Learns from draw to draw how long a block takes, and and how long any draw takes, however little it
-/// draws; keeps that from pass to pass and from picture to picture.
+/// Learns from draw to draw the time of a block, and the time that every draw takes, however small it is. Keeps both
+/// from pass to pass and from picture to picture.
 class TileWalk {
  public:
   static constexpr int kBlockPx = 32;
@@ -24,14 +24,14 @@ class TileWalk {
 
   bool at_start() const { return next_ == 0; }
   bool at_end() const { return next_ >= columns_ * rows_; }
-  /// Share of the pass that is done.
+  /// The finished share of the pass.
   double done() const { return double(next_) / (double(columns_) * rows_); }
 
   /// The next tile: some blocks of one row, or whole rows. It should take about `wanted_ms`.
   Tile next(double wanted_ms) {
-    // What any draw takes is not in vain if the blocks take as long, or all of what is wanted.
+    // The time that every draw takes is worth it if the blocks take as long, or the whole wanted time.
     const double work_ms = std::max(wanted_ms - fixed_ms_, std::min(fixed_ms_, wanted_ms));
-    // At most four times as many as the last time: behind an empty sky may come what takes seconds.
+    // At most four times as many blocks as the last time: blocks behind an empty sky may take seconds.
     planned_ = block_ms_ > 0 ? std::min({work_ms / block_ms_, 4 * planned_, 1e6}) : kFirstBlocks;
     const int column = next_ % columns_, row = next_ / columns_;
     planned_ = std::max(planned_, 1.0);
@@ -49,10 +49,10 @@ class TileWalk {
             std::min(y1 * kBlockPx, height_)};
   }
 
-  /// How long the last tile took. Blocks cheaper than those before are believed by half only.
+  /// The time of the last tile. If its blocks were cheaper than those before, only half of the difference counts.
   void took(double ms) {
-    // A draw takes no less than the quickest ones lately, most of which may be what any draw takes: waiting for a
-    // processor that is far away.
+    // A draw takes at least as long as the fastest ones lately. Most of that time may be the same for every draw: it
+    // waits for a processor in another place.
     const double most_fixed_ms = kMostFixed * std::max(ms, 1e-3);
     fixed_ms_ = block_ms_ > 0 ? std::min(kForget * fixed_ms_, most_fixed_ms) : most_fixed_ms;
     const double now = (std::max(ms, 1e-3) - fixed_ms_) / std::max(drawn_, 1);

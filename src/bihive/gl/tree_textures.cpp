@@ -15,7 +15,7 @@ namespace {
 constexpr int kTexelsOfLook = 3;
 constexpr std::int64_t kMostSpheresOfLeaf = (std::int64_t{1} << 27) - 1;
 
-// Farther lights shine from the same direction, but their squares would leave binary32.
+// Lights farther away shine from the same direction, but the squares of their distances would leave binary32.
 constexpr double kFarthestLight = 1e15;
 
 using Look = std::array<float, 12>;
@@ -73,7 +73,7 @@ Error too_many(const std::string& what, std::int64_t count, std::int64_t most) {
           "", 0, 0, "choose an engine of the CPU"};
 }
 
-// The ids in leaf order, rising within each leaf.
+// The ids in leaf order, ascending within each leaf.
 std::vector<std::int64_t> leaf_order(const SphereSet& spheres, const Tree* tree) {
   std::vector<std::int64_t> ids(static_cast<std::size_t>(spheres.size()));
   std::iota(ids.begin(), ids.end(), 0);
@@ -93,7 +93,7 @@ Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texe
 
   const std::vector<std::int64_t> ids = leaf_order(spheres, tree);
 
-  // Equal looks share one entry; the plane has the first for itself.
+  // Equal looks share one entry; the first entry belongs to the plane alone.
   std::unordered_map<Look, std::uint32_t, HashOfLook> numbers;
   std::vector<Look> looks{look_of(scene.plane ? scene.plane->material : Material{})};
   for (std::int64_t position = 0; position < packed.sphere_count; ++position) {
@@ -134,7 +134,7 @@ Status pack_tree(const Tree& tree, std::int64_t most_texels, SceneTextures& pack
     out[3] = static_cast<std::uint32_t>(node.first);
   }
 
-  // Go down every way, counting the nodes with two children.
+  // Walk down every path and count its nodes with two children.
   std::vector<std::pair<std::int64_t, int>> open{{0, 0}};
   while (!open.empty()) {
     const auto [position, above] = open.back();

@@ -1,5 +1,5 @@
-// How spheres, their looks, lights and the tree lie in textures: the only place that packs them. shaders/textures.glsl
-// reads them, and bih/tree.h says what they mean.
+// The layout of spheres, their looks, lights and the tree in textures. Only this file packs them; shaders/textures.glsl
+// reads them, and bih/tree.h says what the numbers mean.
 //
 // Entry i of a texture is the texel (i mod 2048, i / 2048). All is binary32 in stored units (geometry/sphere_set.h).
 //
@@ -36,7 +36,7 @@ struct Texels {
 
 struct SceneTextures {
   std::int64_t sphere_count = 0, node_count = 0, look_count = 0, light_count = 0;
-  /// The most nodes with two children on any way from the root to a leaf: as many may wait during a traversal.
+  /// The most nodes with two children on any path from the root to a leaf: as many may wait during a traversal.
   int most_waiting = 0;
   Texels<float, 4> spheres;
   Texels<std::uint32_t, 2> sphere_info;
@@ -48,10 +48,10 @@ struct SceneTextures {
 /// `tree` may be null. Error: something does not fit a texture of `most_rows` rows.
 Result<SceneTextures> pack_scene(const Scene& scene, const Tree* tree, int most_rows);
 
-/// Its lights alone; everything else stays empty.
+/// The lights alone; everything else stays empty.
 Result<SceneTextures> pack_lights(const Scene& scene, int most_rows);
 
-/// What the shader reads, for tests.
+/// The texels that the shader reads, for tests.
 struct PackedSphere {
   float x, y, z, r;
   std::uint32_t id, look;

@@ -10,12 +10,12 @@ namespace {
 
 constexpr int kRowsPerPixel = 4;
 
-// The pixel that a position inside [lo, hi] lies in.
+// The pixel that contains a position inside [lo, hi].
 int pixel_of(double position, int lo, int hi) {
   return static_cast<int>(std::floor(std::clamp(position, double(lo), double(hi))));
 }
 
-// How much of pixel i the stretch from lo to hi covers.
+// The part of pixel i that the stretch from lo to hi covers.
 double covered(int i, double lo, double hi) {
   return std::max(0.0, std::min(hi, i + 1.0) - std::max(lo, double(i)));
 }
@@ -52,7 +52,7 @@ void Canvas::add_rectangle(const CanvasArea& area, Vec3d colour, double opacity)
   }
 }
 
-// Notes that the row is covered from x0 to x1: the running sum of steps_ is the coverage of each pixel.
+// Records that the row is covered from x0 to x1. The running sum of steps_ is the coverage of each pixel.
 void Canvas::add_span(double x0, double x1, double weight) {
   x0 = std::clamp(x0, double(clip_x0_), double(clip_x1_));
   x1 = std::clamp(x1, double(clip_x0_), double(clip_x1_));
@@ -67,7 +67,7 @@ void Canvas::add_span(double x0, double x1, double weight) {
 }
 
 void Canvas::blend_polygon(const CanvasPoint* points, int count, Vec3d colour, double opacity) {
-  // Find the rows and columns that it may touch.
+  // Find the rows and columns that the polygon may touch.
   double top = points[0].y, bottom = points[0].y, left = points[0].x, right = points[0].x;
   for (int i = 1; i < count; ++i) {
     top = std::min(top, points[i].y);
@@ -80,7 +80,7 @@ void Canvas::blend_polygon(const CanvasPoint* points, int count, Vec3d colour, d
   const int x_end = std::min(clip_x1_, pixel_of(right, clip_x0_, clip_x1_) + 1);
   const int y_end = std::min(clip_y1_, pixel_of(bottom, clip_y0_, clip_y1_) + 1);
   for (int y = pixel_of(top, clip_y0_, clip_y1_); y < y_end; ++y) {
-    // Cut it with a few horizontal lines a row.
+    // Cut the polygon with a few horizontal lines in each row.
     bool touched = false;
     for (int part = 0; part < kRowsPerPixel; ++part) {
       const double line = y + (part + 0.5) / kRowsPerPixel;

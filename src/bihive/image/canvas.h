@@ -1,7 +1,7 @@
 // A picture to draw on: rectangles, convex polygons and lines, anti-aliased by the share of each pixel that they cover.
 //
-// Positions are in pixels from the top left corner: (0.5, 0.5) is the first pixel's centre. What lies outside is cut
-// off. Only + - x / sqrt and floor are used, in a fixed order: the same bits everywhere.
+// Positions are in pixels from the top left corner: (0.5, 0.5) is the first pixel's centre. Parts outside the picture
+// are cut off. Only + - x / sqrt and floor are used, in a fixed order, so the bits are the same everywhere.
 #pragma once
 
 #include <vector>
@@ -27,24 +27,24 @@ class Canvas {
   /// Black. Sides of at least 1 pixel.
   Canvas(int width_px, int height_px);
 
-  /// From now on nothing outside these whole pixels is drawn.
+  /// After this call, nothing outside these whole pixels is drawn.
   void clip_to(int x0, int y0, int x1, int y1);
 
-  /// Adds colour x opacity x the covered share: what is drawn side by side leaves no seams and averages exactly where
-  /// it is finer than a pixel.
+  /// Adds colour x opacity x covered share. So shapes side by side leave no seams, and shapes finer than a pixel
+  /// average exactly.
   void add_rectangle(const CanvasArea& area, Vec3d colour, double opacity = 1);
 
-  /// Blends over what is there. The polygon must be convex; its points may run either way round. Up and down, coverage
-  /// comes in quarters of a pixel. Points must be finite.
+  /// Blends over the present content. The polygon must be convex; its points may run either way round. Vertical
+  /// coverage comes in quarters of a pixel. Points must be finite.
   void blend_polygon(const CanvasPoint* points, int count, Vec3d colour, double opacity);
 
-  /// A straight line with square ends at a and b. Nothing if they coincide.
+  /// A straight line with square ends at a and b. Nothing is drawn if a and b coincide.
   void blend_line(CanvasPoint a, CanvasPoint b, double width, Vec3d colour, double opacity);
 
   int width() const { return width_; }
   int height() const { return height_; }
   Vec3f& at(int x, int y) { return pixels_[static_cast<std::size_t>(y) * std::size_t(width_) + std::size_t(x)]; }
-  /// Row by row from the top; takes them away.
+  /// Returns the pixels row by row from the top, and leaves the canvas without them.
   std::vector<Vec3f> take_pixels() { return std::move(pixels_); }
 
  private:

@@ -18,7 +18,7 @@ struct Film {
   Film(int width_px, int height_px)
       : width(width_px), height(height_px), radiance(static_cast<std::size_t>(width_px) * std::size_t(height_px)) {}
 
-  /// To another size; contents are undefined.
+  /// Changes the size; contents are undefined.
   void resize(int width_px, int height_px) {
     width = width_px;
     height = height_px;

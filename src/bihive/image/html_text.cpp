@@ -34,7 +34,7 @@ std::string base64(std::string_view bytes) {
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    // Three bytes, zeros for those that are not there, are four digits of six bits.
+    // Three bytes are four digits of six bits; missing bytes count as zeros.
     const std::size_t here = bytes.size() - i < 3 ? bytes.size() - i : 3;
     unsigned bits = 0;
     for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < here ? static_cast<unsigned char>(bytes[i + k]) : 0u);

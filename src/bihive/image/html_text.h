@@ -1,4 +1,4 @@
-// Text and bytes as they stand in HTML and SVG.
+// Text and bytes in the form that HTML and SVG need.
 #pragma once
 
 #include <string>

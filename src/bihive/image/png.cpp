@@ -11,11 +11,11 @@
 namespace bihive {
 namespace {
 
-// Fast rather than small: rendered pictures compress little more at higher levels.
+// A fast level: higher levels compress rendered pictures little more.
 constexpr int kCompressionLevel = 1;
 
-// What libpng's callbacks work on. libpng reports errors by longjmp; nothing with a destructor lives in the frames it
-// skips.
+// The data that libpng's callbacks use. libpng reports errors by longjmp, so the frames that it skips hold nothing with
+// a destructor.
 struct PngState {
   std::string bytes;         // written so far, or the whole file to read
   std::size_t position = 0;  // read so far

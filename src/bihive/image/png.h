@@ -1,4 +1,4 @@
-// PNG in and out (libpng).
+// Reads and writes PNG (libpng).
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ using PngText = std::vector<std::pair<std::string, std::string>>;
 /// The whole file in memory.
 Result<std::string> encode_png(const Image& image, const PngText& text);
 
-/// Written aside and renamed (base/write_file.h): on failure nothing is left behind.
+/// Writes a new file and renames it (base/write_file.h): after a failure no partial file is left.
 Status write_png(const std::string& path, const Image& image, const PngText& text);
 
 /// 8-bit RGB of any PNG (alpha dropped, grey and palette expanded), and its text chunks.

@@ -20,12 +20,12 @@ constexpr double kLine = 17;         // from one line of text to the next
 constexpr double kCharacter = 6.6;   // mean width of a character of 12 units
 constexpr double kLegendMark = 20;   // a legend entry's mark with its gap
 constexpr double kEntryGap = 14;     // between two legend entries
-constexpr double kGroupFill = 0.84;  // of a category's room that its bars take
-constexpr int kTicks = 6;            // about as many on the y axis
+constexpr double kGroupFill = 0.84;  // the bars' share of a category's room
+constexpr int kTicks = 6;            // approximate number of ticks on the y axis
 constexpr double kMarker = 4.2;      // half the size of a point
 
-// Seven colours that colour-blind people can tell apart [OkabeIto2008]; its black is the text's colour here, which
-// turns with the dark scheme. Lines differ by their points' shape too.
+// Seven colours that colour-blind people can tell apart [OkabeIto2008]. Its black is replaced by the text's colour,
+// which changes with the dark scheme. Lines also differ by the shape of their points.
 constexpr const char* kColours[] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7",
                                     "#56b4e9", "#d55e00", "#f0e442", "currentColor"};
 
@@ -52,7 +52,7 @@ std::string number_text(double value) {
   return value < 0 ? "-" + text : text;
 }
 
-// The y axis: round ticks, the first and last of which are its ends.
+// The y axis: round ticks. The first and the last tick are its ends.
 struct Axis {
   std::vector<double> ticks;
   bool logarithmic;
@@ -78,7 +78,7 @@ Axis linear_axis(double lo, double hi) {
 }
 
 Axis logarithmic_axis(double lo, double hi) {
-  // Powers of ten, and some of their multiples unless that would crowd the axis.
+  // Powers of ten. Some of their multiples too, if they do not crowd the axis.
   const auto first = static_cast<int>(std::floor(std::log10(lo)));
   const auto last = static_cast<int>(std::ceil(std::log10(hi)));
   std::vector<double> all;
@@ -87,7 +87,8 @@ Axis logarithmic_axis(double lo, double hi) {
                                                        : std::vector<double>{1};
   for (int i = first; i <= last; ++i)
     for (const double factor : factors) all.push_back(factor * std::pow(10.0, i));
-  // From the last tick below (bars need some height) to the first one that is not below the highest value.
+  // From the last tick below the lowest value (bars need some height) to the first tick that is not below the highest
+  // value.
   auto begin = std::lower_bound(all.begin(), all.end(), lo);
   if (begin != all.begin()) --begin;
   auto end = std::lower_bound(begin + 1, all.end(), hi * (1 - 1e-9));
@@ -140,7 +141,7 @@ std::string point(double x, double y, std::size_t series, const std::string& cla
 class Chart {
  public:
   explicit Chart(const ChartData& data) : data_(data), axis_(axis_of(data)) {
-    // Where things are: title, legend, plot, categories, label of the x axis.
+    // The places of title, legend, plot, categories, and label of the x axis.
     double x = 0;
     top_ = 22 + kLine;
     for (const Series& series : data_.series) {
@@ -188,7 +189,7 @@ class Chart {
   std::string lines() const {
     std::string marks;
     for (std::size_t s = 0; s < data_.series.size(); ++s) {
-      // The line is interrupted where a value is missing.
+      // A missing value interrupts the line.
       std::string path, points;
       bool pen_down = false;
       for (std::size_t c = 0; c < data_.categories.size(); ++c) {
@@ -212,7 +213,7 @@ class Chart {
   }
   double y_of(double value) const { return bottom_ - kPlotHeight * axis_.place(value); }
 
-  // What the axis cannot show is no mark.
+  // A value outside the axis gets no mark.
   std::optional<double> value_of(std::size_t series, std::size_t category) const {
     const std::vector<std::optional<double>>& values = data_.series[series].values;
     if (category >= values.size() || !values[category] || !std::isfinite(*values[category])) return std::nullopt;

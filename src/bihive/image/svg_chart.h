@@ -19,7 +19,7 @@ struct ChartData {
   std::string x_label, y_label;
   std::vector<std::string> categories;
   std::vector<Series> series;
-  bool logarithmic = false;  ///< y axis; all values must be above 0
+  bool logarithmic = false;  ///< y axis; then all values must be above 0
 };
 
 /// Bars in groups, one group a category. Marks carry <title> with name and value.

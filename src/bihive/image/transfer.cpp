@@ -23,8 +23,8 @@ std::uint8_t byte_from_radiance(double radiance, Transfer transfer) {
 }
 
 ByteTable::ByteTable(Transfer transfer) : least_{}, first_{} {
-  // Find where each byte begins: numbers above 0 are in the order of their bits. The curve rises by far more from one
-  // number of binary32 to the next than its error, so that bytes never fall.
+  // Find the first radiance of each byte. Positive numbers are in the order of their bits. From one number of binary32
+  // to the next the curve rises by far more than its error, so bytes never fall.
   const auto number = [](std::uint32_t bits) {
     float value = 0;
     std::memcpy(&value, &bits, sizeof(value));

@@ -1,4 +1,4 @@
-// From linear radiance to what is written into a picture.
+// From linear radiance to the bytes of a picture.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ double linear_from_srgb(double srgb);
 /// Clamps to [0, 1] (NaN gives 0), applies the curve, and rounds to the nearest of 0 ... 255.
 std::uint8_t byte_from_radiance(double radiance, Transfer transfer);
 
-/// byte_from_radiance() of numbers of binary32, some hundred times faster on the sRGB curve.
+/// byte_from_radiance() for numbers of binary32, some hundred times faster on the sRGB curve.
 class ByteTable {
  public:
   explicit ByteTable(Transfer transfer);
@@ -27,7 +27,7 @@ class ByteTable {
   std::uint8_t operator()(float radiance) const {
     if (!(radiance >= least_[1])) return 0;
     if (radiance >= 1) return 255;
-    // The bucket's least byte, and one more for each byte that begins at or below the radiance.
+    // The bucket's least byte, plus one for each byte that begins at or below the radiance.
     unsigned byte = first_[bucket_of(radiance)];
     while (radiance >= least_[byte + 1]) ++byte;
     return static_cast<std::uint8_t>(byte);

@@ -1,4 +1,4 @@
-// Alternate locations: where a structure gives several places for one atom, the likeliest stays.
+// Alternate locations: a structure may give several places for one atom. The likeliest place stays.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace bihive {
 
-/// Told of every atom that has an alternate-location mark, it finds those that are to go: of one site the highest
-/// occupancy stays, of equal ones the first. A site whose mark comes a second time is taken for another site (files of
-/// simulations count residues round and round).
+/// Takes every atom with an alternate-location mark, and finds the atoms to remove. The highest occupancy of a site
+/// stays; of equal ones the first. A mark that comes a second time begins another site, because files of simulations
+/// use residue numbers again and again.
 class Alternates {
  public:
   /// `site` stands for chain, residue and atom name; `mark` is never blank; `index` is the atom's position in file
@@ -19,7 +19,7 @@ class Alternates {
   void add(const std::string& site, char mark, double occupancy, std::size_t index);
 
   std::size_t sites() const { return sites_.size(); }
-  /// Takes the atoms out that are to go; the others keep their order.
+  /// Removes these atoms; the others keep their order.
   void remove_from(RawSpheres& spheres) const;
 
  private:

@@ -80,7 +80,7 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
     return scanner.line_error(fault + " in the header " + quote(table.column_names()));
   table.reserve(scanner.lines_left() + 1, scanner.bytes_left());
 
-  // Every further line is a sphere.
+  // Every later line is a sphere.
   if (!has_header) {
     scanner.restart_line();
     if (Status row = table.add_row(scanner); !row) return row.error();

@@ -9,10 +9,10 @@
 namespace bihive {
 namespace {
 
-// Formats show themselves in their first lines; longer lines are cut here.
+// The first lines show the format; longer lines are cut at this length.
 constexpr std::size_t kLook = 65536;
 
-// Names of the records that a PDB file may begin with, as far as six columns show them [wwPDB-3.3].
+// The record names with which a PDB file may begin, cut to six columns [wwPDB-3.3].
 bool is_pdb_record(std::string_view line) {
   static constexpr std::string_view names[] = {
       "HEADER", "OBSLTE", "TITLE",  "SPLIT",  "CAVEAT", "COMPND", "SOURCE", "KEYWDS", "EXPDTA", "NUMMDL",
@@ -24,7 +24,7 @@ bool is_pdb_record(std::string_view line) {
   return line.substr(0, 5) == "ATOM " || line.substr(0, 6) == "HETATM";
 }
 
-// One line with a count, a comment, then a line of at least four fields of which three are numbers; a lone number on
+// One line with a count, a comment, then a line of at least four fields of which three are numbers. A lone number on
 // the first line is enough, so that a cut file gets the reader's own message.
 bool is_xyz(TextScanner scanner) {
   std::string_view field;

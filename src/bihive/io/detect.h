@@ -1,4 +1,4 @@
-// Which format a file has: by what is in it, then by its name.
+// Finds the format of a file: by its content, then by its name.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,11 @@ namespace bihive {
 
 enum class Format { pdb, mmcif, xyz, lammps_dump, csv, npy };
 
-/// The format of unpacked bytes. The content decides; where it could be anything, the name's ending does (without .gz).
+/// The format of unpacked bytes. The content decides; if it fits several formats, the ending of the name decides
+/// (without .gz).
 std::optional<Format> detect_format(std::string_view bytes, const std::string& name);
 
-/// The formats that are known and the endings that stand for them, for messages.
+/// The known formats and their endings, for messages.
 std::string known_formats();
 
 }  // namespace bihive

@@ -5,7 +5,7 @@
 namespace bihive {
 
 int atomic_number(std::string_view symbol) {
-  // gemmi looks at two characters only, and takes a blank for a part of a symbol: check them first.
+  // gemmi looks at two characters only, and takes a blank as a part of a symbol, so check them first.
   if (symbol.empty() || symbol.size() > 2) return 0;
   char text[3] = {0, 0, 0};
   for (std::size_t i = 0; i < symbol.size(); ++i) {

@@ -8,7 +8,7 @@ namespace bihive {
 /// The atomic number, 1 to 118, of a symbol in upper or lower case ("C", "cl", "FE"; D is hydrogen), or 0.
 int atomic_number(std::string_view symbol);
 
-/// Van der Waals radius in Angstrom, from gemmi's table; 0 where the number is not 1 to 118.
+/// Van der Waals radius in Angstrom, from gemmi's table; 0 if the number is not 1 to 118.
 double van_der_waals_radius(int atomic_number);
 
 }  // namespace bihive

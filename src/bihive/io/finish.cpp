@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDefaultRadius = 0.5;
 
-// A centre may move by this share of its radius before the user is told.
+// The user is told of a centre that moves by more than this share of its radius.
 constexpr double kHarmlessShift = 0.01;
 
 std::string to_text(double value) {
@@ -28,7 +28,7 @@ std::string spheres_have(std::int64_t count) {
   return std::to_string(count) + (count == 1 ? " sphere has" : " spheres have");
 }
 
-// Radii for a file that gives none: by element, else the default.
+// Radii for a file without radii: by element, else the default.
 void guess_radii(RawSpheres& raw, bool radius_given) {
   std::int64_t unknown = 0;
   raw.r.resize(raw.size());
@@ -66,7 +66,7 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
   return Done{};
 }
 
-// Moves the middle of the centres' bounding box to the origin, in binary64. Gives what was subtracted.
+// Moves the middle of the centres' bounding box to the origin, in binary64. Returns the vector that was subtracted.
 Vec3d recenter(RawSpheres& raw) {
   const auto middle_of = [](const std::vector<double>& values) {
     const auto [lo, hi] = std::minmax_element(values.begin(), values.end());
@@ -81,7 +81,7 @@ Vec3d recenter(RawSpheres& raw) {
   return middle;
 }
 
-// Tells of centres that single precision moves too far.
+// Warns of centres that single precision moves too far.
 void warn_of_rounding(const RawSpheres& raw, const SphereSet& set, bool recentred, std::vector<std::string>& warnings) {
   std::int64_t moved = 0, worst = -1;
   double worst_share = kHarmlessShift;
@@ -119,7 +119,7 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
     return error;
   }
 
-  // Tell what the rounding did.
+  // Report the effects of rounding.
   warn_of_rounding(raw, *set, options.recenter, raw.warnings);
   if (const std::int64_t vanishing = set->vanishing_radii())
     raw.warnings.push_back(spheres_have(vanishing) +

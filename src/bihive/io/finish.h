@@ -1,4 +1,4 @@
-// What all readers share: from a file's numbers to a sphere set.
+// The part that all readers share: from a file's numbers to a sphere set.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace bihive {
 
-/// Gives radii to spheres without (by element, else 0.5), applies the options, and rounds once. `name` is the file's,
-/// for messages. Errors: no spheres; a number that is not finite, out of range, or a negative radius.
+/// Gives radii to spheres without radii (by element, else 0.5), applies the options, and rounds once. `name` is the
+/// file's, for messages. Errors: no spheres; a number that is not finite, out of range, or a negative radius.
 Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options);
 
 }  // namespace bihive

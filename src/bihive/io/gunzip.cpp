@@ -16,7 +16,7 @@ bool looks_gzipped(std::string_view bytes) {
 
 namespace {
 
-// zlib's state, ended whatever happens.
+// zlib's state; the destructor always ends it.
 struct Inflater {
   z_stream stream{};
   bool ready;
@@ -39,7 +39,7 @@ Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
   if (!inflater.ready) return bad("there is no memory left to undo gzip");
   z_stream& stream = inflater.stream;
 
-  // zlib counts in 32 bits: feed it piece by piece, and let it write into a buffer of fixed size.
+  // zlib counts in 32 bits: give it piece after piece, and let it write into a buffer of fixed size.
   constexpr std::size_t kPiece = std::size_t{1} << 30;
   std::string unpacked, buffer(std::size_t{1} << 18, '\0');
   std::size_t fed = 0;
@@ -62,7 +62,7 @@ Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
     if (state != Z_STREAM_END)
       return bad("the gzip data is damaged" + (stream.msg ? ": " + std::string(stream.msg) : std::string()));
 
-    // Behind a member comes another, or padding, or nothing.
+    // A member is followed by another member, by padding, or by nothing.
     std::string_view rest = bytes.substr(fed - stream.avail_in);
     if (rest.find_first_not_of('\0') == std::string_view::npos) return unpacked;
     if (!looks_gzipped(rest)) return bad("the gzip data is damaged: something else follows its end mark");

@@ -1,4 +1,4 @@
-// Undoes gzip in memory.
+// Unpacks gzip in memory.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace bihive {
 
-/// True where the bytes begin as a gzip file does.
+/// True if the bytes begin like a gzip file.
 bool looks_gzipped(std::string_view bytes);
 
-/// All members of a gzip file, one behind the other; zeros behind the last are padding. Errors: cut or damaged data, or
-/// a build without zlib. `name` is for messages. Memory grows with the unpacked bytes only.
+/// Unpacks all members of a gzip file in a row; zeros behind the last member are padding. Errors: cut or damaged data,
+/// or a build without zlib. `name` is for messages. Memory grows with the unpacked bytes only.
 Result<std::string> gunzip(std::string_view bytes, const std::string& name);
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// LAMMPS dump in text [LAMMPS-dump]: sections that begin with "ITEM:", again for every frame.
+// LAMMPS dump in text [LAMMPS-dump]: sections that begin with "ITEM:", repeated for every frame.
 #include <algorithm>
 #include <optional>
 
@@ -63,7 +63,7 @@ class LammpsReader {
                                quote(line));
   }
 
-  // The error for a text that ends too soon.
+  // The error for a text that ends too early.
   Error cut(const std::string& expected) const {
     return scanner_.line_error("the file ends in frame " + std::to_string(frames_) + ": expected " + expected);
   }
@@ -115,7 +115,7 @@ class LammpsReader {
                  {v[2][0], v[2][1], v[2][2]}};
       return Done{};
     }
-    // Take the tilt out of the bounds again [LAMMPS-triclinic].
+    // Remove the tilt from the bounds [LAMMPS-triclinic].
     const double xy = v[0][2], xz = v[1][2], yz = v[2][2];
     const double xlo = v[0][0] - std::min({0.0, xy, xz, xy + xz});
     const double xhi = v[0][1] - std::max({0.0, xy, xz, xy + xz});
@@ -127,7 +127,7 @@ class LammpsReader {
   }
 
   Status read_atoms(std::string_view item) {
-    // Find out what the columns are.
+    // Find the role of each column.
     if (!count_) return scanner_.line_error("expected ITEM: NUMBER OF ATOMS before ITEM: ATOMS");
     std::vector<TableColumn> columns;
     TextScanner header(item.substr(5), "");
@@ -142,7 +142,7 @@ class LammpsReader {
     SphereTable table(columns);
     if (const std::string fault = table.columns_fault(); !fault.empty()) return scanner_.line_error(fault);
 
-    // Read the atoms, or pass by them with a look at the last.
+    // Read the atoms of the wanted frame. Skip those of other frames, but check the last line.
     const bool wanted = frames_ == wanted_;
     if (wanted) table.reserve(*count_, scanner_.bytes_left());
     for (std::int64_t i = 0; i < *count_; ++i) {
@@ -166,7 +166,7 @@ class LammpsReader {
     return Done{};
   }
 
-  // Gives the columns their roles; nullptr where there is no full set of coordinates.
+  // Gives the columns their roles; nullptr if there is no complete set of coordinates.
   static const Naming* choose_coordinates(std::vector<TableColumn>& columns) {
     constexpr ColumnRole axes[3] = {ColumnRole::x, ColumnRole::y, ColumnRole::z};
     for (const Naming& naming : kNamings) {

@@ -1,5 +1,5 @@
-// mmCIF by gemmi's grammar of CIF. Its actions are replaced by ours, which keep the _atom_site category only, in file
-// order, and know where every value stands.
+// mmCIF by gemmi's grammar of CIF, with actions of our own. They keep only the _atom_site category, in file order, and
+// know the place of every value.
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -16,7 +16,7 @@
 namespace bihive {
 namespace {
 
-// The items of _atom_site that are read.
+// The items of _atom_site that the reader takes.
 enum Item {
   kX,
   kY,
@@ -42,7 +42,7 @@ constexpr std::string_view kItemNames[kItems] = {
     "label_alt_id", "pdbx_pdb_ins_code", "auth_asym_id",   "auth_seq_id",
     "auth_atom_id", "label_asym_id",     "label_seq_id",   "label_atom_id"};
 
-// Thrown out of the grammar with an error that has its place.
+// The grammar throws this to end with an error that has its place.
 struct Stop {
   Error error;
 };
@@ -69,7 +69,7 @@ int item_of(std::string_view tag) {
   return static_cast<int>(found - std::begin(kItemNames));
 }
 
-// Takes the values of _atom_site as the grammar meets them.
+// Takes the values of _atom_site in the order in which the grammar meets them.
 class AtomSites {
  public:
   AtomSites(const std::string& file, std::int64_t frame) : file_(file), frame_(frame) {
@@ -77,7 +77,7 @@ class AtomSites {
     spheres_.attributes.numbers = {{"occupancy", {}}, {"b_factor", {}}};
   }
 
-  // The first block that has atoms is the only one that is read.
+  // Only the first block with atoms is read.
   void begin_block() {
     add_atom(pair_row_);
     pair_row_ = {};
@@ -179,9 +179,9 @@ class AtomSites {
   std::string file_;
   std::int64_t frame_;
   bool done_ = false;
-  std::vector<int> columns_;  // of the loop: items, kItems where not ours
+  std::vector<int> columns_;  // of the loop: items, kItems for all other items
   std::size_t column_ = 0;
-  bool ours_ = false;  // some column of the loop is
+  bool ours_ = false;  // the loop has an item that is read
   Row row_{};
   Value last_;
   int pair_item_ = kItems;
@@ -192,7 +192,7 @@ class AtomSites {
   Alternates alternates_;
 };
 
-// What happens where a rule of the grammar matched.
+// The actions for the rules of the grammar.
 namespace rules = gemmi::cif::rules;
 template <class Rule>
 struct Action : tao::pegtl::nothing<Rule> {};

@@ -27,12 +27,12 @@ std::string shape_text(const std::vector<std::int64_t>& shape) {
   return text + (shape.size() == 1 ? ",)" : ")");
 }
 
-// Reads the header's dictionary: as much of Python's syntax as NumPy writes, in any order and spacing.
+// Reads the header's dictionary: the part of Python's syntax that NumPy writes, in any order and spacing.
 class DictionaryParser {
  public:
   explicit DictionaryParser(std::string_view text) : text_(text) {}
 
-  // False where the text is not such a dictionary.
+  // False if the text is not such a dictionary.
   bool parse(Header& header) {
     bool has_dtype = false, has_order = false, has_shape = false;
     if (!take('{')) return false;
@@ -149,7 +149,7 @@ std::optional<NumberType> number_type(std::string_view dtype) {
   return NumberType{kind, static_cast<std::size_t>(digit - '0'), order == '>'};
 }
 
-// std::bit_cast, which libc++ 13 has not yet.
+// std::bit_cast, which libc++ 13 lacks.
 template <class To, class From>
 To same_bits(const From& from) {
   static_assert(sizeof(To) == sizeof(From));
@@ -209,7 +209,7 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
   if (header->shape.empty() || header->shape.size() > 2)
     return bad("the NPY array's shape is " + shape + "; expected one or two dimensions");
 
-  // The shape must agree with the bytes that are there; multiply so that nothing overflows.
+  // The shape must agree with the number of bytes in the file; multiply without overflow.
   const std::size_t data_bytes = bytes.size() - header->data_begin;
   std::uint64_t count = 1;
   bool too_many = false;

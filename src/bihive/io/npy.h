@@ -1,4 +1,4 @@
-// NumPy's .npy files of numbers, in and out.
+// Reads and writes NumPy's .npy files of numbers.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// PDB, fixed columns [wwPDB-3.3]. Read directly rather than with gemmi's PDB reader, which sorts atoms into chains and
-// residues (file order is lost), takes what is no number for 0, and stops at the older format's line numbers; elements
-// follow gemmi's rules and tables.
+// PDB, fixed columns [wwPDB-3.3]. This reader does not use gemmi's PDB reader. That one sorts atoms into chains and
+// residues (file order is lost), reads a coordinate that is no number as 0, and stops at the line numbers of the older
+// format. Elements follow gemmi's rules and tables.
 #include <cmath>
 #include <limits>
 
@@ -13,7 +13,7 @@
 namespace bihive {
 namespace {
 
-// Columns first to last, counted from 1 as in the format's description; shorter where the line ends.
+// Columns first to last, counted from 1 as in the format's description; shorter if the line ends earlier.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return first > line.size() ? std::string_view() : line.substr(first - 1, last - first + 1);
 }
@@ -25,9 +25,9 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// The element from columns 77 and 78, else from the atom's name in columns 13 to 16, whose first two columns hold the
-// symbol flush right. A four-letter name that begins with H is a hydrogen; a digit beside a letter is no part of it; of
-// two letters that make no element the first counts (names that begin in the wrong column).
+// The element from columns 77 and 78, else from the atom's name in columns 13 to 16. The symbol stands flush right in
+// the name's first two columns. A four-letter name that begins with H is hydrogen. A digit beside a letter does not
+// count. If two letters make no element, the first counts (names that begin in the wrong column).
 int element_of(std::string_view line) {
   const std::string_view given = columns(line, 77, 78);
   for (const char c : given)
@@ -48,7 +48,7 @@ class PdbReader {
   }
 
   Result<RawSpheres> read() {
-    // Models lie between MODEL and ENDMDL; simulations separate theirs by ENDMDL or END alone.
+    // Models lie between MODEL and ENDMDL. Simulations separate models by ENDMDL or END alone.
     bool in_model = false;
     std::int64_t models = 0;
     while (scanner_.next_line()) {
@@ -70,7 +70,7 @@ class PdbReader {
 
  private:
   Status read_atom() {
-    // The place must be there.
+    // The coordinates are required.
     const std::string_view line = scanner_.line();
     std::vector<double>* const axes[3] = {&spheres_.x, &spheres_.y, &spheres_.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -89,7 +89,7 @@ class PdbReader {
     }
     spheres_.attributes.element.push_back(static_cast<std::uint8_t>(element_of(line)));
 
-    // Occupancy and B factor may be missing.
+    // Occupancy and B factor are optional.
     const double occupancy = optional_number(columns(line, 55, 60), 1);
     spheres_.attributes.numbers[0].values.push_back(occupancy);
     spheres_.attributes.numbers[1].values.push_back(optional_number(columns(line, 61, 66), 0));

@@ -1,4 +1,4 @@
-// What a reader finds in a file, before the steps that all formats share (io/finish.h).
+// The content of a file as its reader finds it, before the steps that all formats share (io/finish.h).
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,21 @@
 
 namespace bihive {
 
-/// Centres in the file's own length unit, in file order, finite (the reader checked, as it knows the line). `r` is
-/// either empty (the file gives no radii) or has one finite radius >= 0 a sphere. Attributes as in SphereSet.
+/// Centres in the file's own length unit, in file order. They are finite: the reader checks that, because it knows the
+/// line. `r` is either empty (the file gives no radii) or has one finite radius >= 0 for each sphere. Attributes as in
+/// SphereSet.
 struct RawSpheres {
   std::string format;  ///< as in SphereFile
   std::vector<double> x, y, z, r;
   SphereAttributes attributes;
   std::int64_t frames = 1;
-  std::vector<std::string> rules;     ///< what the reader did, a sentence each
-  std::vector<std::string> warnings;  ///< what the user should know, a line each
+  std::vector<std::string> rules;     ///< what the reader did, one sentence each
+  std::vector<std::string> warnings;  ///< what the user should know, one line each
 
   std::size_t size() const { return x.size(); }
 };
 
-/// The error for a frame that a file does not have.
+/// The error for a frame that the file does not have.
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames);
 
 /// Why the number cannot be a coordinate ("is not finite"), or nullptr if it can.

@@ -42,7 +42,7 @@ Result<SphereFile> read_unpacked(std::string_view bytes, const std::string& name
 
 Result<SphereFile> read_spheres_from_memory(std::string_view bytes, const std::string& name,
                                             const ReadOptions& options) {
-  // Running out of memory is the one thing that the readers do not return as an error themselves.
+  // The readers return every error but one: lack of memory throws.
   try {
     if (!looks_gzipped(bytes)) return read_unpacked(bytes, name, options);
     Result<std::string> unpacked = gunzip(bytes, name);

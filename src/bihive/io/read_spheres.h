@@ -1,7 +1,7 @@
 // From a file of any known format to a sphere set.
 //
-// The format is detected by content, then by name; gzip is undone first. Readers work in binary64 and round once. What
-// every reader takes and leaves out is listed in docs/formats.md and in SphereFile::rules.
+// The content tells the format, then the name; gzip is unpacked first. Readers work in binary64 and round once.
+// docs/formats.md and SphereFile::rules list what every reader takes and leaves out.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +27,11 @@ struct SphereFile {
   std::string format;                 ///< "PDB", "mmCIF", "XYZ", "LAMMPS dump", "CSV", "NPY"
   std::int64_t frames = 1;            ///< frames or models in the file
   std::vector<std::string> rules;     ///< what the reader did, a sentence each ("radii: van der Waals, by element")
-  std::vector<std::string> warnings;  ///< what the user should know, a line each
+  std::vector<std::string> warnings;  ///< what the user should know, one line each
   Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
 };
 
-/// Never throws; an error names file, line and column where it can.
+/// Never throws. An error names file, and line and column if they are known.
 Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options);
 
 /// The same from bytes in memory; `name` is used for messages and as the second clue to the format.

@@ -1,7 +1,7 @@
-// One reader a format. Each takes the whole file (already unpacked) and gives what it finds in the asked-for frame.
+// One reader for each format. It takes the whole file (already unpacked) and returns the content of one frame.
 //
-// `file` is the file's name for messages; `frame` counts from 0. None of them throws. Errors carry the line and, where
-// there is one, the column. docs/formats.md lists what each takes and what it leaves out.
+// `file` is the file's name for messages; `frame` counts from 0. None of them throws. Errors carry the line, and the
+// column if there is one. docs/formats.md lists what each reader takes and leaves out.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 namespace bihive {
 namespace {
 
-// Why a number cannot stand in a column of that role, or nullptr if it can.
+// The reason why a number cannot stand in a column of that role, or nullptr if it can.
 const char* number_fault(ColumnRole role, double value) {
   switch (role) {
     case ColumnRole::x:
@@ -80,14 +80,14 @@ std::string SphereTable::columns_fault() const {
 
   if (columns_.size() > kMostColumns) return "expected at most " + std::to_string(kMostColumns) + " columns";
 
-  // Exactly one of each axis.
+  // There must be exactly one column for each axis.
   const std::pair<ColumnRole, const char*> axes[3] = {{ColumnRole::x, "x"}, {ColumnRole::y, "y"}, {ColumnRole::z, "z"}};
   for (const auto& [role, name] : axes) {
     if (count({role}) == 0) return std::string("expected columns x, y and z, but there is no ") + name;
     if (count({role}) > 1) return std::string("expected one column ") + name + " only";
   }
 
-  // At most one of everything else.
+  // There may be at most one column for each other role.
   if (count({ColumnRole::radius, ColumnRole::diameter}) > 1)
     return "expected one column for the radius or diameter only";
   if (count({ColumnRole::opacity, ColumnRole::transparency}) > 1) return "expected one column for the opacity only";
@@ -95,7 +95,7 @@ std::string SphereTable::columns_fault() const {
     return "expected one column for the element only";
   if (count({ColumnRole::type}) > 1) return "expected one column for the type only";
 
-  // A colour has all three of its parts.
+  // A colour needs all three of its parts.
   const auto red = count({ColumnRole::red}), green = count({ColumnRole::green}), blue = count({ColumnRole::blue});
   if (red != green || red != blue || red > 1) return "expected red, green and blue once each, or none of them";
   return "";
@@ -108,7 +108,7 @@ std::string SphereTable::column_names() const {
 }
 
 void SphereTable::reserve(std::int64_t rows, std::int64_t bytes_left) {
-  // A field and the blank or the end of line behind it take two bytes at least.
+  // A field takes at least two bytes, with the blank or the line end behind it.
   const auto row_bytes = static_cast<std::int64_t>(2 * columns_.size());
   const auto room = static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(rows, bytes_left / row_bytes + 1)));
   for (Column& column : columns_) {
@@ -141,7 +141,7 @@ Status SphereTable::read_number(Column& column, std::string_view field, const Te
   if (column.is_text) return Done{};
   const auto value = parse_double(field);
 
-  // A further column may have gaps, and may turn out to be text at its first entry.
+  // A later column may have gaps, and its first entry may show that it is text.
   if (!value && column.role == ColumnRole::number) {
     if (field.empty()) {
       column.values.push_back(std::numeric_limits<double>::quiet_NaN());
@@ -162,7 +162,7 @@ Status SphereTable::read_number(Column& column, std::string_view field, const Te
 }
 
 void SphereTable::read_label(Column& column, std::string_view field) {
-  // Neighbours often share their label.
+  // Neighbouring rows often have the same label.
   if (!column.label_of_row.empty() && column.labels[std::size_t(column.label_of_row.back())] == field) {
     column.label_of_row.push_back(column.label_of_row.back());
     return;

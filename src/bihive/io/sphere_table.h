@@ -1,4 +1,4 @@
-// Spheres from a table of text: one line a sphere, columns by name. What LAMMPS dumps, XYZ and CSV have in common.
+// Spheres from a table of text: one line for each sphere, columns by name. LAMMPS dumps, XYZ and CSV share it.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace bihive {
 
-/// What a column says of a sphere.
+/// The role of a column.
 enum class ColumnRole {
-  ignored,  ///< read over
+  ignored,  ///< ignored
   x,        ///< centre
   y,
   z,
@@ -43,28 +43,28 @@ ColumnRole usual_role(std::string_view name);
 
 class SphereTable {
  public:
-  /// More columns are a fault: no real file has them.
+  /// More columns are an error: no real file has that many.
   static constexpr std::size_t kMostColumns = 1000;
 
-  /// Names are made printable.
+  /// Control characters in the names are replaced.
   explicit SphereTable(const std::vector<TableColumn>& columns);
 
-  /// What keeps the columns from making spheres (no x, two radii ...), or an empty text.
+  /// The reason why the columns cannot make spheres (no x, two radii ...), or an empty text.
   std::string columns_fault() const;
   /// "x y z radius"
   std::string column_names() const;
-  /// Fields behind the last column are read over instead of being an error.
+  /// Ignores fields behind the last column; without this call they are an error.
   void allow_more_fields() { more_fields_allowed_ = true; }
-  /// Makes room for that many rows, but never for more than the text left can hold.
+  /// Makes room for that many rows, but never for more than the rest of the text can hold.
   void reserve(std::int64_t rows, std::int64_t bytes_left);
 
-  /// Reads the scanner's line. Errors: too few fields or too many; a field that is no number where one is due; a
+  /// Reads the scanner's line. Errors: too few fields or too many; a field that should be a number and is not; a
   /// coordinate, radius, colour or opacity out of range.
   Status add_row(TextScanner& scanner);
-  /// Checks the width of a line that is not read otherwise.
+  /// Checks the number of fields of a line that is otherwise skipped.
   Status check_width(const TextScanner& scanner) const;
 
-  /// What was read, without `format`. Colours are linear, 0 to 1; if any part is above 1, all are sRGB, 0 to 255.
+  /// The spheres, without `format`. Colours are linear, 0 to 1; if any part is above 1, all are sRGB, 0 to 255.
   RawSpheres take() &&;
 
  private:
@@ -75,7 +75,7 @@ class SphereTable {
     std::vector<double> values;
     bool has_number = false;
     bool is_text = false;
-    // Labels: of each row the position in `labels`, which holds each once, in order of appearance.
+    // Labels: each row has a position in `labels`. `labels` holds each label once, in order of appearance.
     std::vector<std::int32_t> label_of_row;
     std::vector<std::string> labels;
     std::unordered_map<std::string, std::int32_t> position_of_label;

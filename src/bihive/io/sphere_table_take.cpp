@@ -1,4 +1,4 @@
-// The second half of a table's life: from columns of numbers and labels to spheres.
+// The last step of a table: from columns of numbers and labels to spheres.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-// The atomic number that a label stands for: an element's symbol, or the number itself.
+// The atomic number of a label, which is an element's symbol or the number itself.
 int atomic_number_of_label(const std::string& label) {
   if (const int number = atomic_number(label)) return number;
   const auto number = parse_int(label);
@@ -70,7 +70,7 @@ void SphereTable::take_radii(RawSpheres& spheres) {
   }
 }
 
-// Whole numbers as they are if all labels are such, else 1, 2, ... in order of appearance.
+// The numbers themselves if all labels are whole numbers, else 1, 2, ... in order of appearance.
 std::vector<std::int32_t> SphereTable::types_of(const Column& column) {
   std::vector<std::int32_t> type_of_label;
   for (const std::string& label : column.labels)
@@ -102,7 +102,7 @@ void SphereTable::take_elements(RawSpheres& spheres) {
   }
   if (std::all_of(element.begin(), element.end(), [](std::uint8_t number) { return number == 0; })) element.clear();
 
-  // Types by their own column, else by the labels that are no elements.
+  // Types by their own column, else by those labels that are no elements.
   if (const Column* const type = find(ColumnRole::type)) {
     spheres.attributes.type = types_of(*type);
   } else if (species && !all_known) {
@@ -117,7 +117,7 @@ void SphereTable::take_colours(RawSpheres& spheres) {
   const std::vector<double> blue = take_values(ColumnRole::blue);
   if (red.empty()) return;
 
-  // Decide between 0 to 1 and 0 to 255.
+  // Decide whether colours range from 0 to 1 or from 0 to 255.
   double largest = 0;
   for (const auto* part : {&red, &green, &blue})
     largest = std::max(largest, *std::max_element(part->begin(), part->end()));

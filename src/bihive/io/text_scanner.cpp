@@ -11,7 +11,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// The length of the character that the text begins with, or 0 where that is no UTF-8 [RFC3629].
+// The length of the character at the begin of the text, or 0 if it is not UTF-8 [RFC3629].
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -20,7 +20,7 @@ std::size_t utf8_length(std::string_view text) {
   if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
-  // Neither overlong forms, nor surrogates, nor beyond the last code point.
+  // No overlong forms, no surrogates, nothing beyond the last code point.
   const unsigned char next = byte(1);
   if ((lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) || (lead == 0xF0 && next < 0x90) ||
       (lead == 0xF4 && next > 0x8F))

@@ -1,4 +1,4 @@
-// Walks through text line by line and field by field, and knows where it is.
+// Walks through text line by line and field by field, and knows its place.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace bihive {
 
-/// Lines end in "\n" or "\r\n"; the last may end without. The text must outlive the scanner.
+/// Lines end in "\n" or "\r\n"; the last line may have no end. The text must outlive the scanner.
 class TextScanner {
  public:
   /// Fields are separated by runs of blanks and tabs.
@@ -20,7 +20,7 @@ class TextScanner {
   /// kBlanks, or the one character between fields; then a field may be empty or "quoted" (with "" for a quote inside).
   /// Begins the current line again.
   void set_separator(char separator);
-  /// From this character to its end a line is ignored; 0 for none. Begins the current line again.
+  /// This character begins a comment, which goes to the end of the line; 0 for none. Begins the current line again.
   void set_comment(char comment);
   /// Begins the current line again.
   void restart_line();
@@ -29,22 +29,22 @@ class TextScanner {
   bool next_line();
   /// Goes to the next line that has more than blanks (and a comment) in it.
   bool next_filled_line();
-  /// Goes to the next line without a look at what is in it: the quick way past `count` lines. False at the end.
+  /// Goes to the next line without reading the present one: the fast way past `count` lines. False at the end.
   bool skip_lines(std::int64_t count);
 
   std::string_view line() const { return line_; }
   std::int64_t line_number() const { return line_number_; }
   bool at_end() const { return next_ == text_.size(); }
-  /// Behind the current line: lines, counted in one quick pass, and bytes.
+  /// The rest behind the current line: lines, counted in one fast pass, and bytes.
   std::int64_t lines_left() const;
   std::int64_t bytes_left() const { return static_cast<std::int64_t>(text_.size() - next_); }
-  /// False where the text's last line has no end.
+  /// False if the text's last line has no line end.
   bool ends_in_newline() const { return text_.empty() || text_.back() == '\n'; }
 
-  /// Takes the next field of the line, without blanks around it; false where there is none. The view lives until the
-  /// next call. A quote that is not closed on its line gives the rest of the line, quote and all.
+  /// Takes the next field of the line, without blanks around it; false if there is none. The view lives until the next
+  /// call. A quote that is not closed on its line gives the rest of the line with the quote.
   bool next_field(std::string_view& field);
-  /// How many fields of the line are left, without taking them.
+  /// The number of fields left in the line; takes none of them.
   std::int64_t count_fields() const;
 
   /// An error at the field taken last, at the current line as a whole (at the end of the text: its last line), or at a
@@ -68,20 +68,20 @@ class TextScanner {
   std::int64_t line_number_ = 0;
   std::size_t cursor_ = 0;       // in line_, behind the field taken last
   std::size_t field_begin_ = 0;  // in line_
-  bool more_fields_ = false;     // with a separator: one more field follows, though it may be empty
+  bool more_fields_ = false;     // with a separator: one more field follows; it may be empty
   std::string unquoted_;
 };
 
 /// The text with a question mark in place of every control character and every byte that is no UTF-8.
 std::string printable(std::string_view text);
 
-/// The printable text in quotes, cut to a readable length: for messages.
+/// The printable text in quotes, shortened for messages.
 std::string quote(std::string_view text);
 
 /// ASCII lower case.
 std::string lower_case(std::string_view text);
 
-/// Without blanks, tabs and carriage returns at both ends.
+/// The text without blanks, tabs and carriage returns at both ends.
 std::string_view trim(std::string_view text);
 
 }  // namespace bihive

@@ -1,5 +1,5 @@
-// XYZ: a count, a comment, and one line a sphere, again for every frame. Extended XYZ [ExtXYZ] names its columns in the
-// comment: Properties=species:S:1:pos:R:3:radius:R:1
+// XYZ: a count, a comment, and one line for each sphere, repeated for every frame. Extended XYZ [ExtXYZ] names its
+// columns in the comment: Properties=species:S:1:pos:R:3:radius:R:1
 #include <algorithm>
 #include <optional>
 
@@ -43,7 +43,7 @@ void add_property(const std::string& name, char kind, std::int64_t width, std::v
   if (width == 1) {
     const bool z_number = name == "Z" || lower == "numbers";
     ColumnRole role = z_number ? ColumnRole::atomic_number : usual_role(name);
-    // A position stands in pos alone; 'x' and the like are further numbers.
+    // Only pos gives a position; properties named 'x' and so on become other numbers.
     if (role == ColumnRole::x || role == ColumnRole::y || role == ColumnRole::z) role = ColumnRole::number;
     if (kind == 'L') role = ColumnRole::ignored;
     columns.push_back({name, role});
@@ -54,7 +54,7 @@ void add_property(const std::string& name, char kind, std::int64_t width, std::v
         {name + "_" + std::to_string(i), kind == 'R' || kind == 'I' ? ColumnRole::number : ColumnRole::ignored});
 }
 
-// The columns that a Properties value stands for, or the message of an error.
+// The columns of a Properties value, or the message of an error.
 std::string columns_of(std::string_view properties, std::vector<TableColumn>& columns) {
   while (!properties.empty()) {
     std::string_view part[3];
@@ -117,7 +117,7 @@ Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std:
     Result<SphereTable> table = table_of(scanner);
     if (!table) return table.error();
 
-    // Read the spheres, or pass by them with a look at the last.
+    // Read the spheres of the wanted frame. Skip those of other frames, but check the last line.
     const bool wanted = frames == frame;
     if (wanted) table->reserve(*count, scanner.bytes_left());
     for (std::int64_t i = 0; i < *count; ++i) {

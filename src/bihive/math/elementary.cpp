@@ -33,8 +33,9 @@ double portable_log2(double x) {
     mantissa *= 2;
     --exponent;
   }
-  // ln m = 2 artanh(s) with s = (m - 1) / (m + 1), |s| < 0.172: the first term left out is below 1e-18 of the sum.
-  // Neighbouring terms are added in pairs, the pairs in pairs [Estrin1960]: nothing waits long for anything.
+  // ln m = 2 artanh(s) with s = (m - 1) / (m + 1), |s| < 0.172; the first term left out is below 1e-18 of the sum.
+  // Neighbouring terms are added in pairs, then the pairs in pairs [Estrin1960], so that additions wait little for each
+  // other.
   const double s = (mantissa - 1) / (mantissa + 1);
   const double z = s * s;
   const double z2 = z * z;

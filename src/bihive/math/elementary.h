@@ -1,5 +1,5 @@
 // Powers and tangents made of + - x / on binary64 alone, so that a picture has the same bits on every platform. The
-// system's mathematics library is never asked: its last bits differ between machines.
+// system's mathematics library is not used: its last bits differ between machines.
 #pragma once
 
 namespace bihive {
@@ -18,8 +18,8 @@ inline bool is_small_whole(double y) {
   return y >= 0 && y <= 1024 && y == static_cast<double>(static_cast<int>(y));
 }
 
-/// x^y for x > 0 and y >= 0, cheaper: where y is a small whole number by repeated squaring, with a relative error below
-/// 2e-16 (1 + y); else portable_pow().
+/// x^y for x > 0 and y >= 0, cheaper. If y is a small whole number, repeated squaring with a relative error below 2e-16
+/// (1 + y); else portable_pow().
 double shading_power(double x, double y);
 
 /// tan(degrees) for 0 <= degrees < 90; relative error below 1e-14 up to 89 degrees.

@@ -47,8 +47,8 @@ Vec3<T> normalized(Vec3<T> a) {
   return (1 / length(a)) * a;
 }
 
-/// The same, to the same accuracy, without a root or a division where |a| is almost 1: as it is of every direction that
-/// was normalized in binary64 and rounded to binary32.
+/// As normalized(), with the same accuracy. Needs neither root nor division if |a| is almost 1. That holds for every
+/// direction that was normalized in binary64 and rounded to binary32.
 inline Vec3<double> normalized_again(Vec3<double> a) {
   const double beyond = dot(a, a) - 1;
   if (!(std::abs(beyond) < 0x1p-18)) return normalized(a);

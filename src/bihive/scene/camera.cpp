@@ -21,7 +21,7 @@ Status check_camera(const Camera& camera) {
   const Vec3d view = camera.look_at - camera.eye;
   if (!(length(view) > 0)) return bad("eye and look_at are the same point", "move one of them");
   if (!(length(camera.up) > 0)) return bad("up is zero", "give a direction such as 0,1,0");
-  // Cross products of unit vectors below 1e-9 leave the picture's horizontal undecided.
+  // If the cross product of two unit vectors is shorter than 1e-9, the picture's horizontal is undecided.
   if (!(length(cross(normalized(view), normalized(camera.up))) > 1e-9))
     return bad("up is parallel to the direction of view", "give another up");
   return Done{};

@@ -19,7 +19,7 @@ struct Camera {
 /// out of range.
 Status check_camera(const Camera& camera);
 
-/// A camera made ready for a picture of width x height pixels.
+/// A camera prepared for a picture of width x height pixels.
 class PixelRays {
  public:
   /// The camera must pass check_camera().
@@ -29,8 +29,8 @@ class PixelRays {
   /// centre. Its direction has length 1 up to binary32 rounding.
   Ray at(double x_px, double y_px) const;
 
-  /// What at() computes with, for code that makes many rays at once: the direction through (x, y) is that of forward +
-  /// (x - half_width) right + (y - half_height) down.
+  /// The vectors of at(), for code that makes many rays at once: the direction through (x, y) is that of forward + (x -
+  /// half_width) right + (y - half_height) down.
   Vec3f eye() const { return eye_; }
   Vec3d forward() const { return forward_; }
   Vec3d right() const { return right_; }
@@ -44,22 +44,22 @@ class PixelRays {
   double half_width_, half_height_;
 };
 
-/// The other way round: where points of the world are seen in a picture of width x height pixels.
+/// The inverse: the places of the world's points in a picture of width x height pixels.
 class PixelPlaces {
  public:
   /// The camera must pass check_camera().
   PixelPlaces(const Camera& camera, int width_px, int height_px);
 
-  /// Steps to the right and down and the distance along the view, measured from the eye; the steps in pixels at
+  /// Steps to the right and down, and the distance along the view, measured from the eye; the steps in pixels at
   /// distance 1.
   Vec3d from_eye(Vec3d world) const;
 
-  /// Picture position in pixels, as PixelRays::at() takes it, of a point given from the eye at a distance above 0.
+  /// Picture position in pixels, as in PixelRays::at(), of a point given from the eye at a distance above 0.
   double x_px(Vec3d point) const { return half_width_ + point.x / point.z; }
   double y_px(Vec3d point) const { return half_height_ + point.y / point.z; }
 
  private:
-  // In binary32 as in PixelRays, and kept so: where GCC 12 sees both conversions at once it drops the rounding.
+  // binary32 as in PixelRays. The conversions stay apart: GCC 12 drops the rounding if it sees both at once.
   Vec3f eye_;
   Vec3d right_, down_, forward_;
   double half_width_, half_height_;

@@ -10,7 +10,7 @@ struct NamedColour {
   std::uint32_t rgb;
 };
 
-// The primaries and their mixtures at full strength, and some others as the web knows them [CSSColor4].
+// The primaries and their mixtures at full strength, and some other colours of the web [CSSColor4].
 constexpr NamedColour kNamedColours[] = {
     {"white", 0xFFFFFF},  {"black", 0x000000},  {"grey", 0x808080}, {"red", 0xFF0000},     {"green", 0x00FF00},
     {"blue", 0x0000FF},   {"yellow", 0xFFFF00}, {"cyan", 0x00FFFF}, {"magenta", 0xFF00FF}, {"orange", 0xFFA500},

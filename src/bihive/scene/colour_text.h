@@ -9,9 +9,9 @@
 
 namespace bihive {
 
-/// The linear radiance that appears on the screen as the text says: each byte v is v / 255 under the transfer `none`,
-/// and that taken through the inverse of the sRGB curve under `srgb`. Nothing if the text is neither "#rrggbb" nor one
-/// of kColourNames.
+/// The linear radiance that appears on the screen as the text's colour. Each byte v is v / 255 with the transfer
+/// `none`; with `srgb` the inverse of the sRGB curve is applied to that. Nothing if the text is neither "#rrggbb" nor
+/// one of kColourNames.
 std::optional<Vec3d> colour_from_text(std::string_view text, Transfer transfer);
 
 /// For messages: every name that colour_from_text() knows.

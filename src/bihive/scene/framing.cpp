@@ -13,7 +13,7 @@ namespace {
 constexpr double kMargin = 0.04;
 
 struct Side {
-  Vec3d back;  // from what is looked at towards the eye
+  Vec3d back;  // from look_at towards the eye
   Vec3d up;
 };
 
@@ -49,7 +49,7 @@ class Span {
     low_ = std::max(low_, radius * slope_ - place + tangent_ * depth);
     high_ = std::max(high_, radius * slope_ + place + tangent_ * depth);
   }
-  /// The smallest distance at which both planes hold, and the shift at which they do.
+  /// The smallest distance at which both planes hold, and its shift.
   double distance() const { return empty() ? 0 : (low_ + high_) / (2 * tangent_); }
   double shift() const { return empty() ? 0 : (high_ - low_) / 2; }
 
@@ -70,7 +70,7 @@ Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, in
   const SphereSet::Bounds bounds = spheres.bounds();
   const Vec3d middle = spheres.empty() ? Vec3d{} : bounds.lo + 0.5 * (bounds.hi - bounds.lo);
 
-  // The tangents of the angles that the picture less its margin spans to either side.
+  // The tangents of the angles that the picture without its margin spans to either side.
   const double shorter = std::min(width_px, height_px);
   const double tangent = tan_deg(fov_deg / 2) * (1 - 2 * kMargin);
   Span across{tangent * width_px / shorter};
@@ -97,7 +97,7 @@ Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, in
 }
 
 PointLight light_behind(const Camera& camera) {
-  // Up and left by shares of the distance, chosen so that shading shows shape and shadows fall to the lower right.
+  // Up and left by shares of the distance. With these shares shading shows shape, and shadows fall to the lower right.
   const Vec3d view = camera.look_at - camera.eye;
   const double distance = length(view);
   const Vec3d forward = view / distance;

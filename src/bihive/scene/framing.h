@@ -1,4 +1,4 @@
-// A camera and a light for a set that comes without: the whole set in view, as large as it fits.
+// A camera and a light for a set without its own: the whole set in view, as large as it fits.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace bihive {
 /// from -z, top from +y (with -z up), bottom from -y (with +z up), iso from (1, 1, 1).
 enum class ViewFrom { front, back, left, right, top, bottom, iso };
 
-/// The eye is as near as it can be, and so shifted sideways, that every sphere lies wholly inside the picture (width x
-/// height pixels) less a margin of 4 % a side. An empty or single-point set is seen from distance 1.
+/// The eye is as near as possible, and shifted sideways, so that every sphere lies wholly inside the picture (width x
+/// height pixels) less a margin of 4 % on each side. An empty or single-point set is seen from distance 1.
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
 
-/// One white light above, left of and behind the camera, as far from what it looks at as the camera is, or farther.
+/// One white light above, left of and behind the camera, at least as far from look_at as the camera is.
 PointLight light_behind(const Camera& camera);
 
 }  // namespace bihive

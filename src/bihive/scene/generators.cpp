@@ -10,8 +10,8 @@
 namespace bihive {
 namespace {
 
-// The cube that encloses everything, and the small cubes in its corners. The side of the small ones is chosen: with it
-// the statistics of the thesis's Table 4.2 come out.
+// The cube that encloses everything, and the small cubes in its corners. The thesis does not state the side of the
+// small cubes; this side gives the statistics of its Table 4.2.
 constexpr float kCubeLow = -20;
 constexpr float kCubeHigh = 20;
 constexpr float kCubeSide = 40;
@@ -35,10 +35,10 @@ std::int64_t cube_root(std::int64_t count) {
   return k;
 }
 
-// A k x k x k grid with k^3 <= count; what is left over starts again at the first place.
+// A k x k x k grid with k^3 <= count; the remaining spheres start again at the first place.
 void add_grid(Centres& centres, std::int64_t count, float radius) {
   if (count == 0) return;
-  // Step by repeated addition: its rounding decides ties of the tree builder.
+  // Steps by repeated addition: the rounding of the sums decides ties of the tree builder.
   const std::int64_t k = cube_root(count);
   const float step = k > 1 ? (kCubeSide - 2 * radius) / static_cast<float>(k - 1) : 0;
   std::vector<float> place(static_cast<std::size_t>(k));
@@ -79,7 +79,7 @@ void alternate_materials(Scene& scene) {
 }  // namespace
 
 Result<SphereSet> scenario_spheres(Scenario scenario, const ScenarioParameters& parameters) {
-  // Check the ranges: spheres must fit the cubes that they are placed in.
+  // Check the ranges: spheres must fit the cubes in which they are placed.
   const bool corners = scenario != Scenario::grid;
   const float largest = corners ? kCornerSide / 2 : kCubeSide / 2;
   if (parameters.count < 1) return out_of_range("the number of spheres", "at least 1");
@@ -98,7 +98,7 @@ Result<SphereSet> scenario_spheres(Scenario scenario, const ScenarioParameters& 
 }
 
 ScenePlane thesis_plane() {
-  // Matte, so that what is seen in it is the spheres' shading alone; checker and grey values are chosen.
+  // Matte, so that the plane shows nothing but its own shading. Checker and grey values are chosen, not stated.
   Material matte;
   matte.colour = {0.8, 0.8, 0.8};
   matte.ambient = 0.3;
@@ -132,8 +132,8 @@ Result<Scene> scenario_scene(Scenario scenario, const ScenarioParameters& parame
 
 Scene four_spheres_scene() {
   Scene scene = thesis_scene_without_spheres();
-  // Large spheres close together, as large as the cube allows: reflections of reflections reach depth 5 where the red
-  // ones face each other, and the transparent one in front shows them once more.
+  // Large spheres close together, as large as the cube allows. Reflections of reflections reach depth 5 where the red
+  // spheres face each other, and the transparent one in front shows them once more.
   const std::vector<float> x{-10.5F, 10.5F, 0, 1.5F};
   const std::vector<float> y{-10, -10, 8.5F, -6};
   const std::vector<float> z{-5, -5, -7, 11.5F};

@@ -12,7 +12,7 @@ enum class Scenario { grid = 1, corners = 2, mixed = 3 };
 
 struct ScenarioParameters {
   std::int64_t count = 4096;  ///< >= 1
-  float radius = 1;           ///< > 0; below 20 for the grid, below 4 where corners are used
+  float radius = 1;           ///< > 0; below 20 for the grid, below 4 in corners
   std::uint64_t seed = 1;
 };
 
@@ -24,14 +24,14 @@ Result<SphereSet> scenario_spheres(Scenario scenario, const ScenarioParameters& 
 /// transfer curve, one sample a pixel.
 Result<Scene> scenario_scene(Scenario scenario, const ScenarioParameters& parameters);
 
-/// Figure 4.2: three red spheres and a transparent one, placed so that each of the recursion depths 1 to 5 is the
-/// deepest somewhere. Everything else as in scenario_scene().
+/// Figure 4.2: three red spheres and a transparent one. Each of the recursion depths 1 to 5 is the deepest depth of
+/// some pixel. Everything else as in scenario_scene().
 Scene four_spheres_scene();
 
 /// The thesis's plane: y = -20, matte checker of 5 x 5 units.
 ScenePlane thesis_plane();
 
-/// Camera, light, plane, materials, background and picture defaults of the thesis, around no spheres yet.
+/// Camera, light, plane, materials, background and picture defaults of the thesis, without spheres.
 Scene thesis_scene_without_spheres();
 
 }  // namespace bihive

@@ -9,7 +9,7 @@
 namespace bihive {
 namespace {
 
-// Bytes a sphere of a generated scene: three growing arrays and radii, the set itself, materials.
+// Bytes for each sphere of a generated scene: three growing arrays and radii, the set itself, materials.
 constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
 
 Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& name) {
@@ -61,7 +61,7 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
     if (error.file.empty()) error.file = name;
     return error;
   }
-  // Scenario 1 has the same spheres for every seed, but reports the one that it was asked for.
+  // Scenario 1 has the same spheres for every seed, but reports the given seed.
   scene->seed = parameters.seed;
   return generated(std::move(*scene));
 }

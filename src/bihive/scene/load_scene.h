@@ -1,4 +1,4 @@
-// From what a user names to a scene: a built-in name, or the bytes of a scene file or of a file of spheres.
+// From a user's input to a scene: a built-in name, or the bytes of a scene file or of a file of spheres.
 #pragma once
 
 #include <array>
@@ -15,16 +15,15 @@ namespace bihive {
 constexpr std::array<const char*, 5> kBuiltInScenes{"demo", "scenario1", "scenario2", "scenario3", "four-spheres"};
 bool is_built_in_scene(const std::string& name);
 
-/// Error: so many spheres do not fit this machine's memory.
+/// Error: this number of spheres does not fit this machine's memory.
 Status check_scenario_memory(const ScenarioParameters& parameters);
 
-/// One of kBuiltInScenes. The parameters are the scenarios', the options the demo's; others ignore them. Error: an
-/// unknown name (its message lists them), or parameters out of range, or so many
-/// spheres that they do not fit.
+/// One of kBuiltInScenes. The parameters are for the scenarios, the options for the demo; other scenes ignore them.
+/// Error: an unknown name (the message lists all names), parameters out of range, or more spheres than memory holds.
 Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters = {},
                                    const ReadOptions& options = {});
 
-/// A scene file where the bytes look like one, else spheres of any known format, coloured by element or type. `name` is
+/// A scene file if the bytes look like one, else spheres of any known format, coloured by element or type. `name` is
 /// the file's, as for parse_scene() and read_spheres_from_memory().
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
 

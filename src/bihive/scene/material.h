@@ -1,4 +1,4 @@
-// How a surface answers light: the columns of the thesis's Table 4.1.
+// The answer of a surface to light: the columns of the thesis's Table 4.1.
 #pragma once
 
 #include "bihive/math/vec3.h"
@@ -15,7 +15,7 @@ struct Material {
   double specular = 0;
   double power = 1;  ///< Phong exponent, > 0
   double transmissive = 0;
-  double refraction_index = 1;  ///< relative to the outside; > 0 where transmissive > 0
+  double refraction_index = 1;  ///< relative to the outside; > 0 if transmissive > 0
 };
 
 /// Table 4.1.
@@ -26,8 +26,8 @@ inline Material transparent_material() {
   return {{1, 1, 1}, 0.10, 0.10, 0.00, 0.10, 50, 0.70, 0.95};
 }
 
-/// What spheres of a file look like unless a scene says otherwise: matte with a soft highlight, no further rays. Chosen
-/// so that a white sphere lit frontally reaches 1 and its shadowed side stays readable.
+/// The material of spheres from a file, unless a scene has another: matte with a soft highlight, no further rays. With
+/// it a white sphere lit from the front reaches 1, and its shadowed side stays readable.
 inline Material matte_material() {
   return {{1, 1, 1}, 0.30, 0.70, 0.00, 0.15, 40, 0.00, 1.00};
 }

@@ -35,8 +35,8 @@ constexpr std::uint32_t kElementColours[] = {
 constexpr int kElements = 110;
 static_assert(std::size(kElementColours) == kElements);
 
-// Eight colours that colour-blind people can tell apart, as sRGB [OkabeIto2008]. Its black is a grey here: a black
-// sphere shows no shading. In the order of types 1 to 8.
+// Eight colours that colour-blind people can tell apart, as sRGB [OkabeIto2008], for the types 1 to 8. Its black is
+// replaced by a grey, because a black sphere shows no shading.
 constexpr std::uint32_t kTypeColours[] = {0xE69F00, 0x56B4E9, 0x009E73, 0xF0E442,
                                           0x0072B2, 0xD55E00, 0xCC79A7, 0x999999};
 constexpr int kTypes = 8;

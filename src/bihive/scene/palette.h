@@ -1,4 +1,4 @@
-// Colours for spheres that come without: by element (CPK) or by type.
+// Colours for spheres without colours: by element (CPK) or by type.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@ namespace bihive {
 /// Linear RGB of a chemical element by atomic number (0 or unknown: pink).
 Vec3f element_colour(int atomic_number);
 
-/// Linear RGB of a particle type, distinct for neighbouring numbers and repeating after eight. Any integer.
+/// Linear RGB of a particle type: different for neighbouring numbers, the same again after eight. Any integer.
 Vec3f type_colour(std::int32_t type);
 
-/// Fills the colour attribute where it is empty: from elements where there are any, else from types, else left empty.
+/// Fills the colour attribute if it is empty: from elements if there are any, else from types. Without both it stays
+/// empty.
 void colour_spheres(SphereSet& spheres);
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// What a picture shows of a scene, and how finely it is drawn: the same for every renderer.
+// The view of a scene and the fineness of its picture: the same for every renderer.
 #pragma once
 
 #include "bihive/scene/scene.h"
@@ -17,10 +17,10 @@ struct RenderSettings {
   int recursion = 5;          ///< 1 to 16
   bool shadows = true;
   View view = View::shaded;
-  int threads = 0;  ///< 0 = as many as the machine runs at once; of the CPU's renderer
+  int threads = 0;  ///< 0 = as many as the machine runs at once; for the CPU's renderer
 };
 
-/// Settings of a scene's own defaults.
+/// The defaults of a scene as settings.
 inline RenderSettings settings_from(const PictureDefaults& defaults) {
   RenderSettings settings;
   settings.width_px = defaults.width_px;

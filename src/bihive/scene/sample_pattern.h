@@ -1,4 +1,4 @@
-// Where in a pixel its samples lie: a fixed pattern, the same in every pixel and every picture.
+// The places of the samples in a pixel: a fixed pattern, the same in every pixel and every picture.
 #pragma once
 
 #include <cstdint>

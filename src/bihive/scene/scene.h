@@ -1,4 +1,4 @@
-// Everything that a picture shows, and how its author wants it drawn.
+// All content of a picture, and the way in which its author wants it drawn.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,8 @@ struct ScenePlane {
   std::optional<Checker> checker;
 };
 
-/// How the picture is drawn unless its user says otherwise. These are a file's; the thesis's scenes set their own.
+/// The author's way to draw the picture; a user may choose another. These are a file's defaults; the thesis's scenes
+/// set their own.
 struct PictureDefaults {
   int width_px = 1280;
   int height_px = 720;
@@ -57,8 +58,8 @@ struct Scene {
   std::optional<std::uint64_t> seed;  ///< of a generated scene
 };
 
-/// The material of one sphere: its material from the list; a colour attribute replaces the colour; an opacity a below 1
-/// scales ambient, diffuse and specular by a and makes 1 - a of the light go straight through (index 1).
+/// The material of one sphere: its material from the list. A colour attribute replaces the colour. An opacity a below 1
+/// scales ambient, diffuse and specular by a, and 1 - a of the light goes straight through (index 1).
 Material material_of(const Scene& scene, std::int64_t sphere_id);
 
 }  // namespace bihive

@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-// Turns a document that the schema accepts into a scene. The first thing that a schema cannot see but that is wrong all
-// the same is kept in `error`, and what follows it does not matter any more.
+// Turns a document that the schema accepts into a scene. `error` keeps the first fault that a schema cannot see;
+// everything after it does not matter.
 class Extraction {
  public:
   Extraction(const json& document, const std::string& name, const ReadOptions& options)
@@ -59,7 +59,7 @@ class Extraction {
       fail("/seed", "expected a whole number from 0 to 18446744073709551615, found " + value.dump());
   }
 
-  // The picture comes first, because its transfer says what a text colour means.
+  // The picture comes first, because a text colour depends on its transfer.
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
@@ -138,7 +138,7 @@ class Extraction {
     camera.fov_deg = value.value("fov_deg", camera.fov_deg);
     const Status status = check_camera(camera);
     if (status) return;
-    // The path says already that it is the camera.
+    // The path already names the camera.
     const std::string& what = status.error().message;
     const std::size_t colon = what.rfind("camera: ", 0) == 0 ? std::string_view("camera: ").size() : 0;
     fail("/camera", what.substr(colon), status.error().hint);
@@ -163,7 +163,7 @@ class Extraction {
     Vec3d normal = vector(value.at("normal"));
     const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
     if (largest == 0) return fail("/plane/normal", "expected a vector of a length above 0, found [0, 0, 0]");
-    // A normal whose length is 1 up to rounding is kept as it is: what was written is read again.
+    // A normal of length 1 up to rounding stays as it is, so that a written scene reads as the same scene.
     const bool unit = std::abs(dot(normal, normal) - 1) < 1e-15;
     plane.plane.normal = unit ? normal : normalized(normal / largest);
     plane.material = loaded_.scene.materials.front();
@@ -198,7 +198,7 @@ class Extraction {
     if (options_.frame != 0)
       return fail("/spheres",
                   "there is no frame " + std::to_string(options_.frame) + ": the spheres are in the document");
-    // Go through all of them; one that leaves its colour, opacity or material out gets what it would have anyway.
+    // Go through all of them. A sphere without colour, opacity or material gets the default.
     const std::size_t n = values.size();
     RawSpheres raw;
     raw.format = "scene file";
@@ -233,7 +233,7 @@ class Extraction {
     for (std::size_t i = 0; i < colours.size(); ++i)
       if (!coloured[i]) colours[i] = to_float(loaded_.scene.materials[static_cast<std::size_t>(materials[i])].colour);
 
-    // Go on as with any file.
+    // Go on as with any other file.
     Result<SphereFile> file = finish_spheres(std::move(raw), "", options_);
     if (!file) return fail("/spheres", file.error().message, file.error().hint);
     if (std::any_of(materials.begin(), materials.end(), [](std::int32_t position) { return position != 0; }))
@@ -241,7 +241,7 @@ class Extraction {
     keep(std::move(*file), "", options_.recenter);
   }
 
-  // What a file gave, inline or not. With `move_the_rest` everything else goes where the spheres go.
+  // The spheres of a file, inline or not. With `move_the_rest` everything else moves with the spheres.
   void keep(SphereFile file, const std::string& name_of_file, bool move_the_rest) {
     Scene& scene = loaded_.scene;
     scene.spheres = std::move(file.spheres);
@@ -257,7 +257,7 @@ class Extraction {
   }
 
   void take_sphere_file(const json& value) {
-    // What the caller asks for goes before what the document says.
+    // The document's values fill the gaps of the caller's options.
     ReadOptions options = options_;
     if (!options.radius && value.contains("radius")) options.radius = value.at("radius").get<double>();
     options.radius_scale *= value.value("radius_scale", 1.0);
@@ -272,10 +272,11 @@ class Extraction {
     Result<SphereFile> file = read_spheres(path, options);
     if (!file) return fail("/spheres/file", file.error().to_string());
 
-    // A camera stands where the document's own spheres are; if those are moved from outside, it moves along.
+    // A camera stands where the document's own spheres are, so it moves along if the caller moves those.
     keep(std::move(*file), path + ": ", options.recenter && !recentred_by_document);
 
-    // The material: where it states a colour, all have that; otherwise those of the file, by element or by type.
+    // The material: if it states a colour, all spheres have that colour; otherwise those of the file, by element or by
+    // type.
     const std::int32_t position =
         value.contains("material") ? material_position(value.at("material"), "/spheres/material") : 0;
     Scene& scene = loaded_.scene;

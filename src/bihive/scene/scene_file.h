@@ -1,5 +1,5 @@
-// The scene file: JSON, checked against the published schema (docs/scene.schema.json), then against what a schema
-// cannot say.
+// The scene file: JSON, checked against the published schema (docs/scene.schema.json), then against rules that a schema
+// cannot express.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,25 @@
 
 namespace bihive {
 
-/// A scene with what the user should be told of where it comes from.
+/// A scene, and the facts of its origin for the user.
 struct LoadedScene {
   Scene scene;
-  bool has_camera = false;  ///< false: the caller frames the spheres
+  bool has_camera = false;  ///< false: the caller places the camera
   bool has_lights = false;
   std::string format = "scene file";  ///< or "built-in", or a sphere file's format (scene/load_scene.h)
-  std::int64_t frames = 1;            ///< frames or models in the sphere file that the document names
-  std::vector<std::string> rules;     ///< what was done to its spheres, a sentence each
+  std::int64_t frames = 1;            ///< frames or models in the document's sphere file
+  std::vector<std::string> rules;     ///< what was done to its spheres, one sentence each
   Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
 };
 
-/// `name` is the file's name for messages and the place that the document's own relative paths start from. The options
-/// apply to inline spheres as to a sphere file that the document names, and go before what the document says; where the
-/// options alone recentre, camera, lights and plane move along. Errors name the path inside the document
-/// (/materials/0/power) and what was expected there.
+/// `name` is the file's name for messages; relative paths in the document start from its folder. The options apply to
+/// inline spheres and to a sphere file of the document alike, and replace what the document says. If only the options
+/// recentre, camera, lights and plane move along. Errors name the path inside the document (/materials/0/power) and the
+/// expected value.
 Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options);
 
-/// True where the bytes look like a scene document (first character after white space is '{').
+/// True if the bytes look like a scene document (first character after white space is '{').
 bool looks_like_scene(std::string_view bytes);
 
 /// A complete document with the spheres inline; parse_scene() gives back an equal scene.

@@ -12,13 +12,13 @@
 namespace bihive {
 namespace {
 
-// The shortest text that reads as the same number again. JSON knows -0 as a fraction only.
+// The shortest text that reads as the same number again. JSON keeps the sign of -0 only in a fraction.
 std::string number(double value) {
   return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
 }
 
-// The same for a stored coordinate in world units: it has 24 bits, so that fewer digits do. (Not where they could round
-// up to more than binary32 holds.)
+// The same for a stored coordinate in world units: it has 24 bits, so fewer digits are enough. Not used if they could
+// round up beyond the range of binary32.
 std::string coordinate(double world) {
   const float rounded = static_cast<float>(world);
   return std::isnormal(rounded) && double(rounded) == world && std::abs(world) < 3.4e38 ? fmt::format("{}", rounded)

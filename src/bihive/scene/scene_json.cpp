@@ -23,7 +23,7 @@ constexpr std::size_t kLongestQuote = 60;  // bytes of the user's text that a me
 std::string shortened(std::string text) {
   if (text.size() <= kLongestQuote) return text;
   std::size_t end = kLongestQuote;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // keep UTF-8 whole
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // never cut a UTF-8 character
   return text.substr(0, end) + "...";
 }
 
@@ -33,7 +33,7 @@ std::string in_quotes(const std::string& text) {
 
 // --- Syntax -----------------------------------------------------------------------------------------------------
 
-// Looks at a document without keeping it: where it stops being JSON, and keys that occur twice.
+// Reads a document without keeping it, and finds the place where it stops being JSON, and keys that occur twice.
 class SyntaxCheck : public json::json_sax_t {
  public:
   bool null() override { return true; }
@@ -71,10 +71,10 @@ class SyntaxCheck : public json::json_sax_t {
   }
 
   std::string message;
-  std::size_t bytes_read = 0;  // up to and with the one that was wrong; 0 = unknown
+  std::size_t bytes_read = 0;  // up to and with the wrong one; 0 = unknown
 
  private:
-  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+  std::vector<std::set<std::string>> keys_;  // of the objects that are still open
 };
 
 Error syntax_error(std::string_view text, const SyntaxCheck& check, const std::string& name) {
@@ -103,7 +103,7 @@ const json& resolved(const json& schema) {
   return *at;
 }
 
-// One part of the schema made ready for checking values.
+// One part of the schema prepared for checking values.
 class Judge {
  public:
   explicit Judge(const json& schema) {
@@ -138,7 +138,7 @@ std::string list_of_keys(const json& properties) {
   return keys;
 }
 
-// What is wrong with a value that the schema refuses, at the deepest place that explains it.
+// The fault of a value that the schema refuses, at the deepest place that explains it.
 Error explain(const json& value, const json& unresolved_schema, const std::string& path) {
   const json& schema = resolved(unresolved_schema);
   const std::string place = (path.empty() ? "/" : path) + ": ";
@@ -146,7 +146,7 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
   const Error expected =
       refuse("expected " + schema.value("title", std::string("something else")) + ", found " + found(value));
 
-  // Of alternatives, explain the one that is of the value's type.
+  // Of several alternatives, explain the one with the value's type.
   if (schema.contains("anyOf")) {
     for (const json& alternative : schema.at("anyOf")) {
       const json& candidate = resolved(alternative);
@@ -157,7 +157,7 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
   }
   if (schema.contains("type") && !has_type(value, schema.at("type").get<std::string>())) return expected;
 
-  // In an object, look for keys that should not or should be there, then into the values.
+  // In an object, look for unknown and missing keys, then into the values.
   if (value.is_object() && schema.contains("properties")) {
     const json& properties = schema.at("properties");
     for (const auto& member : value.items())
@@ -175,7 +175,7 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
     }
   }
 
-  // In an array, look at the number of items, then into them.
+  // In an array, check the number of items, then the items.
   if (value.is_array() && schema.contains("items")) {
     const json& items = schema.at("items");
     const bool tuple = items.is_array();

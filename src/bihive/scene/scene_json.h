@@ -10,12 +10,12 @@
 
 namespace bihive {
 
-/// The document. An error has line and column of what is no JSON (columns count bytes); a key that occurs twice in one
-/// object is one too. `name` is the file's name for the message.
+/// The document. An error has line and column of the text that is not JSON (columns count bytes). A key that occurs
+/// twice in one object is an error too. `name` is the file's name for the message.
 Result<nlohmann::json> parse_json(std::string_view text, const std::string& name);
 
-/// Done if scene_schema() accepts the document. Otherwise the first place, in the order of keys, that it does not: the
-/// JSON pointer of the place, what the schema's title expects there, and what was found.
+/// Success if scene_schema() accepts the document. Otherwise an error for the first refused place, in the order of
+/// keys: the JSON pointer of the place, the expected value by the schema's title, and the value that was found.
 Status check_against_schema(const nlohmann::json& document, const std::string& name);
 
 }  // namespace bihive

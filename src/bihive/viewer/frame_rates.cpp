@@ -16,7 +16,7 @@ using nlohmann::json;
 constexpr int kQuickDivisor = 4;
 constexpr double kWholeFrameMs = 1e9;
 
-// Of values.json: {"values": {name: {"value": ...}}}. Null where it is missing.
+// Reads values.json: {"values": {name: {"value": ...}}}. Null if the name is missing.
 json value_of(const json& document, const char* name) {
   const auto values = document.find("values");
   if (values == document.end() || !values->is_object()) return {};
@@ -31,7 +31,8 @@ bool is_list_of_counts(const json& value) {
          });
 }
 
-// About how long a frame takes: brute force by the number of spheres; a tree less of it, and something of its own.
+// An estimate of the time of a frame. Brute force: in proportion to the number of spheres. A tree: a smaller share of
+// that, and a constant.
 double weight_of(std::int64_t spheres, bool tree) {
   return tree ? 20 + static_cast<double>(spheres) / 8 : 10 + static_cast<double>(spheres);
 }
@@ -149,12 +150,12 @@ Status FrameRateRun::draw_frame(Film& film) {
   return Done{};
 }
 
-// Milliseconds a frame, of as many frames as the least time of a round needs.
+// Milliseconds of a frame. Draws as many frames as the least time of a round needs.
 Result<double> FrameRateRun::frame_ms() {
   if (gl_) {
     const std::optional<Tree>& tree = group_[contestant_].tree;
     if (Status status = gl_->set_scene(scene_, tree ? &*tree : nullptr); !status) return status.error();
-    // What the first frame with a scene waits for is not the frame's.
+    // The first frame with a scene waits for its upload; that wait does not count.
     if (Status status = draw_frame(film_); !status) return status.error();
   }
   double all_ms = 0;
@@ -185,7 +186,7 @@ Status FrameRateRun::step() {
   done_weight_ += weight_of(rate.spheres, rate.max_prims.has_value());
   spent_ms_ += timer.elapsed_ms();
 
-  // On to the next contestant, round, number of spheres, scenario.
+  // Go on to the next contestant, round, number of spheres, scenario.
   if (contestant_ + 1 < group_.size()) {
     ++contestant_;
     return Done{};

@@ -1,9 +1,9 @@
-// The thesis's Figure 4.4 on the device at hand: how many frames a second brute force and trees of several MAX_PRIMS
-// make, measured in small steps, so that whoever asks can show progress and stop.
+// The thesis's Figure 4.4 on the device at hand: frames a second of brute force and of trees of several MAX_PRIMS. The
+// measurement goes in small steps, so that its caller can show progress and stop it.
 //
-// A frame is the shaded view of primary rays, the same for all but for what finds the hits. Brute force and the trees
-// of one pair of scenario and number of spheres take turns, round by round; the first round warms up and does not
-// count.
+// A frame is the shaded view of primary rays. It is the same for all contestants; only the search for hits differs.
+// Brute force and the trees of one pair of scenario and number of spheres take turns, round by round. The first round
+// warms up and does not count.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,17 @@
 
 namespace bihive {
 
-/// What is measured: every scenario with every number of spheres, by brute force and by a tree of each MAX_PRIMS.
+/// The plan: every scenario with every number of spheres, by brute force and by a tree of each MAX_PRIMS.
 struct FrameRatePlan {
   std::vector<std::int64_t> scenarios, spheres, max_prims;  ///< none empty
   double radius = 1;
   int width_px = 0, height_px = 0;
   int recursion = 1;
-  int rounds = 9;        ///< that count; >= 1
-  double least_ms = 15;  ///< of a round: shorter frames are drawn again and again
-  bool quick = false;    ///< smaller pictures and fewer rounds than the thesis's
+  int rounds = 9;        ///< rounds that count; >= 1
+  double least_ms = 15;  ///< of a round: shorter frames are repeated
+  bool quick = false;    ///< smaller pictures and fewer rounds than in the thesis
 
-  /// The thesis's, from the text of thesis/figure-4.4/values.json. Error: a value is missing there.
+  /// The thesis's plan, from the text of thesis/figure-4.4/values.json. Error: a value is missing there.
   static Result<FrameRatePlan> from_values(std::string_view values_json);
   /// A quarter of the width and height, one round: seconds instead of minutes, and rougher numbers.
   FrameRatePlan quickly() const;
@@ -43,27 +43,27 @@ struct FrameRatePlan {
 struct MeasuredRate {
   std::int64_t scenario = 0, spheres = 0;
   std::optional<std::int64_t> max_prims;  ///< unset: brute force
-  std::vector<double> frame_ms;           ///< a round each
+  std::vector<double> frame_ms;           ///< one for each round
 
   double fps() const;  ///< by the median of the rounds
 };
 
 class FrameRateRun {
  public:
-  /// On the graphics processor where a renderer is given, whose scene is lost; it must outlive the run. Else by the
-  /// reference engine on all threads.
+  /// If a renderer is given, the graphics processor draws; the renderer loses its scene and must outlive the run. Else
+  /// the reference engine draws on all threads.
   FrameRateRun(FrameRatePlan plan, GlRenderer* gl);
 
-  /// One round of one configuration. Nothing once finished(). After an Error the run is over.
+  /// Runs one round of one configuration. Does nothing after finished(). After an Error the run is over.
   Status step();
 
   bool finished() const;
-  double done() const;          ///< 0 to 1, of the time that it takes
-  double seconds_left() const;  ///< by what was done so far; 0 before anything is
+  double done() const;          ///< 0 to 1, a share of the whole time
+  double seconds_left() const;  ///< estimated from the rounds so far; 0 before the first
   const FrameRatePlan& plan() const { return plan_; }
-  /// Complete ones, in the order of scenarios, spheres, brute force before trees.
+  /// The complete ones, in the order of scenarios, spheres, brute force before trees.
   const std::vector<MeasuredRate>& rates() const { return rates_; }
-  /// What step() measures next; the last when finished.
+  /// The configuration that step() measures next; the last one after the end.
   std::int64_t scenario() const { return plan_.scenarios[std::min(scenario_, plan_.scenarios.size() - 1)]; }
   std::int64_t spheres() const { return plan_.spheres[count_]; }
 
@@ -72,7 +72,7 @@ class FrameRateRun {
   struct Contestant {
     MeasuredRate rate;
     std::optional<Tracer> tracer;  // on the CPU
-    std::optional<Tree> tree;      // on the graphics processor; none is brute force
+    std::optional<Tree> tree;      // on the graphics processor; null is brute force
   };
 
   Status begin_group();

@@ -28,8 +28,8 @@ class Stated {
     return (*entry)["value"].get<double>();
   }
 
-  // The frame rate of brute force (without max_prims) or of a tree. Of brute force the thesis says that it does not
-  // depend on the scenario.
+  // The frame rate of brute force (without max_prims) or of a tree. The thesis says that brute force does not depend on
+  // the scenario.
   std::optional<double> fps(std::int64_t scenario, std::int64_t spheres, std::optional<std::int64_t> max_prims) const {
     if (!max_prims) return number(fmt::format("brute.fps.spheres{}", spheres));
     const auto is = [&](const char* name, std::int64_t wanted) {
@@ -50,7 +50,7 @@ struct Gain {
   double percent;
 };
 
-// Of the best tree over brute force, for every group that is complete.
+// The gain of the best tree over brute force, for every complete group.
 std::vector<Gain> gains_of(const std::vector<MeasuredRate>& rates) {
   std::vector<Gain> gains;
   double brute = 0;
@@ -72,7 +72,7 @@ std::string tree_name(std::int64_t max_prims) {
   return fmt::format("BIH {}", max_prims);
 }
 
-// Least, most and mean of each scenario's gains, as the thesis names them; a scenario without any gap in it only.
+// Least, greatest and mean gain of each scenario, as the thesis names them; only for scenarios without missing groups.
 std::string gains_chart(const FrameRateRun& run, const Stated& stated, const std::string& here) {
   ChartData chart{"Gain of the best tree over brute force", "",   "percent", {},
                   {{here, {}}, {kStatedDevice, {}}},        false};

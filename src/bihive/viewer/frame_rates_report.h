@@ -1,4 +1,4 @@
-// What a run of Figure 4.4 gave: as JSON, and as charts beside what the thesis states of the iPhone 5s.
+// The result of a run of Figure 4.4: as JSON, and as charts beside the thesis's values for the iPhone 5s.
 #pragma once
 
 #include <string>

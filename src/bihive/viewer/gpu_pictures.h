@@ -1,4 +1,4 @@
-// Pictures of the graphics processor, and the last one kept to be shown while the next is made.
+// Pictures of the graphics processor. The last complete one is kept and shown while the next is made.
 #pragma once
 
 #include <cstdint>
@@ -22,21 +22,21 @@ class GpuPictures {
   GpuPictures(const GpuPictures&) = delete;
   GpuPictures& operator=(const GpuPictures&) = delete;
 
-  /// Makes the pictures; a picture begins with begin() below.
+  /// Makes the pictures; begin() below starts one.
   GlRenderer& renderer() { return renderer_; }
   const GlRenderer& renderer() const { return renderer_; }
 
-  /// Starts a picture of the scene that was set, with its camera and transfer as they are in `scene`, and its lights
-  /// too where they are new.
+  /// Starts a picture of the scene that was set, with the camera and transfer of `scene`, and with its lights if they
+  /// are new.
   Status begin(const Scene& scene, bool new_lights, const RenderSettings& settings);
 
-  /// Copies the passes that are complete: the picture that show() draws from now on. Error: no room for it.
+  /// Copies the complete passes; show() draws this copy from now on. Error: no room for it.
   Status keep();
   /// Draws the kept picture, if any, stretched to the viewport.
   void show(std::uint32_t framebuffer, const GlViewport& viewport) const;
   void forget() { width_ = height_ = 0; }
 
-  /// The context is gone: nothing is to be deleted.
+  /// The context is gone: delete nothing.
   void abandon();
 
  private:
@@ -45,10 +45,10 @@ class GpuPictures {
   GlFunctions gl_;
   GlRenderer renderer_;
   bool abandoned_ = false;
-  RenderSettings settings_;  // of the picture in the making
+  RenderSettings settings_;  // of the unfinished picture
   Transfer transfer_ = Transfer::srgb;
   GLuint texture_ = 0, framebuffer_ = 0;  // of the kept picture
-  int width_ = 0, height_ = 0;            // 0: none is kept
+  int width_ = 0, height_ = 0;            // 0: no picture is kept
 };
 
 }  // namespace bihive

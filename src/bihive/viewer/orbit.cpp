@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kDegreesAcross = 180;       // of a turn, along the shorter side
 constexpr double kMostDegrees = 80;          // of one move: tan_deg() takes half of it
-constexpr double kLeastSine = 0.0174524064;  // of the angle between view and up: 1 degree
+constexpr double kLeastSine = 0.0174524064;  // between view and up, at least: 1 degree
 
 struct Angle {
   double cosine, sine;
 };
 
-// From the tangent of the half: the same bits on every machine.
+// The angle comes from the tangent of its half, with the same bits on every machine.
 Angle angle_of(double degrees) {
   const double t = std::copysign(tan_deg(std::abs(degrees) / 2), degrees);
   const double scale = 1 / (1 + t * t);
@@ -40,7 +40,7 @@ Steps steps_of(const Camera& camera, PictureSizePx size) {
   return {distance * rays.right(), distance * rays.down()};
 }
 
-// What the user did must not end in a camera that sees nothing.
+// No move of the user may lead to a camera that sees nothing.
 Camera if_good(const Camera& moved, const Camera& before) {
   return check_camera(moved) ? moved : before;
 }
@@ -60,7 +60,7 @@ Camera orbited(const Camera& camera, double dx_px, double dy_px, PictureSizePx s
   const Vec3d ahead = level / across;
   const Vec3d aside = cross(up, ahead);
 
-  // Towards the pole, but not over it. A camera that starts nearer than that may stay there.
+  // Towards the pole, but not over it. A camera that starts nearer to the pole may stay there.
   const Angle tilt = angle_of(degrees_of(dy_px, size));
   double new_across = across * tilt.cosine - height * tilt.sine;
   double new_height = height * tilt.cosine + across * tilt.sine;
@@ -70,7 +70,7 @@ Camera orbited(const Camera& camera, double dx_px, double dy_px, PictureSizePx s
     new_height = std::copysign(std::sqrt(1 - least * least), new_height);
   }
 
-  // Around the pole: the pointer to the right, the eye to the left.
+  // Around the pole: if the pointer moves to the right, the eye moves to the left.
   const Angle turn = angle_of(-degrees_of(dx_px, size));
   const Vec3d direction = normalized(new_height * up + new_across * (turn.cosine * ahead + turn.sine * aside));
   Camera moved = camera;

@@ -7,7 +7,7 @@ namespace bihive {
 namespace {
 
 constexpr int kDivisors[] = {1, 2, 3, 4, 6, 8, 12, kCoarsestDivisor};
-// Up to here pixels are hardly seen while something moves.
+// Up to this divisor people hardly see the pixels while something moves.
 constexpr int kFineDivisor = 3;
 constexpr double kWindowMs = 1000;
 
@@ -34,7 +34,7 @@ PictureStep finer_step(PictureStep step, int samples_per_pixel) {
 }
 
 StepShare share_of_step(PictureStep step, int samples_per_pixel) {
-  // As if every picture had begun at the coarsest.
+  // Counts as if every picture had begun at the coarsest step.
   const PictureStep last{1, samples_per_pixel};
   const PictureStep next = finer_step(step, samples_per_pixel);
   double before = 0, before_next = 0, all = 0;

@@ -1,4 +1,4 @@
-// How fine the next picture may be: coarse enough for the budget while something moves, finer and finer at rest.
+// The fineness of the next picture: coarse enough for the budget while something moves, finer and finer at rest.
 #pragma once
 
 #include <deque>
@@ -17,21 +17,22 @@ struct PictureStep {
 
 constexpr int kCoarsestDivisor = 16;
 
-/// Pixels of a side divided by the divisor: rounded up, so that nothing is missing.
+/// Pixels of a side divided by the divisor, rounded up, so that the whole picture is covered.
 inline int divided(int side_px, int divisor) {
   return (side_px + divisor - 1) / divisor;
 }
 
-/// How coarse a picture of one sample a pixel has to be while something moves: the smallest of the divisors 1, 2, 3, 4,
-/// 6, 8, 12, 16 that keeps to the budget. Above 3 it may take twice the budget, and always twice what the smallest
-/// picture takes: coarser ones would be seen more than gained. The last where none is small enough.
+/// The divisor for a picture of one sample a pixel while something moves: the smallest of 1, 2, 3, 4, 6, 8, 12, 16 that
+/// keeps to the budget. Above 3 the picture may take twice the budget, and always twice the time of the smallest
+/// picture, because coarser pictures would look worse and gain little. 16 if none keeps to the budget.
 int divisor_for(int width_px, int height_px, const PictureCost& cost, double budget_ms);
 
-/// The step after one at rest: half the divisor (to 4, 2, 1), then all samples. The last one is followed by itself.
+/// The step after one at rest: half the divisor (to 4, 2, 1), then all samples. After the last step it returns that
+/// step.
 PictureStep finer_step(PictureStep step, int samples_per_pixel);
 
-/// For a bar of progress that never runs back: of all pixels and samples up to the final picture the share that was
-/// done before a step, and the step's own, which may be 0. Both 0 to 1.
+/// For a progress bar that never runs back: the share of all pixels and samples up to the final picture that was done
+/// before a step, plus the step's own share, which may be 0. Both 0 to 1.
 struct StepShare {
   double before, own;
 };
@@ -40,7 +41,7 @@ StepShare share_of_step(PictureStep step, int samples_per_pixel);
 /// Frames a second over the last second of frames that moved.
 class FrameRate {
  public:
-  /// `now_ms`: on any steady clock, when the frame was done.
+  /// `now_ms`: the end of the frame on any steady clock.
   void moved(double now_ms);
   double fps() const;  ///< 0: fewer than two frames yet
 

@@ -5,13 +5,13 @@
 namespace bihive {
 namespace {
 
-// Shares of the values themselves: how much a measurement is off, how far the truth drifts from one to the next, and
-// how much of the first picture may be the part that every picture takes.
+// Shares of the values themselves: the error of a measurement, the drift of the true value from one picture to the
+// next, and the share of the first picture's time that may be the same for every picture.
 constexpr double kNoise = 0.25;
 constexpr double kDrift = 0.2;
 constexpr double kFixedDrift = 0.05;
 constexpr double kFirstFixed = 0.3;
-// More than so many times what was expected is believed to be so many times.
+// A measurement of more than this many times the expected value counts as this many times.
 constexpr double kMostSurprise = 4;
 
 double square(double x) {
@@ -31,12 +31,12 @@ void PictureCost::measured(double ms, std::int64_t pixels) {
     return;
   }
 
-  // What may have changed since the last picture.
+  // Predict: the values may have changed since the last picture.
   const double expected = ms_for(pixels);
   fixed_variance_ += square(kDrift * fixed_ms_ + kFixedDrift * expected);
   pixel_variance_ += square(kDrift * ms_per_pixel_);
 
-  // Share the surprise out by how uncertain either part is.
+  // Divide the difference between the two values in proportion to their uncertainty.
   const double believed = std::min(ms, kMostSurprise * expected);
   const double with_fixed = fixed_variance_ + x * covariance_;
   const double with_pixel = covariance_ + x * pixel_variance_;

@@ -6,7 +6,7 @@
 namespace bihive {
 namespace {
 
-// A picture of something that moves may overrun the budget that often, rather than never be seen.
+// A picture of a moving scene may overrun the budget by this factor; otherwise it might never be shown.
 constexpr double kMostBudgets = 4;
 
 // Pixels of a picture of that step.
@@ -31,7 +31,7 @@ Result<FrameReport> PictureSteps::frame(const PictureSubject& subject, double bu
   FrameReport report;
   if (!at_rest()) {
     if (Status status = go_on(subject, budget_ms, report.drawn); !status) {
-      // Not again and again.
+      // Report it only once.
       drop_step();
       restart_ = false;
       settled_ = true;
@@ -120,7 +120,7 @@ Status PictureSteps::take_gpu(const PictureSubject& subject, bool& drawn) {
   const double primary = static_cast<double>(pixels_of(step_, subject.size)) * step_.samples;
   finish_step(subject);
 
-  // How many rays of other kinds a pixel sends out is asked at rest only: it takes reading the picture back.
+  // The number of rays of other kinds is asked at rest only, because it needs reading the picture back.
   if (settled_) {
     const Result<GlRenderer::Picture> picture = gpu.renderer().read();
     if (!picture) return picture.error();

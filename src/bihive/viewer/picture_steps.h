@@ -17,7 +17,7 @@
 
 namespace bihive {
 
-/// What the pictures are of, and who makes them.
+/// The content of the pictures, and the engines that make them.
 struct PictureSubject {
   ShownScene& shown;
   const ViewerSettings& settings;
@@ -27,18 +27,18 @@ struct PictureSubject {
 
 class PictureSteps {
  public:
-  /// The subject is another, or another size: what was begun is dropped.
+  /// The subject or the size is new: drops the unfinished picture.
   void start_anew();
-  /// The camera moved: the first picture after the last move is finished before the next is begun, or a fast hand would
-  /// never see one.
+  /// The camera moved. The first picture after the last move is finished before the next one begins; otherwise a fast
+  /// hand would never see a picture.
   void moved() { restart_ = true; }
-  /// The scene, its trees or the GPU's renderer are about to go or to be used for something else: what was begun lets
-  /// go of them, and the next call of go_on() begins a step anew.
+  /// Call it before the scene, its trees or the GPU's renderer go away or are used for something else. The unfinished
+  /// picture releases them, and the next call of go_on() begins a step anew.
   void drop_step();
   void forget_image() { image_ = {}; }
 
   bool at_rest() const { return settled_ && !restart_; }
-  /// As Viewer::frame(). After an Error it is at rest until something changes.
+  /// As Viewer::frame(). After an Error nothing is drawn until something changes.
   Result<FrameReport> frame(const PictureSubject& subject, double budget_ms);
   /// The last picture of the CPU engine.
   const Image& image() const { return image_; }
@@ -54,14 +54,14 @@ class PictureSteps {
     return costs_[subject.settings.engine == ViewerEngine::gpu ? 1 : 0];
   }
 
-  // The picture in the making.
+  // The unfinished picture.
   bool restart_ = false;  // something has changed since the step was begun
   bool settled_ = true;
   bool moving_ = false;  // the step is the first after a change
   bool begun_ = false;
   PictureStep step_;
   std::optional<SlicedPicture> picture_;  // on the CPU
-  Film film_;                             // whose memory the next picture takes
+  Film film_;                             // the next picture takes its memory
   Image image_;
   int shown_samples_ = 0;  // on the graphics processor
   double spent_ms_ = 0;

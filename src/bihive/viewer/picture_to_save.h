@@ -1,5 +1,4 @@
-// A picture of any size that somebody wants to keep, made in steps so that whoever waits sees how far it is and may
-// stop.
+// A picture of any size for a file, made in steps, so that its caller can show progress and stop it.
 #pragma once
 
 #include <optional>
@@ -16,18 +15,17 @@ namespace bihive {
 
 class PictureToSave {
  public:
-  /// Scene and tracer must outlive it and stay as they are.
+  /// Scene and tracer must outlive it and must not change.
   static Result<PictureToSave> by_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings);
-  /// The scene must have been set, but for its lights where they are new; any other picture that `gpu` begins meanwhile
-  /// ends this one.
+  /// The scene must have been set; its lights may be new. Any other picture that `gpu` begins meanwhile ends this one.
   static Result<PictureToSave> by_gpu(GpuPictures& gpu, const Scene& scene, bool new_lights,
                                       const RenderSettings& settings);
 
-  /// Draws for about `budget_ms`, at least a tile.
+  /// Draws for about `budget_ms`, at least one tile.
   Status advance(double budget_ms);
   bool finished() const;
-  double done() const;  ///< share of the picture, 0 to 1; 1 where it is finished
-  /// The finished picture, once: display values.
+  double done() const;  ///< share of the picture, 0 to 1; 1 at the end
+  /// Returns the finished picture, once: display values.
   Result<Image> take();
 
  private:

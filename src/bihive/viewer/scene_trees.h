@@ -1,4 +1,4 @@
-// The trees of one scene, built when they are first needed and kept.
+// The trees of one scene, built at their first use and kept.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,11 @@ class SceneTrees {
   /// Error: not enough memory, or too many spheres. The tracers live as long as this object.
   Result<const Tracer*> wide();
   Result<const Tracer*> reference();
-  /// The one that these settings need.
+  /// The tracer that these settings need.
   Result<const Tracer*> needed_by(const ViewerSettings& settings) {
     return needs_reference_tree(settings) ? reference() : wide();
   }
-  /// Whichever there is already, for single rays; null where there is none.
+  /// Any tracer that exists already, for single rays; null if there is none.
   const Tracer* any() const;
 
   /// Errors as above.

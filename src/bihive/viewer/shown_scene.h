@@ -1,4 +1,4 @@
-// A scene on show, with what its user is told of it and the trees that its pictures need.
+// A scene on show, with its description for the user and the trees that its pictures need.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace bihive {
 
-/// What a scene is, for titles and messages.
+/// The description of a scene, for titles and messages.
 struct SceneFacts {
   std::string name, format;
   std::int64_t spheres = 0, frames = 1;
@@ -24,7 +24,7 @@ struct SceneFacts {
 };
 SceneFacts facts_of(const LoadedScene& loaded);
 
-/// Never moved: its trees refer to its spheres.
+/// Never moved in memory: its trees refer to its spheres.
 struct ShownScene {
   Scene scene;  ///< at least one sphere
   SceneFacts facts;
@@ -39,7 +39,7 @@ struct ShownScene {
 
   /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree.
   Camera framed(ViewFrom side, View view, PictureSizePx size) const;
-  /// The scene is seen by this camera from now on, and lit from behind it where it has no lights of its own.
+  /// Uses this camera from now on. A scene without lights of its own is lit from behind the camera.
   void look_by(const Camera& camera);
 };
 

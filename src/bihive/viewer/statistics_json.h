@@ -1,4 +1,4 @@
-// Both trees of a scene in numbers: what `bihive stats` says, and as JSON what it prints.
+// Both trees of a scene in numbers: the content of `bihive stats`, and the JSON that it prints.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct ReferenceFacts {
 };
 ReferenceFacts reference_facts(const Tree& tree, double build_ms);
 
-/// The wide tree, with what was said of its memory before it was built.
+/// The wide tree, with the prediction of its memory.
 struct WideFacts {
   WideStatistics statistics;
   WideParameters parameters;
@@ -31,14 +31,14 @@ struct WideFacts {
   std::int64_t measured_peak_bytes = 0;  ///< tree and working memory
   double build_ms = 0;
 
-  /// An empty tree has none: 0.
+  /// 0 for an empty tree.
   double bytes_per_sphere() const {
     if (statistics.spheres == 0) return 0;
     return static_cast<double>(statistics.used_bytes) / static_cast<double>(statistics.spheres);
   }
 };
 
-/// A wide tree that has just been built, and what its facts need of the building.
+/// A wide tree that has just been built, and the facts of its build.
 struct BuiltWideTree {
   std::shared_ptr<const WideTree> tree;
   WideParameters parameters;
@@ -51,7 +51,7 @@ WideFacts wide_facts(const BuiltWideTree& built);
 
 /// One object over several lines, without a line break at the end. `seed`: of a generated scene.
 std::string statistics_json(const ReferenceFacts& reference, const WideFacts& wide, std::optional<std::uint64_t> seed);
-/// Why there are none: {"error": "..."}.
+/// The reason why there are no statistics: {"error": "..."}.
 std::string statistics_error(const Error& error);
 
 }  // namespace bihive

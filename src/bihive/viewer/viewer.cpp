@@ -41,7 +41,7 @@ class Viewer::Implementation {
     if (scene.spheres.empty()) return bad_setting("the scene has no spheres");
     auto next = std::make_unique<ShownScene>(std::move(scene), std::move(facts), has_camera, has_lights);
 
-    // What it brings along, and what stays.
+    // A new scene brings these settings along; the others stay.
     ViewerSettings settings = settings_;
     const PictureDefaults& picture = next->scene.picture;
     settings.recursion = std::clamp(picture.recursion, 1, kMostRecursion);
@@ -104,7 +104,7 @@ class Viewer::Implementation {
     if (Status status = check_settings(settings); !status) return status;
     drop_picture();
 
-    // A camera that shows the whole set does so in the new view too.
+    // A camera that shows the whole set also shows it in the new view.
     const bool keeps_side = framed_from_ && same_camera(settings.camera, settings_.camera);
     if (shown_ && keeps_side) settings.camera = shown_->framed(*framed_from_, settings.view, size_);
     if (shown_) {
@@ -178,7 +178,7 @@ class Viewer::Implementation {
     if (!shown_) return bad_setting("there is no scene yet");
     if (Status status = check_picture_memory(width_px, height_px); !status) return status;
 
-    // What is on the way to the screen gives way.
+    // The picture on the screen is dropped for it.
     drop_picture();
     steps_.drop_step();
     shown_->look_by(settings_.camera);
@@ -233,7 +233,7 @@ class Viewer::Implementation {
     return Done{};
   }
 
-  // Builds and uploads what the settings need; on an Error nothing on show has changed.
+  // Builds and uploads all that the settings need. After an Error the picture on show is unchanged.
   Status make_ready(const ShownScene& shown, SceneTrees& trees, const ViewerSettings& settings, bool upload) {
     if (settings.engine == ViewerEngine::gpu)
       if (Status status = check_gpu(settings); !status) return status;
@@ -260,7 +260,7 @@ class Viewer::Implementation {
     steps_.moved();
   }
 
-  // What is seen at (x, y), or a point as far away as what is looked at.
+  // The point under (x, y), or a point as far away as look_at.
   Vec3d seen_at(double x_px, double y_px) const {
     const Camera& camera = settings_.camera;
     if (const Tracer* tracer = shown_->trees->any()) {

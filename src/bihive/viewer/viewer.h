@@ -1,5 +1,5 @@
-// What a person does with a scene on a screen: look at it from all sides, switch views, engines and parameters of the
-// tree. The model behind the native window and the page alike; it knows neither.
+// The model behind the native window and the page: a person looks at a scene from all sides, and switches views,
+// engines and parameters of the tree. The model knows neither window nor page.
 //
 // Pictures come in steps: while something moves, at a resolution that keeps to the budget of a frame; at rest, finer
 // and finer up to every pixel and all samples.
@@ -33,9 +33,9 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // The scene. On an Error the scene before stays, and everything else with it. A new scene brings its own camera and
+  // The scene. After an Error the scene before stays, with everything else. A new scene brings its own camera and
   // picture defaults (samples, recursion, shadows); engine, view and parameters of the tree stay. A scene without
-  // lights is lit from behind the camera, wherever that goes, as `bihive render` does.
+  // lights is lit from behind the camera, also when the camera moves, as `bihive render` does.
 
   /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres". The parameters are the scenarios', the options the
   /// demo's.
@@ -43,7 +43,7 @@ class Viewer {
                                    const ReadOptions& options = {});
   /// The bytes of a file of spheres or of a scene file, compressed or not.
   Result<SceneFacts> load(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
-  /// A scene made elsewhere, at least one sphere; without `has_camera` the whole set comes into view.
+  /// A scene from elsewhere, at least one sphere; without `has_camera` the whole set comes into view.
   Result<SceneFacts> load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
   const SceneFacts& facts() const;  ///< empty before the first scene
   const Scene& scene() const;       ///< without spheres before the first
@@ -51,13 +51,13 @@ class Viewer {
   // The graphics processor. Its context must be current in every call while one is attached.
 
   Status attach_gl(const GlFunctions& functions);
-  /// The context is gone, or about to go (`lost` false: objects are deleted). ViewerEngine::gpu then is an Error; where
-  /// it was chosen, the CPU goes on.
+  /// The context is gone, or about to go (`lost` false: objects are deleted). ViewerEngine::gpu is then an Error; if it
+  /// was chosen, the CPU goes on.
   void detach_gl(bool lost);
   bool has_gl() const;
   std::string gl_description() const;  ///< empty without one
 
-  // What is seen. Each starts the picture anew.
+  // The settings. Each of these calls starts the picture anew.
 
   const ViewerSettings& settings() const;
   /// Error: out of range, a camera that sees nothing (check_camera), no graphics processor, or a view that the engine
@@ -65,42 +65,43 @@ class Viewer {
   Status set(const ViewerSettings& settings);
   /// Size of the picture at rest. 1 to 16384 each. A camera that shows the whole set is placed anew.
   void resize(int width_px, int height_px);
-  /// The pointer moved by so many pixels: turn around what is looked at (the scene follows the pointer), or shift it.
+  /// The pointer moved by this many pixels: turn around look_at (the scene follows the pointer), or shift the scene.
   void orbit(double dx_px, double dy_px);
   void pan(double dx_px, double dy_px);
-  /// Above 1 comes closer. At (x, y) in pixels what is seen stays where it is. Not finite or not above 0: nothing.
+  /// A factor above 1 comes closer. The point under (x, y) in pixels stays at its place. Does nothing if the factor is
+  /// not finite or not above 0.
   void zoom(double factor, double x_px, double y_px);
   void look_from(ViewFrom side);  ///< the whole set in view
   void home();                    ///< the scene's own camera, or all in view from the front
 
   // Pictures.
 
-  /// Goes on with the picture for about `budget_ms`. After a change the first picture comes at once, coarse enough for
-  /// the budget; where it was not, after at most four times the budget there is a report without a picture, and the
-  /// next call goes on with it. Nothing to draw before the first scene: settled. Error: not enough memory, or the
-  /// graphics processor's.
+  /// Continues the picture for about `budget_ms`. After a change the first picture comes at once, coarse enough for the
+  /// budget. If it overruns the budget, a report without a picture comes after at most four times the budget, and the
+  /// next call continues it. Before the first scene it is settled. Error: not enough memory, or an error of the
+  /// graphics processor.
   Result<FrameReport> frame(double budget_ms);
-  /// The last picture of the CPU engine, divisor times smaller than the size asked for; display values.
+  /// The last picture of the CPU engine, `divisor` times smaller than the requested size; display values.
   const Image& image() const;
-  /// The last picture of the GPU engine, stretched to the viewport. Nothing where there is none. A framebuffer of
-  /// several samples a pixel (antialiasing) is not for this.
+  /// The last picture of the GPU engine, stretched to the viewport. Draws nothing if there is none. The framebuffer
+  /// must have one sample a pixel (no antialiasing).
   void show(std::uint32_t framebuffer, const GlViewport& viewport);
 
-  // A picture to be saved, of any size, by the engine of the settings. Made in steps it may be dropped in between;
-  // meanwhile the pointer may move, but frame(), set(), load() and the loss of its graphics processor drop it too.
+  // A picture to be saved, of any size, by the engine of the settings. It is made in steps. The pointer may move
+  // between two steps, but frame(), set(), load() and the loss of its graphics processor drop the picture.
 
   Status begin_picture(int width_px, int height_px, int samples_per_pixel);
-  /// Draws for about `budget_ms`; the share that is done, 1 where all is. Error: there is none in the making (any
-  /// more), or the graphics processor's.
+  /// Draws for about `budget_ms`; returns the finished share, 1 at the end. Error: no picture is in the making (any
+  /// more), or an error of the graphics processor.
   Result<double> advance_picture(double budget_ms);
-  /// Once it is done. Error: it is not, or the graphics processor's.
+  /// The finished picture. Error: it is not finished, or an error of the graphics processor.
   Result<Image> take_picture();
   void drop_picture();
-  /// All of it at once.
+  /// The whole picture at once.
   Result<Image> picture(int width_px, int height_px, int samples_per_pixel);
 
-  /// Both trees' statistics as in `bihive stats --json`, with the bytes and the build time, of the current parameters;
-  /// builds what has not been built. {"error": "..."} where there is no scene, or not enough memory for a tree.
+  /// Both trees' statistics for the current parameters as in `bihive stats --json`, with the bytes and the build time.
+  /// Builds the trees that are not built yet. {"error": "..."} without a scene, or if memory is too small for a tree.
   std::string statistics_json() const;
 
  private:

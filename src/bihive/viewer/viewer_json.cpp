@@ -12,10 +12,10 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-// kUnlimited, which is more than JavaScript's numbers hold.
+// kUnlimited is more than JavaScript's numbers hold.
 constexpr const char* kUnlimitedName = "unlimited";
 
-// Takes members out of one object; remembers the first thing that is wrong.
+// Takes members out of one object, and remembers the first fault.
 class Members {
  public:
   Members(const json& object, std::string place, Error& error)
@@ -23,7 +23,7 @@ class Members {
     if (!object.is_object()) fail("", "an object", object);
   }
 
-  // The member that `key` names; null where there is none or something was wrong already.
+  // The member `key`; null if it is missing or a fault was found before.
   const json* find(const char* key) {
     known_.emplace_back(key);
     if (!error_.message.empty()) return nullptr;
@@ -91,7 +91,7 @@ class Members {
     fail(key, "one of " + list, *member);
   }
 
-  /// After all are taken.
+  /// Call it after all members are taken.
   void refuse_others() {
     if (!error_.message.empty()) return;
     for (const auto& [key, member] : object_.items()) {

@@ -13,11 +13,10 @@ namespace bihive {
 /// "max_depth":null,"camera":{"eye":[x,y,z],"look_at":[x,y,z],"up":[x,y,z],"fov_deg":30}}. Numbers come back exactly.
 std::string settings_to_json(const ViewerSettings& settings);
 
-/// What the document leaves out is taken from `base`; a limit of the tree is a number, "unlimited" (kUnlimited),
+/// A member that the document leaves out comes from `base`. A limit of the tree is a number, "unlimited" (kUnlimited),
 /// or null, which leaves the choice to the engine.
 /// Error: not JSON, an unknown key, a wrong type, a number out of range; the message begins with the place
-/// ("/camera/eye:
-/// ..."). The camera is not checked to see anything: Viewer::set() does.
+/// ("/camera/eye: ..."). Whether the camera sees anything is not checked here: Viewer::set() checks it.
 Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSettings& base = {});
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// What a user of the viewer chooses.
+// The choices of the viewer's user.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline const Names<ViewerEngine> kViewerEngines{{"cpu", ViewerEngine::cpu}, {"gp
 constexpr int kMostRecursion = 16;
 constexpr int kMostSamples = 64;
 
-/// Everything that a user chooses. Plain data; as JSON in viewer/viewer_json.h, for links and saved states.
+/// All choices of the user. Plain data; viewer/viewer_json.h turns them into JSON, for links and saved states.
 struct ViewerSettings {
   ViewerEngine engine = ViewerEngine::cpu;
   View view = View::shaded;

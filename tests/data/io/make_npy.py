@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the .npy files beside this script with NumPy: one array in every layout that NumPy may give it."""
+"""Writes the .npy files beside this script with NumPy: one array in every layout of NumPy."""
 
 import pathlib
 

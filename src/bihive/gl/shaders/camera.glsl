@@ -11,8 +11,9 @@ uniform vec3 down;
 uniform vec3 down_lower;
 uniform vec2 half_size;
 
-// The ray through a picture position in pixels from the top left corner. Its direction is the CPU's to the last bit,
-// nearly always: edges of a checker that pass through the centres of many pixels lie where that bit says.
+// The ray through a picture position in pixels from the top left corner. Its direction nearly always equals the CPU's
+// to the last bit. Edges of a checker pass through the centres of many pixels, and that bit decides where such an edge
+// lies.
 Ray camera_ray(vec2 position) {
   vec2 steps = position - half_size;
   Pair3 across = sum_of(Pair3(forward, forward_lower), product_of(vec3(steps.x), Pair3(right, right_lower)));

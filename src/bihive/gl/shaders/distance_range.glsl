@@ -1,4 +1,4 @@
-// The range of distances that the distance view needs first: a pixel's nearest and farthest of its samples so far.
+// The range of distances for the distance view: the nearest and the farthest sample of a pixel so far.
 #include "film"
 #include "scene_hit"
 

@@ -1,4 +1,4 @@
-// Twin of math/elementary.h: powers whose error is known. pow() may be as coarse as a driver likes near 1.
+// Twin of math/elementary.h: powers with a known error. A driver's pow() may be coarse near 1.
 #include "common"
 
 // log2(x) for x > 0: the exponent, and a series of the mantissa between sqrt(1/2) and sqrt(2).

@@ -1,5 +1,5 @@
-// One sample of every pixel: the film before and what the sample adds. Rows count from the top. Alpha adds up the rays
-// that were traced besides primary ones.
+// One sample of every pixel: the film before, plus the light of the sample. Rows count from the top. Alpha adds up the
+// rays that are not primary rays.
 #include "camera"
 #include "film_texel"
 

@@ -1,4 +1,4 @@
-// What a texel of the film is (gl/film_textures.h): four numbers, or with FILM_OF_BITS their bits as integers.
+// A texel of the film (gl/film_textures.h): four numbers, or with FILM_OF_BITS their bits as integers.
 #include "common"
 
 #ifdef FILM_OF_BITS

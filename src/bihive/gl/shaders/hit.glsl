@@ -7,8 +7,8 @@ struct Hit {
   int sphere;
 };
 
-// Takes the candidate if it is nearer; of equal t the smaller id wins. Within a leaf the order of ids is that of
-// positions, and so the first of equal ones has won before: here come the best of different leaves.
+// Takes the candidate if it is nearer; of equal t the smaller id wins. Within a leaf positions have the order of ids,
+// so the first of equal ones has won already; here the best of different leaves are compared.
 void keep_nearer(inout Hit hit, Hit candidate) {
   bool nearer = candidate.t < hit.t;
   if (candidate.t == hit.t && candidate.sphere != kNothing) nearer = sphere_id(candidate.sphere) < sphere_id(hit.sphere);

@@ -1,5 +1,5 @@
-// Twin of render/integrator.h, depth first: each ray's transmitted one waits while its reflected one is followed, so at
-// most one a generation waits. PENDING_RAYS: at least recursion - 1.
+// Twin of render/integrator.h, depth first: a transmitted ray waits while the reflected ray is followed, so at most one
+// ray of each generation waits. PENDING_RAYS: at least recursion - 1.
 #include "shading"
 
 uniform int recursion;
@@ -9,7 +9,7 @@ uniform vec3 background;
 struct Light {
   vec3 radiance;
   int deepest_hit;  // generation
-  int other_rays;   // not the primary one
+  int other_rays;   // not the primary ray
 };
 
 Light radiance(Ray primary, bool lit) {
@@ -34,7 +34,7 @@ Light radiance(Ray primary, bool lit) {
       Surface surface = surface_at(ray, hit);
       if (lit) light.radiance += weight * local_light(surface, shadows, light.other_rays);
 
-      // Send on what the surface reflects and lets through; a share of exactly 0 makes no ray.
+      // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray.
       if (depth < recursion) {
         float reflective = surface.material.reflective;
         float transmissive = surface.material.transmissive;
@@ -62,7 +62,7 @@ Light radiance(Ray primary, bool lit) {
       }
     }
 
-    // Go on with the child, or with the ray that has waited for the shortest time.
+    // Continue with the child, or with the ray that began to wait last.
     if (goes_on) {
       ++depth;
       continue;

@@ -1,8 +1,8 @@
-// Numbers of about 46 bits as the sum of two of binary32, for the few places where the CPU's binary64 decides what is
-// seen: `upper` is the sum rounded, `lower` what is left.
+// Numbers of about 46 bits as the sum of two of binary32, for the few places where the CPU's binary64 decides the
+// colour of a pixel: `upper` is the rounded sum, `lower` the rest.
 #include "common"
 
-// Always 0, which no compiler knows: it must not simplify (a + b) - a.
+// Always 0, but unknown to the compiler, which must not simplify (a + b) - a.
 uniform highp uint zero_bits;
 
 struct Pair3 {
@@ -14,7 +14,7 @@ vec3 opaque(vec3 a) {
   return uintBitsToFloat(floatBitsToUint(a) ^ uvec3(zero_bits));
 }
 
-// The upper 12 bits: products of such, and of what they leave, are exact.
+// The upper 12 bits. Products of upper parts and of the remaining parts are exact.
 vec3 upper_bits(vec3 a) {
   return uintBitsToFloat(floatBitsToUint(a) & uvec3(0xFFFFF000u));
 }
@@ -50,7 +50,7 @@ vec3 normalized(Pair3 a) {
   Pair3 squared = sum_of(sum_of(Pair3(squares.upper.xxx, squares.lower.xxx), Pair3(squares.upper.yyy, squares.lower.yyy)),
                          Pair3(squares.upper.zzz, squares.lower.zzz));
 
-  // One step of Newton's from the nearest 1 / |a| of binary32.
+  // One Newton step from the nearest 1 / |a| of binary32.
   vec3 over_length = vec3(1.0 / sqrt(squared.upper.x));
   Pair3 over_squared = exact_product(over_length, over_length);
   Pair3 one = exact_product(squared.upper, over_squared.upper);
@@ -60,7 +60,7 @@ vec3 normalized(Pair3 a) {
   return result.upper + (result.lower + (a.lower + 0.5 * missing * a.upper) * over_length);
 }
 
-// The sign of a b + c d, and about its size.
+// The sign of a b + c d, and its approximate size.
 float sum_of_products(float a, float b, float c, float d) {
   vec3 factors = upper_bits(vec3(a, c, b));
   vec2 left = factors.xy, right = vec2(factors.z, upper_bits(vec3(d)).x);

@@ -2,8 +2,8 @@
 #include "common"
 
 // Points origin + t direction with 0 <= t <= t_max. `leaves`: position in leaf order of the sphere on which the ray
-// starts, kPlane or kNothing. `left`: that sphere, centre and radius, -1 for none; spheres that coincide with it are left
-// too.
+// starts, kPlane or kNothing. `left`: centre and radius of that sphere, -1 for none; the ray also leaves spheres that
+// coincide with it.
 struct Ray {
   vec3 origin;
   vec3 direction;

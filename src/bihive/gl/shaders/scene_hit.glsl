@@ -13,7 +13,7 @@ float plane_hit(Ray ray) {
   return t >= 0.0 && t <= ray.t_max ? t : kNever;
 }
 
-// `sphere` may be kPlane too. Where a sphere and the plane are met at the same t, the sphere is hit.
+// `sphere` may be kPlane too. If the ray meets a sphere and the plane at the same t, it hits the sphere.
 Hit scene_hit(Ray ray) {
   Hit hit = closest_hit(ray);
   float t = plane_hit(ray);

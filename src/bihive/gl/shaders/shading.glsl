@@ -1,4 +1,4 @@
-// Twin of render/shading.h, by the plain formulas: the offset to a light is divided by its length, and R is built.
+// Twin of render/shading.h, by the plain formulas: it divides the offset to a light by its length, and builds R.
 #include "elementary"
 #include "surface"
 

@@ -37,8 +37,8 @@ Material material_of(int look) {
   return Material(a.xyz, a.w, b.x, b.y, b.z, b.w, c.x, c.y);
 }
 
-// The number of whole squares along an axis of the plane. Close to an edge the ray itself decides: the edges of a checker
-// may pass through the centres of many pixels, and there the hit point's rounding would show.
+// The number of whole squares along an axis of the plane. Close to an edge the ray itself decides: the edges of a
+// checker may pass through the centres of many pixels, and the rounding of the hit point would change their colours.
 float squares_along(vec3 axis, Ray ray, vec3 point) {
   float squares = dot(point, axis) / checker_size;
   float edge = floor(squares + 0.5);
@@ -55,15 +55,15 @@ vec3 checker_colour(vec3 first, Ray ray, vec3 point) {
   return squares - 2.0 * floor(squares / 2.0) != 0.0 ? second_colour : first;
 }
 
-// The shape alone; the material is not set.
+// The geometry alone; the material is not set.
 Surface shape_at(Ray ray, Hit hit) {
   Surface surface;
   surface.sphere = hit.sphere;
   surface.stored = vec4(0.0);
   surface.incoming = normalized(ray.direction);
   if (hit.sphere == kPlane) {
-    // Not origin + t direction: the quotients of symmetric directions are exact, and so are the edges of a checker that
-    // pass through many pixels' centres. Then onto the plane.
+    // Not origin + t direction: the quotients of symmetric directions are exact, so the edges of a checker through many
+    // pixels' centres stay exact. Then move the point onto the plane.
     float height = plane_offset - dot(plane_normal, ray.origin);
     vec3 point = ray.origin + height * (ray.direction / dot(plane_normal, ray.direction));
     surface.origin = point - (dot(plane_normal, point) - plane_offset) * plane_normal;
@@ -71,8 +71,8 @@ Surface shape_at(Ray ray, Hit hit) {
     surface.normal = surface.from_inside ? -plane_normal : plane_normal;
     return surface;
   }
-  // From the centre to the hit along perpendicular and half chord: that is as exact as the sphere is large, which
-  // origin + t direction is not.
+  // From the centre to the hit along perpendicular and half chord. The error is then relative to the radius; the error
+  // of origin + t direction is not.
   surface.stored = stored_sphere(hit.sphere);
   SphereRoots roots = sphere_roots(ray, surface.stored);
   surface.from_inside = hit.t > roots.t_closest;

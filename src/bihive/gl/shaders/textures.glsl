@@ -1,4 +1,4 @@
-// Twin of gl/tree_textures.h: what its textures hold.
+// Twin of gl/tree_textures.h: the content of its textures.
 #include "common"
 
 uniform sampler2D spheres;       // a texel a sphere in leaf order: centre, radius

@@ -1,4 +1,4 @@
-// Twin of render/tracer.h: the tree where TREE is defined, else every sphere.
+// Twin of render/tracer.h: walks the tree if TREE is defined, else tests every sphere.
 #include "hit"
 #include "sphere"
 

@@ -16,7 +16,7 @@ int node_visits = 0;  // leaves too
 int empty_gaps = 0;
 #endif
 
-// Cuts a ray's interval (near, far) at planes across an axis, generously.
+// Cuts a ray's interval (near, far) at planes across an axis. It pads the planes, so it never cuts too much.
 struct Slabs {
   vec3 origin;
   vec3 direction;
@@ -25,11 +25,11 @@ struct Slabs {
 };
 
 Slabs make_slabs(Ray ray) {
-  // Bounds in stored units are at most 1, so rounding one to nearest moves it by at most 2^-25. Binary32 adds some 2^-24
-  // of the distance between the origin and anything in the set to a plane's t and to a sphere's perpendicular alike, and
-  // both must agree: 2^-21 leaves room for eight of them.
+  // Bounds in stored units are at most 1, so rounding one to nearest moves it by at most 2^-25. Binary32 adds an error
+  // of some 2^-24 of the distance between the origin and the farthest point of the set, to a plane's t and to a
+  // sphere's perpendicular alike. The two must agree: 2^-21 is eight times that error.
   float farthest = max(max(abs(ray.origin.x), abs(ray.origin.y)), abs(ray.origin.z)) + 2.0;
-  // A ray along a plane lies wholly on one side of it: as does one that reaches it after 1e30 steps.
+  // A ray along a plane lies wholly on one side of it. So does a ray that would reach the plane only after 1e30 steps.
   vec3 small = vec3(lessThan(abs(ray.direction), vec3(1.0e-30)));
   return Slabs(ray.origin, ray.direction, 1.0 / mix(ray.direction, vec3(1.0e-30), small),
                5.9604645e-8 + 4.7683716e-7 * farthest);
@@ -45,7 +45,7 @@ vec2 above(Slabs slabs, vec2 part, int axis, float plane) {
   return slabs.over_direction[axis] > 0.0 ? vec2(max(part.x, t), part.y) : vec2(part.x, min(part.y, t));
 }
 
-// The unpadded question of the traversal view: does the part overlap the open slab lo < coordinate < hi?
+// For the traversal view, without padding: does the part overlap the open slab lo < coordinate < hi?
 bool overlaps(Slabs slabs, vec2 part, int axis, float lo, float hi) {
   if (!(part.x <= part.y) || !(lo < hi)) return false;
   float origin = slabs.origin[axis];
@@ -97,7 +97,7 @@ Hit traverse(Ray ray, bool any_hit) {
       vec2 planes = uintBitsToFloat(texelFetch(nodes, texel(2 * position), 0).xy);
       int axis = int(what.x >> 3 & 3u);
       if (kind == kSplit) {
-        // Go to the child on the ray's near side first, and let the other wait.
+        // Go to the child on the ray's near side first. The other child waits.
 #ifdef COUNTING
         if (overlaps(slabs, vec2(part.x, min(part.y, best.t)), axis, planes.x, planes.y)) ++empty_gaps;
 #endif
@@ -121,7 +121,7 @@ Hit traverse(Ray ray, bool any_hit) {
       }
     }
 
-    // Enter the next node that may still hold something as near as the best; at equal t a smaller id may wait there.
+    // Enter the next node that may still hold a hit as near as the best; at equal t it may hold a smaller id.
     while (next < 0 || !(next_part.x <= next_part.y) || next_part.x > best.t) {
       if (waiting_count == 0) return best;
       --waiting_count;

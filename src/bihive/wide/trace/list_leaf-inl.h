@@ -1,5 +1,5 @@
 // The first look at a leaf: which of its spheres may a list of rays hit? What passes waits in the queue of candidates.
-// One of three ways, by how many spheres a vector holds (what was measured: docs/performance_notes.md).
+// One of three ways, by how many spheres a vector holds (what was measured: docs/performance_findings.md).
 
 #if defined(BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_
