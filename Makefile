@@ -11,7 +11,7 @@ demo: ## install what the program needs, build it, render the bundled molecule
 
 web: ## install what the page needs, build it into build-web/page
 	scripts/setup web
-	scripts/build-web
+	scripts/build_web
 
 test: ## install what the tests need, run every test (about an hour on two cores)
 	scripts/setup all

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bihive/scene/framing.h"
-#include "failure.h"
+#include "support/failure.h"
 #include "synthetic.h"
 
 namespace bihive::bench {

@@ -6,11 +6,11 @@
 
 #include "bench_scene.h"
 #include "bihive/simd/target.h"
-#include "failure.h"
 #include "measure.h"
-#include "messages.h"
 #include "options.h"
 #include "report.h"
+#include "support/failure.h"
+#include "support/messages.h"
 
 namespace bihive::bench {
 namespace {

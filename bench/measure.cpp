@@ -9,10 +9,10 @@
 #include "bihive/base/timer.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
-#include "failure.h"
 #include "frames/frame.h"
 #include "memory.h"
 #include "peers/embree.h"
+#include "support/failure.h"
 #include "tiles.h"
 
 namespace bihive::bench {

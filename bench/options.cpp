@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "bihive/bih/tree.h"
-#include "failure.h"
-#include "values.h"
+#include "support/failure.h"
+#include "support/values.h"
 
 namespace bihive::bench {
 namespace {

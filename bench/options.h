@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "input.h"
 #include "kinds.h"
+#include "support/input.h"
 
 namespace bihive::bench {
 

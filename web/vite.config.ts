@@ -1,7 +1,7 @@
 import { defineConfig } from 'vite';
 
 // The page lies in a folder of any name: all addresses are relative to it. The WebAssembly modules are copied beside it
-// as they are (scripts/build-web, which also says where to).
+// as they are (scripts/build_web, which also says where to).
 export default defineConfig({
   base: './',
   publicDir: false,

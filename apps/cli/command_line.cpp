@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 
 #include "bihive/base/version.h"
-#include "failure.h"
-#include "names.h"
-#include "web/addresses.h"
+#include "commands/names.h"
+#include "server/addresses.h"
+#include "support/failure.h"
 
 namespace bihive::cli {
 namespace {

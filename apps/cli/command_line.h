@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "commands.h"
+#include "commands/commands.h"
 
 namespace bihive::cli {
 

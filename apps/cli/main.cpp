@@ -8,9 +8,9 @@
 
 #include "bihive/simd/target.h"
 #include "command_line.h"
-#include "failure.h"
-#include "interrupt.h"
-#include "messages.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
 
 namespace bihive::cli {
 namespace {

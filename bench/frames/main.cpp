@@ -15,10 +15,10 @@
 #include "bihive/scene/generators.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
-#include "failure.h"
 #include "frames/frame.h"
-#include "messages.h"
 #include "peers/tachyon.h"
+#include "support/failure.h"
+#include "support/messages.h"
 #include "synthetic.h"
 
 namespace bihive::bench {

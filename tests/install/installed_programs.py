@@ -50,7 +50,7 @@ def test_page():
     real = (PAGE / "index.html").exists()
     print("page:", "as it was built" if real else "a stand-in, for none was built")
     if not real:
-        assert "scripts/build-web" in bihive("web", code=3) or "make web" in bihive("web", code=3)
+        assert "scripts/build_web" in bihive("web", code=3) or "make web" in bihive("web", code=3)
         PAGE.mkdir(parents=True)
         (PAGE / "index.html").write_text("<!doctype html><title>a stand-in</title>")
     server = subprocess.Popen(

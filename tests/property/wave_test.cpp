@@ -10,7 +10,7 @@
 #include "bihive/math/rng.h"
 #include "bihive/render/integrator.h"
 #include "bihive/render/renderer.h"
-#include "bihive/render/wave_integrator.h"
+#include "bihive/render/wave/wave_integrator.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/sample_pattern.h"
 #include "bihive/simd/target.h"

@@ -1,5 +1,6 @@
-"""scripts/check_includes.py finds every kind of offence, and finds none in this project."""
+"""scripts/check_includes finds every kind of offence, and finds none in this project."""
 
+import importlib.machinery
 import importlib.util
 import os
 import pathlib
@@ -10,9 +11,9 @@ import unittest
 SOURCE = pathlib.Path(os.environ.get("BIHIVE_SOURCE", pathlib.Path(__file__).parent.parent.parent))
 
 sys.dont_write_bytecode = True
-spec = importlib.util.spec_from_file_location("check_includes", SOURCE / "scripts" / "check_includes.py")
-check_includes = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(check_includes)
+loader = importlib.machinery.SourceFileLoader("check_includes", str(SOURCE / "scripts" / "check_includes"))
+check_includes = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_includes", loader))
+loader.exec_module(check_includes)
 
 
 class CheckIncludes(unittest.TestCase):

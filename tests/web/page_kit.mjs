@@ -1,5 +1,5 @@
 // What the tests of the page share: the browser, a page that notes what goes wrong, pictures compared pixel by pixel.
-// Environment: PAGE, the folder that scripts/build-web made; BIHIVE and GL_COMPARE, the programs; CHROMIUM, the browser;
+// Environment: PAGE, the folder that scripts/build_web made; BIHIVE and GL_COMPARE, the programs; CHROMIUM, the browser;
 // SOURCE, the project; SCRATCH, a folder to write to.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';

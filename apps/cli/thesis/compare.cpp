@@ -1,10 +1,10 @@
-#include "compare.h"
+#include "thesis/compare.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "bihive/base/check.h"
-#include "failure.h"
+#include "support/failure.h"
 
 namespace bihive::cli::thesis {
 

@@ -7,8 +7,8 @@
 
 #include "bihive/bih/tree.h"
 #include "bihive/scene/generators.h"
-#include "section.h"
-#include "stated_values.h"
+#include "thesis/section.h"
+#include "thesis/stated_values.h"
 
 namespace bihive::cli::thesis {
 

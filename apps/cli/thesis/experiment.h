@@ -11,8 +11,8 @@
 
 #include "bihive/base/cancel.h"
 #include "bihive/image/image.h"
-#include "section.h"
-#include "stated_values.h"
+#include "thesis/section.h"
+#include "thesis/stated_values.h"
 
 namespace bihive::cli::thesis {
 

@@ -1,5 +1,5 @@
 // The experiments in the order of the report.
-#include "experiment.h"
+#include "thesis/experiment.h"
 
 namespace bihive::cli::thesis {
 

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "bihive/scene/generators.h"
-#include "compare.h"
-#include "failure.h"
-#include "pictures.h"
+#include "support/failure.h"
+#include "thesis/compare.h"
+#include "thesis/pictures.h"
 
 namespace bihive::cli::thesis {
 namespace {

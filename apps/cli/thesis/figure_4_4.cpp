@@ -2,7 +2,7 @@
 //
 // A frame is render() of the shaded view to a film: the same camera rays and the same shading for all, whatever finds
 // the hits. On the graphics processor it is the same picture, drawn there and left there.
-#include "figure_4_4.h"
+#include "thesis/figure_4_4.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 
 #include "bihive/render/renderer.h"
 #include "bihive/scene/generators.h"
-#include "failure.h"
-#include "frame_contestant.h"
+#include "support/failure.h"
+#include "thesis/frame_contestant.h"
 
 namespace bihive::cli::thesis {
 namespace {

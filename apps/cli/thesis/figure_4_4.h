@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bihive/render/tracer.h"
-#include "experiment.h"
+#include "thesis/experiment.h"
 
 namespace bihive::cli::thesis {
 

@@ -8,8 +8,8 @@
 
 #include "bihive/base/write_file.h"
 #include "bihive/image/svg_chart.h"
-#include "failure.h"
-#include "figure_4_4.h"
+#include "support/failure.h"
+#include "thesis/figure_4_4.h"
 
 namespace bihive::cli::thesis {
 namespace {

@@ -10,10 +10,10 @@
 #include "bihive/bih/statistics.h"
 #include "bihive/image/svg_chart.h"
 #include "bihive/scene/generators.h"
-#include "compare.h"
-#include "experiment.h"
-#include "failure.h"
-#include "messages.h"
+#include "support/failure.h"
+#include "support/messages.h"
+#include "thesis/compare.h"
+#include "thesis/experiment.h"
 
 namespace bihive::cli::thesis {
 namespace {

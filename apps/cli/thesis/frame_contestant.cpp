@@ -1,9 +1,9 @@
-#include "frame_contestant.h"
+#include "thesis/frame_contestant.h"
 
 #include <utility>
 
 #include "bihive/base/timer.h"
-#include "failure.h"
+#include "support/failure.h"
 
 namespace bihive::cli::thesis {
 namespace {

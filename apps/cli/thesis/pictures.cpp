@@ -1,4 +1,4 @@
-#include "pictures.h"
+#include "thesis/pictures.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "bihive/base/version.h"
 #include "bihive/image/png.h"
-#include "failure.h"
+#include "support/failure.h"
 
 namespace bihive::cli::thesis {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "../values.h"
 #include "bihive/render/renderer.h"
-#include "experiment.h"
+#include "support/values.h"
+#include "thesis/experiment.h"
 
 namespace bihive::cli::thesis {
 

@@ -1,4 +1,4 @@
-#include "report.h"
+#include "thesis/report.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 
 #include "bihive/base/write_file.h"
 #include "bihive/image/html_text.h"
-#include "failure.h"
-#include "report_template.h"
+#include "support/failure.h"
+#include "thesis/report_template.h"
 
 namespace bihive::cli::thesis {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment.h"
+#include "thesis/experiment.h"
 
 namespace bihive::cli::thesis {
 

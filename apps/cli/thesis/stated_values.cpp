@@ -1,4 +1,4 @@
-#include "stated_values.h"
+#include "thesis/stated_values.h"
 
 #include <unistd.h>
 
@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "bihive/base/write_file.h"
-#include "builtin_values.h"
-#include "failure.h"
+#include "support/failure.h"
+#include "thesis/builtin_values.h"
 
 namespace bihive::cli::thesis {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "section.h"
+#include "thesis/section.h"
 
 namespace bihive::cli::thesis {
 

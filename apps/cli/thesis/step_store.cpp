@@ -1,11 +1,11 @@
-#include "step_store.h"
+#include "thesis/step_store.h"
 
 #include <filesystem>
 #include <utility>
 
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
-#include "failure.h"
+#include "support/failure.h"
 
 namespace bihive::cli::thesis {
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "experiment.h"
+#include "thesis/experiment.h"
 
 namespace bihive::cli::thesis {
 

@@ -1,12 +1,12 @@
 // Table 4.2: the trees of three scenarios with small and with large leaves, for one seed and for many.
-#include "table_4_2.h"
+#include "thesis/table_4_2.h"
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
 #include "bihive/scene/generators.h"
-#include "failure.h"
+#include "support/failure.h"
 
 namespace bihive::cli::thesis {
 namespace {

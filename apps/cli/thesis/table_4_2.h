@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "compare.h"
-#include "experiment.h"
+#include "thesis/compare.h"
+#include "thesis/experiment.h"
 
 namespace bihive::cli::thesis {
 

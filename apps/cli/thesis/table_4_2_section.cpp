@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "messages.h"
-#include "table_4_2.h"
+#include "support/messages.h"
+#include "thesis/table_4_2.h"
 
 namespace bihive::cli::thesis {
 namespace {

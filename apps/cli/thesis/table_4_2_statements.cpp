@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "table_4_2.h"
+#include "thesis/table_4_2.h"
 
 namespace bihive::cli::thesis {
 namespace {

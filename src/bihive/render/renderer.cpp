@@ -15,7 +15,7 @@
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/render/views.h"
-#include "bihive/render/wave_integrator.h"
+#include "bihive/render/wave/wave_integrator.h"
 #include "bihive/scene/sample_pattern.h"
 
 namespace bihive {

@@ -32,7 +32,7 @@ using ProgressCallback = std::function<void(double done)>;
 /// reference engine: an Error without one. An Error "cancelled" when the token was set before the picture was done.
 /// `film`: whose memory becomes the new film's, so that frame after frame is drawn into the same; its contents are
 /// lost. Each thread that took part keeps its buffers for the next picture, usually a few MB
-/// (render/wave_integrator.h).
+/// (render/wave/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
 

@@ -1,0 +1,109 @@
+// The sub-commands: their options, as parsed and checked one by one, and what runs them. They end by returning, or by a
+// Failure (failure.h).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/image/transfer.h"
+#include "bihive/math/vec3.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/framing.h"
+#include "bihive/viewer/viewer_settings.h"
+#include "support/input.h"
+#include "support/values.h"
+
+namespace bihive::cli {
+
+/// What draws a picture: an engine of the CPU, or the graphics processor on the reference tree or on every sphere.
+enum class RenderEngine { automatic, wide, reference, brute, gpu, gpu_brute };
+
+/// Unset: as the scene says.
+struct RenderOptions {
+  InputOptions input;
+  std::string output;
+  std::optional<PictureSize> size;
+  std::optional<std::int64_t> recursion, samples;
+  View view = View::shaded;
+  RenderEngine engine = RenderEngine::automatic;
+  TreeParameters tree;
+  std::int64_t threads = 0;  ///< 0 = all that the machine runs at once
+  std::optional<bool> shadows;
+  std::optional<Transfer> transfer;
+  std::optional<std::string> background;  ///< a valid colour; its meaning depends on the transfer
+  std::optional<Vec3d> eye, look_at, up;
+  std::optional<double> fov_deg;
+  std::optional<ViewFrom> view_from;
+  bool json = false;
+};
+void run_render(const RenderOptions& options);
+
+/// Unset: as the scene says.
+struct ViewOptions {
+  InputOptions input;
+  std::optional<PictureSize> size;  ///< of the window
+  std::optional<ViewerEngine> engine;
+  View view = View::shaded;
+  std::optional<std::int64_t> recursion, samples;
+  std::optional<bool> shadows;
+  TreeParameters tree;
+  std::optional<ViewFrom> view_from;
+  std::string screenshot;  ///< empty: none
+};
+/// Becomes bihive-view, the program with the window; returns only by a Failure.
+[[noreturn]] void run_view(const ViewOptions& options);
+
+struct StatsOptions {
+  InputOptions input;
+  TreeParameters tree;
+  bool json = false;
+};
+void run_stats(const StatsOptions& options);
+
+struct TraceOptions {
+  InputOptions input;
+  std::string rays, t, id;  ///< paths
+  bool any = false;
+  bool plane = false;
+  Engine engine = Engine::automatic;
+  TreeParameters tree;
+  std::int64_t threads = 0;
+};
+void run_trace(const TraceOptions& options);
+
+struct SceneOptions {
+  InputOptions input;
+  std::string output;
+};
+void run_scene(const SceneOptions& options);
+
+struct InfoOptions {
+  InputOptions input;
+  TreeParameters tree;
+  bool json = false;
+};
+void run_info(const InfoOptions& options);
+
+struct ThesisOptions {
+  std::vector<std::string> experiments;  ///< names, or "all"; empty: all
+  std::string out;                       ///< folder
+  bool quick = false;
+  std::uint64_t seed = 1;
+  std::int64_t threads = 0;
+  std::string values;  ///< folder of other stated values; empty: the built-in ones
+  bool json = false;
+};
+void run_thesis(const ThesisOptions& options);
+
+struct WebOptions {
+  std::string input;                 ///< a file or a built-in name; empty: what the page shows by itself
+  std::optional<std::int64_t> port;  ///< 0: any that is free; unset: 8017, or the next one that is free
+  std::string bind = "127.0.0.1";    ///< numeric, in its usual spelling
+  bool browser = true;
+  bool json = false;
+};
+void run_web(const WebOptions& options);
+
+}  // namespace bihive::cli

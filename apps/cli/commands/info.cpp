@@ -1,0 +1,161 @@
+// bihive info: what an input holds, and what its tree will take.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bihive/bih/memory.h"
+#include "bihive/simd/target.h"
+#include "bihive/wide/wide_builder.h"
+#include "commands/commands.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Range {
+  std::string name;
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  /// NaN, which means unknown, is left out.
+  void add(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  bool known() const { return min <= max; }
+};
+
+template <class T>
+void add_range(std::vector<Range>& ranges, const std::string& name, const std::vector<T>& values) {
+  if (values.empty()) return;
+  Range range{name};
+  for (const T value : values) range.add(static_cast<double>(value));
+  ranges.push_back(range);
+}
+
+std::vector<Range> attribute_ranges(const SphereAttributes& attributes) {
+  std::vector<Range> ranges;
+  add_range(ranges, "element", attributes.element);
+  add_range(ranges, "type", attributes.type);
+  if (!attributes.colour.empty()) {
+    Range range{"colour"};
+    for (const Vec3f colour : attributes.colour)
+      for (int channel = 0; channel < 3; ++channel) range.add(double(colour[channel]));
+    ranges.push_back(range);
+  }
+  add_range(ranges, "opacity", attributes.opacity);
+  for (const NamedNumbers& column : attributes.numbers) add_range(ranges, column.name, column.values);
+  return ranges;
+}
+
+struct Facts {
+  const Input& input;
+  const SphereSet& spheres;
+  SphereSet::Bounds bounds;
+  Range radius{"radius"};
+  std::int64_t zero_radii = 0;
+  std::vector<Range> attributes;
+  BuildParameters parameters;
+  MemoryPrediction memory;
+  WideMemoryPrediction wide_memory;
+
+  Facts(const Input& from, const TreeParameters& tree)
+      : input(from),
+        spheres(from.scene.spheres),
+        bounds(spheres.bounds()),
+        attributes(attribute_ranges(spheres.attributes())),
+        parameters(tree.for_reference()),
+        memory(predict_tree_memory(spheres.size(), parameters)),
+        wide_memory(predict_wide_memory(spheres.size(), tree.for_wide(spheres.size()))) {
+    for (std::int64_t id = 0; id < spheres.size(); ++id) radius.add(spheres.radius(id));
+    zero_radii = std::count(spheres.r().begin(), spheres.r().end(), 0.0F);
+  }
+};
+
+void print_json(const Facts& facts) {
+  const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
+  const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
+  const auto range = [](const MemoryPrediction::Range& r) { return ordered_json{{"low", r.low}, {"high", r.high}}; };
+  const Scene& scene = facts.input.scene;
+  ordered_json json;
+  json["name"] = scene.name;
+  json["format"] = facts.input.format;
+  json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
+  json["spheres"] = facts.spheres.size();
+  json["bounds"] = {{"lo", vector(facts.bounds.lo)}, {"hi", vector(facts.bounds.hi)}};
+  json["radius"] = {{"min", facts.radius.min}, {"max", facts.radius.max}};
+  json["zero_radii"] = facts.zero_radii;
+  json["vanishing_radii"] = facts.spheres.vanishing_radii();
+  json["scale_exponent"] = facts.spheres.scale_exponent();
+  json["attributes"] = ordered_json::array();
+  for (const Range& attribute : facts.attributes)
+    json["attributes"].push_back({{"name", attribute.name},
+                                  {"min", attribute.known() ? ordered_json(attribute.min) : ordered_json()},
+                                  {"max", attribute.known() ? ordered_json(attribute.max) : ordered_json()}});
+  json["frames"] = facts.input.frames;
+  json["rules"] = facts.input.rules;
+  json["warnings"] = facts.input.warnings;
+  json["recentred_by"] = vector(facts.input.recentred_by);
+  json["camera"] = facts.input.has_camera;
+  json["lights"] = facts.input.has_lights ? ordered_json(scene.lights.size()) : ordered_json();
+  json["materials"] = scene.materials.size();
+  json["plane"] = scene.plane.has_value();
+  json["spheres_bytes"] = facts.spheres.allocated_bytes();
+  json["predicted_tree"] = {{"max_prims", limit(facts.parameters.max_prims)},
+                            {"max_depth", limit(facts.parameters.max_depth)},
+                            {"nodes", range(facts.memory.nodes)},
+                            {"thesis_bytes", range(facts.memory.thesis_bytes)},
+                            {"allocated_bytes", range(facts.memory.allocated_bytes)}};
+  json["predicted_wide_tree"] = {{"used_bytes", range({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes})},
+                                 {"peak_bytes", facts.wide_memory.peak_bytes}};
+  json["target"] = active_target();
+  print(json.dump(2, ' ', true, ordered_json::error_handler_t::replace) + "\n");
+}
+
+void print_text(const Facts& facts) {
+  const auto row = [](const std::string& name, const std::string& value) {
+    print(fmt::format("  {:<18}{}\n", name, value));
+  };
+  const auto interval = [](double min, double max) {
+    // Adding 0 makes 0 of -0.
+    return min == max ? fmt::format("{:.6g}", min + 0) : fmt::format("{:.6g} to {:.6g}", min + 0, max + 0);
+  };
+  const auto bytes = [](const MemoryPrediction::Range& r) {
+    return readable_bytes(static_cast<double>(r.low)) + " to " + readable_bytes(static_cast<double>(r.high));
+  };
+  const Scene& scene = facts.input.scene;
+  print(fmt::format("{}: {}, {} spheres\n", scene.name, facts.input.format, grouped(facts.spheres.size())));
+  const char* const axes[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) row(axes[axis], interval(facts.bounds.lo[axis], facts.bounds.hi[axis]));
+  row("radius", interval(facts.radius.min, facts.radius.max));
+  if (facts.zero_radii > 0) row("", fmt::format("{} spheres of radius 0 are never hit", grouped(facts.zero_radii)));
+  if (facts.spheres.vanishing_radii() > 0)
+    row("", fmt::format("{} radii are below 2^-60 of the set's extent", grouped(facts.spheres.vanishing_radii())));
+  for (const Range& attribute : facts.attributes)
+    row(attribute.name, attribute.known() ? interval(attribute.min, attribute.max) : "unknown");
+  row("frames", grouped(facts.input.frames));
+  for (const std::string& rule : facts.input.rules) row("read as", rule);
+  const Vec3d shift = facts.input.recentred_by;
+  if (shift != Vec3d{}) row("recentred by", fmt::format("{}, {}, {}", shift.x, shift.y, shift.z));
+  row("spheres take", readable_bytes(static_cast<double>(facts.spheres.allocated_bytes())));
+  row("wide tree", bytes({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes}) + ", at most " +
+                       readable_bytes(static_cast<double>(facts.wide_memory.peak_bytes)) + " while it is built");
+  row("reference tree", bytes(facts.memory.allocated_bytes));
+  row("", bytes(facts.memory.thesis_bytes) + " as the thesis counts");
+  row("instruction set", active_target());
+}
+
+}  // namespace
+
+void run_info(const InfoOptions& options) {
+  const Input input = load_input(options.input);
+  const Facts facts(input, options.tree);
+  (options.json ? print_json : print_text)(facts);
+}
+
+}  // namespace bihive::cli

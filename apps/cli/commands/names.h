@@ -1,0 +1,19 @@
+// Every choice that the command line offers by name: what is parsed is also what is printed. Views and sides are the
+// library's.
+#pragma once
+
+#include "bihive/image/transfer.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/names.h"
+#include "commands/commands.h"
+
+namespace bihive::cli {
+
+inline const Names<Engine> kEngines{
+    {"auto", Engine::automatic}, {"wide", Engine::wide}, {"reference", Engine::reference}, {"brute", Engine::brute}};
+inline const Names<RenderEngine> kRenderEngines{
+    {"auto", RenderEngine::automatic}, {"wide", RenderEngine::wide}, {"reference", RenderEngine::reference},
+    {"brute", RenderEngine::brute},    {"gpu", RenderEngine::gpu},   {"gpu-brute", RenderEngine::gpu_brute}};
+inline const Names<Transfer> kTransfers{{"srgb", Transfer::srgb}, {"none", Transfer::none}};
+
+}  // namespace bihive::cli

@@ -1,0 +1,273 @@
+// bihive render: from an input to a PNG.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bihive/base/version.h"
+#include "bihive/base/write_file.h"
+#include "bihive/image/png.h"
+#include "bihive/render/memory.h"
+#include "bihive/render/tree_picture.h"
+#include "bihive/simd/target.h"
+#include "commands/commands.h"
+#include "commands/names.h"
+#include "commands/render_on_gpu.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+bool parallel(Vec3d a, Vec3d b) {
+  return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
+}
+
+// The scene's own camera or one that shows everything, with what the user asks for in its place.
+Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings) {
+  const bool placed = options.eye || options.look_at || options.up;
+  if (placed && options.view_from) fail_usage("--view-from and --eye, --look-at or --up contradict each other");
+
+  const Scene& scene = input.scene;
+  Camera camera = scene.camera;
+  camera.fov_deg = options.fov_deg.value_or(camera.fov_deg);
+  if (!input.has_camera || options.view_from) {
+    const ViewFrom side = options.view_from.value_or(ViewFrom::front);
+    camera = settings.view == View::tree
+                 ? frame_tree(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px)
+                 : frame_spheres(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px);
+  }
+  if (!placed) return camera;
+
+  // A camera that is placed by hand looks at the middle of the set unless the scene or the user says otherwise.
+  const SphereSet::Bounds bounds = scene.spheres.bounds();
+  if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
+  camera.eye = options.eye.value_or(camera.eye);
+  camera.look_at = options.look_at.value_or(camera.look_at);
+  const Vec3d view = camera.look_at - camera.eye;
+  if (options.up)
+    camera.up = *options.up;
+  else if (parallel(camera.up, view))
+    camera.up = parallel({0, 1, 0}, view) ? Vec3d{0, 0, -1} : Vec3d{0, 1, 0};
+  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
+  return camera;
+}
+
+bool shows_reference_tree(View view) {
+  return view == View::traversal || view == View::tree;
+}
+
+bool is_gpu(RenderEngine engine) {
+  return engine == RenderEngine::gpu || engine == RenderEngine::gpu_brute;
+}
+
+// The pictures of the tree are of the reference tree, whatever is fastest.
+RenderEngine choose_engine(const RenderOptions& options) {
+  const RenderEngine engine = options.engine;
+  if (!shows_reference_tree(options.view) || engine == RenderEngine::reference) return engine;
+  if (engine == RenderEngine::automatic) return RenderEngine::reference;
+  const std::string view = "--view " + name_of(kViews, options.view);
+  const std::string chosen = "--engine " + name_of(kRenderEngines, engine);
+  if (engine == RenderEngine::brute || engine == RenderEngine::gpu_brute)
+    fail_usage(view + " shows a tree, and " + chosen + " has none");
+  if (engine == RenderEngine::wide)
+    fail_usage(view + " shows the reference tree, and --engine wide has another one",
+               "leave --engine out, or choose --engine reference");
+  if (options.view == View::tree)
+    fail_usage(view + " is drawn by the CPU alone, not by " + chosen,
+               "leave --engine out, or choose --engine reference");
+  return engine;
+}
+
+// What an engine builds.
+Engine structure_of(RenderEngine engine) {
+  switch (engine) {
+    case RenderEngine::wide:
+      return Engine::wide;
+    case RenderEngine::reference:
+    case RenderEngine::gpu:
+      return Engine::reference;
+    case RenderEngine::brute:
+    case RenderEngine::gpu_brute:
+      return Engine::brute;
+    case RenderEngine::automatic:
+      break;
+  }
+  return Engine::automatic;
+}
+
+// Everything that decides the picture, for its text chunk. Not threads and engine: they do not.
+ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene) {
+  const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
+  ordered_json json;
+  json["view"] = name_of(kViews, settings.view);
+  json["width_px"] = settings.width_px;
+  json["height_px"] = settings.height_px;
+  json["samples_per_pixel"] = settings.samples_per_pixel;
+  json["recursion"] = settings.recursion;
+  json["shadows"] = settings.shadows;
+  json["transfer"] = name_of(kTransfers, scene.picture.transfer);
+  json["background"] = vector(scene.background);
+  json["camera"] = {{"eye", vector(scene.camera.eye)},
+                    {"look_at", vector(scene.camera.look_at)},
+                    {"up", vector(scene.camera.up)},
+                    {"fov_deg", scene.camera.fov_deg}};
+  if (shows_reference_tree(settings.view)) {
+    const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
+    const BuildParameters tree = options.tree.for_reference();
+    json["max_prims"] = limit(tree.max_prims);
+    json["max_depth"] = limit(tree.max_depth);
+  }
+  const InputOptions& input = options.input;
+  json["spheres"] = scene.spheres.size();
+  if (input.radius) json["radius"] = *input.radius;
+  if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
+  if (input.frame) json["frame"] = *input.frame;
+  if (input.recenter) json["recenter"] = true;
+  return json;
+}
+
+std::string as_text(const ordered_json& json, int indent) {
+  return json.dump(indent, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace);
+}
+
+// PNG's plain text knows Latin-1 only.
+std::string latin1(std::string text) {
+  std::string converted;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte < 0x80) {
+      converted += text[i];
+    } else if ((byte == 0xC2 || byte == 0xC3) && (next & 0xC0) == 0x80) {
+      converted += static_cast<char>((byte << 6 & 0xC0) | (next & 0x3F));
+      ++i;
+    } else if ((byte & 0xC0) != 0x80) {
+      converted += '?';
+    }
+  }
+  return converted;
+}
+
+PngText text_chunks(const Scene& scene, const ordered_json& settings) {
+  PngText text{{"Software", "bihive " + std::string(version())},
+               {"Scene", latin1(scene.name)},
+               {"Settings", as_text(settings, -1)}};
+  if (scene.seed) text.emplace_back("Seed", std::to_string(*scene.seed));
+  return text;
+}
+
+// A picture, and what is said of it.
+struct Drawn {
+  Film film;
+  std::int64_t all_rays = 0;
+  double render_ms = 0;
+  ordered_json rays, gpu;
+};
+
+Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+  const CancellableSection section;
+  Progress progress("rendering");
+  Result<Rendered> result = render(
+      scene, tracer, settings, [&](double done) { progress.update(done); }, &CancellableSection::token());
+  CancellableSection::leave_if_cancelled();
+  Rendered rendered = value_or_fail(std::move(result));
+  const RenderCounts& rays = rendered.rays;
+  Drawn drawn;
+  drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted;
+  drawn.rays = {{"primary", rays.primary},
+                {"shadow", rays.shadow},
+                {"reflected", rays.reflected},
+                {"transmitted", rays.transmitted},
+                {"all", drawn.all_rays}};
+  drawn.film = std::move(rendered.film);
+  drawn.render_ms = rendered.render_ms;
+  return drawn;
+}
+
+Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+  const CancellableSection section;
+  Progress progress("rendering");
+  GpuPicture picture = render_on_gpu(scene, tracer.tree(), settings, [&](double done) {
+    progress.update(done);
+    CancellableSection::leave_if_cancelled();
+  });
+  Drawn drawn;
+  drawn.all_rays = picture.primary + picture.others;
+  drawn.rays = {{"primary", picture.primary}, {"all", drawn.all_rays}};
+  drawn.gpu = picture.gpu;
+  drawn.film = std::move(picture.film);
+  drawn.render_ms = picture.render_ms;
+  return drawn;
+}
+
+}  // namespace
+
+void run_render(const RenderOptions& options) {
+  const RenderEngine engine = choose_engine(options);
+  if (const Status status = check_writable(options.output); !status) fail(status.error());
+
+  // Load the scene and put the user's wishes into it.
+  Input input = load_input(options.input);
+  Scene& scene = input.scene;
+  RenderSettings settings = settings_from(scene.picture);
+  if (options.size) settings.width_px = options.size->width_px;
+  if (options.size) settings.height_px = options.size->height_px;
+  settings.samples_per_pixel = static_cast<int>(options.samples.value_or(settings.samples_per_pixel));
+  settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
+  settings.shadows = options.shadows.value_or(settings.shadows);
+  settings.view = options.view;
+  settings.threads = static_cast<int>(options.threads);
+  scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
+  if (options.background) scene.background = *colour_from(*options.background, scene.picture.transfer);
+  scene.camera = choose_camera(input, options, settings);
+  if (!input.has_lights) scene.lights = {light_behind(scene.camera)};
+  value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
+  value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
+
+  // Build, render, write.
+  const Tracer tracer =
+      value_or_fail(Tracer::build(scene.spheres, structure_of(engine), options.tree, settings.threads));
+  const Drawn drawn = is_gpu(engine) ? draw_on_gpu(scene, tracer, settings) : draw_on_cpu(scene, tracer, settings);
+  const Image image = image_from_film(drawn.film, settings.view, scene.picture.transfer, settings.threads);
+  const ordered_json described = settings_json(options, settings, scene);
+  std::string png = value_or_fail(encode_png(image, text_chunks(scene, described)));
+  {
+    const WritingSection section;
+    if (const Status status = write_file(options.output, png); !status) fail(status.error());
+  }
+
+  // Say what was done.
+  const double mray_per_s = drawn.render_ms > 0 ? static_cast<double>(drawn.all_rays) / drawn.render_ms / 1000 : 0;
+  if (!options.json) {
+    print(fmt::format("{}: {} x {}, {} spheres; tree {}, picture {} ({:.3g} Mray/s of all kinds)\n", options.output,
+                      settings.width_px, settings.height_px, grouped(scene.spheres.size()),
+                      readable_ms(tracer.build_ms()), readable_ms(drawn.render_ms), mray_per_s));
+    return;
+  }
+  ordered_json json;
+  json["output"] = options.output;
+  json["scene"] = scene.name;
+  json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
+  json["size"] = fmt::format("{}x{}", settings.width_px, settings.height_px);
+  json["view"] = name_of(kViews, settings.view);
+  json["engine"] = is_gpu(engine) ? name_of(kRenderEngines, engine) : name_of(kEngines, tracer.engine());
+  json["target"] = tracer.engine() == Engine::wide ? ordered_json(active_target()) : ordered_json();
+  if (is_gpu(engine)) json["gpu"] = drawn.gpu;
+  json["spheres"] = scene.spheres.size();
+  json["settings"] = described;
+  json["rays"] = drawn.rays;
+  json["build_ms"] = tracer.build_ms();
+  json["render_ms"] = drawn.render_ms;
+  json["mray_per_s"] = mray_per_s;
+  json["picture_hash"] = fmt::format("{:016x}", picture_hash(image));
+  json["warnings"] = input.warnings;
+  print(as_text(json, 2) + "\n");
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,53 @@
+// bihive scene: a scene of the thesis into a file.
+
+#include "bihive/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include "bihive/base/write_file.h"
+#include "bihive/io/npy.h"
+#include "bihive/scene/scene_file.h"
+#include "commands/commands.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// x, y, z, r of each sphere in world units.
+std::string npy_of(const SphereSet& spheres) {
+  std::vector<float> rows;
+  rows.reserve(4 * static_cast<std::size_t>(spheres.size()));
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const Vec3f centre = to_float(spheres.centre(id));
+    rows.insert(rows.end(), {centre.x, centre.y, centre.z, static_cast<float>(spheres.radius(id))});
+  }
+  return npy_bytes(rows, {spheres.size(), 4});
+}
+
+}  // namespace
+
+void run_scene(const SceneOptions& options) {
+  const bool npy = ends_with(options.output, ".npy");
+  if (!npy && !ends_with(options.output, ".json"))
+    fail_usage("the output's name must end in .npy (spheres alone) or .json (a scene file)");
+  if (const Status status = check_writable(options.output); !status) fail(status.error());
+  const std::optional<Scene> scene = generated_scene(options.input);
+  if (!scene)
+    fail_usage("expected scenario1, scenario2, scenario3 or four-spheres, found \"" + options.input.input + "\"");
+
+  const std::string bytes = npy ? npy_of(scene->spheres) : scene_to_json(*scene);
+  {
+    const WritingSection section;
+    if (const Status status = write_file(options.output, bytes); !status) fail(status.error());
+  }
+  const std::string seed = scene->seed ? fmt::format(", seed {}", *scene->seed) : "";
+  print(fmt::format("{}: {}, {} spheres{}\n", options.output, scene->name, grouped(scene->spheres.size()), seed));
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,180 @@
+// bihive trace: rays of a .npy file against an input, answers into two .npy files.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bihive/base/parallel.h"
+#include "bihive/base/timer.h"
+#include "bihive/base/write_file.h"
+#include "bihive/geometry/plane.h"
+#include "bihive/io/npy.h"
+#include "bihive/render/memory.h"
+#include "bihive/scene/generators.h"
+#include "bihive/simd/target.h"
+#include "commands/commands.h"
+#include "commands/names.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+#include "support/write_together.h"
+
+namespace bihive::cli {
+namespace {
+
+// Rays of a chunk. Between chunks there is progress, and Ctrl-C ends the work.
+constexpr std::int64_t kFewestPerChunk = 16384;
+constexpr std::int64_t kMostPerChunk = 262144;
+constexpr std::int64_t kChunksPerThread = 4;
+constexpr std::int64_t kSpheresPerChunk = 1 << 25;  // that brute force meets: well below a second
+
+// Rays as the file has them: origin, direction, and if there are 8 columns t_min and t_max.
+class RayFile {
+ public:
+  explicit RayFile(const std::string& path) {
+    Result<NpyArray> array = parse_npy(value_or_fail(read_file(path)), path);
+    array_ = value_or_fail(std::move(array));
+    const std::string& dtype = array_.dtype;
+    if (dtype.size() < 2 || dtype.substr(dtype.size() - 2) != "f4")
+      fail({"expected rays of dtype float32, found " + dtype, path, 0, 0, "convert them: rays.astype(numpy.float32)"});
+    if (array_.shape.size() != 2 || (array_.shape[1] != 6 && array_.shape[1] != 8)) {
+      std::string shape;
+      for (const std::int64_t side : array_.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(side);
+      fail({"expected rays of shape (n, 6): origin, direction; or (n, 8): and t_min, t_max; found (" + shape + ")",
+            path, 0, 0, ""});
+    }
+  }
+
+  std::int64_t size() const { return array_.shape[0]; }
+
+  Ray ray(std::int64_t i) const {
+    const std::int64_t columns = array_.shape[1];
+    const double* row = array_.values.data() + i * columns;
+    Ray ray;
+    ray.origin = to_float({row[0], row[1], row[2]});
+    ray.direction = to_float({row[3], row[4], row[5]});
+    if (columns == 8) {
+      ray.t_min = row[6];
+      ray.t_max = row[7];
+    }
+    return ray;
+  }
+
+ private:
+  NpyArray array_;
+};
+
+struct Answers {
+  std::vector<double> t;
+  std::vector<std::int64_t> id;
+  std::int64_t bad_rays = 0;
+  std::int64_t hits = 0;
+};
+
+// The answers to rays first to first + count - 1, as the files hold them. Returns how many are no rays.
+std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const RayFile& file, std::int64_t first,
+                    std::int64_t count, const HitSpan& hits) {
+  RayBatch rays;
+  for (std::int64_t i = 0; i < count; ++i) rays.push_back(file.ray(first + i));
+  if (any) {
+    std::vector<std::uint8_t> hidden(static_cast<std::size_t>(count));
+    tracer.occluded(rays.span(), RayOrder::any, hidden.data());
+    for (std::int64_t i = 0; i < count; ++i)
+      if (hidden[static_cast<std::size_t>(i)] != 0) hits.t[i] = 0, hits.sphere_id[i] = 0;
+  } else {
+    tracer.closest_hits(rays.span(), RayOrder::any, hits);
+  }
+
+  // The plane is hit where it is nearer; a sphere at the same t goes first.
+  std::int64_t bad_rays = 0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const Ray ray = rays.span().at(i);
+    if (!is_valid(ray)) {
+      ++bad_rays;
+      continue;
+    }
+    if (plane == nullptr) continue;
+    const double plane_t = plane_hit(ray, *plane);
+    if (!(plane_t < hits.t[i])) continue;
+    hits.t[i] = any ? 0 : plane_t;
+    hits.sphere_id[i] = any ? 0 : kPlane;
+  }
+  return bad_rays;
+}
+
+// The wide engine answers many at a time faster, the others are slow.
+std::int64_t rays_per_chunk(const Tracer& tracer, std::int64_t rays, std::int64_t threads) {
+  const std::int64_t spheres = std::max<std::int64_t>(1, tracer.spheres().size());
+  if (tracer.engine() == Engine::brute) return std::clamp<std::int64_t>(kSpheresPerChunk / spheres, 1, kFewestPerChunk);
+  if (tracer.wide_tree() == nullptr) return kFewestPerChunk;
+  const std::int64_t workers = threads > 0 ? threads : hardware_threads();
+  return std::clamp(rays / (workers * kChunksPerThread), kFewestPerChunk, kMostPerChunk);
+}
+
+Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, const TraceOptions& options) {
+  const CancellableSection section;
+  Progress progress("tracing");
+  Answers answers;
+  answers.t.resize(static_cast<std::size_t>(rays.size()), std::numeric_limits<double>::infinity());
+  answers.id.resize(static_cast<std::size_t>(rays.size()), kNothing);
+
+  // Each chunk writes its own rays and its own count. Progress is said by the thread that has the chunk before it.
+  const std::int64_t most = rays_per_chunk(tracer, rays.size(), options.threads);
+  const std::int64_t chunks = (rays.size() + most - 1) / most;
+  std::vector<std::int64_t> bad_rays(static_cast<std::size_t>(chunks), 0);
+  std::atomic<std::int64_t> chunks_done{0};
+  std::atomic_flag reporting = ATOMIC_FLAG_INIT;
+  parallel_for(static_cast<int>(options.threads), chunks, [&](std::int64_t chunk) {
+    if (CancellableSection::token().cancelled()) return;
+    const std::int64_t first = chunk * most;
+    const std::int64_t count = std::min(rays.size() - first, most);
+    bad_rays[static_cast<std::size_t>(chunk)] = answer(tracer, plane, options.any, rays, first, count,
+                                                       HitSpan{answers.t.data(), answers.id.data()}.part(first));
+    const std::int64_t done = ++chunks_done;
+    if (reporting.test_and_set()) return;
+    progress.update(static_cast<double>(done) / static_cast<double>(chunks));
+    reporting.clear();
+  });
+  CancellableSection::leave_if_cancelled();
+  for (const std::int64_t count : bad_rays) answers.bad_rays += count;
+  answers.hits = std::count_if(answers.id.begin(), answers.id.end(), [](std::int64_t id) { return id != kNothing; });
+  return answers;
+}
+
+}  // namespace
+
+void run_trace(const TraceOptions& options) {
+  if (options.t == options.id) fail_usage("--t and --id name the same file");
+  for (const std::string& path : {options.t, options.id})
+    if (const Status status = check_writable(path); !status) fail(status.error());
+
+  const RayFile rays(options.rays);
+  const Input input = load_input(options.input);
+  value_or_fail(check_tree_memory(input.scene.spheres, options.engine, options.tree));
+  const Tracer tracer = value_or_fail(
+      Tracer::build(input.scene.spheres, options.engine, options.tree, static_cast<int>(options.threads)));
+  const Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
+
+  const Timer timer;
+  const Answers answers = trace(rays, tracer, options.plane ? &plane : nullptr, options);
+  const double trace_ms = timer.elapsed_ms();
+  if (answers.bad_rays > 0)
+    warn(
+        fmt::format("{} of {} rays hit nothing because they are no rays (NaN, infinite origin or direction, zero "
+                    "direction, or t_min above t_max)",
+                    grouped(answers.bad_rays), grouped(rays.size())));
+
+  const std::string t_bytes = npy_bytes(answers.t, {rays.size()});
+  const std::string id_bytes = npy_bytes(answers.id, {rays.size()});
+  write_together({{options.t, t_bytes}, {options.id, id_bytes}});
+  const std::string target = tracer.engine() == Engine::wide ? " on " + active_target() : "";
+  print(fmt::format("{}, {}: {} rays, {} hit something; engine {}{}, tree {}, rays {}\n", options.t, options.id,
+                    grouped(rays.size()), grouped(answers.hits), name_of(kEngines, tracer.engine()), target,
+                    readable_ms(tracer.build_ms()), readable_ms(trace_ms)));
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,79 @@
+// bihive view: hands a checked command line over to bihive-view, the program with the window.
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bihive/viewer/viewer_settings.h"
+#include "commands/commands.h"
+#include "commands/names.h"
+#include "support/failure.h"
+#include "support/input.h"
+
+namespace bihive::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kProgram = "bihive-view";
+
+// What apps/viewer/request.h describes.
+ordered_json request_of(const ViewOptions& options) {
+  ordered_json request;
+  const auto put = [](ordered_json& object, const char* key, const auto& value) {
+    if (value) object[key] = *value;
+  };
+  const InputOptions& input = options.input;
+  request["input"] = input.input;
+  put(request, "count", input.count);
+  put(request, "seed", input.seed);
+  put(request, "radius", input.radius);
+  put(request, "radius_scale", input.radius_scale);
+  put(request, "frame", input.frame);
+  if (input.recenter) request["recenter"] = true;
+  if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
+  if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
+  if (!options.screenshot.empty()) request["screenshot"] = options.screenshot;
+
+  const auto limit = [](std::int64_t value) {
+    return value == kUnlimited ? ordered_json("unlimited") : ordered_json(value);
+  };
+  ordered_json settings = ordered_json::object();
+  settings["view"] = name_of(kViews, options.view);
+  if (options.engine) settings["engine"] = name_of(kViewerEngines, *options.engine);
+  put(settings, "recursion", options.recursion);
+  put(settings, "samples_per_pixel", options.samples);
+  put(settings, "shadows", options.shadows);
+  if (options.tree.max_prims) settings["max_prims"] = limit(*options.tree.max_prims);
+  if (options.tree.max_depth) settings["max_depth"] = limit(*options.tree.max_depth);
+  request["settings"] = settings;
+  return request;
+}
+
+}  // namespace
+
+void run_view(const ViewOptions& options) {
+  if (options.engine == ViewerEngine::gpu && options.view == View::tree)
+    fail_usage("--view tree is drawn by the CPU, and --engine gpu is not",
+               "leave --engine out, or choose --engine cpu");
+  check_input_options(options.input);
+  const std::string request = request_of(options).dump(-1, ' ', false, ordered_json::error_handler_t::ignore);
+
+  // The program lies beside this one, or wherever the shell finds it.
+  std::error_code unknown;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const std::string beside = unknown ? "" : (self.parent_path() / kProgram).string();
+  if (!beside.empty()) execl(beside.c_str(), kProgram, request.c_str(), static_cast<char*>(nullptr));
+  const int reason = beside.empty() ? ENOENT : errno;
+  if (reason == ENOENT) execlp(kProgram, kProgram, request.c_str(), static_cast<char*>(nullptr));
+  if (errno != ENOENT) throw Failure{kEnvironment, {std::string(std::strerror(errno)), beside, 0, 0, ""}};
+  throw Failure{
+      kEnvironment,
+      {"the program with the window, bihive-view, is not installed", "", 0, 0,
+       "it is built where GLFW and Dear ImGui are: scripts/setup view, then make demo, or configure and build again"}};
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,112 @@
+// bihive web: serves the page that shows spheres in a browser.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "commands/commands.h"
+#include "server/addresses.h"
+#include "server/browser.h"
+#include "server/http_server.h"
+#include "server/page_files.h"
+#include "server/url.h"
+#include "support/failure.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kFirstPort = 8017;
+constexpr int kPortsTried = 20;
+
+bool is_built_in(const std::string& input) {
+  for (const char* name : {"demo", "scenario1", "scenario2", "scenario3", "four-spheres"})
+    if (input == name) return true;
+  return false;
+}
+
+PageFiles load_page() {
+  const std::string folder = find_page();
+  if (folder.empty())
+    throw Failure{kEnvironment,
+                  {"this bihive was built without the page", "", 0, 0, "run make web where it was built"}};
+  Result<PageFiles> page = read_page(folder);
+  if (!page) throw Failure{kEnvironment, page.error()};
+  return std::move(*page);
+}
+
+// Everything that can be fetched: the page, the file, and what the page is to open (start.json).
+Site site_of(const WebOptions& options) {
+  Site site;
+  ordered_json start = ordered_json::object();
+  if (is_built_in(options.input)) {
+    start["source"]["built_in"] = options.input;
+  } else if (!options.input.empty()) {
+    value_or_fail(OpenFile::open(options.input));
+    const std::filesystem::path path = std::filesystem::absolute(options.input);
+    const std::string name = path.filename().string();
+    site.file_path = path.string();
+    site.file_url = "/file/" + name;
+    start["source"]["url"] = "file/" + url_escaped(name);
+  }
+  site.page = load_page();
+  site.page["/start.json"] = make_page_file("start.json", start.dump() + "\n");
+
+  // A page of another site may give its own name this machine's address (DNS rebinding); it cannot choose a Host
+  // header.
+  site.is_own_host = [bound = options.bind](const std::string& host) {
+    if (host == "localhost" || is_loopback(host) || host == bound) return true;
+    if (!is_every_address(bound)) return false;
+    for (const std::string& own : own_addresses(/*with_ipv6=*/true))
+      if (host == own) return true;
+    return false;
+  };
+  return site;
+}
+
+std::vector<int> ports_to_try(const std::optional<std::int64_t>& wanted) {
+  if (wanted) return {static_cast<int>(*wanted)};
+  std::vector<int> ports(kPortsTried);
+  std::iota(ports.begin(), ports.end(), kFirstPort);
+  return ports;
+}
+
+// The page's addresses, this machine's own one first.
+std::vector<std::string> urls_of(const std::string& bound, int port) {
+  if (!is_every_address(bound)) return {page_url(bound, port)};
+  std::vector<std::string> urls{page_url("127.0.0.1", port)};
+  for (const std::string& address : own_addresses(bound == "::")) urls.push_back(page_url(address, port));
+  return urls;
+}
+
+void say_where(const WebOptions& options, const std::vector<std::string>& urls, int port) {
+  if (!is_loopback(options.bind))
+    warn("everyone who can reach this machine can open the page" +
+         std::string(options.input.empty() || is_built_in(options.input) ? "" : " and fetch the file") +
+         "; from other machines, without https, browsers give the page one thread only");
+  if (options.json) {
+    print(ordered_json{{"url", urls.front()}, {"port", port}, {"urls", urls}}.dump() + "\n");
+  } else {
+    for (const std::string& url : urls) print(url + "\n");
+    print("Ctrl-C ends it.\n");
+  }
+  finish_output();
+}
+
+}  // namespace
+
+void run_web(const WebOptions& options) {
+  const Site site = site_of(options);
+  HttpServer server([&site](const Question& question) { return answer(site, question); });
+  const int port = value_or_fail(server.listen(options.bind, ports_to_try(options.port)));
+  const std::vector<std::string> urls = urls_of(options.bind, port);
+  say_where(options, urls, port);
+  if (options.browser) open_browser(urls.front());
+  server.run_until_signal();
+}
+
+}  // namespace bihive::cli

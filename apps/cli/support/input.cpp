@@ -1,0 +1,83 @@
+#include "support/input.h"
+
+#include "bihive/base/write_file.h"
+#include "support/failure.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+void only_for(bool given, const std::string& option, const std::string& what, const std::string& input) {
+  if (given) fail_usage(option + " is for " + what + ", not for " + input);
+}
+
+void refuse_generator_options(const InputOptions& options) {
+  only_for(options.count.has_value(), "--count", "scenario1, scenario2 and scenario3", options.input);
+  only_for(options.seed.has_value(), "--seed", "scenario1, scenario2 and scenario3", options.input);
+}
+
+void refuse_file_options(const InputOptions& options) {
+  only_for(options.radius_scale.has_value(), "--radius-scale", "files", options.input);
+  only_for(options.recenter, "--recenter", "files", options.input);
+  only_for(options.frame.has_value(), "--frame", "files", options.input);
+}
+
+// Made by the program, not read.
+bool is_generated(const std::string& name) {
+  return is_built_in_scene(name) && name != "demo";
+}
+
+ReadOptions read_options(const InputOptions& options) {
+  ReadOptions reading;
+  reading.radius = options.radius;
+  reading.radius_scale = options.radius_scale.value_or(1);
+  reading.recenter = options.recenter;
+  reading.frame = options.frame.value_or(0);
+  return reading;
+}
+
+}  // namespace
+
+void check_input_options(const InputOptions& options) {
+  if (!is_generated(options.input)) return refuse_generator_options(options);
+  refuse_file_options(options);
+  if (options.input != "four-spheres") return;
+  refuse_generator_options(options);
+  only_for(options.radius.has_value(), "--radius", "the scenarios and files", options.input);
+}
+
+std::optional<Scene> generated_scene(const InputOptions& options) {
+  const std::string& name = options.input;
+  if (!is_generated(name)) return std::nullopt;
+  check_input_options(options);
+  ScenarioParameters parameters;
+  if (name != "four-spheres") {
+    parameters.count = options.count.value_or(parameters.count);
+    if (options.radius) parameters.radius = static_cast<float>(*options.radius);
+    parameters.seed = options.seed.value_or(parameters.seed);
+    value_or_fail(check_scenario_memory(parameters));
+  }
+  Result<LoadedScene> loaded = built_in_scene(name, parameters);
+  if (!loaded) fail_usage(name + ": " + loaded.error().message, loaded.error().hint);
+  return std::move(loaded->scene);
+}
+
+Input load_input(const InputOptions& options) {
+  if (std::optional<Scene> scene = generated_scene(options)) {
+    Input input;
+    input.scene = std::move(*scene);
+    input.has_camera = true;
+    input.has_lights = true;
+    input.format = "built-in";
+    return input;
+  }
+  check_input_options(options);
+  const ReadOptions reading = read_options(options);
+  Input input = value_or_fail(options.input == "demo"
+                                  ? built_in_scene("demo", {}, reading)
+                                  : load_scene(value_or_fail(read_file(options.input)), options.input, reading));
+  warn(input.warnings);
+  return input;
+}
+
+}  // namespace bihive::cli

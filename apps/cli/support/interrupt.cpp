@@ -1,0 +1,93 @@
+#include "support/interrupt.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+#include <ctime>
+
+namespace bihive::cli {
+namespace {
+
+enum Section : int { kOutside, kCancellable, kWriting, kWritten };
+
+// What a signal handler may touch: lock-free atomics only.
+std::atomic<int> g_section{kOutside};
+std::atomic<int> g_signal{0};
+std::atomic<std::int64_t> g_first_ms{0};
+CancelToken g_token;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
+// A signal so soon after the first is the same request: timeout(1) sends each of its signals twice.
+constexpr std::int64_t kSameRequestMs = 300;
+
+std::int64_t now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
+}
+
+// Ends the program from anywhere; a progress line on a terminal is wiped first.
+[[noreturn]] void end_at_once(int signal) {
+  if (isatty(STDERR_FILENO) != 0) {
+    const char wipe[] = "\r\033[K";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, wipe, sizeof(wipe) - 1);
+  }
+  _exit(128 + signal);
+}
+
+void on_signal(int signal) {
+  const int section = g_section.load();
+  const std::int64_t now = now_ms();
+  std::int64_t first_ms = 0;
+  const bool first = g_first_ms.compare_exchange_strong(first_ms, now);
+  const bool same_request = first || now - first_ms < kSameRequestMs;
+  g_signal.store(signal);
+  if (section == kWriting) return;
+  if (section == kWritten && same_request) return;
+  if (section == kCancellable && same_request) return g_token.cancel();
+  end_at_once(signal);
+}
+
+}  // namespace
+
+void handle_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+CancellableSection::CancellableSection() {
+  g_section.store(kCancellable);
+}
+CancellableSection::~CancellableSection() {
+  g_section.store(kOutside);
+}
+
+const CancelToken& CancellableSection::token() {
+  return g_token;
+}
+
+void CancellableSection::leave_if_cancelled() {
+  if (g_token.cancelled()) end_at_once(g_signal.load());
+}
+
+WritingSection::WritingSection() {
+  g_section.store(kWriting);
+  // A signal that came too late for the section before, and too early for this one, still counts.
+  if (g_signal.load() != 0) end_at_once(g_signal.load());
+}
+WritingSection::~WritingSection() {
+  g_section.store(kWritten);
+}
+
+}  // namespace bihive::cli

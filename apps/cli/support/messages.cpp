@@ -1,0 +1,83 @@
+#include "support/messages.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "support/failure.h"
+
+namespace bihive::cli {
+namespace {
+
+constexpr double kFirstDrawMs = 1000;
+constexpr double kRedrawMs = 100;
+constexpr int kBarCharacters = 24;
+
+// File names and other texts of users may hold anything: one line, nothing that a terminal obeys.
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text;
+}
+
+void say(const std::string& text) {
+  const std::string line = "bihive: " + one_line(text) + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace
+
+void warn(const std::string& text) {
+  say("warning: " + text);
+}
+
+void warn(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) warn(text);
+}
+
+void say_error(const std::string& text) {
+  say("error: " + text);
+}
+
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+void finish_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  const int code = errno != 0 ? errno : EIO;
+  fail({"writing to the standard output failed: " + std::string(std::strerror(code)), "", 0, 0, ""});
+}
+
+std::string readable_ms(double ms) {
+  if (ms < 999.5) return fmt::format("{:.3g} ms", ms);
+  if (ms < 120e3) return fmt::format("{:.3g} s", ms / 1000);
+  return fmt::format("{:.0f} min {:.0f} s", std::floor(ms / 60e3), std::floor(std::fmod(ms / 1000, 60)));
+}
+
+Progress::Progress(std::string what)
+    : what_(std::move(what)), next_draw_ms_(kFirstDrawMs), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+  if (drawn_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::update(double done) {
+  const double elapsed = timer_.elapsed_ms();
+  if (!terminal_ || elapsed < next_draw_ms_ || done >= 1) return;
+  next_draw_ms_ = elapsed + kRedrawMs;
+  drawn_ = true;
+  const int filled = std::clamp(static_cast<int>(done * kBarCharacters), 0, kBarCharacters);
+  const std::string left = done > 0 ? readable_ms(std::ceil(elapsed * (1 - done) / done / 1000) * 1000) + " left" : "";
+  fmt::print(stderr, "\r\033[K{} [{:<{}}] {:3.0f} % {}", what_, std::string(static_cast<std::size_t>(filled), '#'),
+             kBarCharacters, 100 * done, left);
+  std::fflush(stderr);
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,105 @@
+#include "support/values.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "bihive/bih/tree.h"
+#include "bihive/scene/colour_text.h"
+
+namespace bihive::cli {
+namespace {
+
+Error unexpected(const std::string& expected, const std::string& found) {
+  return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
+}
+
+// A number that is the whole text.
+template <class T>
+std::optional<T> whole(std::string_view text) {
+  T value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Three finite numbers with commas between them.
+std::optional<Vec3d> three_numbers(std::string_view text) {
+  Vec3d v;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = axis < 2 ? text.find(',') : text.size();
+    if (comma == std::string_view::npos) return std::nullopt;
+    const std::optional<double> number = whole<double>(text.substr(0, comma));
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    v[axis] = *number;
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return v;
+}
+
+std::string short_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+}  // namespace
+
+Result<std::int64_t> integer_from(const std::string& text, std::int64_t min, std::int64_t max) {
+  const std::optional<std::int64_t> value = whole<std::int64_t>(text);
+  if (value && *value >= min && *value <= max) return *value;
+  const bool bounded = max != kUnlimited;
+  return unexpected("a whole number " + (bounded ? "from " + std::to_string(min) + " to " + std::to_string(max)
+                                                 : "of at least " + std::to_string(min)),
+                    text);
+}
+
+Result<std::uint64_t> seed_from(const std::string& text) {
+  const std::optional<std::uint64_t> value = whole<std::uint64_t>(text);
+  if (value) return *value;
+  return unexpected("a whole number from 0 to 18446744073709551615", text);
+}
+
+Result<std::int64_t> limit_from(const std::string& text) {
+  if (text == "unlimited") return kUnlimited;
+  const std::optional<std::int64_t> value = whole<std::int64_t>(text);
+  if (value && *value >= 1) return *value;
+  return unexpected("a whole number of at least 1 or \"unlimited\"", text);
+}
+
+Result<double> number_from(const std::string& text, double min, double max, bool open) {
+  const std::optional<double> value = whole<double>(text);
+  if (value && (open ? *value > min && *value < max : *value >= min && *value <= max)) return *value;
+  return unexpected(open ? "a number above " + short_text(min) + " and below " + short_text(max)
+                         : "a number from " + short_text(min) + " to " + short_text(max),
+                    text);
+}
+
+Result<Vec3d> vector_from(const std::string& text) {
+  constexpr double kLargest = 3.4e38;
+  const std::optional<Vec3d> v = three_numbers(text);
+  if (v && std::abs(v->x) <= kLargest && std::abs(v->y) <= kLargest && std::abs(v->z) <= kLargest) return *v;
+  return unexpected("three numbers X,Y,Z", text);
+}
+
+Result<PictureSize> size_from(const std::string& text) {
+  constexpr int kLargest = 65535;
+  const std::size_t times = text.find('x');
+  if (times != std::string::npos) {
+    const std::optional<int> width = whole<int>(std::string_view(text).substr(0, times));
+    const std::optional<int> height = whole<int>(std::string_view(text).substr(times + 1));
+    if (width && height && *width >= 1 && *height >= 1 && *width <= kLargest && *height <= kLargest)
+      return PictureSize{*width, *height};
+  }
+  return unexpected("WIDTHxHEIGHT in pixels, each from 1 to 65535", text);
+}
+
+Result<Vec3d> colour_from(const std::string& text, Transfer transfer) {
+  if (const std::optional<Vec3d> colour = colour_from_text(text, transfer)) return *colour;
+  const std::optional<Vec3d> v = three_numbers(text);
+  if (v && v->x >= 0 && v->y >= 0 && v->z >= 0 && v->x <= 1 && v->y <= 1 && v->z <= 1) return *v;
+  return unexpected("#rrggbb, r,g,b with numbers from 0 to 1, or one of " + std::string(kColourNames), text);
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,104 @@
+#include <cstring>
+
+#include "bihive/render/wave/wave.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bihive/render/wave/put_light.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "bihive/render/wave/lanes-inl.h"
+#include "bihive/simd/dispatch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+
+constexpr std::int64_t kBlock = kBlockPx * kBlockPx;
+
+// Four pixels from their channels, two and two beside each other.
+HWY_INLINE void put_square(const float* red, const float* green, const float* blue, Vec3f* above, Vec3f* below) {
+  alignas(16) Vec3f pixels[4];
+#if HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < 4; ++k) pixels[k] = {red[k], green[k], blue[k]};
+#else
+  constexpr hn::FixedTag<float, 4> four;
+  hn::StoreInterleaved3(hn::Load(four, red), hn::Load(four, green), hn::Load(four, blue), four, &pixels[0].x);
+#endif
+  // By sixteen bytes where they were stored so: a processor waits before it reads from two stores at once.
+  const auto* const from = reinterpret_cast<const char*>(pixels);
+  auto* const to_above = reinterpret_cast<char*>(above);
+  auto* const to_below = reinterpret_cast<char*>(below);
+  std::memcpy(to_above, from, 16);
+  std::memcpy(to_above + 16, from + 16, 8);
+  std::memcpy(to_below, from + 24, 8);
+  std::memcpy(to_below + 8, from + 32, 16);
+}
+
+// A whole block's pixels, in the order of kZCurve: squares of two by two.
+HWY_INLINE void put_block(const float (&channel)[3][kBlock], Vec3f* corner, std::size_t width) {
+  for (std::int64_t i = 0; i < kBlock; i += 4) {
+    const PixelPlace step = kZCurve[static_cast<std::size_t>(i)];
+    Vec3f* const above = corner + step.y * width + step.x;
+    put_square(channel[0] + i, channel[1] + i, channel[2] + i, above, above + width);
+  }
+}
+
+void put_light_on_target(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film) {
+  alignas(64) float channel[3][kBlock];
+  Vec3f* const radiance = film.radiance.data();
+  const auto width = static_cast<std::size_t>(film.width);
+  for (std::int64_t first = 0; first < count; first += kBlock) {
+    const std::int64_t n = std::min(kBlock, count - first);
+    for (int k = 0; k < 3; ++k)
+      for (std::int64_t i = 0; i < n; i += kLanes)
+        hn::Store(hn::DemoteTo(FloatHalf(), load(sums.light[k], first + i)), FloatHalf(), channel[k] + i);
+    const PixelPlace* const place = pixel + first;
+    if (HWY_LIKELY(n == kBlock && is_whole_block(place))) {
+      put_block(channel, radiance + place->y * width + place->x, width);
+      continue;
+    }
+    for (std::int64_t i = 0; i < n; ++i)
+      radiance[place[i].y * width + place[i].x] = {channel[0][i], channel[1][i], channel[2][i]};
+  }
+}
+
+void bytes_from_radiance_on_target(const float* radiance, std::int64_t count, std::uint8_t* bytes) {
+  constexpr hn::Rebind<std::int32_t, Tag> whole;
+  constexpr hn::Rebind<std::uint8_t, Tag> narrow;
+  std::int64_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    const Lanes value = hn::PromoteTo(Tag(), hn::LoadU(FloatHalf(), radiance + i));
+    const Lanes least = hn::IfThenElseZero(hn::Gt(value, all(0)), value);
+    const Lanes clamped = hn::IfThenElse(hn::Lt(least, all(1)), least, all(1));
+    const Lanes displayed = hn::Floor(hn::Add(hn::Mul(clamped, all(255)), all(0.5)));
+    hn::StoreU(hn::DemoteTo(narrow, hn::DemoteTo(whole, displayed)), narrow, bytes + i);
+  }
+  for (; i < count; ++i) bytes[i] = byte_from_radiance(double(radiance[i]), Transfer::none);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bihive {
+HWY_EXPORT(put_light_on_target);
+HWY_EXPORT(bytes_from_radiance_on_target);
+
+namespace steps {
+
+void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(put_light_on_target)(sums, pixel, count, film);
+}
+
+void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(bytes_from_radiance_on_target)(radiance, count, bytes);
+}
+
+}  // namespace steps
+}  // namespace bihive
+#endif

@@ -1,0 +1,71 @@
+#include "bihive/render/wave/wave.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bihive/render/wave/shade_primaries.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "bihive/render/wave/lanes-inl.h"
+#include "bihive/render/wave/light-inl.h"
+#include "bihive/render/wave/surfaces-inl.h"
+#include "bihive/simd/dispatch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+
+void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, const double* t, const std::int64_t* id,
+                               WaveSums& sums) {
+  const WordTag w;
+  const Wave& wave = *part.wave;
+  double* const red = sums.light[0].data();
+  double* const green = sums.light[1].data();
+  double* const blue = sums.light[2].data();
+  const Plane* const plane = scene.scene->plane ? &scene.scene->plane->plane : nullptr;
+  const Lanes3 background = add(all(Vec3d{}), all(scene.scene->background));
+  const Lanes3 eye = all(Vec3d{double(wave.origin[0][part.first]), double(wave.origin[1][part.first]),
+                               double(wave.origin[2][part.first])});
+  const Lanes plane_above = plane != nullptr ? height_above(*plane, eye) : all(0);
+  const std::int64_t first = part.first;
+  const std::int64_t count = part.count();
+  for (std::int64_t k = 0; k < count; k += kLanes) {
+    const std::int64_t i = first + k;
+    RayLanes rays{eye, load(wave.direction, i), hn::LoadU(Tag(), t + k), hn::LoadU(w, id + k)};
+    if (plane != nullptr) {
+      Lanes plane_t;
+      const LaneMask hit = hits_plane(*plane, plane_above, rays, plane_t);
+      put_plane(hit, plane_t, rays);
+    }
+    LaneMask found = lanes_of(hn::Ne(rays.id, hn::Set(w, kNothing)));
+    if (HWY_UNLIKELY(count - k < kLanes)) found = hn::And(found, first_lanes(count - k));
+    Lanes3 light = background;
+    if (!none(found)) {
+      const SurfaceLanes surface = surfaces_at(scene, found, rays);
+      light = choose(found, add(all(Vec3d{}), local_light(scene, found, surface, nullptr, 0)), background);
+    }
+    hn::StoreU(light.x, Tag(), red + i);
+    hn::StoreU(light.y, Tag(), green + i);
+    hn::StoreU(light.z, Tag(), blue + i);
+  }
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bihive {
+HWY_EXPORT(shade_primaries_on_target);
+
+namespace steps {
+
+void shade_primaries(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
+                     WaveSums& sums) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(shade_primaries_on_target)(scene, rays, t, id, sums);
+}
+
+}  // namespace steps
+}  // namespace bihive
+#endif

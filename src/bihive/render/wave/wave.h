@@ -1,0 +1,195 @@
+// Many rays on their way through a picture at once, as structures of arrays: what the steps of a wave read and write.
+//
+// Files of this folder: STEP.cpp holds the step of namespace `steps` with that name (and its neighbours), *-inl.h the
+// vector code that several steps share, wave_integrator the order of the steps.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/image/film.h"
+#include "bihive/render/pixel_order.h"
+#include "bihive/render/surface.h"
+#include "bihive/render/wave/column.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/sample_pattern.h"
+#include "bihive/scene/scene.h"
+#include "bihive/wide/ray_batch.h"
+
+namespace bihive {
+
+/// What the steps need of a scene, made ready once a picture. The scene must outlive it.
+struct WaveScene {
+  const Scene* scene;
+  double inverse_scale;  ///< world units from stored units, a power of two
+  std::vector<Material>
+      materials;                ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
+  bool has_attributes = false;  ///< colours or opacities of single spheres
+  std::int64_t plane_material = 0;  ///< the plane's first
+  PlaneAxes axes{};                 ///< of the plane, if it has a checker
+
+  explicit WaveScene(const Scene& drawn);
+};
+
+/// One generation of rays, in the order of their parents. The rays of one owner, a sample of a pixel, are neighbours.
+struct Wave {
+  std::int64_t count = 0;
+  bool starts_at_eye = false;  ///< primary rays: ray i is of owner i and weight 1; what follows `direction` is unused
+  Column<float> origin[3], direction[3];
+  Column<double> weight;  ///< of the light that comes along the ray
+  Column<std::int64_t> owner, leaves;
+  Column<std::uint8_t> inside;
+
+  /// Forgets all rays, and makes room for n.
+  void reset(std::int64_t n) {
+    count = 0;
+    starts_at_eye = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis].reserve(n);
+      direction[axis].reserve(n);
+    }
+    weight.reserve(n);
+    owner.reserve(n);
+    leaves.reserve(n);
+    inside.reserve(n);
+  }
+
+  RaySpan span() const {
+    RaySpan view;
+    view.count = count;
+    for (int axis = 0; axis < 3; ++axis) {
+      view.origin[axis] = origin[axis].data();
+      view.direction[axis] = direction[axis].data();
+    }
+    if (!starts_at_eye) {
+      view.leaves = leaves.data();
+      view.inside = inside.data();
+    }
+    return view;
+  }
+};
+
+/// A part of a wave: rays first to before last.
+struct WavePart {
+  const Wave* wave;
+  std::int64_t first, last;
+
+  std::int64_t count() const { return last - first; }
+  RaySpan span() const { return wave->span().part(first, count()); }
+};
+
+/// What each owner has received so far.
+struct WaveSums {
+  Column<double> light[3];
+  bool empty = true;  ///< no owner has received anything: what they get is added to 0, not to what the columns hold
+
+  void reset(std::int64_t owners) {
+    empty = true;
+    for (Column<double>& channel : light) channel.reserve(owners);
+  }
+  Vec3d at(std::int64_t owner) const { return {light[0][owner], light[1][owner], light[2][owner]}; }
+};
+
+/// The places where the rays of a wave hit something, as in render/surface.h; in the order of the rays.
+struct WaveSurfaces {
+  std::int64_t count = 0;
+  Column<float> origin[3];
+  Column<double> incoming[3], normal[3], weight;
+  Column<std::int64_t> owner, id;
+  Column<std::int64_t> material_inside;  ///< 2 x position in WaveScene::materials + (1 if inside a sphere)
+
+  void reset(std::int64_t n) {
+    count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis].reserve(n);
+      incoming[axis].reserve(n);
+      normal[axis].reserve(n);
+    }
+    weight.reserve(n);
+    owner.reserve(n);
+    id.reserve(n);
+    material_inside.reserve(n);
+  }
+};
+
+/// Rays from surfaces towards one light, which is at t = 1.
+struct ShadowWave {
+  std::int64_t count = 0;
+  Column<float> origin[3], direction[3];
+  Column<double> t_max;
+  Column<std::int64_t> leaves, surface;  ///< surface: whose ray it is
+  Column<std::uint8_t> inside, hidden;
+
+  void reset(std::int64_t n) {
+    count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis].reserve(n);
+      direction[axis].reserve(n);
+    }
+    t_max.reserve(n);
+    leaves.reserve(n);
+    surface.reserve(n);
+    inside.reserve(n);
+    hidden.reserve(n);
+  }
+
+  RaySpan span() const {
+    RaySpan view;
+    view.count = count;
+    for (int axis = 0; axis < 3; ++axis) {
+      view.origin[axis] = origin[axis].data();
+      view.direction[axis] = direction[axis].data();
+    }
+    view.t_max = t_max.data();
+    view.leaves = leaves.data();
+    view.inside = inside.data();
+    return view;
+  }
+};
+
+/// The steps. Each gives the bits of the scalar code that it names on every instruction set.
+namespace steps {
+
+/// PixelRays::at() of picture positions (x[i], y[i]) for the rays of the wave, whose count is set; or of one place in
+/// each of several pixels, which must be followed by kColumnPadding others.
+void camera_rays(const PixelRays& pixels, const double* x, const double* y, Wave& wave);
+void camera_rays(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave);
+
+/// scene_hit()'s look at the plane: where it is nearer than the sphere, the plane becomes the hit.
+void hit_plane(const WaveScene& scene, const WavePart& rays, double* t, std::int64_t* id);
+
+/// surface_at() of all rays that hit something, given the spheres that they hit; the plane is looked at here. The
+/// others bring the background to their owners.
+void find_surfaces(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
+                   WaveSurfaces& surfaces, WaveSums& sums);
+
+/// The shadow rays of the surfaces from number `first` on towards one light, as local_light() makes them; added to
+/// `shadows`.
+void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light, ShadowWave& shadows);
+
+/// What surfaces do with light. `hidden`: for each light a row of one byte a surface, 1 where a sphere is between;
+/// null: no shadows. Adds local_light() times weight to the owners.
+void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums);
+
+/// Both at once for rays from one eye that nothing follows, at least one, without shadows: what find_surfaces() and
+/// add_local_light() bring to their owners, which must have received nothing yet.
+void shade_primaries(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
+                     WaveSums& sums);
+
+/// reflected_ray() and transmitted_ray() of the surfaces from number `first` on where the material has any, in the
+/// order of the surfaces, of one surface the reflected first; added to `next`, which must have room for two a surface.
+struct SentOn {
+  std::int64_t reflected = 0, transmitted = 0;
+};
+SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
+
+/// What owners 0 to count - 1 received, rounded to binary32: owner i's to the film at pixel[i]. The pixels are those of
+/// order_pixels() from a multiple of 64 on.
+void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
+
+/// byte_from_radiance() without a curve, of `count` numbers.
+void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes);
+
+}  // namespace steps
+
+}  // namespace bihive

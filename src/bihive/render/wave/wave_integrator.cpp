@@ -1,0 +1,139 @@
+#include "bihive/render/wave/wave_integrator.h"
+
+#include <algorithm>
+
+namespace bihive {
+namespace {
+
+// Without vectors there is nothing to gain from long spans, and a wish to stop should be heard soon.
+constexpr std::int64_t kRaysBetweenLooks = 64;
+// What is asked of a whole generation is its hits and its shadows; everything between them is done for as many rays as
+// fit the nearest cache. Cut between owners: without shadows the surfaces of one part are added before what the next
+// one loses.
+constexpr std::int64_t kRaysShadedAtOnce = 512;
+
+// The end of a part of a wave from `first` on, before `last`: after `most` rays, or a few more of the last one's owner.
+std::int64_t end_of_part(const Wave& wave, std::int64_t first, std::int64_t last, std::int64_t most) {
+  std::int64_t end = std::min(last, first + most);
+  if (!wave.starts_at_eye)
+    while (end < last && wave.owner[end] == wave.owner[end - 1]) ++end;
+  return end;
+}
+
+}  // namespace
+
+void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners) {
+  buffers.generations.resize(std::max<std::size_t>(buffers.generations.size(), std::size_t(settings_.recursion)));
+  buffers.sums.reset(owners);
+  if (settings_.depth) deepest_hit_.assign(static_cast<std::size_t>(owners), 0);
+  Wave& first = primaries(buffers);
+  rays_.primary += first.count;
+  trace_part({&first, 0, first.count}, 1, buffers);
+}
+
+void WaveIntegrator::find_first_hits(WaveBuffers& buffers) {
+  Wave& first = primaries(buffers);
+  rays_.primary += first.count;
+  find_sphere_hits({&first, 0, first.count}, buffers);
+  steps::hit_plane(scene_, {&first, 0, first.count}, buffers.t.data(), buffers.id.data());
+}
+
+void WaveIntegrator::find_sphere_hits(const WavePart& rays, WaveBuffers& buffers) const {
+  buffers.t.reserve(rays.count());
+  buffers.id.reserve(rays.count());
+  const RayOrder order = rays.wave->starts_at_eye ? RayOrder::blocks : RayOrder::any;
+  const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count() : kRaysBetweenLooks;
+  for (std::int64_t i = 0; i < rays.count() && !cancelled(); i += step)
+    tracer_.closest_hits(rays.span().part(i, std::min(step, rays.count() - i)), order,
+                         HitSpan{buffers.t.data(), buffers.id.data()}.part(i));
+}
+
+void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& buffers) {
+  find_sphere_hits(rays, buffers);
+  if (cancelled()) return;
+
+  // Shade all, and send on what the surfaces reflect and let through.
+  const bool last = depth == settings_.recursion;
+  Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
+  if (next != nullptr) next->reset(2 * rays.count());
+  if (rays.wave->starts_at_eye && last && settings_.light && !with_shadows() && !settings_.depth) {
+    steps::shade_primaries(scene_, rays, buffers.t.data(), buffers.id.data(), buffers.sums);
+    buffers.sums.empty = false;
+    return;
+  }
+  buffers.surfaces.reset(with_shadows() ? rays.count() : 0);
+  if (with_shadows()) buffers.shadows.reset(rays.count());
+  for (std::int64_t first = rays.first; first < rays.last;) {
+    const WavePart part{rays.wave, first, end_of_part(*rays.wave, first, rays.last, kRaysShadedAtOnce)};
+    shade(part, depth, HitSpan{buffers.t.data(), buffers.id.data()}.part(first - rays.first), next, buffers);
+    first = part.last;
+  }
+  if (with_shadows()) {
+    find_shadows(depth, buffers);
+    if (cancelled()) return;
+    steps::add_local_light(scene_, buffers.surfaces, buffers.hidden.data(), buffers.sums);
+  }
+  buffers.sums.empty = false;
+
+  // Follow them, cut between owners where they are too many.
+  for (std::int64_t first = 0; next != nullptr && first < next->count;) {
+    std::int64_t end = std::min(next->count, first + kMostRaysAtOnce);
+    if (end < next->count) {
+      const std::int64_t owner = next->owner[end];
+      while (end > first && next->owner[end - 1] == owner) --end;
+      if (end == first)
+        while (end < next->count && next->owner[end] == owner) ++end;
+    }
+    trace_part({next, first, end}, depth + 1, buffers);
+    if (cancelled()) return;
+    first = end;
+  }
+}
+
+void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers) {
+  // Shadows need the surfaces of the whole generation.
+  WaveSurfaces& surfaces = buffers.surfaces;
+  if (!with_shadows()) surfaces.reset(rays.count());
+  const std::int64_t known = surfaces.count;
+  steps::find_surfaces(scene_, rays, hits.t, hits.sphere_id, surfaces, buffers.sums);
+  if (settings_.depth)
+    for (std::int64_t k = known; k < surfaces.count; ++k)
+      deepest_hit_[static_cast<std::size_t>(surfaces.owner[k])] = static_cast<std::uint8_t>(depth);
+  if (with_shadows()) {
+    const std::vector<PointLight>& lights = scene_.scene->lights;
+    if (!lights.empty()) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
+  } else if (settings_.light) {
+    steps::add_local_light(scene_, surfaces, nullptr, buffers.sums);
+  }
+  if (next == nullptr) return;
+  const steps::SentOn sent = steps::send_on(scene_, surfaces, known, *next);
+  rays_.reflected += sent.reflected;
+  rays_.transmitted += sent.transmitted;
+}
+
+void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
+  const std::int64_t surfaces = buffers.surfaces.count;
+  const std::vector<PointLight>& lights = scene_.scene->lights;
+  const std::int64_t all = surfaces * static_cast<std::int64_t>(lights.size());
+  buffers.hidden.reserve(all);
+  std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
+  ShadowWave& shadows = buffers.shadows;
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    // Those towards the first light are there already.
+    if (l > 0) {
+      shadows.reset(surfaces);
+      steps::find_shadow_rays(buffers.surfaces, 0, lights[l], shadows);
+    }
+    rays_.shadow += shadows.count;
+
+    // Those of the first generation are neighbours as the pixels are.
+    const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
+    const std::int64_t step = tracer_.engine() == Engine::wide ? shadows.count : kRaysBetweenLooks;
+    for (std::int64_t i = 0; i < shadows.count && !cancelled(); i += step)
+      tracer_.occluded(shadows.span().part(i, std::min(step, shadows.count - i)), order, shadows.hidden.data() + i);
+    std::uint8_t* const hidden = buffers.hidden.data() + static_cast<std::int64_t>(l) * surfaces;
+    for (std::int64_t i = 0; i < shadows.count; ++i) hidden[shadows.surface[i]] = shadows.hidden[i];
+  }
+}
+
+}  // namespace bihive

@@ -1,0 +1,75 @@
+// The light along many primary rays at once: generation after generation of all of them together.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/base/cancel.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/tracer.h"
+#include "bihive/render/wave/wave.h"
+
+namespace bihive {
+
+/// Rays of one generation that are traced together, at most. A generation that grows beyond it is cut between owners
+/// and finished part by part; a single owner's rays are never parted (2^15 of them in generation 16).
+constexpr std::int64_t kMostRaysAtOnce = 32768;
+
+/// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation.
+struct WaveBuffers {
+  std::vector<Wave> generations;
+  Column<double> t;
+  Column<std::int64_t> id;
+  WaveSurfaces surfaces;
+  ShadowWave shadows;
+  Column<std::uint8_t> hidden;
+  WaveSums sums;
+  Column<double> x, y;  ///< picture positions of primary rays
+};
+
+/// The same bits as Integrator (render/integrator.h), ray for ray.
+class WaveIntegrator {
+ public:
+  struct Settings {
+    int recursion;
+    bool light;    ///< what owners receive is summed up
+    bool shadows;  ///< only with `light`
+    bool depth;    ///< deepest_hit() is kept
+  };
+  WaveIntegrator(const WaveScene& scene, const Tracer& tracer, const Settings& settings, const CancelToken* cancel)
+      : scene_(scene), tracer_(tracer), settings_(settings), cancel_(cancel) {}
+
+  /// Follows the rays of primaries() to their end. Owners are 0 to owners - 1. What is left undone when cancelled is
+  /// undefined.
+  void trace(WaveBuffers& buffers, std::int64_t owners);
+
+  /// Only the first hits of primaries(), of spheres and plane: t and id of ray i in buffers.t[i] and buffers.id[i].
+  void find_first_hits(WaveBuffers& buffers);
+
+  /// To be filled before.
+  static Wave& primaries(WaveBuffers& buffers) {
+    if (buffers.generations.empty()) buffers.generations.resize(1);
+    return buffers.generations.front();
+  }
+
+  /// The deepest generation of which a ray hit something, by owner, of the last trace().
+  const std::vector<std::uint8_t>& deepest_hit() const { return deepest_hit_; }
+  const RenderCounts& rays() const { return rays_; }
+
+ private:
+  void find_sphere_hits(const WavePart& rays, WaveBuffers& buffers) const;
+  void trace_part(const WavePart& rays, int depth, WaveBuffers& buffers);
+  void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
+  void find_shadows(int depth, WaveBuffers& buffers);
+  bool with_shadows() const { return settings_.light && settings_.shadows; }
+  bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }
+
+  const WaveScene& scene_;
+  const Tracer& tracer_;
+  Settings settings_;
+  const CancelToken* cancel_;
+  RenderCounts rays_;
+  std::vector<std::uint8_t> deepest_hit_;
+};
+
+}  // namespace bihive
