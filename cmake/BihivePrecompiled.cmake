@@ -1,0 +1,32 @@
+# Headers that nearly every source file includes are read once and kept (precompiled). Sources still include what they use:
+# builds without it (-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON: scripts/lint, and other machines' builds) fail where one does not.
+
+set(BIHIVE_OFTEN_INCLUDED
+    <algorithm>
+    <array>
+    <cmath>
+    <cstdint>
+    <cstring>
+    <functional>
+    <limits>
+    <memory>
+    <optional>
+    <string>
+    <string_view>
+    <utility>
+    <vector>)
+
+# bihive_precompile(target [HEADER...]): those above, and more.
+function(bihive_precompile target)
+  target_precompile_headers(${target} PRIVATE ${BIHIVE_OFTEN_INCLUDED} ${ARGN})
+  bihive_quiet_with_precompiled(${target})
+endfunction()
+
+# GCC 12 forgets that precompiled headers of the system's are the system's, and complains of its own std::string. Builds
+# without precompiled headers keep these warnings: of the library, that for 64-bit ARM does (scripts/neon).
+function(bihive_quiet_with_precompiled target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
+     AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
+  endif()
+endfunction()
