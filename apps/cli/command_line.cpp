@@ -14,7 +14,7 @@ constexpr double kLargestFloat = 3.4028234663852886e38;
 constexpr std::int64_t kMostThreads = 4096;
 constexpr std::int64_t kLargestPort = 65535;
 
-// An option with one value of its own syntax: `parse` makes a Result of the text.
+// An option with one value of its own syntax: `parse` turns the text into a Result.
 template <class Target, class Parse>
 CLI::Option* add_value(CLI::App& app, const std::string& name, Target& target, const std::string& type,
                        const std::string& help, Parse parse) {
@@ -100,7 +100,7 @@ void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object instead of text");
 }
 
-// A sub-command whose help ends in two examples. `request` becomes `options` if it is called.
+// A sub-command whose help ends in two examples. A call of it sets `request` to `options`.
 template <class Options>
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help, const std::string& first_example,
                       const std::string& second_example, const Options& options, Request& request) {
@@ -283,7 +283,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion&) {
     return HelpText{version_text() + "\n", true};
   } catch (const CLI::Success&) {
-    // The help of the sub-command that it was asked of, if any.
+    // The help of the sub-command for which help was asked, if any.
     for (const CLI::App* command : app.get_subcommands()) return HelpText{command->help("bihive"), true};
     return HelpText{app.help(), true};
   } catch (const CLI::ParseError& error) {
@@ -292,7 +292,7 @@ Request parse_command_line(int argc, const char* const* argv) {
       fail_usage("there is no command '" + first + "'", "see bihive --help");
     std::string command = "bihive";
     for (const CLI::App* called : app.get_subcommands()) command += " " + called->get_name();
-    // CLI11 speaks of "At Most 1 required" where an option is repeated.
+    // CLI11 says "At Most 1 required" for a repeated option.
     std::string what = error.what();
     const std::size_t repeated = what.find(": At Most 1 required but received ");
     if (repeated != std::string::npos) what = what.substr(0, repeated) + " is given more than once";

@@ -1,4 +1,4 @@
-// The command line: the one place that knows its words. (And the one file that takes CLI11 seconds to compile.)
+// The command line. Only this file knows its words, and it alone spends seconds on compiling CLI11.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace bihive::cli {
 
-/// What the command line asks for: a sub-command with its options, or a text to print with an exit code.
+/// The request of a command line: a sub-command with its options, or a text to print with an exit code.
 struct HelpText {
   std::string text;
   bool asked_for;  ///< true: exit code 0, stdout; false: a sub-command is missing, exit code 2, stderr
@@ -17,7 +17,7 @@ struct HelpText {
 using Request = std::variant<HelpText, RenderOptions, ViewOptions, StatsOptions, TraceOptions, SceneOptions,
                              InfoOptions, ThesisOptions, WebOptions>;
 
-/// Fails with kBadUsage on anything that is unknown, missing, repeated or out of range.
+/// Fails with kBadUsage on any word that is unknown, missing, repeated or out of range.
 Request parse_command_line(int argc, const char* const* argv);
 
 }  // namespace bihive::cli

@@ -21,20 +21,20 @@ namespace {
 constexpr double kBudgetMs = 16;
 constexpr double kIdleSeconds = 0.5;
 constexpr double kZoomOfNotch = 1.15;
-constexpr double kTurnOfKeyPx = 24;  // an arrow turns or shifts by so much
+constexpr double kTurnOfKeyPx = 24;  // the turn or shift of an arrow key
 
 App& app_of(GLFWwindow* window) {
   return *static_cast<App*>(glfwGetWindowUserPointer(window));
 }
 
-// A processor that only pretends: the CPU engine is the better one then.
+// A software driver: the CPU engine is faster.
 bool is_software(const std::string& description) {
   for (const char* name : {"llvmpipe", "softpipe", "SwiftShader", "swrast"})
     if (description.find(name) != std::string::npos) return true;
   return false;
 }
 
-// "demo.png", or "demo-2.png" where that exists.
+// "demo.png", or "demo-2.png" if that exists.
 std::string free_name(const std::string& wanted) {
   const std::filesystem::path path(wanted);
   std::error_code ignored;
@@ -58,7 +58,7 @@ Status App::open() {
   window_ = std::move(*window);
   texture_ = std::make_unique<PictureTexture>(window_->gl());
 
-  // The graphics processor is welcome, but nothing depends on it unless it was asked for.
+  // A missing graphics processor is an error only if the user asked for it.
   const Result<GlFunctions> functions = load_gl_functions(glfwGetProcAddress);
   const Status attached = functions ? viewer_.attach_gl(*functions) : Status(functions.error());
   ViewerSettings settings = viewer_.settings();
@@ -148,7 +148,7 @@ void App::on_key(int key, int action, int mods) {
     settings.view = kViews[static_cast<std::size_t>(key - GLFW_KEY_1)].second;
     return apply(settings);
   }
-  // Letters where the user's keyboard has them.
+  // Letters by the layout of the user's keyboard.
   const char* const name = glfwGetKeyName(key, 0);
   const char letter = key == GLFW_KEY_HOME ? 'r' : name == nullptr ? '\0' : name[0];
   switch (letter) {
@@ -176,11 +176,12 @@ void App::on_key(int key, int action, int mods) {
   }
 }
 
-// The name of a file is typed event by event, not frame by frame: nothing is lost while a picture is being made.
+// The name of a file is typed event by event, not frame by frame, so that no letter is lost while a picture is being
+// made.
 void App::on_prompt_key(int key, int mods) {
   prompt_is_new_ = false;
   if (key == GLFW_KEY_BACKSPACE) {
-    // A character of UTF-8 ends before the last byte that is no continuation.
+    // A UTF-8 character begins at the last byte that is not a continuation.
     while (!asked_file_->empty() && (static_cast<unsigned char>(asked_file_->back()) & 0xC0) == 0x80)
       asked_file_->pop_back();
     if (!asked_file_->empty()) asked_file_->pop_back();
@@ -195,7 +196,7 @@ void App::on_prompt_key(int key, int mods) {
 }
 
 void App::on_character(unsigned character) {
-  // The letter of the key that opened the prompt comes after it.
+  // The letter of the key that opened the prompt comes after this event.
   if (!asked_file_ || std::exchange(prompt_is_new_, false)) return;
   const auto put = [&](unsigned byte) { *asked_file_ += static_cast<char>(byte); };
   if (character < 0x80) return put(character);
@@ -212,7 +213,7 @@ void App::on_character(unsigned character) {
   put(0x80 | (character & 0x3F));
 }
 
-// By the pointer's place as of the event at hand: ImGui knows that of the last frame only, and GLFW that of now.
+// The pointer's place at this event: ImGui knows the place at the last frame only, and GLFW the place now.
 bool App::over_picture() const {
   const bool over_message = (asked_file_ || !message_.empty()) && ImGui::GetIO().WantCaptureMouse;
   return x_ * window_->pixels_per_unit() < picture_size().x && !over_message;
@@ -331,7 +332,7 @@ Status App::run() {
     const ImVec2 size = picture_size();
     viewer_.resize(static_cast<int>(size.x), static_cast<int>(size.y));
 
-    // Go on with the picture, and with what the panel says of it.
+    // Continue the picture, and update the panel's numbers.
     const Result<FrameReport> next = viewer_.frame(kBudgetMs);
     if (next)
       report = *next;
@@ -340,7 +341,7 @@ Status App::run() {
     if (report.drawn && viewer_.settings().engine == ViewerEngine::cpu) texture_->take(viewer_.image());
     if (panel_shown_) panel_.table.update(viewer_, report.settled);
 
-    // Draw the window where there is something new in it.
+    // Draw the window if something in it is new.
     if (frames_to_draw_ == 0 && report.settled && !report.drawn) continue;
     frames_to_draw_ = std::max(0, frames_to_draw_ - 1);
     settled_frames = report.settled ? settled_frames + 1 : 0;
@@ -352,7 +353,7 @@ Status App::run() {
     if (!request_.screenshot.empty()) wake();
     if (report.settled && report.drawn) wake();
 
-    // A file that was dropped, once its name is on the screen.
+    // Open a dropped file after its name is on the screen.
     if (!file_to_open_) continue;
     const std::string path = *std::exchange(file_to_open_, std::nullopt);
     open_file(path);

@@ -1,4 +1,4 @@
-// The window's program: the viewer on one side, the user on the other.
+// The window's program: it connects the viewer and the user.
 #pragma once
 
 #include <memory>
@@ -24,13 +24,13 @@ class App {
   App(const App&) = delete;
   App& operator=(const App&) = delete;
 
-  /// Error: no window, no OpenGL, or not the graphics processor that the request asks for.
+  /// Error: no window, no OpenGL, or no graphics processor although the request asks for one.
   Status open();
-  /// Until the window is closed, or the screenshot is written. Error: it could not be.
+  /// Runs until the window is closed or the screenshot is written. Error: it could not be written.
   Status run();
 
  private:
-  // What the window tells.
+  // Events of the window.
   static void listen(GLFWwindow* window);
   void on_key(int key, int action, int mods);
   void on_prompt_key(int key, int mods);
@@ -42,7 +42,7 @@ class App {
   void on_drop(std::vector<std::string> paths);
   void wake() { frames_to_draw_ = 3; }
 
-  // What follows from it.
+  // Actions on events.
   void open_file(const std::string& path);
   void open_built_in(const std::string& name);
   void opened(const Result<SceneFacts>& facts);
@@ -70,7 +70,7 @@ class App {
   bool dropped_several_ = false;
   std::optional<std::string> asked_file_;  // being typed
   bool prompt_is_new_ = false;
-  int frames_to_draw_ = 3;  // of the window, however little happens
+  int frames_to_draw_ = 3;  // of the window, at least
 
   enum class Drag { none, orbit, pan };
   Drag drag_ = Drag::none;

@@ -12,7 +12,7 @@
 namespace bihive::window {
 namespace {
 
-// A slider's range; numbers beyond it are for the command line.
+// A slider's range; numbers beyond it need the command line.
 constexpr int kMostPrims = 64, kMostDepth = 64;
 
 void heading(const char* text) {
@@ -21,7 +21,7 @@ void heading(const char* text) {
   ImGui::TextColored(kDim, "%s", text);
 }
 
-// A label in the left column, and the control that follows in the right one.
+// A label in the left column, and its control in the right one.
 void label(const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text);

@@ -1,4 +1,4 @@
-// The panel beside the picture: what a user sees of the settings, and what was clicked.
+// The panel beside the picture: it shows the settings and reports clicks.
 #pragma once
 
 #include <imgui.h>
@@ -12,7 +12,7 @@
 
 namespace bihive::window {
 
-/// Of one frame.
+/// Data of one frame.
 struct PanelWishes {
   std::optional<ViewerSettings> settings;
   std::optional<ViewFrom> side;

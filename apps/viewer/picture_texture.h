@@ -8,7 +8,7 @@
 
 namespace bihive::window {
 
-/// Of the context that is current in every call, the destructor too.
+/// Its context must be current in every call, also in the destructor.
 class PictureTexture {
  public:
   explicit PictureTexture(const Gl& gl) : gl_(gl) {}
@@ -32,7 +32,7 @@ class PictureTexture {
   }
   void forget() { filled_ = false; }
 
-  /// Behind everything, in ImGui's units.
+  /// Draws behind everything, in ImGui's units.
   void draw(ImVec2 size) const {
     if (!filled_) return;
     // NOLINTNEXTLINE(performance-no-int-to-ptr): ImGui's backend keeps names of textures so

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kFontSize = 15;
 
-// Where Linux systems keep a plain font without serifs; otherwise ImGui's own, which is coarse.
+// The places of a plain font without serifs on Linux systems; without it, ImGui's own coarse font.
 constexpr const char* kFonts[] = {
     "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",

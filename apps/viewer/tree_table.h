@@ -1,4 +1,4 @@
-// The trees of the scene on show in numbers, side by side.
+// The numbers of both trees of the scene on show, side by side.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace bihive::window {
 
 class TreeTable {
  public:
-  /// Asks the viewer again where its scene or the tree's parameters have changed; a large scene's trees only once
-  /// nothing moves any more.
+  /// Asks the viewer again if its scene or the tree's parameters have changed. For a large scene it waits until nothing
+  /// moves.
   void update(const Viewer& viewer, bool settled);
-  /// Whether it shows what is on show.
+  /// Whether it shows the numbers of the scene on show.
   bool current() const { return current_; }
   /// A new scene.
   void forget() { current_ = false; }
@@ -29,7 +29,7 @@ class TreeTable {
 
   std::vector<Row> rows_;
   std::string error_;
-  std::optional<std::int64_t> max_prims_, max_depth_;  // that were asked for
+  std::optional<std::int64_t> max_prims_, max_depth_;  // of the last request
   bool current_ = false;
 };
 

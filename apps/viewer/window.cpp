@@ -66,7 +66,7 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
 }
 
 void Window::start_imgui() {
-  // Wherever the pointer's units are pixels, text is larger; elsewhere the units are.
+  // If the pointer's units are pixels, text is larger; else the units themselves are larger.
   float scale_x = 1, scale_y = 1;
   glfwGetWindowContentScale(window_, &scale_x, &scale_y);
   const double scale = std::clamp<double>(std::max(scale_x, scale_y), 1, 4);
@@ -109,7 +109,7 @@ void Window::end_frame(Image* picture) {
   gl_.Viewport(0, 0, size.width, size.height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (picture != nullptr) {
-    // Rows from the bottom become rows from the top.
+    // Reverse the rows: the first row is at the bottom.
     const std::size_t row = 3 * static_cast<std::size_t>(size.width);
     std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(size.height));
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);

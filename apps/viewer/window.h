@@ -29,13 +29,14 @@ class Window {
   GLFWwindow* handle() const { return window_; }
   const Gl& gl() const { return gl_; }
   PixelSize framebuffer() const;
-  /// Pixels of the framebuffer to one unit of the pointer's and ImGui's coordinates.
+  /// Pixels of the framebuffer for one unit of the pointer's and ImGui's coordinates.
   double pixels_per_unit() const;
-  /// How much larger than on a plain screen text and controls are to be, in those units.
+  /// The size of text and controls relative to a plain screen, in those units.
   double text_scale() const { return text_scale_; }
 
   void begin_frame();
-  /// Draws what ImGui was told, and shows all of it. With `picture` the framebuffer is copied there first.
+  /// Draws the commands that ImGui collected, and shows everything. With `picture` the framebuffer is copied there
+  /// first.
   void end_frame(Image* picture = nullptr);
 
  private:

@@ -24,7 +24,7 @@ class UpdateGolden(unittest.TestCase):
             ctest.write_text(f'#!/bin/sh\necho "update: $BIHIVE_UPDATE_GOLDEN $*"\ncat {build}/printed\nexit 8\n')
             ctest.chmod(0o755)
             environment = dict(os.environ, PATH=f"{folder}:{os.environ['PATH']}")
-            command = [SOURCE / "scripts" / "update-golden", build]
+            command = [SOURCE / "scripts" / "update_golden", build]
             return subprocess.run(command, env=environment, capture_output=True, text=True)
 
     def test_pictures_written(self):
@@ -49,7 +49,7 @@ class UpdateGolden(unittest.TestCase):
         self.assertIn("-L ^golden$ --no-tests=error", done.stderr)
 
     def test_a_folder_without_a_build_is_told(self):
-        done = subprocess.run([SOURCE / "scripts" / "update-golden", "nowhere"], capture_output=True, text=True)
+        done = subprocess.run([SOURCE / "scripts" / "update_golden", "nowhere"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
         self.assertIn("no tests were built in nowhere", done.stderr)
 

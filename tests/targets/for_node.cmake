@@ -1,5 +1,5 @@
-# bihive_for_node(program): links a WebAssembly program to be run under node. Its main function runs in a worker, so that
-# it may wait for threads.
+# bihive_for_node(program): links a WebAssembly program for node. Its main function runs in a worker, so that it may
+# wait for threads.
 set(BIHIVE_BEFORE_NODE ${CMAKE_CURRENT_LIST_DIR}/before_node.js)
 function(bihive_for_node program)
   target_link_options(

@@ -1,8 +1,8 @@
-// Prints one line for each of a set of small pictures: what it is, and the hash of its pixels.
+// Prints one line for each of a set of small pictures: its name, and the hash of its pixels.
 //
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
-// with each other, and fails where a picture differs. The pictures: the three scenarios, the four spheres and the
-// bundled molecule; recursion 1 to 5, every view, the sRGB curve, shadows, several samples.
+// with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
+// molecule; recursion 1 to 5, every view, the sRGB curve, shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -55,16 +55,16 @@ bihive::Result<bihive::Scene> molecule_scene() {
   return scene;
 }
 
-// Prints the picture's line. False if the picture cannot be made, or depends on engine or threads.
+// Prints the picture's line. False if the picture cannot be made, or if it depends on engine or threads.
 bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted, const char* view_name) {
   bool good = true;
   bool have_first = false;
   std::uint64_t first = 0;
   for (const auto& [engine_name, engine] : kEngines) {
-    // The pictures of the tree and of its traversal are of the reference tree.
+    // The pictures of the tree and of its traversal show the reference tree.
     const bool of_tree = wanted.view == View::traversal || wanted.view == View::tree;
     if (of_tree && engine != Engine::reference) continue;
-    // Where an emulator is very slow, the engine that has no code for its instruction set draws nothing else.
+    // On a very slow emulator, the engine without code for its instruction set draws nothing else.
     if (!of_tree && engine == Engine::reference && bihive::test::test_share() > 32) continue;
     const auto built = bihive::Tracer::build(scene.spheres, engine);
     if (!built) {

@@ -1,6 +1,6 @@
-// What the tests of the page share: the browser, a page that notes what goes wrong, pictures compared pixel by pixel.
-// Environment: PAGE, the folder that scripts/build_web made; BIHIVE and GL_COMPARE, the programs; CHROMIUM, the browser;
-// SOURCE, the project; SCRATCH, a folder to write to.
+// Shared by the tests of the page: the browser, a page that records errors, pictures compared pixel by pixel.
+// Environment: PAGE, the folder that scripts/build_web made; BIHIVE and GL_COMPARE, the programs; CHROMIUM, the
+// browser; SOURCE, the project; SCRATCH, a folder to write to.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';

@@ -1,4 +1,4 @@
-// The sub-commands: their options, as parsed and checked one by one, and what runs them. They end by returning, or by a
+// The sub-commands: their options, each parsed and checked, and the functions that run them. These return, or end by a
 // Failure (failure.h).
 #pragma once
 
@@ -17,10 +17,11 @@
 
 namespace bihive::cli {
 
-/// What draws a picture: an engine of the CPU, or the graphics processor on the reference tree or on every sphere.
+/// The engine that draws a picture: an engine of the CPU, or the graphics processor on the reference tree or on every
+/// sphere.
 enum class RenderEngine { automatic, wide, reference, brute, gpu, gpu_brute };
 
-/// Unset: as the scene says.
+/// Unset: the scene's value.
 struct RenderOptions {
   InputOptions input;
   std::string output;
@@ -29,7 +30,7 @@ struct RenderOptions {
   View view = View::shaded;
   RenderEngine engine = RenderEngine::automatic;
   TreeParameters tree;
-  std::int64_t threads = 0;  ///< 0 = all that the machine runs at once
+  std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
   std::optional<bool> shadows;
   std::optional<Transfer> transfer;
   std::optional<std::string> background;  ///< a valid colour; its meaning depends on the transfer
@@ -40,7 +41,7 @@ struct RenderOptions {
 };
 void run_render(const RenderOptions& options);
 
-/// Unset: as the scene says.
+/// Unset: the scene's value.
 struct ViewOptions {
   InputOptions input;
   std::optional<PictureSize> size;  ///< of the window
@@ -98,8 +99,8 @@ struct ThesisOptions {
 void run_thesis(const ThesisOptions& options);
 
 struct WebOptions {
-  std::string input;                 ///< a file or a built-in name; empty: what the page shows by itself
-  std::optional<std::int64_t> port;  ///< 0: any that is free; unset: 8017, or the next one that is free
+  std::string input;                 ///< a file or a built-in name; empty: the page's own input
+  std::optional<std::int64_t> port;  ///< 0: any free port; unset: the first free port from 8017 on
   std::string bind = "127.0.0.1";    ///< numeric, in its usual spelling
   bool browser = true;
   bool json = false;

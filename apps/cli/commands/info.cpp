@@ -1,4 +1,4 @@
-// bihive info: what an input holds, and what its tree will take.
+// bihive info: the content of an input, and the memory of its trees.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ struct Range {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
 
-  /// NaN, which means unknown, is left out.
+  /// NaN means unknown and is left out.
   void add(double value) {
     min = std::min(min, value);
     max = std::max(max, value);

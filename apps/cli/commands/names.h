@@ -1,5 +1,5 @@
-// Every choice that the command line offers by name: what is parsed is also what is printed. Views and sides are the
-// library's.
+// Every choice that the command line offers by name. The same names are parsed and printed. The library has the names
+// of views and sides.
 #pragma once
 
 #include "bihive/image/transfer.h"

@@ -28,7 +28,7 @@ bool parallel(Vec3d a, Vec3d b) {
   return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
 }
 
-// The scene's own camera or one that shows everything, with what the user asks for in its place.
+// The scene's own camera, or one that shows everything; the user's options replace parts of it.
 Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings) {
   const bool placed = options.eye || options.look_at || options.up;
   if (placed && options.view_from) fail_usage("--view-from and --eye, --look-at or --up contradict each other");
@@ -44,7 +44,7 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   }
   if (!placed) return camera;
 
-  // A camera that is placed by hand looks at the middle of the set unless the scene or the user says otherwise.
+  // A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
   const SphereSet::Bounds bounds = scene.spheres.bounds();
   if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
   camera.eye = options.eye.value_or(camera.eye);
@@ -66,7 +66,7 @@ bool is_gpu(RenderEngine engine) {
   return engine == RenderEngine::gpu || engine == RenderEngine::gpu_brute;
 }
 
-// The pictures of the tree are of the reference tree, whatever is fastest.
+// The pictures of the tree show the reference tree, also if another engine is faster.
 RenderEngine choose_engine(const RenderOptions& options) {
   const RenderEngine engine = options.engine;
   if (!shows_reference_tree(options.view) || engine == RenderEngine::reference) return engine;
@@ -84,7 +84,7 @@ RenderEngine choose_engine(const RenderOptions& options) {
   return engine;
 }
 
-// What an engine builds.
+// The structure that an engine builds.
 Engine structure_of(RenderEngine engine) {
   switch (engine) {
     case RenderEngine::wide:
@@ -101,7 +101,7 @@ Engine structure_of(RenderEngine engine) {
   return Engine::automatic;
 }
 
-// Everything that decides the picture, for its text chunk. Not threads and engine: they do not.
+// Everything that decides the picture, for its text chunk. Threads and engine do not.
 ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene) {
   const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
   ordered_json json;
@@ -162,7 +162,7 @@ PngText text_chunks(const Scene& scene, const ordered_json& settings) {
   return text;
 }
 
-// A picture, and what is said of it.
+// A picture and its report.
 struct Drawn {
   Film film;
   std::int64_t all_rays = 0;
@@ -212,7 +212,7 @@ void run_render(const RenderOptions& options) {
   const RenderEngine engine = choose_engine(options);
   if (const Status status = check_writable(options.output); !status) fail(status.error());
 
-  // Load the scene and put the user's wishes into it.
+  // Load the scene and apply the user's options to it.
   Input input = load_input(options.input);
   Scene& scene = input.scene;
   RenderSettings settings = settings_from(scene.picture);
@@ -242,7 +242,7 @@ void run_render(const RenderOptions& options) {
     if (const Status status = write_file(options.output, png); !status) fail(status.error());
   }
 
-  // Say what was done.
+  // Print the report.
   const double mray_per_s = drawn.render_ms > 0 ? static_cast<double>(drawn.all_rays) / drawn.render_ms / 1000 : 0;
   if (!options.json) {
     print(fmt::format("{}: {} x {}, {} spheres; tree {}, picture {} ({:.3g} Mray/s of all kinds)\n", options.output,

@@ -10,7 +10,7 @@
 namespace bihive::cli {
 namespace {
 
-// Between two looks at the progress, and at Ctrl-C.
+// Time between two checks of the progress and of Ctrl-C.
 constexpr double kSliceMs = 100;
 
 template <class T>

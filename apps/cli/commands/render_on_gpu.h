@@ -14,12 +14,12 @@ namespace bihive::cli {
 struct GpuPicture {
   Film film;
   std::int64_t primary = 0, others = 0;  ///< rays traced
-  double render_ms = 0;                  ///< of the picture; not of the context and the upload
+  double render_ms = 0;                  ///< of the picture, without the context and the upload
   std::string gpu;                       ///< vendor, processor, version
 };
 
-/// Without a tree every sphere is tested. `progress` is called several times a second. Fails with kEnvironment where
-/// there is no EGL, or where the driver refuses something.
+/// Without a tree every sphere is tested. `progress` is called several times a second. Fails with kEnvironment if there
+/// is no EGL, or if the driver refuses something.
 GpuPicture render_on_gpu(const Scene& scene, const Tree* tree, const RenderSettings& settings,
                          const ProgressCallback& progress);
 

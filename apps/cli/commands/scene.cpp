@@ -1,4 +1,4 @@
-// bihive scene: a scene of the thesis into a file.
+// bihive scene: writes a scene of the thesis to a file.
 
 #include "bihive/scene/scene.h"
 

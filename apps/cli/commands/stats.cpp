@@ -1,4 +1,4 @@
-// bihive stats: what the trees of an input look like in numbers.
+// bihive stats: the trees of an input in numbers.
 
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ void print_wide_table(const WideFacts& wide) {
   row("build", readable_ms(wide.build_ms));
 }
 
-// The rows of the thesis's Table 4.2 in its order, then what the table leaves out; the wide tree below.
+// The rows of the thesis's Table 4.2 in its order, then further rows; the wide tree below.
 void print_table(const Scene& scene, const ReferenceFacts& reference, const WideFacts& wide) {
   const TreeStatistics& statistics = reference.statistics;
   const ThesisBytes bytes = thesis_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An experiment with everything that its run needs.
+// An experiment with all data of its run.
 struct Run {
   Experiment experiment;
   Values values;
@@ -43,7 +43,7 @@ void make_folder(const std::string& folder) {
     fail({"the folder cannot be made: " + (error ? error.message() : "a file is in its place"), folder, 0, 0, ""});
 }
 
-// Pictures are made by steps, and somebody may have removed them since.
+// Steps make pictures, and somebody may have removed the pictures since.
 bool has_its_pictures(const Run& run, const Settings& settings, const std::string& out) {
   if (run.results.empty()) return true;
   make_folder(run.folder);
@@ -52,7 +52,7 @@ bool has_its_pictures(const Run& run, const Settings& settings, const std::strin
                      [&](const Illustration& picture) { return fs::is_regular_file(out + "/" + picture.file); });
 }
 
-// The experiments asked for, and those of an earlier run into the same folder that still hold.
+// The requested experiments, and those of an earlier run into the same folder that are still valid.
 std::vector<Run> collect_runs(const ThesisOptions& options, const Settings& settings, const StepStore& store) {
   std::vector<Run> runs;
   for (Experiment& experiment : all_experiments()) {
@@ -72,7 +72,7 @@ std::vector<Run> collect_runs(const ThesisOptions& options, const Settings& sett
   return runs;
 }
 
-// Runs what is not done yet. Returns early when a signal came.
+// Runs the steps that are not done yet. Returns early after a signal.
 void run_steps(std::vector<Run>& runs, const Settings& settings, const StepStore& store) {
   Progress progress("thesis");
   double all = 0;
@@ -147,8 +147,8 @@ void run_thesis(const ThesisOptions& options) {
   const StepStore store(options.out, settings);
   std::vector<Run> runs = collect_runs(options, settings, store);
 
-  // The report is written after an interruption too: the section lives until then, so that only a second signal ends it
-  // at once.
+  // The report is also written after an interruption. The section lives until then, so that only a second signal ends
+  // it at once.
   const CancellableSection section;
   run_steps(runs, settings, store);
   const std::vector<ReportSection> sections = sections_of(runs, settings);

@@ -1,4 +1,4 @@
-// bihive trace: rays of a .npy file against an input, answers into two .npy files.
+// bihive trace: traces rays of a .npy file through an input, and writes two .npy files of answers.
 
 #include <fmt/format.h>
 
@@ -26,13 +26,13 @@
 namespace bihive::cli {
 namespace {
 
-// Rays of a chunk. Between chunks there is progress, and Ctrl-C ends the work.
+// Rays in a chunk. Progress is shown and Ctrl-C ends the work between two chunks.
 constexpr std::int64_t kFewestPerChunk = 16384;
 constexpr std::int64_t kMostPerChunk = 262144;
 constexpr std::int64_t kChunksPerThread = 4;
-constexpr std::int64_t kSpheresPerChunk = 1 << 25;  // that brute force meets: well below a second
+constexpr std::int64_t kSpheresPerChunk = 1 << 25;  // brute force tests per chunk: well below a second
 
-// Rays as the file has them: origin, direction, and if there are 8 columns t_min and t_max.
+// The rays of the file: origin, direction, and with 8 columns t_min and t_max.
 class RayFile {
  public:
   explicit RayFile(const std::string& path) {
@@ -75,7 +75,7 @@ struct Answers {
   std::int64_t hits = 0;
 };
 
-// The answers to rays first to first + count - 1, as the files hold them. Returns how many are no rays.
+// The answers to rays first to first + count - 1, in the form of the files. Returns the number of invalid rays.
 std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const RayFile& file, std::int64_t first,
                     std::int64_t count, const HitSpan& hits) {
   RayBatch rays;
@@ -89,7 +89,7 @@ std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const Ra
     tracer.closest_hits(rays.span(), RayOrder::any, hits);
   }
 
-  // The plane is hit where it is nearer; a sphere at the same t goes first.
+  // The plane is hit if it is nearer; at the same t the sphere is hit.
   std::int64_t bad_rays = 0;
   for (std::int64_t i = 0; i < count; ++i) {
     const Ray ray = rays.span().at(i);
@@ -106,7 +106,7 @@ std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const Ra
   return bad_rays;
 }
 
-// The wide engine answers many at a time faster, the others are slow.
+// The wide engine answers faster in one call; the other engines are slow and need breaks.
 std::int64_t rays_per_chunk(const Tracer& tracer, std::int64_t rays, std::int64_t threads) {
   const std::int64_t spheres = std::max<std::int64_t>(1, tracer.spheres().size());
   if (tracer.engine() == Engine::brute) return std::clamp<std::int64_t>(kSpheresPerChunk / spheres, 1, kFewestPerChunk);
@@ -122,7 +122,7 @@ Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, con
   answers.t.resize(static_cast<std::size_t>(rays.size()), std::numeric_limits<double>::infinity());
   answers.id.resize(static_cast<std::size_t>(rays.size()), kNothing);
 
-  // Each chunk writes its own rays and its own count. Progress is said by the thread that has the chunk before it.
+  // Each chunk writes its own rays and its own count. The thread that has a chunk reports its progress.
   const std::int64_t most = rays_per_chunk(tracer, rays.size(), options.threads);
   const std::int64_t chunks = (rays.size() + most - 1) / most;
   std::vector<std::int64_t> bad_rays(static_cast<std::size_t>(chunks), 0);

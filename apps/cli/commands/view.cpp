@@ -1,4 +1,4 @@
-// bihive view: hands a checked command line over to bihive-view, the program with the window.
+// bihive view: passes a checked command line on to bihive-view, the program with the window.
 
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kProgram = "bihive-view";
 
-// What apps/viewer/request.h describes.
+// The JSON object of apps/viewer/request.h.
 ordered_json request_of(const ViewOptions& options) {
   ordered_json request;
   const auto put = [](ordered_json& object, const char* key, const auto& value) {
@@ -62,7 +62,7 @@ void run_view(const ViewOptions& options) {
   check_input_options(options.input);
   const std::string request = request_of(options).dump(-1, ' ', false, ordered_json::error_handler_t::ignore);
 
-  // The program lies beside this one, or wherever the shell finds it.
+  // The program lies beside this one, or in the PATH of the shell.
   std::error_code unknown;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
   const std::string beside = unknown ? "" : (self.parent_path() / kProgram).string();

@@ -39,7 +39,7 @@ PageFiles load_page() {
   return std::move(*page);
 }
 
-// Everything that can be fetched: the page, the file, and what the page is to open (start.json).
+// All that can be fetched: the page, the file, and the page's first input (start.json).
 Site site_of(const WebOptions& options) {
   Site site;
   ordered_json start = ordered_json::object();
@@ -56,8 +56,8 @@ Site site_of(const WebOptions& options) {
   site.page = load_page();
   site.page["/start.json"] = make_page_file("start.json", start.dump() + "\n");
 
-  // A page of another site may give its own name this machine's address (DNS rebinding); it cannot choose a Host
-  // header.
+  // The page of another site may point its own name to this machine's address (DNS rebinding), but it cannot choose the
+  // Host header.
   site.is_own_host = [bound = options.bind](const std::string& host) {
     if (host == "localhost" || is_loopback(host) || host == bound) return true;
     if (!is_every_address(bound)) return false;
@@ -75,7 +75,7 @@ std::vector<int> ports_to_try(const std::optional<std::int64_t>& wanted) {
   return ports;
 }
 
-// The page's addresses, this machine's own one first.
+// The page's addresses; the one of this machine comes first.
 std::vector<std::string> urls_of(const std::string& bound, int port) {
   if (!is_every_address(bound)) return {page_url(bound, port)};
   std::vector<std::string> urls{page_url("127.0.0.1", port)};

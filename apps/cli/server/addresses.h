@@ -1,4 +1,4 @@
-// Numeric network addresses, and those that this machine has.
+// Numeric network addresses, and the addresses of this machine.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace bihive::cli {
 
-/// An IPv4 or IPv6 address in the one spelling that all functions here use ("::1" for "0:0::1"); nothing for any other
+/// An IPv4 or IPv6 address in the only spelling that all functions here use ("::1" for "0:0::1"); nothing for any other
 /// text.
 std::optional<std::string> usual_spelling(const std::string& address);
-/// The same of an option's text; an error says what was expected.
+/// The same for an option's text; an error says the expected value.
 Result<std::string> address_from(const std::string& text);
 
 /// 127.x.y.z or ::1: only this machine reaches it.
@@ -20,8 +20,8 @@ bool is_loopback(const std::string& address);
 /// 0.0.0.0 or ::, every address of this machine.
 bool is_every_address(const std::string& address);
 
-/// The addresses of this machine's network interfaces that are up: IPv4, and IPv6 if `with_ipv6` (but none that holds
-/// on one link only). Loopback is left out.
+/// The addresses of this machine's network interfaces that are up: IPv4, and IPv6 if `with_ipv6` (without addresses
+/// that hold on one link only). Loopback is left out.
 std::vector<std::string> own_addresses(bool with_ipv6);
 
 /// "http://ADDRESS:PORT/".

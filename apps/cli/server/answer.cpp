@@ -12,15 +12,15 @@
 namespace bihive::cli {
 namespace {
 
-// Own scripts, workers and WebAssembly; pictures that the page makes itself; nothing from anywhere else. Styles that
-// scripts set on elements need no permission, style attributes and elements do.
+// Allows the page's own scripts, workers and WebAssembly, and pictures that the page makes; forbids everything from
+// other places. Scripts may set styles on elements without permission; style attributes and style elements need it.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; connect-src 'self' blob:; "
     "img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; font-src 'self'; manifest-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 void add_common_headers(Answer& answer) {
-  // The first three are what browsers demand for threads that share memory.
+  // Browsers demand the first three for threads with shared memory.
   answer.headers.insert(answer.headers.end(), {{"Cross-Origin-Opener-Policy", "same-origin"},
                                                {"Cross-Origin-Embedder-Policy", "require-corp"},
                                                {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -35,7 +35,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// The parts of a list with commas.
+// The parts of a list that is separated by commas.
 std::vector<std::string_view> listed(std::string_view text) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
@@ -70,8 +70,8 @@ struct ByteRange {
   std::uint64_t first, last;  ///< first > last: outside of the file
 };
 
-// One range of bytes: "bytes=0-99", "bytes=100-", "bytes=-100". Nothing for what may be ignored: other units, several
-// ranges, anything malformed.
+// One range of bytes: "bytes=0-99", "bytes=100-", "bytes=-100". Nothing for requests that may be ignored: other units,
+// several ranges, malformed text.
 std::optional<ByteRange> range_from(std::string_view text, std::uint64_t size) {
   if (text.rfind("bytes=", 0) != 0) return std::nullopt;
   text = trimmed(text.substr(6));
@@ -100,7 +100,7 @@ std::optional<ByteRange> range_from(std::string_view text, std::uint64_t size) {
   return ByteRange{first, std::min(last, size - 1)};
 }
 
-// Answers with the content, the wanted part of it, or the news that the browser has it already.
+// Answers with the content, with the requested part of it, or with the message that the browser's copy is still right.
 Answer send(const Question& question, Content content, const std::string& tag, Answer found) {
   add_common_headers(found);
   found.headers.emplace_back("ETag", tag);
@@ -138,7 +138,7 @@ Answer send_page_file(const Question& question, const PageFile& file) {
 }
 
 Answer send_named_file(const Question& question, const std::string& path) {
-  // As it is now: a file that was written anew is shown anew.
+  // The present content: a file that was written anew is sent anew.
   const auto file = OpenFile::open(path);
   if (!file) return refusal(404, "the file cannot be read any more");
   Answer found;
@@ -169,7 +169,7 @@ Answer refusal(int status, const std::string& text) {
 }
 
 Answer answer(const Site& site, const Question& question) {
-  // A body was not read: what follows on this connection is not a request.
+  // The body was not read, so the next bytes on this connection are not a request.
   const auto last_words = [](Answer refused) {
     refused.close = true;
     return refused;

@@ -1,4 +1,4 @@
-// What the server says to a request. Nothing here knows of sockets.
+// The server's answer to a request. Nothing here knows of sockets.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace bihive::cli {
 
-/// A request as it came; headers that are missing are empty.
+/// A request as it was received; missing headers are empty.
 struct Question {
   std::string method;
   std::string target;
@@ -33,25 +33,25 @@ struct Content {
 struct Answer {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;  ///< all but Content-Length, Connection and Date
-  Content content;                                           ///< Content-Length follows from it
-  bool send_content = true;                                  ///< false for HEAD and where there is nothing to send
+  Content content;                                           ///< Content-Length is its size
+  bool send_content = true;                                  ///< false for HEAD and for answers without a body
   bool close = false;                                        ///< the connection ends with this answer
 };
 
-/// All that can be fetched.
+/// All content that can be fetched.
 struct Site {
   PageFiles page;
   std::string file_url;   ///< the path of the named file's URL, not escaped: "/file/a b.pdb"; empty: there is none
-  std::string file_path;  ///< where it is on the disk
-  /// Whether this server answers for the name or address of a Host header, as host_name() gives it.
+  std::string file_path;  ///< its path on the disk
+  /// Whether this server answers for the name or address of a Host header, in the spelling of host_name().
   std::function<bool(const std::string&)> is_own_host;
 };
 
-/// Never fails. 400: malformed; 403: a foreign Host header, which a page of another site could send (DNS rebinding);
-/// 404; 405: neither GET nor HEAD; 413: a request with a body; 416: a range outside of the file.
+/// Never fails. 400: malformed; 403: a Host header of another machine, which a page of another site could send (DNS
+/// rebinding); 404; 405: neither GET nor HEAD; 413: a request with a body; 416: a range outside of the file.
 Answer answer(const Site& site, const Question& question);
 
-/// An answer in words.
+/// An answer of plain text.
 Answer refusal(int status, const std::string& text);
 
 }  // namespace bihive::cli

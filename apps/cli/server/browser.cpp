@@ -20,7 +20,7 @@ bool is_set(const char* variable) {
 void open_browser(const std::string& url) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) return;
 
-  // A session of its own, so that Ctrl-C ends the server and not the browser; and silent.
+  // The browser gets a session of its own, so that Ctrl-C ends the server and not the browser. Its output is dropped.
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_t actions;
   posix_spawnattr_init(&attributes);
@@ -30,7 +30,7 @@ void open_browser(const std::string& url) {
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
 
-  // The shell leaves xdg-open to itself and ends, so nobody need wait for either.
+  // The shell starts xdg-open in the background and ends, so nobody has to wait for either.
   std::string shell = "sh";
   std::string flag = "-c";
   std::string script = "xdg-open \"$0\" &";

@@ -5,7 +5,7 @@
 
 namespace bihive::cli {
 
-/// Asks the desktop, where there is one, to show the address. Whether it does is not known, and does not matter.
+/// Asks the desktop, if there is one, to show the address. The result is unknown, and does not matter.
 void open_browser(const std::string& url);
 
 }  // namespace bihive::cli

@@ -1,4 +1,4 @@
-// The one file that takes Boost.Beast many seconds to compile.
+// The only file that spends many seconds on compiling Boost.Beast.
 #include "server/http_server.h"
 
 #include <algorithm>
@@ -28,9 +28,10 @@ namespace http = boost::beast::http;
 using boost::system::error_code;
 using Tcp = asio::ip::tcp;
 
-// A client that says nothing, or takes nothing, for so long is gone.
+// A client that neither sends nor takes anything for this time is dropped.
 constexpr std::chrono::seconds kPatience{30};
-// So long, and for so many bytes, the rest of a refused request is read away: else the system could drop the answer.
+// The server reads and drops the rest of a refused request, up to this time and this many bytes. Otherwise the system
+// could drop the answer.
 constexpr std::chrono::seconds kPatienceAtTheEnd{2};
 constexpr std::size_t kMostDiscarded = 1 << 20;
 constexpr std::size_t kChunkBytes = 256 * 1024;
@@ -42,7 +43,7 @@ std::string text_of(beast::string_view text) {
   return {text.data(), text.size()};
 }
 
-// The time as HTTP writes it: "Sun, 06 Nov 1994 08:49:37 GMT". The program never leaves the locale "C".
+// The time in the form of HTTP: "Sun, 06 Nov 1994 08:49:37 GMT". The program never leaves the locale "C".
 std::string http_date() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -66,7 +67,7 @@ Question question_from(const http::request_parser<http::empty_body>& parser) {
   return question;
 }
 
-// One connection: reads a request, says the answer, and so on. It lives as long as something is under way.
+// One connection: reads a request, sends the answer, and repeats. It lives as long as an operation is pending.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Tcp::socket socket, const std::function<Answer(const Question&)>& handler, std::function<void()> at_end)
@@ -81,7 +82,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kMostHeaderBytes);
-    // Bodies are refused by what is said, not here.
+    // The answer refuses bodies, not the parser.
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
     stream_.expires_after(kPatience);
     http::async_read_header(stream_, buffer_, *parser_,
@@ -118,7 +119,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     sent_ = 0;
     stream_.expires_after(kPatience);
     http::async_write_header(stream_, *serializer_, [self = shared_from_this()](error_code code, std::size_t) {
-      // A message without a body of its own reports its end as an error.
+      // For a message without a body of its own, Beast reports the end as an error.
       if (!code || code == http::error::end_of_stream) self->write_more();
     });
   }
@@ -131,7 +132,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (content.file) {
       chunk_.resize(kChunkBytes);
       count = content.file->read(content.offset + sent_, chunk_.data(), count);
-      if (count == 0) return;  // the file has shrunk: what was promised cannot be kept
+      if (count == 0) return;  // the file has become shorter: the promised bytes are missing
       bytes = chunk_.data();
     } else {
       bytes = content.bytes->data() + content.offset + sent_;
@@ -184,7 +185,7 @@ struct HttpServer::State {
 
   ~State() { full = false; }
 
-  // From now on these signals end run(), not the program. Ignored ones stay so (nohup).
+  // From now on these signals end run(), not the program. Ignored signals stay ignored (nohup).
   void take_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       struct sigaction now {};
@@ -201,7 +202,7 @@ struct HttpServer::State {
     }
     acceptor.async_accept([this](error_code code, Tcp::socket socket) {
       if (code == asio::error::operation_aborted) return;
-      if (code) {  // no more descriptors, say
+      if (code) {  // for example, no more descriptors
         pause.expires_after(kRestAfterAnError);
         pause.async_wait([this](error_code) { accept(); });
         return;
@@ -222,7 +223,7 @@ struct HttpServer::State {
   std::function<Answer(const Question&)> handler;
   int connections = 0;
   bool full = false;
-  // Last, so that it goes first: connections that are under way end with it, and count themselves out above.
+  // Declared last, so that it is destroyed first: it ends pending connections, and these decrease the counter above.
   asio::io_context context{1};
   asio::signal_set signals{context};
   Tcp::acceptor acceptor{context};

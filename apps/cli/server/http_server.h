@@ -1,4 +1,4 @@
-// HTTP/1.1 on one thread: connections, time limits, and the end of them. What is said comes from a handler.
+// HTTP/1.1 on one thread: connections, time limits, and their end. A handler makes the answers.
 #pragma once
 
 #include <functional>
@@ -18,9 +18,9 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  /// Waits for connections at the first of the ports that is free (0: any), and returns which. `address` is numeric.
-  /// From here on SIGINT, SIGTERM and SIGHUP (those that are not ignored) end run_until_signal(), not the program.
-  /// Errors: no port is free, no permission, the address is not this machine's.
+  /// Listens at the first free port of `ports` (0: any), and returns it. `address` is numeric. From here on SIGINT,
+  /// SIGTERM and SIGHUP (unless they are ignored) end run_until_signal(), not the program. Errors: no port is free, no
+  /// permission, the address is not this machine's.
   Result<int> listen(const std::string& address, const std::vector<int>& ports);
 
   /// Serves until such a signal, then drops every connection at once.

@@ -11,7 +11,7 @@
 namespace bihive::cli {
 
 Result<std::shared_ptr<const OpenFile>> OpenFile::open(const std::string& path) {
-  // A pipe that nobody writes to must not block.
+  // Opening a pipe without a writer must not block.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) return Error{std::strerror(errno), path, 0, 0, ""};
   const std::shared_ptr<OpenFile> file(new OpenFile(descriptor));

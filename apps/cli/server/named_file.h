@@ -1,4 +1,4 @@
-// FILE of `bihive web`: the one file outside of the page that may be fetched.
+// FILE of `bihive web`: the only file outside of the page that can be fetched.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@ namespace bihive::cli {
 /// A regular file that is open for reading.
 class OpenFile {
  public:
-  /// Errors: missing, unreadable, no regular file.
+  /// Errors: missing, unreadable, not a regular file.
   static Result<std::shared_ptr<const OpenFile>> open(const std::string& path);
   ~OpenFile();
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
   std::uint64_t size() const { return size_; }
-  /// Differs where the file was exchanged or written to since.
+  /// Changes when the file is replaced or written.
   const std::string& version() const { return version_; }
-  /// Reads up to `count` bytes from `offset` on; returns how many, 0 at the end of the file and on errors.
+  /// Reads up to `count` bytes from `offset` on. Returns their number; 0 at the end of the file and on errors.
   std::size_t read(std::uint64_t offset, char* bytes, std::size_t count) const;
 
  private:

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 1000;
 constexpr std::size_t kMostBytes = 100'000'000;
-// Shorter ones fit into one packet as they are.
+// Shorter files fit into one packet without compression.
 constexpr std::size_t kLeastPacked = 1000;
 
 struct TypeOfEnding {
@@ -68,7 +68,7 @@ std::string packed(const std::string& bytes) {
   return code == Z_STREAM_END ? out : "";
 }
 
-// FNV-1a: tells versions of a file apart.
+// FNV-1a tells versions of a file apart.
 std::uint64_t hash_of(const std::string& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
@@ -97,7 +97,7 @@ Result<PageFiles> read_page(const std::string& folder) {
   std::error_code code;
   fs::recursive_directory_iterator entry(folder, code);
   for (; !code && entry != fs::recursive_directory_iterator(); entry.increment(code)) {
-    // Only what lies here itself: a link may lead anywhere.
+    // Only regular files of this folder: a link may lead anywhere.
     const std::string name = entry->path().filename().string();
     std::error_code ignored;
     const fs::file_status status = entry->symlink_status(ignored);

@@ -1,4 +1,4 @@
-// The page: every file of it, read into memory once. What is not in here cannot be fetched.
+// The page: all its files, read into memory once. Only these files can be fetched.
 #pragma once
 
 #include <map>
@@ -13,8 +13,8 @@ namespace bihive::cli {
 struct PageFile {
   std::string type;  ///< MIME type
   std::shared_ptr<const std::string> bytes;
-  std::shared_ptr<const std::string> gzip;  ///< the same, packed; null where that is not smaller
-  std::string tag;                          ///< of the bytes; another file's differs
+  std::shared_ptr<const std::string> gzip;  ///< the same, packed; null if that is not smaller
+  std::string tag;                          ///< of the bytes; different files have different tags
 };
 
 /// By the path of the URL: "/index.html", "/assets/page.js".
@@ -23,12 +23,12 @@ using PageFiles = std::map<std::string, PageFile>;
 /// Packs and tags the bytes; the type follows from the name's ending.
 PageFile make_page_file(const std::string& name, std::string bytes);
 
-/// Every regular file in the folder and below. Symbolic links and names with a leading dot are left out. Errors: what
-/// cannot be read; a folder that is far too large for a page; no index.html.
+/// Every regular file in the folder and below. Symbolic links and names with a leading dot are left out. Errors: an
+/// unreadable file; a folder that is far too large for a page; no index.html.
 Result<PageFiles> read_page(const std::string& folder);
 
-/// Where the page lies: the folder that the environment variable BIHIVE_PAGE names, else share/bihive/web of the
-/// installation that this program belongs to, else build-web/page beside the build's folder. Empty: nowhere.
+/// The folder of the page: the one that the environment variable BIHIVE_PAGE names, else share/bihive/web of this
+/// program's installation, else build-web/page beside the build's folder. Empty if there is none.
 std::string find_page();
 
 }  // namespace bihive::cli

@@ -1,5 +1,4 @@
-// How the program ends when it cannot do what was asked. Inside the program (never in the library) that is an
-// exception.
+// The end of the program when it cannot do its task. Inside the program (never in the library) that is an exception.
 #pragma once
 
 #include <string>
@@ -33,7 +32,7 @@ struct Failure {
   throw Failure{kEnvironment, std::move(error)};
 }
 
-/// The value, or the end of the program with the result's error.
+/// The value; or it ends the program with the result's error.
 template <class T>
 T value_or_fail(Result<T> result) {
   if (!result) fail(result.error());

@@ -11,7 +11,7 @@
 
 namespace bihive::cli {
 
-/// What the command line says of the input; unset where it says nothing.
+/// The input's options on the command line; unset if not given.
 struct InputOptions {
   std::string input;
   std::optional<std::int64_t> count;
@@ -22,17 +22,17 @@ struct InputOptions {
   bool recenter = false;
 };
 
-/// Coloured, at least one sphere; its warnings have been said on stderr.
+/// Coloured, at least one sphere; its warnings were already printed on stderr.
 using Input = LoadedScene;
 
 /// Fails with kBadUsage on options that do not fit the input.
 void check_input_options(const InputOptions& options);
 
-/// Built-in names go first: scenario1, scenario2, scenario3, four-spheres, demo. Says warnings on stderr. Fails with
-/// kBadUsage on options that do not fit the input, and with kBadInput on a file that cannot be read.
+/// Built-in names come first: scenario1, scenario2, scenario3, four-spheres, demo. Prints warnings on stderr. Fails
+/// with kBadUsage on options that do not fit the input, and with kBadInput on an unreadable file.
 Input load_input(const InputOptions& options);
 
-/// The scene of a name that `bihive scene` knows: scenario1, scenario2, scenario3 or four-spheres; nothing otherwise.
+/// The scene of a name of `bihive scene`: scenario1, scenario2, scenario3 or four-spheres; nothing for other names.
 std::optional<Scene> generated_scene(const InputOptions& options);
 
 }  // namespace bihive::cli

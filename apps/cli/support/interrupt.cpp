@@ -12,14 +12,14 @@ namespace {
 
 enum Section : int { kOutside, kCancellable, kWriting, kWritten };
 
-// What a signal handler may touch: lock-free atomics only.
+// The variables that a signal handler may use: lock-free atomics only.
 std::atomic<int> g_section{kOutside};
 std::atomic<int> g_signal{0};
 std::atomic<std::int64_t> g_first_ms{0};
 CancelToken g_token;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
-// A signal so soon after the first is the same request: timeout(1) sends each of its signals twice.
+// A signal that follows the first one so soon is the same request: timeout(1) sends each of its signals twice.
 constexpr std::int64_t kSameRequestMs = 300;
 
 std::int64_t now_ms() {
@@ -28,7 +28,7 @@ std::int64_t now_ms() {
   return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
 }
 
-// Ends the program from anywhere; a progress line on a terminal is wiped first.
+// Ends the program at any point; clears a progress line on a terminal first.
 [[noreturn]] void end_at_once(int signal) {
   if (isatty(STDERR_FILENO) != 0) {
     const char wipe[] = "\r\033[K";
@@ -83,7 +83,7 @@ void CancellableSection::leave_if_cancelled() {
 
 WritingSection::WritingSection() {
   g_section.store(kWriting);
-  // A signal that came too late for the section before, and too early for this one, still counts.
+  // A signal between the section before and this one still counts.
   if (g_signal.load() != 0) end_at_once(g_signal.load());
 }
 WritingSection::~WritingSection() {

@@ -1,18 +1,19 @@
-// Ctrl-C (and SIGTERM, SIGHUP): the program ends with 128 + the signal's number, and no file is left half.
+// Ctrl-C (and SIGTERM, SIGHUP): the program ends with 128 + the signal's number, and leaves no partial file.
 //
-// Outside of the two kinds of sections below, nothing that matters is going on, and a signal ends the program at once.
+// Outside of the two kinds of sections below the program does nothing that must be finished, so a signal ends it at
+// once.
 #pragma once
 
 #include "bihive/base/cancel.h"
 
 namespace bihive::cli {
 
-/// Installs the handlers; a signal that is ignored already (nohup, a shell's background job) stays so. A file size
+/// Installs the handlers. A signal that is ignored already (nohup, a shell's background job) stays ignored. A file size
 /// limit becomes an ordinary error of writing.
 void handle_signals();
 
-/// While one of these lives, the first signal sets token(), so that long work stops by itself; another, a moment
-/// later, ends the program at once.
+/// During the life of such an object the first signal sets token(), so that long work stops by itself. Another signal,
+/// a moment later, ends the program at once.
 class CancellableSection {
  public:
   CancellableSection();
@@ -25,9 +26,9 @@ class CancellableSection {
   static void leave_if_cancelled();
 };
 
-/// While one of these lives, files are being written: signals are forgotten, for the work is done. Afterwards the first
-/// one is forgotten too (only a stuck output can still take time; a second one ends it). So exit code 130 after one
-/// Ctrl-C means that there is no file.
+/// During the life of such an object files are being written. Signals are dropped, because the work is done. The first
+/// signal afterwards is dropped too (only blocked output can still take time; a second signal ends it). So exit code
+/// 130 after one Ctrl-C means that there is no file.
 class WritingSection {
  public:
   WritingSection();

@@ -18,7 +18,8 @@ constexpr double kFirstDrawMs = 1000;
 constexpr double kRedrawMs = 100;
 constexpr int kBarCharacters = 24;
 
-// File names and other texts of users may hold anything: one line, nothing that a terminal obeys.
+// File names and other texts of users may hold anything. The message is one line, without control characters for the
+// terminal.
 std::string one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';

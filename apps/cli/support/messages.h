@@ -1,4 +1,4 @@
-// What the program says on stderr, and results on stdout.
+// The program's messages on stderr, and results on stdout.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ void warn(const std::vector<std::string>& texts);
 /// "bihive: error: ..." in one line.
 void say_error(const std::string& text);
 
-/// To stdout. Whether it arrived is checked by finish_output().
+/// Prints to stdout. finish_output() checks that it arrived.
 void print(const std::string& text);
 /// Flushes stdout; fails if something did not arrive (a full disk).
 void finish_output();
@@ -24,8 +24,8 @@ void finish_output();
 /// 1234.5 as "1.23 s", 12.34 as "12.3 ms".
 std::string readable_ms(double ms);
 
-/// A line with the share that is done and the time left, rewritten in place: on a terminal only, and only when the work
-/// takes over a second. Wiped at the end. update() is for one thread at a time.
+/// A line with the finished share and the remaining time. It is rewritten in place, on a terminal only, and only if the
+/// work takes over a second. It is cleared at the end. Only one thread at a time may call update().
 class Progress {
  public:
   explicit Progress(std::string what);
@@ -33,7 +33,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Says from now on what is being done.
+  /// Names the present work from now on.
   void rename(std::string what) { what_ = std::move(what); }
   /// `done`: 0 to 1.
   void update(double done);

@@ -1,4 +1,4 @@
-// From the text of an option to its value. An error says what was expected and what was found.
+// From the text of an option to its value. An error says the expected and the found text.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct PictureSize {
   int width_px, height_px;
 };
 
-/// Decimal digits, with a sign if negative numbers are allowed; nothing before or after.
+/// Decimal digits, with a sign if negative numbers are allowed; no other text before or after them.
 Result<std::int64_t> integer_from(const std::string& text, std::int64_t min, std::int64_t max);
 Result<std::uint64_t> seed_from(const std::string& text);
 
 /// "unlimited" (kUnlimited) or at least 1.
 Result<std::int64_t> limit_from(const std::string& text);
 
-/// Finite, and in [min, max], or in (min, max) where `open`.
+/// Finite, and in [min, max], or in (min, max) if `open`.
 Result<double> number_from(const std::string& text, double min, double max, bool open = false);
 
 /// "X,Y,Z", each within +-3.4e38.

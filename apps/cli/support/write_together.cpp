@@ -16,10 +16,10 @@
 namespace bihive::cli {
 namespace {
 
-// A file that waits beside its path for the others.
+// A new file beside its path that waits for the others.
 struct Aside {
-  std::string path;     // where it will be
-  std::string waiting;  // where it is
+  std::string path;     // its final path
+  std::string waiting;  // its present path
   mode_t mode;          // of the file that it replaces; 0 = there is none
 };
 
@@ -47,7 +47,7 @@ void write_together(const std::vector<FileToWrite>& files) {
   for (const FileToWrite& file : files)
     if (const Status status = check_writable(file.path); !status) fail(status.error());
 
-  // Write the regular files aside.
+  // Write the regular files beside their paths.
   const WritingSection section;
   std::vector<Aside> waiting;
   const auto give_up = [&](Error error, const std::string& path) {
@@ -63,7 +63,7 @@ void write_together(const std::vector<FileToWrite>& files) {
     if (aside.mode != 0) chmod(aside.waiting.c_str(), aside.mode);
   }
 
-  // Write what cannot be renamed onto, then rename.
+  // Write the files that a rename cannot replace, then rename the others.
   for (const FileToWrite& file : files)
     if (is_special(file.path))
       if (const Status status = write_file(file.path, file.bytes); !status) give_up(status.error(), file.path);

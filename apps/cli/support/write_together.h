@@ -1,4 +1,4 @@
-// Several files that belong together come into being all or not at all.
+// Writes several files that belong together: all or none.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ struct FileToWrite {
   std::string_view bytes;
 };
 
-/// Writes all of them aside first and renames them then, so that a full disk leaves every path as it was. Pipes and
-/// devices are written to last. Fails with what went wrong first. Signals wait meanwhile (interrupt.h).
+/// Writes all of them beside their paths first and then renames them, so that a full disk leaves every path as it was.
+/// Pipes and devices are written last. Fails with the first error. Signals wait meanwhile (interrupt.h).
 void write_together(const std::vector<FileToWrite>& files);
 
 }  // namespace bihive::cli

@@ -41,7 +41,7 @@ double print_rounding(const std::string& printed) {
 }
 
 bool inside_three_sd(double stated, const std::string& printed, const Spread& ours) {
-  // A hair more than the rounding itself, for 0.005 is no binary number.
+  // Slightly more than the rounding itself, because 0.005 is no binary number.
   const double allowed = 3 * ours.sd + print_rounding(printed) * (1 + 1e-9);
   const bool whole = print_rounding(printed) == 0.5;
   if (whole && ours.sd == 0) return stated == ours.mean;

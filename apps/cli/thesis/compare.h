@@ -1,4 +1,4 @@
-// How a value of ours is held against one of the thesis's: spreads, print rounding, verdicts, and tables of statements.
+// Compares our values with the thesis's: spreads, print rounding, verdicts, and tables of statements.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace bihive::cli::thesis {
 
-/// Mean and sample standard deviation; of a single value the deviation is 0.
+/// Mean and sample standard deviation; the deviation of a single value is 0.
 struct Spread {
   double mean = 0, sd = 0;
 };
@@ -27,23 +27,23 @@ Quartiles quartiles_of(std::vector<double> values);
 /// Half a unit of the last digit of a printed number: "4,095" 0.5, "87.51%" 0.005.
 double print_rounding(const std::string& printed);
 
-/// Within three standard deviations, and no farther than print rounding where there is no deviation. Where ours has
-/// none and what is printed is whole, the numbers must be equal.
+/// Within three standard deviations; without deviation, within print rounding. If our value has no deviation and the
+/// printed one is whole, the numbers must be equal.
 bool inside_three_sd(double stated, const std::string& printed, const Spread& ours);
 
-/// A list of whole numbers. Fails if one is not.
+/// A list of whole numbers. Fails if an entry is not whole.
 std::vector<std::int64_t> integers(const Values& values, const std::string& name);
 
-/// MAX_PRIMS and MAX_TREE_DEPTH as values.json has them, 0 for infinity. Fails if negative.
+/// MAX_PRIMS and MAX_TREE_DEPTH from values.json, 0 for infinity. Fails if negative.
 BuildParameters build_parameters(std::int64_t max_prims, std::int64_t max_depth);
 
-/// The scenario of that number. Fails if there is none.
+/// The scenario with that number. Fails if there is none.
 Scenario scenario_of(std::int64_t number);
 
 std::string verdict_name(Verdict verdict);
 Verdict verdict_if(bool agrees);
 
-/// Statements of the text, one a row, with what we found and whether that agrees.
+/// Statements of the text, one in each row, with our finding and a verdict.
 class Statements {
  public:
   Statements(std::string title, std::string note);

@@ -1,7 +1,7 @@
-// An experiment of the thesis: steps that measure or draw, and a section that shows what came out.
+// An experiment of the thesis: steps that measure or draw, and a section that shows the results.
 //
-// Each step's result is saved by itself as JSON, so that an interrupted run goes on where it stopped. The section is
-// made from the saved results alone, again and again, also while some are still missing.
+// Each step's result is saved as its own JSON file, so that an interrupted run continues where it stopped. The section
+// is made from the saved results alone, repeatedly, also while some are still missing.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ struct Settings {
   std::uint64_t seed = 1;  ///< of "ours (this seed)"
 };
 
-/// What a step may use. Long work watches `cancel`.
+/// The context of a step. Long work watches `cancel`.
 struct StepContext {
   const Settings& settings;
   const Values& values;
@@ -30,15 +30,15 @@ struct StepContext {
   const CancelToken& cancel;
 };
 
-/// `run` returns whatever the section needs, as JSON. Names are file names ("scenario1-max_prims8"). `weight` is the
-/// time it takes relative to the other steps of the whole run, about in seconds.
+/// `run` returns the data for the section, as JSON. Names are file names ("scenario1-max_prims8"). `weight` is the
+/// step's time relative to the other steps of the whole run, about in seconds.
 struct Step {
   std::string name;
   double weight;
   std::function<Json(StepContext&)> run;
 };
 
-/// Results of the steps done so far, by name.
+/// The results of all finished steps, by name.
 using StepResults = std::map<std::string, Json>;
 
 struct SectionContext {
@@ -52,11 +52,11 @@ struct Experiment {
   std::string id;     ///< "table-4.2": its name on the command line and its folder in thesis/ and in the output
   std::string title;  ///< "Table 4.2: tree statistics"
   std::function<std::vector<Step>(const Settings&, const Values&)> steps;
-  /// Must do with whatever results there are; leaves out what is missing.
+  /// Must work with any subset of the results; leaves missing ones out.
   std::function<Section(const SectionContext&)> section;
 };
 
-/// One factory a file; the order is that of the report.
+/// One factory for each file; the order is that of the report.
 Experiment figure_4_1();
 Experiment figure_4_2();
 Experiment figure_4_3();

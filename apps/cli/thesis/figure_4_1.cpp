@@ -1,4 +1,4 @@
-// Figure 4.1: the three scenarios, and whether the scenes hold what the text says of them.
+// Figure 4.1: the three scenarios, and whether the scenes agree with the text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,16 +18,17 @@ namespace {
 const std::string kId = "figure-4.1";
 constexpr int kQuickDivisor = 4;
 
-// Spheres of the regular grid share their x with this many others at least; random ones hardly ever with one.
+// Each sphere of the regular grid shares its x with at least this many others; random spheres hardly ever share it with
+// one.
 constexpr int kRegular = 8;
-// What adding up steps in binary32 may move a grid's last sphere by, as a share of the cube's side.
+// The error of a grid's last sphere after adding up steps in binary32, at most, as a share of the cube's side.
 constexpr double kRounding = 1e-5;
 
 std::string step_name(double scenario) {
   return fmt::format("scenario{}", scenario);
 }
 
-// How many spheres lie wholly inside the four sides of the picture.
+// The number of spheres that lie wholly inside the four sides of the picture.
 std::int64_t spheres_in_view(const Scene& scene, PictureSize size) {
   const PixelRays rays(scene.camera, size.width_px, size.height_px);
   const auto direction = [&](int x, int y) { return to_double(rays.at(x, y).direction); };
@@ -45,7 +46,7 @@ std::int64_t spheres_in_view(const Scene& scene, PictureSize size) {
   return inside;
 }
 
-// In how many of the cube's corners spheres lie wholly inside a small cube; 0 if any sphere lies elsewhere.
+// The number of the cube's corners with spheres wholly inside a small cube; 0 if any sphere lies elsewhere.
 int occupied_corners(const SphereSet& spheres, const Values& values) {
   const double low = values.number("cube.low"), high = values.number("cube.high");
   const double side = values.number("scenario2.cluster_side"), rounding = kRounding * (high - low);
@@ -107,7 +108,7 @@ Json draw_scenario(const StepContext& context, std::int64_t number) {
   const std::optional<Image> image = draw(context, scene, tracer, settings);
   if (!image) return {};
 
-  // Note what the text speaks of.
+  // Store the values that the text states.
   const SphereSet::Bounds bounds = scene.spheres.bounds();
   Json result{{"picture", write_picture(context, step_name(double(number)) + ".png", *image)},
               {"spheres", scene.spheres.size()},
@@ -130,7 +131,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   return steps;
 }
 
-// Each value of the scene that the text states: equal, digit by digit.
+// Each stated value of the scene must be equal, digit by digit.
 void add_scene(Statements& statements, const Values& values, const Json& facts) {
   const auto add = [&](const std::string& name, const std::string& statement, const Json& ours) {
     if (!values.has(name)) return;
@@ -156,7 +157,7 @@ void add_scene(Statements& statements, const Values& values, const Json& facts) 
     }
 }
 
-// What the text says of where the spheres are.
+// The text's statements about the places of the spheres.
 void add_places(Statements& statements, const Values& values, std::int64_t number, const Json& result) {
   const double low = values.number("cube.low"), high = values.number("cube.high"), rounding = kRounding * (high - low);
   const double ours_low = result.at("low").get<double>(), ours_high = result.at("high").get<double>();
@@ -176,7 +177,7 @@ void add_places(Statements& statements, const Values& values, std::int64_t numbe
                    verdict_if(clusters == values.integer("scenario2.clusters")));
   }
   if (number == 3) {
-    // Rounded down where the number of spheres is odd.
+    // Rounded down if the number of spheres is odd.
     const double share = result.at("clustered_share").get<double>();
     const double most = values.number("scenario3.clustered_share") * double(count);
     statements.add("scenario3.clustered_share", scenario + "share of the spheres that are clustered",

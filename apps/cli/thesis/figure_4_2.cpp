@@ -1,4 +1,4 @@
-// Figure 4.2: four spheres at recursion depths 1 to 5, and which depth each pixel needs.
+// Figure 4.2: four spheres at recursion depths 1 to 5, and the depth that each pixel needs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Pixel pixel_at(const Image& image, std::size_t i) {
   return {image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]};
 }
 
-// The pixels, row by row, through which a transparent sphere is met first.
+// The pixels, row by row, whose ray meets a transparent sphere first.
 std::vector<std::size_t> transparent_pixels(const Scene& scene, const Tracer& tracer, PictureSize size) {
   const PixelRays rays(scene.camera, size.width_px, size.height_px);
   std::vector<std::size_t> pixels;
@@ -50,7 +50,7 @@ std::vector<std::size_t> transparent_pixels(const Scene& scene, const Tracer& tr
   return pixels;
 }
 
-// How bright the transparent sphere is, and whether it has a colour.
+// The brightness of the transparent sphere, and whether it has a colour.
 Json sphere_facts(const Image& image, const std::vector<std::size_t>& pixels) {
   std::vector<double> brightness;
   std::int64_t coloured = 0;
@@ -77,7 +77,7 @@ Json draw_depth(const StepContext& context, double depth) {
   Json result{{"picture", write_picture(context, step_name(depth) + ".png", *image)},
               {"transparent_sphere", sphere_facts(*image, transparent_pixels(scene, tracer, size))}};
 
-  // How much of the picture one generation of rays less would change.
+  // The share of the picture that would change with one generation of rays less.
   if (settings.recursion > 1) {
     --settings.recursion;
     const std::optional<Image> before = draw(context, scene, tracer, settings);
@@ -127,7 +127,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   return steps;
 }
 
-// Which colour stands for which depth, and how much of the picture needs it.
+// The colour of each depth, and the share of the picture that needs it.
 void add_coding(Section& section, Statements& statements, const Values& values, const Json& coding) {
   Table table;
   table.title = "Figure 4.2f: the deepest generation of rays that hits something";
@@ -169,7 +169,7 @@ void add_coding(Section& section, Statements& statements, const Values& values, 
   count("transparent_spheres", "Transparent ones");
 }
 
-// Is the transparent sphere dark grey where its transmitted light is missing?
+// Is the transparent sphere dark grey without its transmitted light?
 void add_dark_grey(Statements& statements, const Values& values, const StepResults& results) {
   const auto found = results.find(step_name(values.number("dark_grey.depth")));
   if (found == results.end()) return;

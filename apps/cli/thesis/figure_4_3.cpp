@@ -1,4 +1,5 @@
-// Figure 4.3: six trees over one set of spheres, each as its traversal shows it and as a drawing of the tree itself.
+// Figure 4.3: six trees over one set of spheres, each in a picture of its traversal and in a drawing of the tree
+// itself.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 const std::string kId = "figure-4.3";
 constexpr int kQuickDivisor = 4;
-// The drawing of the tree has two parts: twice the size in a quick run.
+// The drawing of the tree has two parts, so it is twice as large in a quick run.
 constexpr int kQuickTreeDivisor = 2;
 // The pictures that the text calls identical, and those that it describes by MAX_TREE_DEPTH.
 const std::vector<std::string> kLetters{"a", "b", "c", "d", "e", "f"};
@@ -32,7 +33,7 @@ Scene scene_of(const StepContext& context) {
   return value_or_fail(scenario_scene(scenario_of(context.values.integer("scenario")), parameters));
 }
 
-// A limit of values.json, where `unlimited` stands for infinity.
+// A limit of values.json; `unlimited` stands for infinity.
 std::int64_t limit_of(const Values& values, const std::string& name) {
   const std::int64_t limit = values.integer(name);
   return limit == values.integer("unlimited") ? kUnlimited : std::max<std::int64_t>(1, limit);
@@ -84,7 +85,7 @@ bool same_node(const Node& a, const Node& b) {
          a.split_axis == b.split_axis && a.first == b.first && a.sphere_count == b.sphere_count;
 }
 
-// How many entries of two lists are not the same.
+// The number of different entries of two lists.
 template <class T, class Same>
 std::int64_t differences(const std::vector<T>& a, const std::vector<T>& b, const Same& same) {
   std::int64_t count = 0;
@@ -110,7 +111,7 @@ Json compare(const StepContext& context, const std::string& first, const std::st
           {"different_pixels", difference_of(*one_image, *other_image).pixels}};
 }
 
-// The trees of (a) to (c) as they would be with the MAX_PRIMS that the text gives for them.
+// The trees of (a) to (c) with the MAX_PRIMS that the text gives for them.
 Json build_as_stated(const StepContext& context) {
   const Scene scene = scene_of(context);
   Json trees = Json::object();
@@ -149,7 +150,7 @@ std::string leaf_size_text(const Json& tree) {
   return min == max ? fmt::format("{}", min) : fmt::format("{} to {}", min, max);
 }
 
-// What the text says of one tree, or of the same with another MAX_PRIMS.
+// The text's statements about one tree, or about the same tree with another MAX_PRIMS.
 void add_stated(Statements& statements, const Values& values, const std::string& letter, const Json& tree,
                 const std::string& row_name, const std::string& words) {
   const std::pair<const char*, const char*> counts[] = {
@@ -184,7 +185,7 @@ void add_identical(Statements& statements, const Values& values, const std::stri
                  verdict_if(pixels == stated));
 }
 
-// One step of a colour stands for one gap or visit: the smallest step that any of the pictures shows.
+// One step of a colour stands for one gap or visit. The smallest step in any of the pictures shows its size.
 void add_colour_steps(Statements& statements, const SectionContext& context) {
   const auto add = [&](const std::string& name, const std::string& statement, const char* key) {
     double smallest = 1;

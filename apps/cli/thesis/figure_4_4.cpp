@@ -20,9 +20,10 @@ namespace {
 // A quick run draws pictures of a quarter of the width and height.
 constexpr int kQuickDivisor = 4;
 constexpr int kRepetitions = 9;
-// What takes less time than this is drawn again and again, so that no moment of the machine decides.
+// A frame that takes less time than this is repeated, so that a single moment of the machine does not decide.
 constexpr double kLeastMs = 15;
-// About how long a frame of a full run takes by brute force, for each of its spheres: for the time left.
+// The approximate time of a frame of a full run by brute force for each of its spheres; for the estimate of the time
+// left.
 constexpr double kSecondsPerSphere = 0.0035;
 
 RenderSettings frame_settings(const Settings& settings, const Values& values, const Scene& scene) {
@@ -43,7 +44,7 @@ Scene scene_of(const StepContext& context, std::int64_t scenario, std::int64_t s
   return value_or_fail(scenario_scene(static_cast<Scenario>(scenario), parameters));
 }
 
-// Milliseconds a frame, of as many frames as kLeastMs needs. Nothing if cancelled.
+// Milliseconds of a frame, from as many frames as kLeastMs needs. Nothing if cancelled.
 std::optional<double> frame_ms(Contestant& contestant, const RenderSettings& settings, const CancelToken& cancel) {
   contestant.prepare();
   double all_ms = 0;
@@ -55,7 +56,8 @@ std::optional<double> frame_ms(Contestant& contestant, const RenderSettings& set
   return all_ms / frames;
 }
 
-// All take turns, so that a slow minute of the machine hits all; the first round warms up and does not count.
+// All contestants take turns, so that a slow minute of the machine affects all. The first round warms up and does not
+// count.
 Json frame_times(const std::vector<std::unique_ptr<Contestant>>& contestants, const StepContext& context) {
   const RenderSettings settings = frame_settings(context.settings, context.values, contestants.front()->scene());
   Json times = Json::object();
@@ -102,7 +104,7 @@ Json measure_independence(const StepContext& context, const ComparedEngine& engi
   return by_spheres;
 }
 
-// What `measure` finds with contestants of this engine; on the graphics processor with its name beside.
+// The result of `measure` with contestants of this engine; for the graphics processor with its name.
 template <class Measure>
 Json measure_on(const ComparedEngine& engine, const Measure& measure) {
   if (!engine.gpu) return measure(cpu_contestants());

@@ -1,4 +1,4 @@
-// What the steps of Figure 4.4 measured, as its section reads it.
+// The measurements of Figure 4.4 in the form that its section reads.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,7 @@
 
 namespace bihive::cli::thesis {
 
-/// An engine with a tree, and the brute force that it is compared with: the same kernel without a tree, or where it has
-/// none with one leaf.
+/// An engine with a tree, and its brute force: the same code without a tree, or with one leaf if it cannot do without.
 struct ComparedEngine {
   std::string name;
   Engine tree, brute;
@@ -23,7 +22,7 @@ struct ComparedEngine {
 };
 const std::vector<ComparedEngine>& compared_engines();
 
-/// The step that measures one configuration, and the one that measures brute force on all scenarios in turn.
+/// The step that measures one configuration, and the step that measures brute force on all scenarios in turn.
 std::string configuration_step(const ComparedEngine& engine, std::int64_t scenario, std::int64_t spheres);
 std::string independence_step(const ComparedEngine& engine);
 
@@ -34,23 +33,23 @@ struct ConfigurationFps {
 
   /// Position of the fastest in `trees`.
   std::size_t best() const;
-  /// Of the best tree over brute force, in percent.
+  /// The gain of the best tree over brute force, in percent.
   double gain_percent() const;
 };
 
-/// Keys of a step's result: why there is none, and the graphics processor's name.
+/// Keys of a step's result: the reason why there is no measurement, and the graphics processor's name.
 constexpr const char* kMissing = "missing";
 constexpr const char* kGpu = "gpu";
 
-/// Why a step could not measure anything: nothing if it did. A machine without EGL has no graphics processor to
-/// measure, and the experiment is complete without.
+/// The reason why a step could not measure; nothing if it could. A machine without EGL has no graphics processor to
+/// measure, and the experiment is complete without it.
 std::optional<std::string> why_missing(const Json& result);
 
-/// Nothing if the step has not been done, or could not.
+/// Nothing if the step is not done, or could not measure.
 std::optional<ConfigurationFps> fps_of(const StepResults& results, const ComparedEngine& engine, std::int64_t scenario,
                                        std::int64_t spheres);
 
-/// Of a list that is not empty; the upper one of two in the middle.
+/// The median of a list that is not empty; of two middle values the larger one.
 double median(std::vector<double> values);
 
 Section figure_4_4_section(const SectionContext& context);

@@ -1,5 +1,5 @@
-// What Figure 4.4 shows: charts, gains over brute force, and whether the thesis's statements hold for what was
-// measured.
+// The section of Figure 4.4: charts, gains over brute force, and the thesis's statements compared with our
+// measurements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 namespace bihive::cli::thesis {
 namespace {
 
-// Two frame rates closer than this are the same in the shape of a curve: about what a machine that does other things
-// wavers by.
+// Two frame rates closer than this count as equal in the shape of a curve. Frame rates of a machine with other work
+// vary about as much.
 constexpr double kWaver = 0.03;
-// Brute force is the same in all scenarios if the fastest is ahead of the slowest by no more than this.
+// Brute force counts as equal in all scenarios if the fastest is ahead of the slowest by at most this.
 constexpr double kStable = 0.10;
-// A speed-up (1 + gain / 100) agrees within this factor: another processor, another kernel.
+// A speed-up (1 + gain / 100) agrees within this factor, because processor and code are others.
 constexpr double kSpeedUpFactor = 2;
 
 Cell judged(const std::string& text, bool agrees) {
@@ -30,7 +30,7 @@ std::string fps_text(double fps) {
   return fps < 100 ? fmt::format("{:.2f}", fps) : fmt::format("{:.1f}", fps);
 }
 
-// How a curve over MAX_PRIMS goes, steps within kWaver left out.
+// The shape of a curve over MAX_PRIMS without steps within kWaver.
 enum class Shape { rises, peaks, falls, other };
 
 Shape shape_of(const std::vector<double>& curve) {
@@ -39,7 +39,7 @@ Shape shape_of(const std::vector<double>& curve) {
     const bool up = at[1] > at[0] * (1 + kWaver), down = at[1] < at[0] / (1 + kWaver);
     if ((at < peak && down) || (at >= peak && up)) return Shape::other;
   }
-  // An end that is as good as the peak is a peak at the end.
+  // If the end is as good as the peak, the peak is at the end.
   const bool rose = *peak > curve.front() * (1 + kWaver), fell = *peak > curve.back() * (1 + kWaver);
   if (rose) return fell ? Shape::peaks : Shape::rises;
   return fell ? Shape::falls : Shape::other;
@@ -130,7 +130,7 @@ class EngineSection {
     return table;
   }
 
-  // A stated gain beside ours, and, where it is stated, which tree and how many spheres it belongs to.
+  // A stated gain beside ours and, if stated, its tree and its number of spheres.
   void add_gain(Table& table, const std::string& name, const std::string& what, double ours, std::int64_t scenario,
                 std::int64_t spheres) const {
     const double ratio = (1 + ours / 100) / (1 + values().number(name) / 100);
@@ -319,12 +319,12 @@ class EngineSection {
   }
 
   void add_charts(std::int64_t scenario, Section& section) const {
-    // As the thesis draws it: a group for each number of spheres, brute force first.
+    // The thesis's chart: a group for each number of spheres, brute force first.
     ChartData bars{
         fmt::format("Scenario {}: frames per second", scenario), "spheres", "frames per second", {}, {}, false};
     bars.series.push_back({"BF", {}});
     for (std::size_t i = 0; i < max_prims_.size(); ++i) bars.series.push_back({tree_name(i), {}});
-    // And over MAX_PRIMS, where the curve is seen.
+    // And a chart over MAX_PRIMS, which shows the curve.
     ChartData curves{
         fmt::format("Scenario {}: over MAX_PRIMS", scenario), "MAX_PRIMS", "frames per second", {}, {}, false};
     for (const std::int64_t max_prims : max_prims_) curves.categories.push_back(std::to_string(max_prims));
@@ -375,7 +375,7 @@ class EngineSection {
   std::map<std::pair<std::int64_t, std::int64_t>, ConfigurationFps> fps_;
 };
 
-// Which graphics processor it was, or why there was none: as the first of its steps says.
+// The name of the graphics processor, or the reason why there was none, from the first of its steps.
 void add_gpu(const SectionContext& context, Section& section) {
   for (const auto& [name, result] : context.results) {
     if (const std::optional<std::string> why = why_missing(result)) {

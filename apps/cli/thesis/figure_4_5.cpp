@@ -18,10 +18,10 @@
 namespace bihive::cli::thesis {
 namespace {
 
-// The seeds 1, 2, ... behind mean and standard deviation.
+// The seeds 1, 2, ... for mean and standard deviation.
 constexpr std::int64_t kSeeds = 100;
 constexpr std::int64_t kQuickSeeds = 20;
-// Two means of the same thing lie within so many standard errors of each other.
+// Two means of the same quantity lie within this many standard errors of each other.
 constexpr double kStandardErrors = 4;
 
 std::string step_name(std::int64_t scenario) {
@@ -147,7 +147,7 @@ void add_chart(const SectionContext& context, const std::string& file, const std
   section.illustrations.push_back({"figure-4.5/" + file, caption});
 }
 
-// As in the thesis: one series a MAX_PRIMS over the numbers of spheres.
+// As in the thesis: one series for each MAX_PRIMS over the numbers of spheres.
 void add_thesis_chart(const SectionContext& context, std::int64_t scenario, const Json& trees, Section& section) {
   ChartData data{fmt::format("Scenario {}: memory as the thesis counts it", scenario), "spheres", "kB", {}, {}, false};
   for (const std::int64_t count : integers(context.values, "spheres_list"))
@@ -163,7 +163,7 @@ void add_thesis_chart(const SectionContext& context, std::int64_t scenario, cons
             section);
 }
 
-// The largest number of spheres: what was predicted, and what it takes.
+// The largest number of spheres: predicted and real memory.
 void add_allocation_chart(const SectionContext& context, std::int64_t scenario, const Json& trees, Section& section) {
   const std::int64_t count = integers(context.values, "spheres_list").back();
   ChartData data{
@@ -188,7 +188,7 @@ void add_allocation_chart(const SectionContext& context, std::int64_t scenario, 
             data, section);
 }
 
-// How often memory grows, or stays, from one MAX_PRIMS to the next.
+// How often memory grows, or stays equal, from one MAX_PRIMS to the next.
 void add_statements(const SectionContext& context, const std::vector<const Json*>& scenarios, Section& section) {
   std::int64_t rises = 0, steps = 0;
   for (const Json* trees : scenarios)

@@ -8,7 +8,7 @@
 namespace bihive::cli::thesis {
 namespace {
 
-// Between two looks at the cancel token.
+// Time between two checks of the cancel token.
 constexpr double kSliceMs = 100;
 
 class OnCpu : public Contestant {

@@ -1,4 +1,4 @@
-// Something that draws frames of one scene again and again, on the CPU or on the graphics processor, to be timed.
+// Draws frames of one scene repeatedly, on the CPU or on the graphics processor, so that they can be timed.
 #pragma once
 
 #include <functional>
@@ -27,9 +27,9 @@ class Contestant {
   const std::string& name() const { return name_; }
   const Scene& scene() const { return scene_; }
 
-  /// What is not timed; needed again once another contestant has drawn.
+  /// Untimed preparation; call it again after another contestant has drawn.
   virtual void prepare() {}
-  /// Draws one frame and returns its milliseconds, anything if cancelled.
+  /// Draws one frame and returns its milliseconds; any number if cancelled.
   virtual double draw(const RenderSettings& settings, const CancelToken& cancel) = 0;
 
  protected:
@@ -49,13 +49,13 @@ struct Gpu {
   EglContext context;
   GlRenderer renderer;
 
-  /// Error: there is no EGL, or it cannot do it.
+  /// Error: there is no EGL, or its context is not sufficient.
   static Result<std::shared_ptr<Gpu>> open();
 };
 
 /// By render(), with the tracer's engine.
 ContestantMaker cpu_contestants();
-/// By GlRenderer, on the tracer's tree or on every sphere where it has none.
+/// By GlRenderer, on the tracer's tree, or on every sphere if it has no tree.
 ContestantMaker gpu_contestants(std::shared_ptr<Gpu> gpu);
 
 }  // namespace bihive::cli::thesis

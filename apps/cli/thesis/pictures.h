@@ -1,4 +1,4 @@
-// What the experiments that draw pictures have in common.
+// Helpers for the experiments that draw pictures.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,11 @@ RenderSettings picture_settings(const StepContext& context, const Scene& scene, 
 std::optional<Image> draw(const StepContext& context, const Scene& scene, const Tracer& tracer,
                           const RenderSettings& settings);
 
-/// Writes the picture into the experiment's folder. For the step's result: name, size and hash, and how many colours
-/// it has.
+/// Writes the picture into the experiment's folder. Returns data for the step's result: name, size, hash, and number of
+/// colours.
 Json write_picture(const StepContext& context, const std::string& name, const Image& image);
 
-/// What write_picture() noted, as an illustration of this experiment.
+/// The result of write_picture() as an illustration of this experiment.
 Illustration illustration_of(const std::string& experiment, const Json& picture, const std::string& caption);
 
 /// "(0, -20, 0)".

@@ -12,7 +12,7 @@
 namespace bihive::cli::thesis {
 namespace {
 
-// A cell with more characters may be broken into lines.
+// A cell with more characters than this may be broken into lines.
 constexpr std::size_t kLongCell = 32;
 // A PNG file begins with 16 bytes of signature and chunk header, then width and height in big-endian order.
 constexpr std::size_t kPngWidthAt = 16, kPngHeightAt = 20;
@@ -43,7 +43,7 @@ const char* name_of(Verdict verdict) {
   return verdict == Verdict::agrees ? "agrees" : verdict == Verdict::differs ? "differs" : "none";
 }
 
-// A sign beside the colour, with the word for those who cannot see it.
+// A sign beside the colour, with its word for screen readers.
 std::string sign_of(Verdict verdict) {
   if (verdict == Verdict::none) return "";
   return fmt::format(" <span class=\"sign {0}\" role=\"img\" aria-label=\"{0}\" title=\"{0}\">{1}</span>",
@@ -60,7 +60,7 @@ Verdict verdict_of(const std::vector<Cell>& row) {
   return verdict;
 }
 
-// A number, perhaps with a unit or a spread.
+// A number; a unit or a spread may follow.
 bool looks_like_number(const std::string& text) {
   const std::size_t at = text.find_first_not_of("+-");
   return at != std::string::npos && text[at] >= '0' && text[at] <= '9' && text.size() <= kLongCell;
@@ -70,7 +70,7 @@ std::string class_attribute(const std::string& classes) {
   return classes.empty() ? "" : " class=\"" + classes + "\"";
 }
 
-// Numbers stand under each other: a column of nothing else is set flush right.
+// A column of numbers only is set flush right, so that the digits stand under each other.
 bool is_number_column(const Table& table, std::size_t column) {
   bool found = false;
   for (const std::vector<Cell>& row : table.rows) {
@@ -106,7 +106,7 @@ std::string table_html(const Table& table) {
     for (std::size_t c = 0; c < row.size(); ++c) rows += cell_html(row[c], c == 0, c < numbers.size() && numbers[c]);
     rows += "</tr>\n";
   }
-  // The box scrolls, so it must be reachable by the keyboard.
+  // The box scrolls, so the keyboard must be able to reach it.
   const std::string title = escape_html(table.title);
   return fmt::format(
              "<h3>{0}</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table>\n"
@@ -141,7 +141,7 @@ std::string illustration_html(const Illustration& illustration, const std::strin
   return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
-// What the thesis says, word for word, and what was chosen where it is silent.
+// The thesis's words, and the values that were chosen where the thesis states none.
 std::string sentences_html(const Values& values) {
   std::string entries;
   for (const auto& [name, entry] : values.document()["values"].items())
@@ -205,7 +205,7 @@ std::string run_html(const ReportHeader& header) {
   return html + "</dl>";
 }
 
-// Each place is filled once, from the front, so that a text with braces is never taken for a place.
+// Each place is filled once, from the front, so that braces in a text are never taken for a place.
 std::string fill(std::string_view page, const std::vector<std::pair<std::string, std::string>>& places) {
   std::string filled;
   for (const auto& [name, content] : places) {

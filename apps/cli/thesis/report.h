@@ -1,4 +1,4 @@
-// report.html: everything in one file that needs no network and no server, and results.json for machines.
+// report.html: one file with everything, without network and server. And results.json for machines.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace bihive::cli::thesis {
 
-/// An experiment as the report shows it.
+/// An experiment in the report.
 struct ReportSection {
   std::string id, title;
   Section section;
   std::vector<std::string> missing_steps;  ///< empty: complete
-  const Values* values;                    ///< for the sentences behind the stated values
+  const Values* values;                    ///< for the sentences of the stated values
 };
 
-/// How many cells agree with the thesis, and how many differ.
+/// The number of cells that agree with the thesis, and of those that differ.
 struct Verdicts {
   int agree = 0, differ = 0;
 };
@@ -28,8 +28,8 @@ struct ReportHeader {
   std::string date;                      ///< ISO 8601
 };
 
-/// Pictures are read from `folder` and embedded as data, charts inline. What is missing is said in the section and on
-/// top.
+/// Pictures are read from `folder` and embedded as data, charts inline. The section and the top of the report name
+/// missing parts.
 std::string report_html(const ReportHeader& header, const std::vector<ReportSection>& sections,
                         const std::string& folder);
 

@@ -1,4 +1,4 @@
-// What an experiment has to show: tables, pictures and charts, the same for the report and for results.json.
+// The output of an experiment: tables, pictures and charts, the same for the report and for results.json.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@ namespace bihive::cli::thesis {
 
 using Json = nlohmann::ordered_json;
 
-/// How a value of ours compares with the thesis's. `agrees` and `differs` are coloured in the report (green, red).
+/// The verdict on a value of ours. The report colours `agrees` green and `differs` red.
 enum class Verdict { none, agrees, differs };
 
 struct Cell {
@@ -21,7 +21,7 @@ struct Table {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
-  std::string note;                     ///< how the verdicts are made; may be empty
+  std::string note;                     ///< the rule of the verdicts; may be empty
 };
 
 /// A file in the output folder, named relative to it ("figure-4.1/scenario1.png").
@@ -31,10 +31,10 @@ struct Illustration {
 };
 
 struct Section {
-  std::vector<std::string> paragraphs;  ///< what was done and what is seen, plain text
+  std::vector<std::string> paragraphs;  ///< method and content, plain text
   std::vector<Table> tables;
   std::vector<Illustration> illustrations;
-  bool pairs = false;          ///< illustrations belong together by twos: they stand side by side where there is room
+  bool pairs = false;          ///< in pairs: two illustrations stand side by side if there is room
   Json data = Json::object();  ///< every number of the tables and charts, for machines
 };
 

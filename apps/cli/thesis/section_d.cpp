@@ -19,7 +19,7 @@
 namespace bihive::cli::thesis {
 namespace {
 
-// The trees that the section speaks of, by the names that their values have.
+// The trees of the section, by the names of their values.
 struct TreeCase {
   const char* name;
   const char* label;
@@ -31,7 +31,7 @@ constexpr const char* kQuantities[] = {"inner_nodes", "leaves", "spheres_per_lea
 constexpr const char* kQuantityLabels[] = {"inner nodes", "leaves", "spheres in each leaf", "depth of each leaf"};
 constexpr const char* kOneLeaf = "prims_unlimited";
 
-// Each is a turn of the tree and a turn of brute force, after one of each that does not count.
+// Each repetition is a turn of the tree and a turn of brute force. A first turn of each does not count.
 constexpr int kRepetitions = 21;
 constexpr int kQuickRepetitions = 9;
 constexpr int kQuickRowStride = 4;  // every fourth row of the picture
@@ -60,7 +60,7 @@ Json count_trees(StepContext& context) {
   return trees;
 }
 
-// All primary rays, or in a quick run those of some rows; and those of them that meet the box around everything.
+// All primary rays, or in a quick run those of some rows; and the subset that meets the box around everything.
 struct PrimaryRays {
   std::vector<Ray> all, box;
 };
@@ -82,7 +82,7 @@ PrimaryRays primary_rays(const StepContext& context, const Tracer& tree) {
   return rays;
 }
 
-// Nanoseconds a ray, on one thread. The hits are summed up, so that both do the whole work and the same.
+// Nanoseconds of a ray, on one thread. The hits are summed up, so that both must do the whole work.
 struct Timed {
   double ns;
   std::int64_t hits;
@@ -99,7 +99,7 @@ Json time_rays(StepContext& context, const Tracer& tree, const Tracer& brute, co
   Json tree_ns = Json::array(), brute_ns = Json::array(), ratios = Json::array();
   std::int64_t hits = 0;
   for (int repetition = -1; repetition < repetitions && !context.cancel.cancelled(); ++repetition) {
-    // In turns, and each second time the other way round, so that a machine that slows down favours neither.
+    // The order changes in every second repetition, so that a machine that slows down favours neither.
     const bool tree_first = repetition % 2 == 0;
     const Timed first = time_tracer(tree_first ? tree : brute, rays);
     const Timed second = time_tracer(tree_first ? brute : tree, rays);

@@ -36,7 +36,7 @@ bool is_value(const Json& value) {
   return true;
 }
 
-// The number that "4,095" or "87.51%" is; nothing for words and lists.
+// The number in "4,095" or "87.51%"; nothing for words and lists.
 std::optional<double> number_in_print(std::string printed) {
   printed.erase(std::remove(printed.begin(), printed.end(), ','), printed.end());
   if (!printed.empty() && printed.back() == '%') printed.pop_back();
@@ -95,7 +95,7 @@ std::vector<double> Values::numbers(const std::string& name) const {
 std::string Values::printed(const std::string& name) const {
   const Json& found = entry(name);
   if (!found.contains("printed") || !found["printed"].is_string()) return found["value"].dump();
-  // Where only the value was changed, the printed number is out of date.
+  // If only the value was changed, the printed number is out of date.
   const std::string printed = found["printed"].get<std::string>();
   const std::optional<double> number = number_in_print(printed);
   return number && found["value"] != *number ? found["value"].dump() : printed;

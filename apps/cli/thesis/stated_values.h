@@ -20,7 +20,7 @@ class Values {
   /// Fails (failure.h) with file and place if the document is not as above.
   Values(const std::string& bytes, const std::string& file);
 
-  /// Fails if the name is unknown: a value that code asks for must be in the file.
+  /// Fails if the name is unknown, because every value that code needs must be in the file.
   double number(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
@@ -37,7 +37,7 @@ class Values {
   Json document_;
 };
 
-/// Those of folder/<experiment>/values.json where a folder is given and has that file, else the built-in ones.
+/// The values of folder/<experiment>/values.json if a folder is given and has that file, else the built-in ones.
 Values load_values(const std::string& experiment, const std::string& folder);
 
 }  // namespace bihive::cli::thesis

@@ -14,7 +14,7 @@ std::string StepStore::path(const std::string& experiment, const std::string& st
   return out_ + "/steps/" + experiment + "/" + step + ".json";
 }
 
-// Everything that a result depends on.
+// All data on which a result depends.
 Json StepStore::key(const Values& values) const {
   return {{"version", std::string(version())}, {"commit", std::string(commit())}, {"quick", settings_.quick},
           {"threads", settings_.threads},      {"seed", settings_.seed},          {"values", values.document()}};
@@ -22,7 +22,7 @@ Json StepStore::key(const Values& values) const {
 
 std::optional<Json> StepStore::load(const std::string& experiment, const std::string& step,
                                     const Values& values) const {
-  // A file that is damaged or of another run counts as missing.
+  // A damaged file or a file of another run counts as missing.
   const Result<std::string> bytes = read_file(path(experiment, step));
   if (!bytes) return std::nullopt;
   Json document = Json::parse(*bytes, nullptr, /*allow_exceptions=*/false);

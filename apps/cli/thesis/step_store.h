@@ -12,9 +12,9 @@ class StepStore {
  public:
   StepStore(std::string out, const Settings& settings) : out_(std::move(out)), settings_(settings) {}
 
-  /// The result, if it was saved by the same build of the program with the same settings and stated values.
+  /// The result, if the same build of the program saved it with the same settings and stated values.
   std::optional<Json> load(const std::string& experiment, const std::string& step, const Values& values) const;
-  /// Fails if it cannot be written.
+  /// Fails if the file cannot be written.
   void save(const std::string& experiment, const std::string& step, const Values& values, const Json& result) const;
 
  private:

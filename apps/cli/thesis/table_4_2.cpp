@@ -11,10 +11,11 @@
 namespace bihive::cli::thesis {
 namespace {
 
-// The seeds 1, 2, ... behind mean and standard deviation.
+// The seeds 1, 2, ... for mean and standard deviation.
 constexpr std::int64_t kSeeds = 400;
 constexpr std::int64_t kQuickSeeds = 40;
-// How often the mean of the thesis's rounds is taken: their median bears a machine that does something else meanwhile.
+// The number of means. The mean of the thesis's rounds is taken this often; the median of the means tolerates other
+// work on the machine.
 constexpr int kBuildMeans = 101;
 constexpr int kQuickBuildMeans = 21;
 
@@ -69,7 +70,7 @@ Json tree_result(StepContext& context, std::int64_t scenario, std::int64_t max_p
   });
   if (context.cancel.cancelled()) return {};
 
-  // Put it together.
+  // Combine the results.
   Json rows, mean, sd, nodes_of_seeds = Json::array();
   std::int64_t disagree = 0;
   const Rows our_rows = rows_of(ours);
@@ -95,7 +96,7 @@ Json tree_result(StepContext& context, std::int64_t scenario, std::int64_t max_p
           {"nodes_of_seeds", nodes_of_seeds}};
 }
 
-// All columns in turn, again and again, so that a machine that slows down meanwhile favours none.
+// All columns in turn, many times, so that a machine that slows down meanwhile favours none.
 Json build_times_result(StepContext& context) {
   const Values& values = context.values;
   const std::int64_t rounds = values.integer("rounds");
@@ -129,7 +130,7 @@ Json build_times_result(StepContext& context) {
   return means;
 }
 
-// One level less after another, down to the root alone.
+// One level less after the other, down to the root alone.
 Json levels_result(StepContext& context) {
   const std::int64_t max_prims = integers(context.values, "max_prims_list").front();
   Subject subject =
@@ -145,7 +146,7 @@ Json levels_result(StepContext& context) {
 }
 
 std::vector<Step> table_4_2_steps(const Settings& settings, const Values& values) {
-  // Seconds, as measured: a tree of Scenario 1 once, of the others for each seed.
+  // Measured seconds: a tree of Scenario 1 once, the others for each seed.
   const double seconds = settings.quick ? 0.3 : 2;
   std::vector<Step> steps;
   for (const std::int64_t scenario : integers(values, "scenarios"))

@@ -1,4 +1,4 @@
-// Table 4.2 between its two halves: what is measured, and how it is shown.
+// Table 4.2, shared by the code that measures it and the code that shows it.
 #pragma once
 
 #include <fmt/format.h>
@@ -82,8 +82,8 @@ class TreeColumns {
   bool has_build_times() const { return !build_means_.empty(); }
   bool complete() const { return columns_.size() == scenarios.size() * max_prims.size(); }
 
-  /// By how many percent the nodes of a scenario shrink from the first MAX_PRIMS to the last: of this seed, and over
-  /// the seeds. Nothing if a result is missing.
+  /// The percentage by which the nodes of a scenario shrink from the first MAX_PRIMS to the last: for this seed, and
+  /// over the seeds. Nothing if a result is missing.
   struct Reduction {
     double ours;
     Spread spread;
@@ -97,7 +97,7 @@ class TreeColumns {
   std::map<std::string, std::vector<double>> build_means_;
 };
 
-/// What the text says about the table. A statement that speaks of something missing is left out.
+/// The text's statements about the table. A statement about a missing result is left out.
 Statements table_4_2_statements(const SectionContext& context, const TreeColumns& columns);
 
 }  // namespace bihive::cli::thesis

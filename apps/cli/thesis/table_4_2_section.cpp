@@ -1,4 +1,4 @@
-// Table 4.2 as the report shows it: the table itself, the reductions and the build times.
+// Table 4.2 in the report: the table itself, the reductions and the build times.
 #include <algorithm>
 #include <cmath>
 
@@ -77,7 +77,7 @@ class TableSection {
     const std::string printed = values_.printed(name);
     const Spread spread = column.spread(row.key);
     const Verdict verdict = verdict_if(inside_three_sd(stated, printed, spread));
-    // Where the deviation is far below what is printed, it says nothing.
+    // A deviation far below the printed digits is left out.
     const bool random = spread.sd > print_rounding(printed);
     const std::string how = random ? fmt::format("{:+.1f} sd", (stated - spread.mean) / spread.sd)
                                    : (verdict == Verdict::agrees ? "equal" : "not equal");
@@ -96,7 +96,7 @@ class TableSection {
                                        {"verdict", verdict_name(verdict)}});
   }
 
-  // By how much the nodes shrink from the first MAX_PRIMS to the last, seed by seed.
+  // The shrinkage of the nodes from the first MAX_PRIMS to the last, seed by seed.
   void add_reductions() {
     Table table{"Total number of nodes, from the first configuration to the second",
                 {"Scenario", "thesis", "this seed", "mean ± sd", "inside 3 sd"},
@@ -156,7 +156,7 @@ class TableSection {
     section_.tables.push_back(std::move(table));
   }
 
-  // Shown by table_4_2_statements.cpp; the levels behind one of them go with the data.
+  // Shown by table_4_2_statements.cpp; the levels behind one of the statements go with the data.
   void add_statements() {
     const Statements statements = table_4_2_statements(context_, columns_);
     section_.data["statements"] = statements.data();

@@ -1,4 +1,4 @@
-// The text's statements about Table 4.2, each held against our trees and build times.
+// The text's statements about Table 4.2, each compared with our trees and build times.
 #include <algorithm>
 #include <functional>
 
@@ -75,7 +75,7 @@ class TableStatements {
     return quartiles_of(columns_.build_means(column.scenario, column.max_prims)).median;
   }
 
-  // In each scenario: is the tree of this configuration better than that of each other one?
+  // In each scenario: is the tree of this configuration better than that of each other configuration?
   bool everywhere(std::int64_t max_prims, const std::function<bool(const TreeColumn&, const TreeColumn&)>& better) {
     return std::all_of(columns_.all().begin(), columns_.all().end(), [&](const TreeColumn& other) {
       const TreeColumn* one = columns_.find(other.scenario, max_prims);
@@ -109,7 +109,7 @@ class TableStatements {
   }
 
   void add_leaf_each() {
-    // A leaf for each sphere: coincident ones share a leaf, which the table shows too.
+    // A leaf for each sphere; but coincident spheres share a leaf, as the table also shows.
     const std::int64_t single = values_.integer("leaf_each.max_prims");
     std::vector<std::string> most;
     bool each = true;
@@ -131,7 +131,7 @@ class TableStatements {
     add_extreme("longest_build", "The longest build time", most, fmt::format("{:.3f} ms", ms(most)));
   }
 
-  // The share of the first configuration's build time that the second saves, from times taken together.
+  // The part of the first configuration's build time that the second saves, from times taken together.
   Quartiles build_gain(std::int64_t scenario) const {
     const std::vector<double>& first = columns_.build_means(scenario, columns_.max_prims.front());
     const std::vector<double>& last = columns_.build_means(scenario, columns_.max_prims.back());
@@ -140,7 +140,7 @@ class TableStatements {
     return quartiles_of(gains);
   }
 
-  // Undecided where the quartiles of the thesis's scenario and those of another overlap.
+  // Undecided if the quartiles of the thesis's scenario and those of another overlap.
   void add_build_gain() {
     const std::int64_t claimed = values_.integer("best_build_gain.scenario");
     std::vector<std::string> ours, stated;

@@ -1,4 +1,4 @@
-// Every sphere, one after the other: the peer against which a tree is measured. No structure, no box test.
+// Tests every sphere, one after the other. The speed of a tree is compared with it. No structure, no box test.
 #pragma once
 
 #include <cstdint>

@@ -14,14 +14,14 @@ Vec3d Integrator::radiance(const Ray& primary) {
   generation_.assign(1, {primary, 1.0});
   for (int depth = 1; depth <= recursion_ && !generation_.empty(); ++depth) {
     next_.clear();
-    // What is lost.
+    // Rays that hit nothing.
     hits_.clear();
     for (const WeightedRay& item : generation_) {
       hits_.push_back(scene_hit(scene_, tracer_, item.ray));
       if (!hits_.back().found()) sum = sum + item.weight * scene_.background;
     }
 
-    // What surfaces do.
+    // Rays that hit a surface.
     for (std::size_t i = 0; i < generation_.size(); ++i) {
       if (!hits_[i].found()) continue;
       const WeightedRay& item = generation_[i];
@@ -29,7 +29,7 @@ Vec3d Integrator::radiance(const Ray& primary) {
       const Surface surface = surface_at(scene_, item.ray, hits_[i]);
       sum = sum + item.weight * local_light(scene_, tracer_, surface, shadows_, rays_.shadow);
 
-      // Send on what the surface reflects and lets through; a share of exactly 0 makes no ray.
+      // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray.
       if (depth == recursion_) continue;
       if (surface.material.reflective != 0) {
         ++rays_.reflected;

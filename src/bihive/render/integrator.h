@@ -1,4 +1,4 @@
-// The light along one primary ray: generation after generation of reflected and transmitted rays.
+// The light along one primary ray. It follows generation after generation of reflected and transmitted rays.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace bihive {
 
-/// Keeps its lists between calls; one a thread.
+/// Keeps its lists between calls; each thread needs its own.
 class Integrator {
  public:
   Integrator(const Scene& scene, const Tracer& tracer, int recursion, bool shadows)
       : scene_(scene), tracer_(tracer), recursion_(recursion), shadows_(shadows) {}
 
-  /// The sum is made in a fixed order, so that every engine can give the same bits: generation by generation; inside
-  /// one, first the rays that hit nothing, which add weight x background, then the surfaces of the others; each in the
-  /// order of the parents, of one parent's two the reflected first.
+  /// The sum has a fixed order, so that every engine can give the same bits: generation by generation. In a generation
+  /// the rays that hit nothing come first and add weight x background; then come the surfaces of the others. Both
+  /// follow the order of the parents, the reflected ray of a parent before the transmitted one.
   Vec3d radiance(const Ray& primary);
 
-  /// The deepest generation of which a ray hit something in the last call; 0 if none did.
+  /// The deepest generation with a ray that hit something in the last call; 0 if no ray did.
   int deepest_hit() const { return deepest_hit_; }
   const RenderCounts& rays() const { return rays_; }
 

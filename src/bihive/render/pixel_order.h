@@ -1,4 +1,4 @@
-// In which order the pixels of a tile are traced, so that neighbours among rays are neighbours in the picture.
+// The order in which the pixels of a tile are traced: neighbouring rays belong to neighbouring pixels.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 
 namespace bihive {
 
-/// The side of a block, as RayOrder::blocks wants them.
+/// The side of a block for RayOrder::blocks.
 constexpr int kBlockPx = 8;
 
 struct PixelPlace {
   std::uint16_t x, y;
 };
 
-/// The pixels of a block from its first one: the odd bits of the number are y, the even ones x.
+/// The place of a pixel in its block: the odd bits of its number are y, the even ones x.
 constexpr std::array<PixelPlace, 64> kZCurve = [] {
   std::array<PixelPlace, 64> places{};
   for (unsigned i = 0; i < places.size(); ++i)
@@ -26,17 +26,18 @@ constexpr std::array<PixelPlace, 64> kZCurve = [] {
   return places;
 }();
 
-/// Whether 64 neighbours of the order below, from a multiple of 64 on, are a whole block.
+/// Whether 64 neighbours in the order below, from a multiple of 64 on, are a whole block.
 inline bool is_whole_block(const PixelPlace* pixels) {
   constexpr PixelPlace last = kZCurve.back();
   return pixels[63].x == pixels[0].x + last.x && pixels[63].y == pixels[0].y + last.y && pixels[1].y == pixels[0].y &&
          pixels[2].x == pixels[0].x;
 }
 
-/// Blocks of 8 x 8 pixels, row by row; inside a block along a Z curve, so that any 4, 16 or 64 neighbours counted from
-/// the first are a square. Blocks that the tile's border cuts come last, so that all others start at a multiple of 64.
+/// Blocks of 8 x 8 pixels, row by row. Inside a block the order is a Z curve, so that any 4, 16 or 64 neighbours
+/// counted from the first are a square. Blocks that the tile's border cuts come last, so that all others start at a
+/// multiple of 64.
 inline void order_pixels(const Tile& tile, std::vector<PixelPlace>& pixels) {
-  // Some more places than pixels, for vectors that read past the last.
+  // There are some more places than pixels, for vectors that read past the last.
   constexpr std::size_t kPadding = 16;
   const std::size_t count = static_cast<std::size_t>(tile.x1 - tile.x0) * static_cast<std::size_t>(tile.y1 - tile.y0);
   pixels.resize(count + kPadding);

@@ -21,13 +21,14 @@
 namespace bihive {
 namespace {
 
-// Tiles of the wide engine: large enough for its kernels, small enough for the cache. The others need none of that.
+// Tiles of the wide engine are large enough for its vectors and small enough for the cache. The other engines need
+// neither.
 constexpr int kTilePx = 64;
 constexpr int kScalarTilePx = 16;
 
 constexpr DistanceRange kNoRange{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
-// The state of one picture in the making.
+// The state of an unfinished picture.
 class Renderer {
  public:
   Renderer(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const ProgressCallback& progress,
@@ -50,11 +51,11 @@ class Renderer {
     film_.resize(settings_.width_px, settings_.height_px);
   }
 
-  // Tiles of all passes are numbered through. Runs those from `first` to before `end`, which are of one pass.
+  // The tiles of all passes have consecutive numbers. Runs the tiles from `first` to before `end`, all in one pass.
   void run(std::size_t first, std::size_t end) {
     const std::size_t pass = first / tiles_.size();
     const std::size_t offset = first - pass * tiles_.size();
-    // The distance view needs the range of distances first.
+    // The distance view first needs the range of distances.
     const bool finds_range = pass + 1 < passes_;
     if (passes_ == 2 && pass == 1 && offset == 0) join_ranges();
     parallel_for(settings_.threads, static_cast<std::int64_t>(end - first), [&](std::int64_t i) {
@@ -72,7 +73,7 @@ class Renderer {
   std::size_t tiles_in_all() const { return passes_ * tiles_.size(); }
   bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }
 
-  /// Once all tiles have run.
+  /// Called after the last tile.
   Rendered take() {
     Rendered rendered;
     rendered.film = std::move(film_);
@@ -89,16 +90,16 @@ class Renderer {
   void report_progress() {
     const std::int64_t done = tiles_done_.fetch_add(1) + 1;
     if (!progress_) return;
-    // Whoever finds another thread reporting goes on with its work.
+    // A thread goes on with its work if another thread is reporting.
     const std::unique_lock<std::mutex> lock(progress_mutex_, std::try_to_lock);
     if (lock.owns_lock()) progress_(static_cast<double>(done) / static_cast<double>(passes_ * tiles_.size()));
   }
 
-  // Calls use(pixels, samples, buffers, first) for parts of a tile, whose samples first to first + primaries - 1 have
-  // been made primary rays; sample i belongs to pixel i / samples.
+  // Calls use(pixels, samples, buffers, first) for parts of a tile. The samples first to first + primaries - 1 have
+  // primary rays; sample i belongs to pixel i / samples.
   template <class Use>
   void for_each_part(const Tile& tile, const Use& use) const {
-    // A thread's own, from tile to tile and from picture to picture.
+    // Each thread has its own, and keeps it from tile to tile and from picture to picture.
     static thread_local WaveBuffers buffers;
     static thread_local std::vector<PixelPlace> pixels;
     order_pixels(tile, pixels);
@@ -201,7 +202,7 @@ class Renderer {
       case View::distance:
         return distance_colour(ray(), hit(), range_);
       case View::id:
-      case View::tree:  // is not made of samples
+      case View::tree:  // has no samples
         break;
     }
     return id_colour(buffers.id[i]);
@@ -267,11 +268,11 @@ class SlicedPicture::Implementation {
     const Timer timer;
     if (!renderer_ && !rendered_) {
       Result<Rendered> rendered = render_tree_picture(scene_, tracer_, settings_);
-      BIHIVE_CHECK(rendered.ok());  // only cancelling could end it
+      BIHIVE_CHECK(rendered.ok());  // only a cancel could end it
       rendered_ = std::move(*rendered);
     }
     while (!finished()) {
-      // Some tiles of one pass; more at a time while they take next to nothing.
+      // Draw some tiles of one pass; more at a time if they take very little time.
       const Timer of_slice;
       const std::size_t pass_end = (done_ / renderer_->tiles_in_a_pass() + 1) * renderer_->tiles_in_a_pass();
       const std::size_t end = std::min(done_ + slice_, pass_end);
@@ -340,7 +341,7 @@ Image image_from_film(const Film& film, View view, Transfer transfer, int thread
   Image image{film.width, film.height, {}};
   image.rgb.resize(3 * film.radiance.size());
 
-  // Some rows at a time.
+  // Draw some rows at a time.
   constexpr std::int64_t kPixelsAtOnce = 1 << 15;
   const auto pixels = static_cast<std::int64_t>(film.radiance.size());
   parallel_for(threads, (pixels + kPixelsAtOnce - 1) / kPixelsAtOnce, [&](std::int64_t part) {

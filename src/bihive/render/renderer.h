@@ -1,4 +1,4 @@
-// From a scene to a film: tiles over threads, the same bits for any number of them.
+// From a scene to a film. Threads share the tiles; the bits are the same for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -25,33 +25,32 @@ struct Rendered {
   double render_ms = 0;
 };
 
-/// Called now and then, from one thread at a time, with the share of the picture that is done, 0 to 1.
+/// Called now and then, from one thread at a time, with the finished share of the picture, 0 to 1.
 using ProgressCallback = std::function<void(double done)>;
 
 /// Settings must be in range (a programmer's error otherwise). The traversal and tree views need a tracer of the
-/// reference engine: an Error without one. An Error "cancelled" when the token was set before the picture was done.
-/// `film`: whose memory becomes the new film's, so that frame after frame is drawn into the same; its contents are
-/// lost. Each thread that took part keeps its buffers for the next picture, usually a few MB
-/// (render/wave/wave_integrator.h).
+/// reference engine: an Error without one. The Error is "cancelled" if the token was set before the picture was
+/// complete. The new film takes the memory of `film`, whose contents are lost; so all frames can share one film. Each
+/// thread that took part keeps its buffers for the next picture, usually a few MB (render/wave/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
 
-/// The same picture a slice at a time, for whoever must look up in between.
+/// The same picture in slices, for callers that have other work in between.
 class SlicedPicture {
  public:
-  /// As render(). Scene and tracer must outlive it and stay as they are.
+  /// As render(). Scene and tracer must outlive it and must not change.
   static Result<SlicedPicture> begin(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                      Film film = {});
   SlicedPicture(SlicedPicture&& other) noexcept;
   SlicedPicture& operator=(SlicedPicture&& other) noexcept;
   ~SlicedPicture();
 
-  /// Renders tiles until about `budget_ms` have passed, at least one. View::tree is made in one slice.
+  /// Renders tiles until about `budget_ms` have passed, at least one tile. View::tree is made in one slice.
   void advance(double budget_ms);
 
   bool finished() const;
-  double done() const;  ///< share of the picture, 0 to 1
-  /// The finished picture, once; render_ms is the time spent in advance().
+  double done() const;  ///< finished share of the picture, 0 to 1
+  /// Returns the finished picture, once; render_ms is the time spent in advance().
   Rendered take();
 
  private:

@@ -1,4 +1,4 @@
-// The closest thing that a ray meets in a scene: a sphere or the plane.
+// The closest hit of a ray in a scene: on a sphere or on the plane.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct SceneHit {
   bool found() const { return id != kNothing; }
 };
 
-/// Where a sphere and the plane are met at the same t, the sphere is hit.
+/// If the ray meets a sphere and the plane at the same t, it hits the sphere.
 inline SceneHit scene_hit(const Scene& scene, const Tracer& tracer, const Ray& ray) {
   const Hit sphere = tracer.closest_hit(ray);
   SceneHit hit{sphere.t, sphere.sphere_id};

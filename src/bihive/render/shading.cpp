@@ -47,7 +47,7 @@ Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surfa
       if (tracer.occluded(shadow)) continue;
     }
 
-    // N.L, and R.V = 2 (N.L) (N.V) - L.V; the offset is brought to length 1 in the products alone.
+    // N.L, and R.V = 2 (N.L) (N.V) - L.V. Only the products are divided by the length of the offset.
     const double nearness = 1 / std::sqrt(distance_squared);
     const double facing = towards * nearness;
     diffuse = diffuse + (material.diffuse * facing) * light.colour;

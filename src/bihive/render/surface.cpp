@@ -28,7 +28,7 @@ Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
   const Vec3d point = origin + along;
   surface.origin = to_float(point);
 
-  // In binary64 no square of what fits binary32 can overflow or vanish.
+  // In binary64 no square of a number of binary32 can overflow or vanish.
   surface.incoming = normalized_again(to_double(ray.direction));
   Vec3d outward;
   if (hit.id == kPlane) {

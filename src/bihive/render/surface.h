@@ -1,4 +1,4 @@
-// What shading needs to know of the place where a ray hit something. World units, binary64.
+// The place where a ray hit something, as shading needs it. World units, binary64.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ struct Surface {
   Vec3d incoming;     ///< the ray's direction, length 1
   Vec3d normal;       ///< length 1, turned against the ray
   bool from_inside;   ///< the ray comes from inside the sphere: direction . outward normal > 0
-  Material material;  ///< with the checker's colour where there is one
+  Material material;  ///< with the checker's colour if there is a checker
 };
 
-/// `hit` must be found.
+/// `hit` must be a hit, not a miss.
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit);
 
 }  // namespace bihive

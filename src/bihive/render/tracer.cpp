@@ -13,7 +13,7 @@
 namespace bihive {
 namespace {
 
-// The side of a block of neighbouring pixels, as RayOrder::blocks wants them.
+// The side of a block of neighbouring pixels for RayOrder::blocks.
 constexpr int kBlockPx = 8;
 
 }  // namespace
@@ -25,7 +25,8 @@ BuildParameters TreeParameters::for_reference() const {
   return both;
 }
 
-// 0 is the wide builder's own choice. No leaf can hold more than all spheres, and no tree has more levels than spheres.
+// 0 is the wide builder's own choice. A leaf cannot hold more than all spheres, and a tree has at most as many levels
+// as spheres.
 WideParameters TreeParameters::for_wide(std::int64_t spheres) const {
   const auto bounded = [&](std::optional<std::int64_t> value) {
     return value ? std::clamp<std::int64_t>(*value, 1, std::max<std::int64_t>(spheres, 1)) : 0;
@@ -93,7 +94,7 @@ void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden)
 }
 
 void Tracer::closest_hits(const PixelRays& pixels, const Tile& tile, const HitSpan& hits) const {
-  // Trace a band of blocks at a time, and put its hits where their pixels are.
+  // Trace a band of blocks at a time, and store the hits at the places of their pixels.
   const std::int64_t width = tile.x1 - tile.x0;
   RayBatch rays;
   HitBatch band;

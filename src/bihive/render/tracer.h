@@ -1,4 +1,4 @@
-// One interface to every engine that answers ray queries on a sphere set.
+// One interface to all engines that answer ray queries on a sphere set.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@
 
 namespace bihive {
 
-/// automatic: the fastest engine that there is, which is wide; wide: vector kernels on the wide tree
-/// (wide/queries.h); reference: scalar traversal of the reference tree; brute: every sphere. All give the same bits.
+/// automatic: the fastest engine, which is wide; wide: vectors on the wide tree (wide/queries.h); reference: scalar
+/// traversal of the reference tree; brute: every sphere. All give the same bits.
 enum class Engine { automatic, wide, reference, brute };
 
-/// What the caller says of a tree, >= 1 or kUnlimited. Unset: the engine chooses; the reference builder then takes
+/// The caller's limits for a tree, >= 1 or kUnlimited. Unset: the engine chooses; the reference builder then takes
 /// leaves of at most 8 spheres and any depth.
 struct TreeParameters {
   std::optional<std::int64_t> max_prims, max_depth;
@@ -34,43 +34,43 @@ struct TreeParameters {
   TreeParameters(const BuildParameters& both)  // NOLINT(google-explicit-constructor)
       : max_prims(both.max_prims), max_depth(both.max_depth) {}
 
-  /// With the reference builder's own choice where nothing is said.
+  /// Unset limits become the reference builder's own choice.
   BuildParameters for_reference() const;
-  /// For the wide builder; a limit that cannot bind is none.
+  /// For the wide builder. A limit that has no effect becomes 0.
   WideParameters for_wide(std::int64_t spheres) const;
 };
 
-/// Holds the structure that an engine needs, and refers to the spheres, which must outlive it. Queries are const and
-/// may be made from any number of threads. An invalid ray (geometry/ray.h) hits nothing. Copies share the structure.
+/// Holds the structure of an engine, and refers to the spheres, which must outlive it. Queries are const, and any
+/// number of threads may call them at a time. An invalid ray (geometry/ray.h) hits nothing. Copies share the structure.
 class Tracer {
  public:
-  /// Builds what the engine needs, on that many threads (0: all). Errors: more spheres than the engine can number, or
-  /// not enough memory for its tree.
+  /// Builds the structure of the engine on that many threads (0: all). Errors: more spheres than the engine can number,
+  /// or not enough memory for its tree.
   static Result<Tracer> build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters = {},
                               int threads = 0);
 
-  /// A tracer on a tree that somebody built of these very spheres: frame after frame with one WideBuilder
-  /// (wide/wide_builder.h), or once for several tracers.
+  /// A tracer on an existing tree of these spheres: for frame after frame with one WideBuilder (wide/wide_builder.h),
+  /// or for several tracers on one tree.
   Tracer(const SphereSet& spheres, std::shared_ptr<const WideTree> tree);
   Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree);
 
-  /// One ray: the nearest hit, and whether there is any.
+  /// One ray: the nearest hit, and whether there is any hit.
   Hit closest_hit(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
 
-  /// Many rays at a time: much the faster with the wide engine (wide/queries.h says when). Hit i belongs to ray i.
+  /// Many rays at a time: much faster with the wide engine (wide/queries.h has the figures). Hit i belongs to ray i.
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
 
-  /// What a camera sees through the centres of a tile's pixels, row by row: hit i is that of pixel (x0 + i % width, y0
-  /// + i / width). The tile must lie inside the picture that `pixels` was made for.
+  /// The hits of a camera's rays through the centres of a tile's pixels, row by row: hit i is that of pixel (x0 + i %
+  /// width, y0 + i / width). The tile must lie inside the picture of `pixels`.
   void closest_hits(const PixelRays& pixels, const Tile& tile, const HitSpan& hits) const;
 
   Engine engine() const { return engine_; }  ///< never `automatic`
   const SphereSet& spheres() const { return *spheres_; }
   const Tree* tree() const { return tree_.get(); }                ///< null unless the engine is `reference`
   const WideTree* wide_tree() const { return wide_tree_.get(); }  ///< null unless the engine is `wide`
-  double build_ms() const { return build_ms_; }                   ///< 0 for a tree that was built elsewhere
+  double build_ms() const { return build_ms_; }                   ///< 0 for a tree from elsewhere
 
  private:
   Tracer(const SphereSet& spheres, Engine engine) : spheres_(&spheres), engine_(engine) {}

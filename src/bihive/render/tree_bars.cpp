@@ -1,4 +1,4 @@
-// The second part of the tree's drawing: every node as a bar, by depth.
+// The second part of the tree's drawing: a bar for every node, by depth.
 
 #include <algorithm>
 #include <vector>
@@ -13,15 +13,15 @@ namespace {
 
 namespace colours = tree_colours;
 
-// An inner bar is dimmer than a leaf of its depth.
+// An inner node's bar is dimmer than a leaf of its depth.
 constexpr double kInnerShade = 0.45;
 constexpr double kCutShade = 0.40;
-// Rows are no higher than this share of the part, so that a tree of one leaf is a bar and not a wall.
+// Rows are at most this share of the part, so that a tree of one leaf is a bar and not a wall.
 constexpr std::int64_t kFewestRows = 8;
 // Bars of at least this size have a dark edge of one pixel.
 constexpr double kEdgedPx = 5;
 
-// A node on the way down: its box along the axes, and the bar's place.
+// A node to draw: its box along the axes, and the bar's place.
 struct Job {
   std::int64_t node;
   std::int64_t depth;
@@ -43,7 +43,7 @@ class Bars {
   void draw() {
     canvas_.add_rectangle(area_, colours::kPaper);
 
-    // A set without spheres has one leaf without a place; it fills its row.
+    // A set without spheres has one leaf, which fills its row.
     const std::int64_t all = std::max<std::int64_t>(1, static_cast<std::int64_t>(tree_.sphere_ids.size()));
     sphere_px_ = area_.width() / static_cast<double>(all);
     if (tree_.sphere_ids.empty()) spheres_of_[0] = 1;
@@ -64,7 +64,7 @@ class Bars {
   }
 
  private:
-  // The number of spheres below each node: parents are visited before their children, so add up in reverse.
+  // The number of spheres below each node. Parents have smaller numbers than their children, so add up in reverse.
   void count_spheres() {
     std::vector<std::int64_t> order{0};
     order.reserve(tree_.nodes.size());
@@ -84,7 +84,7 @@ class Bars {
   }
 
   void draw_bar(const Job& job, const Node& node) {
-    // Place the bar, and take a dark edge off where there is room.
+    // Place the bar, and leave a dark edge if there is room.
     CanvasArea bar;
     bar.x0 = area_.x0 + static_cast<double>(job.first_sphere) * sphere_px_;
     bar.x1 = bar.x0 + static_cast<double>(spheres_of_[static_cast<std::size_t>(job.node)]) * sphere_px_;
@@ -127,10 +127,10 @@ class Bars {
     }
   }
 
-  // Bars never overlap, so that what is added in the paper's place is the colour itself.
+  // Bars never overlap, so the sum of colour and background is the colour itself.
   void add(const CanvasArea& area, Vec3d colour) { canvas_.add_rectangle(area, colour - colours::kPaper); }
 
-  // A bar in three colours, that change at the shares a <= b of its width.
+  // A bar in three colours; they change at the shares a <= b of its width.
   void draw_parts(const CanvasArea& bar, double a, double b, Vec3d first, Vec3d second, Vec3d third) {
     const double xa = bar.x0 + a * bar.width();
     const double xb = bar.x0 + b * bar.width();

@@ -18,17 +18,16 @@ namespace colours = tree_colours;
 constexpr double kLinePx = 1.25;
 constexpr double kMostSlabOpacity = 0.14;
 constexpr double kMostLeafOpacity = 0.14;
-// Nothing nearer to the eye than this share of the set's extent is drawn.
+// Nothing is drawn that is nearer to the eye than this share of the set's extent.
 constexpr double kNearest = 1e-6;
 
-// A box on the way into the picture: its corners from the eye; bit i of a corner's number is set at the upper end of
-// axis i.
+// A box to draw: its corners as seen from the eye. Bit i of a corner's number is set at the upper end of axis i.
 struct SeenBox {
   std::array<Vec3d, 8> corner;
   std::array<bool, 6> faces_eye;  // lower and upper side of x, y, z
 };
 
-// What is seen of a face, after the part behind the eye is cut off.
+// The visible part of a face, after the part behind the eye is cut off.
 struct Polygon {
   std::array<CanvasPoint, 5> points;
   int count = 0;
@@ -66,7 +65,7 @@ class Boxes {
     std::vector<Level> levels;
     std::vector<Item> items{{0, tree_.aabb}};
     while (!items.empty()) {
-      // Share the ink out among the level's boxes.
+      // Divide the ink among the level's boxes.
       Level level;
       level.colour = colours::of_depth(static_cast<std::int64_t>(levels.size()) + 1, deepest_);
       Ink ink;
@@ -76,7 +75,7 @@ class Boxes {
       level.leaf_opacity = std::min(kMostLeafOpacity, kFillInk * pixels / ink.leaves);
       if (level.line_opacity < kFaintest) break;
 
-      // Go on to their children.
+      // Go on to the children of these boxes.
       std::vector<Item> next;
       for (const Item& item : items) add_children(item, next);
       level.items = std::move(items);
@@ -84,7 +83,7 @@ class Boxes {
       items = std::move(next);
     }
 
-    // Draw the deepest first, so that the boxes at the top of the tree stay clear, and lines over slabs.
+    // Draw the deepest level first, so that the boxes at the top of the tree stay clear; draw lines over slabs.
     for (auto level = levels.rbegin(); level != levels.rend(); ++level)
       for (const Item& item : level->items) draw_fills(item, *level);
     for (auto level = levels.rbegin(); level != levels.rend(); ++level)
@@ -108,7 +107,7 @@ class Boxes {
 
   const Node& node_of(const Item& item) const { return tree_.nodes[static_cast<std::size_t>(item.node)]; }
 
-  // What a node shows beside its outline: the slab between its children, or what a one-sided node cuts off.
+  // The inside of a node: the slab between its children, or the part that a one-sided node cuts off.
   struct Slab {
     bool exists = false;
     Aabb box;
@@ -154,14 +153,14 @@ class Boxes {
     return {area_.x0 + places_.x_px(from_eye), area_.y0 + places_.y_px(from_eye)};
   }
 
-  // The point of the line from a to b at the nearest distance that is drawn.
+  // The point of the line from a to b at the nearest drawn distance.
   Vec3d cut(Vec3d a, Vec3d b) const {
     Vec3d point = a + (b - a) * ((nearest_ - a.z) / (b.z - a.z));
     point.z = nearest_;
     return point;
   }
 
-  // Calls use(polygon) for each side that faces the eye: together they tile the box's silhouette.
+  // Calls use(polygon) for each side that faces the eye. Together these sides tile the box's silhouette.
   template <class Use>
   void for_each_face(const SeenBox& seen, const Use& use) const {
     for (std::size_t face = 0; face < 6; ++face) {
@@ -183,7 +182,7 @@ class Boxes {
     }
   }
 
-  // Calls use(a, b) for each of the twelve edges, cut to what is before the eye.
+  // Calls use(a, b) for each of the twelve edges, cut to the part before the eye.
   template <class Use>
   void for_each_edge(const SeenBox& seen, const Use& use) const {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -198,7 +197,7 @@ class Boxes {
       }
   }
 
-  // Long lines are measured inside the part only, roughly: by the part's diagonal.
+  // Long lines count only as far as they lie inside the part; its diagonal is a rough limit.
   double line_px(CanvasPoint a, CanvasPoint b) const {
     const double dx = b.x - a.x;
     const double dy = b.y - a.y;
@@ -244,7 +243,7 @@ class Boxes {
     if (node.kind == NodeKind::clip) outline(child_boxes(node, item.box).first, colours::kClip);
   }
 
-  // The children, unless the node's box is too small or outside of the picture.
+  // The children are left out if the node's box is too small or outside of the picture.
   void add_children(const Item& item, std::vector<Item>& next) const {
     const Node& node = node_of(item);
     if (node.is_leaf()) return;

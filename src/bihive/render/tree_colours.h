@@ -10,7 +10,7 @@ namespace bihive::tree_colours {
 constexpr Vec3d kGap{0.10, 0.80, 0.25};
 constexpr Vec3d kOverlap{0.95, 0.15, 0.10};
 constexpr Vec3d kClip{1.00, 0.85, 0.10};
-constexpr Vec3d kEmpty{1.00, 0.20, 0.85};   // what a one-sided node cuts off
+constexpr Vec3d kEmpty{1.00, 0.20, 0.85};   // the part that a one-sided node cuts off
 constexpr Vec3d kForced{1.00, 0.50, 0.05};  // a leaf in which no split made progress
 constexpr Vec3d kPaper{0.07, 0.07, 0.09};   // behind the bars
 

@@ -8,7 +8,7 @@
 namespace bihive {
 namespace {
 
-// The spheres behind the boxes must not outshine them.
+// The spheres behind the boxes must be darker than the boxes.
 constexpr double kReliefBrightness = 0.40;
 
 // The band between the parts.
@@ -30,7 +30,7 @@ void draw_relief(Canvas& canvas, const Film& normals, const Camera& camera) {
 }  // namespace
 
 TreePictureLayout tree_picture_layout(int width_px, int height_px) {
-  // The bars need less room than the boxes where they lie below.
+  // The bars need less room than the boxes if they lie below.
   const bool side_by_side = width_px > height_px;
   const int length = side_by_side ? width_px : height_px;
   const int band = std::min(kBandPx, length / 16);

@@ -1,4 +1,4 @@
-// The views that are not light: colours that stand for numbers. Display values, never curved.
+// The views that do not show light: their colours stand for numbers. Display values; the transfer curve is not applied.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ Vec3d recursion_colour(int deepest_hit);
 /// ignored. The tracer must have a tree.
 Vec3d traversal_colour(const Tracer& tracer, const Ray& ray);
 
-/// (n + 1) / 2 of the normal turned against the ray; black where nothing is hit.
+/// (n + 1) / 2 of the normal turned against the ray; black for a miss.
 Vec3d normal_colour(const Scene& scene, const Ray& ray, const SceneHit& hit);
 
-/// A fixed hash of the id, never close to black; black where nothing is hit.
+/// A fixed hash of the id, never close to black; black for a miss.
 Vec3d id_colour(std::int64_t id);
 
 /// The distances between which the distance view runs from white to black.
@@ -31,7 +31,7 @@ struct DistanceRange {
 /// In world units, along the ray.
 double distance_of(const Ray& ray, const SceneHit& hit);
 
-/// White at the nearest, black at the farthest and where nothing is hit. One single distance is white.
+/// White at the nearest distance, black at the farthest and for a miss. A single distance is white.
 Vec3d distance_colour(const Ray& ray, const SceneHit& hit, const DistanceRange& range);
 
 }  // namespace bihive

@@ -36,7 +36,7 @@ void find_shadow_rays_on_target(const WaveSurfaces& surfaces, std::int64_t first
 }
 
 HWY_INLINE void add_to_owners(Lanes3 light, const WaveSurfaces& surfaces, std::int64_t i, WaveSums& sums) {
-  // Mostly the owners are neighbours, too.
+  // Neighbouring surfaces mostly have neighbouring owners.
   const std::int64_t first = surfaces.owner[i];
   const std::int64_t n = std::min<std::int64_t>(surfaces.count - i, kLanes);
   if (n == kLanes && hn::AllTrue(WordTag(), hn::Eq(load(surfaces.owner, i), counted_from(first)))) {

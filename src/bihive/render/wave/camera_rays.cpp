@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-// PixelRays made ready for vectors.
+// PixelRays prepared for vectors.
 struct CameraLanes {
   Lanes3 forward, right, down;
   Lanes half_width, half_height;
@@ -43,7 +43,7 @@ void camera_rays_on_target(const PixelRays& pixels, const double* x, const doubl
 }
 
 void pixel_rays_on_target(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave) {
-  // x is the lower half of a pixel's word, y the upper one: every machine that is compiled for has that order.
+  // x is the lower half of a pixel's word, y the upper one: all supported machines have that byte order.
   static_assert(sizeof(PixelPlace) == sizeof(std::uint32_t));
   constexpr hn::Rebind<std::int32_t, Tag> i32;
   constexpr hn::Rebind<std::uint32_t, Tag> u32;

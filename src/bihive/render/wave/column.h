@@ -1,4 +1,4 @@
-// A column of numbers that is written before it is read, and that keeps its memory.
+// A column of numbers that keeps its memory. Its user writes each number before reading it.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ constexpr std::int64_t kColumnPadding = 16;
 template <class T>
 class Column {
  public:
-  /// Makes room for n entries and the padding. What was held is lost; nothing is initialised.
+  /// Makes room for n entries and the padding. The old content is lost; nothing is initialised.
   void reserve(std::int64_t n) {
     if (n <= capacity_) return;
     memory_.reset(new T[static_cast<std::size_t>(n + kColumnPadding)]);

@@ -55,7 +55,7 @@ void find_surfaces_on_target(const WaveScene& wave_scene, const WavePart& part, 
     RayLanes rays{load(wave.origin, i), load(wave.direction, i), hn::LoadU(Tag(), t + k), hn::LoadU(w, id + k)};
     if (scene.plane) hit_plane(scene.plane->plane, wave, i, rays);
 
-    // Part those that miss everything from the others.
+    // Separate the rays that miss everything from the others.
     const LaneMask found = hn::And(there, lanes_of(hn::Ne(rays.id, hn::Set(w, kNothing))));
     const LaneMask missed = hn::AndNot(found, there);
     if (!none(missed)) add_background(scene.background, wave, i, missed, sums);

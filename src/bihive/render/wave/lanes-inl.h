@@ -1,5 +1,5 @@
-// Vectors of binary64 for the steps of a wave: math/vec3.h on several rays at a time, with the very operations of it in
-// the same order, none fused.
+// Vectors of binary64 for the steps of a wave: math/vec3.h on several rays at a time, with the same operations in the
+// same order, none fused.
 
 #if defined(BIHIVE_RENDER_WAVE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_RENDER_WAVE_LANES_INL_H_
@@ -35,7 +35,7 @@ static_assert(kLanes <= kColumnPadding);
 HWY_INLINE Lanes all(double x) {
   return hn::Set(Tag(), x);
 }
-/// first, first + 1, ... Highway 1.0.3 would write a vector to memory and read it.
+/// first, first + 1, ... Highway 1.0.3 would store a vector to memory and load it.
 HWY_INLINE Words counted_from(std::int64_t first) {
   return hn::Add(hn::Iota(WordTag(), 0), hn::Set(WordTag(), first));
 }
@@ -74,14 +74,15 @@ HWY_INLINE void store(Words v, Column<std::int64_t>& column, std::int64_t i) {
   hn::StoreU(v, WordTag(), column.data() + i);
 }
 
-/// As bytes; each must fit one.
+/// As bytes; each number must fit one byte.
 HWY_INLINE void store(Words v, Column<std::uint8_t>& column, std::int64_t i) {
   alignas(64) std::int64_t words[kLanes];
   hn::Store(v, WordTag(), words);
   for (int k = 0; k < kLanes; ++k) column[i + k] = static_cast<std::uint8_t>(words[k]);
 }
 
-/// column[at[k]] in lane k. One load and one insertion a lane: a load of what was just stored lane by lane would wait.
+/// column[at[k]] in lane k, by one load and one insertion for each lane. A vector load of lanes that were just stored
+/// one by one would have to wait.
 HWY_INLINE Lanes gathered(const float* column, const std::int64_t* at) {
 #if HWY_TARGET == HWY_AVX3
   const __m128 lower = _mm_set_ps(column[at[3]], column[at[2]], column[at[1]], column[at[0]]);
@@ -108,7 +109,7 @@ HWY_INLINE Words gathered(const std::int32_t* column, const std::int64_t* at) {
 #endif
 }
 
-/// Vec3d of several rays. Its parts are named one by one, never by number: GCC 12 would copy it through memory.
+/// Vec3d of several rays. Its parts have names, not numbers: with numbers GCC 12 would copy it through memory.
 struct Lanes3 {
   Lanes x, y, z;
 };
@@ -146,7 +147,7 @@ HWY_INLINE Lanes length(Lanes3 a) {
 HWY_INLINE Lanes3 normalized(Lanes3 a) {
   return multiply(hn::Div(all(1), length(a)), a);
 }
-/// Where a lane is far from length 1, that lane by itself.
+/// A lane that is far from length 1 is done by itself.
 HWY_INLINE Lanes3 normalized_again(Lanes3 a) {
   const Lanes beyond = hn::Sub(dot(a, a), all(1));
   const Lanes series = hn::Sub(all(1), hn::Mul(beyond, hn::Sub(all(0.5), hn::Mul(all(0.375), beyond))));
@@ -170,10 +171,10 @@ HWY_INLINE void store(Lanes3 v, Column<T> (&columns)[3], std::int64_t i) {
   store(v.z, columns[2], i);
 }
 
-// Highway 1.0.3 keeps its tables for 64-bit lanes in a local array, which GCC 12 copies to the stack for each vector: 2
-// KiB. So this is our own.
+// Highway 1.0.3 keeps its tables for 64-bit lanes in a local array, and GCC 12 copies that array to the stack for each
+// vector: 2 KiB. So this table is our own.
 #if HWY_TARGET == HWY_AVX2
-// Halves of the lanes of each mask in front, in their order.
+// Moves the halves of the lanes of each mask to the front, in their order.
 struct CompressTable {
   alignas(32) std::int32_t halves[16][8];
 };
@@ -192,7 +193,7 @@ constexpr CompressTable make_compress_table() {
 inline constexpr CompressTable kCompressTable = make_compress_table();
 #endif
 
-/// Moves the lanes of a mask together, to the front; what comes behind them is undefined.
+/// Moves the lanes of a mask together, to the front; the lanes behind them are undefined.
 class Compressor {
  public:
 #if HWY_TARGET == HWY_AVX3
@@ -217,7 +218,7 @@ class Compressor {
  private:
   const std::int32_t* halves_;
 #elif HWY_TARGET == HWY_WASM
-  // The first lane stays where it is, or the second takes its place.
+  // The first lane stays, or the second one takes its place.
   HWY_INLINE explicit Compressor(LaneMask mask)
       : first_stays_(hn::MaskFromVec(hn::InterleaveLower(hn::VecFromMask(Tag(), mask), hn::VecFromMask(Tag(), mask)))) {
   }
@@ -245,7 +246,7 @@ class Compressor {
 #endif
 };
 
-/// Appends lanes to columns: all of them, or those of a mask moved together. Writes up to a vector past the last.
+/// Appends lanes to columns: all of them, or the lanes of a mask moved together. Writes up to a vector past the last.
 class Appender {
  public:
   HWY_INLINE Appender(LaneMask keep, std::int64_t at)

@@ -21,7 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-/// Where a light is, seen from surfaces.
+/// The place of a light as seen from surfaces.
 struct LightLanes {
   Lanes3 offset;
   Lanes distance_squared, towards;
@@ -35,7 +35,7 @@ struct LightLanes {
                          hn::Gt(towards, all(0)))) {}
 };
 
-// A highlight of exactly no strength adds nothing, however sharp it is, up to powers that could overflow.
+// A highlight of exactly no strength adds nothing at any power, except powers that could overflow.
 HWY_INLINE LaneMask has_highlight(const MaterialLanes& material) {
   return hn::Or(hn::Ne(material.specular, all(0)), hn::Gt(material.power, all(1e6)));
 }
@@ -46,8 +46,8 @@ HWY_INLINE LaneMask set_lanes(const std::uint8_t* bytes) {
   return lanes_of(hn::Ne(hn::Load(WordTag(), words), hn::Zero(WordTag())));
 }
 
-/// Of lanes `there`, at least one. `hidden`: null, or for each light a byte a surface, 1 where it is hidden; of the
-/// next light `to_next_light` bytes further.
+/// For the lanes `there`, at least one. `hidden`: null, or one byte for each light and surface, 1 if the light is
+/// hidden; the bytes of the next light are `to_next_light` bytes further.
 HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const SurfaceLanes& surface,
                               const std::uint8_t* hidden, std::int64_t to_next_light) {
   const MaterialLanes material = materials_of(wave_scene, there, surface.material_inside, surface.id);
@@ -63,7 +63,7 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
     }
     if (none(lit)) continue;
 
-    // Nothing is added where it is left out.
+    // Add nothing for lights that are left out.
     const Lanes3 colour = all(light.colour);
     const Lanes nearness = hn::Div(all(1), hn::Sqrt(to_light.distance_squared));
     const Lanes facing = hn::IfThenElseZero(lit, hn::Mul(to_light.towards, nearness));

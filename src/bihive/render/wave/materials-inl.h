@@ -18,13 +18,13 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-/// How surfaces answer light, and whether rays that they send on run inside a sphere.
+/// The answer of surfaces to light, and whether their secondary rays run inside a sphere.
 struct MaterialLanes {
   Lanes3 colour;
   Lanes ambient, diffuse, reflective, specular, power, transmissive, refraction_index;
 };
 
-/// Opacity and colour of single spheres, where the scene has any.
+/// Opacity and colour of single spheres, if the scene has any.
 HWY_INLINE void apply_attributes(const Scene& scene, Words id, MaterialLanes& lanes) {
   const SphereAttributes& attributes = scene.spheres.attributes();
   const LaneMask on_sphere = lanes_of(hn::Gt(id, hn::Set(WordTag(), -1)));
@@ -72,9 +72,10 @@ HWY_INLINE const Material& material_at(const WaveScene& scene, std::int64_t mate
   return scene.materials[static_cast<std::size_t>(material_inside >> 1)];
 }
 
-/// Of lanes `wanted`, at least one; the others hold anything. `material_inside` and `id` as in WaveSurfaces.
+/// For the lanes `wanted`, at least one; the others hold anything. `material_inside` and `id` as in WaveSurfaces.
 HWY_INLINE MaterialLanes materials_of(const WaveScene& scene, LaneMask wanted, Words material_inside, Words id) {
-  // Neighbours mostly share a material: take each that occurs once. Numbers are compared with the inside's bit set.
+  // Neighbours mostly share a material, so load each material that occurs once. The compared numbers include the inside
+  // bit.
   alignas(64) std::int64_t numbers[kLanes];
   const Words which = hn::Or(material_inside, hn::Set(WordTag(), 1));
   hn::Store(which, WordTag(), numbers);

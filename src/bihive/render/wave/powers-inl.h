@@ -1,4 +1,4 @@
-// math/elementary.h on several numbers at a time, with the very operations of it in the same order, none fused.
+// math/elementary.h on several numbers at a time, with the same operations in the same order, none fused.
 
 #if defined(BIHIVE_RENDER_WAVE_POWERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_RENDER_WAVE_POWERS_INL_H_
@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-/// Whole numbers below 2^51 in magnitude from one form to the other.
+/// Conversion of whole numbers below 2^51 in magnitude between integer and binary64.
 HWY_INLINE Words words_from_whole(Lanes whole) {
   const auto magic = all(0x1.8p52);
   return hn::Sub(hn::BitCast(WordTag(), hn::Add(whole, magic)), hn::BitCast(WordTag(), magic));
@@ -33,7 +33,7 @@ HWY_INLINE Lanes power_of_two(Lanes whole) {
   return hn::BitCast(Tag(), hn::ShiftLeft<52>(biased));
 }
 
-/// a + b c, and the same of two coefficients.
+/// a + b c, and the same with two coefficients.
 HWY_INLINE Lanes plus(Lanes a, Lanes b, Lanes c) {
   return hn::Add(a, hn::Mul(b, c));
 }
@@ -75,14 +75,14 @@ HWY_INLINE Lanes exp2_of(Lanes x) {
   const auto from_6 = plus(pair(1.0 / 720, y, 1.0 / 5040), y2, pair(1.0 / 40320, y, 1.0 / 362880));
   const auto from_10 = plus(pair(1.0 / 3628800, y, 1.0 / 39916800), y2, pair(1.0 / 479001600, y, 1.0 / 6227020800));
   const auto power = hn::Add(all(1), plus(y, y2, plus(from_2, y4, plus(from_6, y4, from_10))));
-  // In two steps: the first is exact, so that the result is rounded once where it is small.
+  // In two steps: the first is exact, so a small result is rounded only once.
   const auto half = hn::Floor(hn::Mul(whole, all(0.5)));
   return hn::Mul(hn::Mul(power, power_of_two(half)), power_of_two(hn::Sub(whole, half)));
 }
 
 /// portable_pow() where the mask is set, x > 0 there.
 HWY_INLINE Lanes pow_of(LaneMask mask, Lanes x, Lanes y) {
-  // Almost always nothing is out of the ordinary.
+  // Special cases are rare.
   const auto exponent = hn::Mul(y, log2_of(x));
   const auto plain_x = hn::And(hn::Ge(x, all(0x1p-1022)), hn::Lt(x, all(0x1p1023)));
   const auto plain_y = hn::And(hn::Ge(exponent, all(-1074)), hn::Le(exponent, all(1024)));
@@ -98,7 +98,7 @@ HWY_INLINE Lanes pow_of(LaneMask mask, Lanes x, Lanes y) {
 
 /// shading_power() where the mask is set, x > 0 there.
 HWY_INLINE Lanes shading_power_of(LaneMask mask, Lanes x, Lanes y) {
-  // Neighbours mostly share a power: take each that occurs once.
+  // Neighbours mostly share a power, so compute each power that occurs once.
   const Words bits = hn::BitCast(WordTag(), y);
   alignas(64) double powers[kLanes];
   hn::Store(y, Tag(), powers);

@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 constexpr std::int64_t kBlock = kBlockPx * kBlockPx;
 
-// Four pixels from their channels, two and two beside each other.
+// Four pixels from their channels, in pairs of neighbours.
 HWY_INLINE void put_square(const float* red, const float* green, const float* blue, Vec3f* above, Vec3f* below) {
   alignas(16) Vec3f pixels[4];
 #if HWY_TARGET == HWY_SCALAR
@@ -25,7 +25,7 @@ HWY_INLINE void put_square(const float* red, const float* green, const float* bl
   constexpr hn::FixedTag<float, 4> four;
   hn::StoreInterleaved3(hn::Load(four, red), hn::Load(four, green), hn::Load(four, blue), four, &pixels[0].x);
 #endif
-  // By sixteen bytes where they were stored so: a processor waits before it reads from two stores at once.
+  // Load sixteen bytes if they were stored as sixteen bytes: a processor waits when a load covers two recent stores.
   const auto* const from = reinterpret_cast<const char*>(pixels);
   auto* const to_above = reinterpret_cast<char*>(above);
   auto* const to_below = reinterpret_cast<char*>(below);
@@ -35,7 +35,7 @@ HWY_INLINE void put_square(const float* red, const float* green, const float* bl
   std::memcpy(to_below + 8, from + 32, 16);
 }
 
-// A whole block's pixels, in the order of kZCurve: squares of two by two.
+// The pixels of a whole block, in the order of kZCurve: squares of two by two.
 HWY_INLINE void put_block(const float (&channel)[3][kBlock], Vec3f* corner, std::size_t width) {
   for (std::int64_t i = 0; i < kBlock; i += 4) {
     const PixelPlace step = kZCurve[static_cast<std::size_t>(i)];

@@ -25,7 +25,7 @@ HWY_INLINE SentLanes choose(LaneMask mask, const SentLanes& yes, const SentLanes
           hn::IfThenElse(words_of(mask), yes.inside, no.inside)};
 }
 
-// transmitted_ray(), given the mirrored one.
+// transmitted_ray(), if the mirrored one is known.
 HWY_INLINE SentLanes transmitted(const MaterialLanes& material, Lanes3 incoming, Lanes3 normal, LaneMask on_plane,
                                  const SentLanes& reflected) {
   const Words one = hn::Set(WordTag(), 1);
@@ -47,7 +47,7 @@ HWY_INLINE SentLanes transmitted(const MaterialLanes& material, Lanes3 incoming,
   return sent;
 }
 
-// Where a surface sends two rays, they must be neighbours.
+// If a surface sends two rays, they must be neighbours.
 HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMask reflects, const SentLanes& reflected,
                             LaneMask transmits, const SentLanes& through, Wave& next) {
   struct Sent {

@@ -21,20 +21,20 @@ namespace HWY_NAMESPACE {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Neighbours among the rays of a wave, and what they hit. A ray may be invalid.
+/// Neighbouring rays of a wave, and their hits. A ray may be invalid.
 struct RayLanes {
   Lanes3 origin, direction;
   Lanes t;
   Words id;
 };
 
-/// How far the plane is above points, in lengths of its normal.
+/// The height of the plane above points, in lengths of its normal.
 HWY_INLINE Lanes height_above(const Plane& plane, Lanes3 points) {
   return dot(all(plane.normal), subtract(all(plane.point), points));
 }
 
-/// scene_hit()'s look at the plane, which is `height` above the origins, for rays that are not from it. What is +inf,
-/// -inf or NaN is never nearer.
+/// The test of the plane in scene_hit(), for rays that do not leave the plane. The plane is `height` above the origins.
+/// +inf, -inf and NaN are never nearer.
 HWY_INLINE LaneMask hits_plane(const Plane& plane, Lanes height, const RayLanes& rays, Lanes& t) {
   t = hn::Div(height, dot(all(plane.normal), rays.direction));
   return hn::And(hn::Ge(t, all(0)), hn::Lt(t, rays.t));
@@ -49,14 +49,14 @@ HWY_INLINE void hit_plane(const Plane& plane, const Wave& wave, std::int64_t i, 
   Lanes t;
   LaneMask hit = hits_plane(plane, height_above(plane, rays.origin), rays, t);
   if (!wave.starts_at_eye) {
-    // Of a direction that is not finite t may be 0.
+    // t may be 0 for a direction that is not finite.
     hit = hn::And(hit, hn::Lt(hn::Abs(dot(all(plane.normal), rays.direction)), all(kInfinity)));
     hit = hn::And(hit, lanes_of(hn::Ne(load(wave.leaves, i), hn::Set(WordTag(), kPlane))));
   }
   put_plane(hit, t, rays);
 }
 
-// The plane's material by the checker's squares: its position after the plane's first.
+// The position of the plane's material by the checker's squares, counted from the plane's first material.
 HWY_INLINE Words checker_step(const WaveScene& scene, Lanes3 point) {
   const Checker& checker = *scene.scene->plane->checker;
   const Lanes size = all(checker.size);
@@ -77,7 +77,7 @@ struct SurfaceLanes {
   Words id, material_inside;
 };
 
-/// Where lanes `found` of the rays, at least one, meet something.
+/// For lanes `found` of the rays, at least one: the rays that hit something.
 HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found, const RayLanes& rays) {
   const WordTag w;
   const Scene& scene = *wave_scene.scene;

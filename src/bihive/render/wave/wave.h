@@ -18,25 +18,25 @@
 
 namespace bihive {
 
-/// What the steps need of a scene, made ready once a picture. The scene must outlive it.
+/// The data of a scene for the steps, prepared once for each picture. The scene must outlive it.
 struct WaveScene {
   const Scene* scene;
   double inverse_scale;  ///< world units from stored units, a power of two
   std::vector<Material>
       materials;                ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
-  bool has_attributes = false;  ///< colours or opacities of single spheres
+  bool has_attributes = false;  ///< some sphere has its own colour or opacity
   std::int64_t plane_material = 0;  ///< the plane's first
   PlaneAxes axes{};                 ///< of the plane, if it has a checker
 
   explicit WaveScene(const Scene& drawn);
 };
 
-/// One generation of rays, in the order of their parents. The rays of one owner, a sample of a pixel, are neighbours.
+/// One generation of rays, in the order of their parents. An owner is a sample of a pixel; its rays are neighbours.
 struct Wave {
   std::int64_t count = 0;
-  bool starts_at_eye = false;  ///< primary rays: ray i is of owner i and weight 1; what follows `direction` is unused
+  bool starts_at_eye = false;  ///< primary rays: ray i has owner i, weight 1; the columns behind `direction` are unused
   Column<float> origin[3], direction[3];
-  Column<double> weight;  ///< of the light that comes along the ray
+  Column<double> weight;  ///< share of the light along the ray
   Column<std::int64_t> owner, leaves;
   Column<std::uint8_t> inside;
 
@@ -78,10 +78,10 @@ struct WavePart {
   RaySpan span() const { return wave->span().part(first, count()); }
 };
 
-/// What each owner has received so far.
+/// The light that each owner has received so far.
 struct WaveSums {
   Column<double> light[3];
-  bool empty = true;  ///< no owner has received anything: what they get is added to 0, not to what the columns hold
+  bool empty = true;  ///< no owner has received anything; the columns' content is ignored
 
   void reset(std::int64_t owners) {
     empty = true;
@@ -117,7 +117,7 @@ struct ShadowWave {
   std::int64_t count = 0;
   Column<float> origin[3], direction[3];
   Column<double> t_max;
-  Column<std::int64_t> leaves, surface;  ///< surface: whose ray it is
+  Column<std::int64_t> leaves, surface;  ///< the number of the ray's surface
   Column<std::uint8_t> inside, hidden;
 
   void reset(std::int64_t n) {
@@ -150,41 +150,41 @@ struct ShadowWave {
 /// The steps. Each gives the bits of the scalar code that it names on every instruction set.
 namespace steps {
 
-/// PixelRays::at() of picture positions (x[i], y[i]) for the rays of the wave, whose count is set; or of one place in
-/// each of several pixels, which must be followed by kColumnPadding others.
+/// PixelRays::at() of picture positions (x[i], y[i]) for the rays of the wave, whose count is set. Or PixelRays::at()
+/// of one place in each of several pixels; kColumnPadding other pixels must follow them.
 void camera_rays(const PixelRays& pixels, const double* x, const double* y, Wave& wave);
 void camera_rays(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave);
 
-/// scene_hit()'s look at the plane: where it is nearer than the sphere, the plane becomes the hit.
+/// The test of the plane in scene_hit(): if the plane is nearer than the sphere, it becomes the hit.
 void hit_plane(const WaveScene& scene, const WavePart& rays, double* t, std::int64_t* id);
 
-/// surface_at() of all rays that hit something, given the spheres that they hit; the plane is looked at here. The
-/// others bring the background to their owners.
+/// surface_at() of all rays that hit something, given the spheres that they hit; this step tests the plane. Rays that
+/// miss everything bring the background to their owners.
 void find_surfaces(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
                    WaveSurfaces& surfaces, WaveSums& sums);
 
-/// The shadow rays of the surfaces from number `first` on towards one light, as local_light() makes them; added to
+/// The shadow rays of the surfaces from number `first` on towards one light, as local_light() makes them. Appended to
 /// `shadows`.
 void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light, ShadowWave& shadows);
 
-/// What surfaces do with light. `hidden`: for each light a row of one byte a surface, 1 where a sphere is between;
-/// null: no shadows. Adds local_light() times weight to the owners.
+/// Adds local_light() times weight to the owners. `hidden`: for each light a row of one byte for each surface, 1 if a
+/// sphere hides the light; null: no shadows.
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums);
 
-/// Both at once for rays from one eye that nothing follows, at least one, without shadows: what find_surfaces() and
-/// add_local_light() bring to their owners, which must have received nothing yet.
+/// Both steps at once for at least one ray from one eye, without secondary rays and without shadows: the light that
+/// find_surfaces() and add_local_light() bring to the owners. The owners must have received nothing yet.
 void shade_primaries(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
                      WaveSums& sums);
 
-/// reflected_ray() and transmitted_ray() of the surfaces from number `first` on where the material has any, in the
-/// order of the surfaces, of one surface the reflected first; added to `next`, which must have room for two a surface.
+/// reflected_ray() and transmitted_ray() of the surfaces from number `first` on, if the material has them, in the order
+/// of the surfaces, the reflected one first. Appended to `next`, which must have room for two rays a surface.
 struct SentOn {
   std::int64_t reflected = 0, transmitted = 0;
 };
 SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
 
-/// What owners 0 to count - 1 received, rounded to binary32: owner i's to the film at pixel[i]. The pixels are those of
-/// order_pixels() from a multiple of 64 on.
+/// Rounds the light of owners 0 to count - 1 to binary32, and stores that of owner i in the film at pixel[i]. The
+/// pixels are those of order_pixels() from a multiple of 64 on.
 void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
 
 /// byte_from_radiance() without a curve, of `count` numbers.

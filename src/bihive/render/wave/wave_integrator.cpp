@@ -5,14 +5,15 @@
 namespace bihive {
 namespace {
 
-// Without vectors there is nothing to gain from long spans, and a wish to stop should be heard soon.
+// Scalar engines gain nothing from long spans, and a cancel should take effect soon.
 constexpr std::int64_t kRaysBetweenLooks = 64;
-// What is asked of a whole generation is its hits and its shadows; everything between them is done for as many rays as
-// fit the nearest cache. Cut between owners: without shadows the surfaces of one part are added before what the next
-// one loses.
+// Hits and shadows are queries for a whole generation. The steps between them take as many rays at a time as fit the
+// nearest cache. A part ends between two owners: without shadows, the surfaces of one part are added before the misses
+// of the next part.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
 
-// The end of a part of a wave from `first` on, before `last`: after `most` rays, or a few more of the last one's owner.
+// The end of a part of a wave from `first` on, before `last`: after `most` rays, or a few more until the last owner's
+// rays end.
 std::int64_t end_of_part(const Wave& wave, std::int64_t first, std::int64_t last, std::int64_t most) {
   std::int64_t end = std::min(last, first + most);
   if (!wave.starts_at_eye)
@@ -52,7 +53,7 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   find_sphere_hits(rays, buffers);
   if (cancelled()) return;
 
-  // Shade all, and send on what the surfaces reflect and let through.
+  // Shade all surfaces, and follow the reflected and the transmitted light.
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
   if (next != nullptr) next->reset(2 * rays.count());
@@ -75,7 +76,7 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   }
   buffers.sums.empty = false;
 
-  // Follow them, cut between owners where they are too many.
+  // Follow these rays. Cut them between owners if there are too many.
   for (std::int64_t first = 0; next != nullptr && first < next->count;) {
     std::int64_t end = std::min(next->count, first + kMostRaysAtOnce);
     if (end < next->count) {
@@ -119,14 +120,14 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
   ShadowWave& shadows = buffers.shadows;
   for (std::size_t l = 0; l < lights.size(); ++l) {
-    // Those towards the first light are there already.
+    // The shadow rays towards the first light exist already.
     if (l > 0) {
       shadows.reset(surfaces);
       steps::find_shadow_rays(buffers.surfaces, 0, lights[l], shadows);
     }
     rays_.shadow += shadows.count;
 
-    // Those of the first generation are neighbours as the pixels are.
+    // The shadow rays of the first generation are neighbours, as their pixels are.
     const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
     const std::int64_t step = tracer_.engine() == Engine::wide ? shadows.count : kRaysBetweenLooks;
     for (std::int64_t i = 0; i < shadows.count && !cancelled(); i += step)

@@ -1,4 +1,4 @@
-// The light along many primary rays at once: generation after generation of all of them together.
+// The light along many primary rays at once. It follows generation after generation of all of them together.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace bihive {
 
-/// Rays of one generation that are traced together, at most. A generation that grows beyond it is cut between owners
-/// and finished part by part; a single owner's rays are never parted (2^15 of them in generation 16).
+/// The most rays of one generation that are traced together. A larger generation is cut between owners and finished
+/// part by part. A single owner's rays are never cut (2^15 of them in generation 16).
 constexpr std::int64_t kMostRaysAtOnce = 32768;
 
 /// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation.
@@ -32,27 +32,26 @@ class WaveIntegrator {
  public:
   struct Settings {
     int recursion;
-    bool light;    ///< what owners receive is summed up
+    bool light;    ///< the light of owners is summed up
     bool shadows;  ///< only with `light`
-    bool depth;    ///< deepest_hit() is kept
+    bool depth;    ///< deepest_hit() is known afterwards
   };
   WaveIntegrator(const WaveScene& scene, const Tracer& tracer, const Settings& settings, const CancelToken* cancel)
       : scene_(scene), tracer_(tracer), settings_(settings), cancel_(cancel) {}
 
-  /// Follows the rays of primaries() to their end. Owners are 0 to owners - 1. What is left undone when cancelled is
-  /// undefined.
+  /// Follows the rays of primaries() to their end. Owners are 0 to owners - 1. After a cancel the result is undefined.
   void trace(WaveBuffers& buffers, std::int64_t owners);
 
-  /// Only the first hits of primaries(), of spheres and plane: t and id of ray i in buffers.t[i] and buffers.id[i].
+  /// Only the first hits of primaries(), on spheres and plane: t and id of ray i in buffers.t[i] and buffers.id[i].
   void find_first_hits(WaveBuffers& buffers);
 
-  /// To be filled before.
+  /// The caller fills them before trace().
   static Wave& primaries(WaveBuffers& buffers) {
     if (buffers.generations.empty()) buffers.generations.resize(1);
     return buffers.generations.front();
   }
 
-  /// The deepest generation of which a ray hit something, by owner, of the last trace().
+  /// For each owner: the deepest generation with a ray that hit something in the last trace().
   const std::vector<std::uint8_t>& deepest_hit() const { return deepest_hit_; }
   const RenderCounts& rays() const { return rays_; }
 
