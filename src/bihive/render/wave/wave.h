@@ -187,9 +187,6 @@ SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_
 /// pixels are those of order_pixels() from a multiple of 64 on.
 void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
 
-/// byte_from_radiance() without a curve, of `count` numbers.
-void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes);
-
 }  // namespace steps
 
 }  // namespace bihive
