@@ -48,16 +48,6 @@ bool inside_three_sd(double stated, const std::string& printed, const Spread& ou
   return std::abs(stated - ours.mean) <= allowed;
 }
 
-std::vector<std::int64_t> integers(const Values& values, const std::string& name) {
-  std::vector<std::int64_t> whole;
-  for (const double number : values.numbers(name)) {
-    if (number != std::floor(number) || std::abs(number) > 0x1p53)
-      fail({"/values/" + name + ": expected whole numbers", "values.json", 0, 0, ""});
-    whole.push_back(static_cast<std::int64_t>(number));
-  }
-  return whole;
-}
-
 BuildParameters build_parameters(std::int64_t max_prims, std::int64_t max_depth) {
   if (max_prims < 0 || max_depth < 0)
     fail({"MAX_PRIMS and MAX_TREE_DEPTH cannot be negative", "values.json", 0, 0, "0 stands for infinity"});

@@ -31,10 +31,7 @@ double print_rounding(const std::string& printed);
 /// printed one is whole, the numbers must be equal.
 bool inside_three_sd(double stated, const std::string& printed, const Spread& ours);
 
-/// A list of whole numbers. Fails if an entry is not whole.
-std::vector<std::int64_t> integers(const Values& values, const std::string& name);
-
-/// MAX_PRIMS and MAX_TREE_DEPTH from values.json, 0 for infinity. Fails if negative.
+/// MAX_PRIMS and MAX_TREE_DEPTH as values.json has them, 0 for infinity. Fails if negative.
 BuildParameters build_parameters(std::int64_t max_prims, std::int64_t max_depth);
 
 /// The scenario with that number. Fails if there is none.
