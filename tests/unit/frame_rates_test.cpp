@@ -1,4 +1,4 @@
-// The run of Figure 4.4 in steps: what is measured in which order, and what is made of it.
+// The run of Figure 4.4 in steps: the order of the measurements, and their results.
 #include "bihive/thesis/frame_rates.h"
 
 #include <gtest/gtest.h>

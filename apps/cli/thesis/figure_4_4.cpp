@@ -8,12 +8,13 @@
 
 #include "bihive/gl/egl_context.h"
 #include "bihive/gl/gl_renderer.h"
+#include "bihive/math/quartiles.h"
 #include "support/failure.h"
 
 namespace bihive::cli::thesis {
 namespace {
 
-// About how long a pixel of a frame takes for each unit of frame_cost(): for the time left.
+// The approximate time of a pixel for each unit of frame_cost(); for the estimate of the time left.
 constexpr double kSecondsPerPixel = 5e-9;
 
 FrameRatePlan plan_of(const Settings& settings, const Values& values) {
@@ -23,7 +24,7 @@ FrameRatePlan plan_of(const Settings& settings, const Values& values) {
   return settings.quick ? plan.with_small_pictures() : plan;
 }
 
-// All rounds; the times by the name that the rate has. Empty if cancelled.
+// Runs all rounds. The times of each rate, under the name that `name_of` gives. Empty if cancelled.
 Json frame_times(FrameContest contest, const FrameRatePlan& plan, const ComparedEngine& engine,
                  const CancelToken& cancel, const std::function<std::string(const MeasuredRate&)>& name_of) {
   while (!contest.finished()) {
@@ -58,8 +59,8 @@ Json measure_independence(const StepContext& context, const ComparedEngine& engi
   return by_spheres;
 }
 
-// What `measure` finds with this engine; on the graphics processor with its name beside, or why there is none: no EGL,
-// or one that cannot do it.
+// The result of `measure` with this engine; for the graphics processor with its name, or with the reason why there is
+// none.
 template <class Measure>
 Json measure_on(ComparedEngine engine, const Measure& measure) {
   if (!engine.gpu) return measure(engine);

@@ -1,4 +1,4 @@
-// What the steps of Figure 4.4 measured, as its section reads it. The measuring itself is bihive/thesis/frame_rates.h.
+// The measurements of Figure 4.4 in the form that its section reads. bihive/thesis/frame_rates.h makes them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace bihive::cli::thesis {
 
-/// A FrameEngine with the name of its tables. `gpu`: on the graphics processor.
+/// A FrameEngine with the name that its tables bear. `gpu`: the graphics processor draws.
 struct ComparedEngine {
   std::string name;
   FrameEngine engine;
@@ -24,7 +24,7 @@ const std::vector<ComparedEngine>& compared_engines();
 std::string configuration_step(const ComparedEngine& engine, std::int64_t scenario, std::int64_t spheres);
 std::string independence_step(const ComparedEngine& engine);
 
-/// Keys of a step's result: why there is none, and the graphics processor's name.
+/// Keys of a step's result: the reason why there is no measurement, and the graphics processor's name.
 constexpr const char* kMissing = "missing";
 constexpr const char* kGpu = "gpu";
 

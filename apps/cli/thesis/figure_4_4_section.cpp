@@ -325,7 +325,7 @@ class EngineSection {
       return found == fps_.end() ? nullptr : &found->second;
     };
     const ChartData bars = frame_rate_bars(scenario, counts_, max_prims_, measured);
-    // And over MAX_PRIMS, where the curve is seen.
+    // And a chart over MAX_PRIMS, which shows the curve.
     ChartData curves{
         fmt::format("Scenario {}: over MAX_PRIMS", scenario), "MAX_PRIMS", "frames per second", {}, {}, false};
     for (const std::int64_t max_prims : max_prims_) curves.categories.push_back(std::to_string(max_prims));

@@ -1,5 +1,5 @@
-// The thesis's stated values (bihive/thesis/stated_values.h) as experiments ask for them: where something is wrong with
-// them, the program fails (failure.h).
+// The thesis's stated values (bihive/thesis/stated_values.h) for experiments: if a value is missing or of another kind,
+// the program fails (failure.h), because every value that code needs must be in the file.
 #pragma once
 
 #include <string>

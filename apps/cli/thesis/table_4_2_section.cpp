@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/math/quartiles.h"
 #include "support/messages.h"
 #include "thesis/table_4_2.h"
 

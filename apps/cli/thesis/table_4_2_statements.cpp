@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "bihive/math/quartiles.h"
 #include "thesis/table_4_2.h"
 
 namespace bihive::cli::thesis {

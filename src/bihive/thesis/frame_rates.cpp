@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
+#include "bihive/math/quartiles.h"
 #include "bihive/render/renderer.h"
 #include "bihive/scene/generators.h"
 
@@ -81,12 +82,6 @@ int FrameRatePlan::configurations() const {
 
 double frame_cost(std::int64_t spheres, bool tree) {
   return tree ? 20 + static_cast<double>(spheres) / 8 : 10 + static_cast<double>(spheres);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double MeasuredRate::fps() const {

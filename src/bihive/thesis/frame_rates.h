@@ -66,9 +66,6 @@ struct MeasuredRate {
   double fps() const;  ///< by the median of the rounds
 };
 
-/// The median; the upper one of two in the middle. At least one value.
-double median(std::vector<double> values);
-
 /// Frames a second of brute force and of all trees on the same spheres.
 struct ConfigurationFps {
   std::int64_t scenario = 0, spheres = 0;

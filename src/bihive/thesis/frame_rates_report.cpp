@@ -18,8 +18,8 @@ std::optional<double> stated_number(const StatedValues& values, const std::strin
   return number ? std::optional(*number) : std::nullopt;
 }
 
-// The stated frame rate of brute force (without max_prims) or of a tree. Of brute force the thesis says that it does
-// not depend on the scenario.
+// The stated frame rate of brute force (without max_prims) or of a tree. The thesis says that brute force does not
+// depend on the scenario.
 std::optional<double> stated_fps(const StatedValues& values, std::int64_t scenario, std::int64_t spheres,
                                  std::optional<std::int64_t> max_prims) {
   if (!max_prims) return stated_number(values, fmt::format("brute.fps.spheres{}", spheres));
@@ -31,7 +31,7 @@ std::optional<double> stated_fps(const StatedValues& values, std::int64_t scenar
   return std::nullopt;
 }
 
-// Least, most and mean of each scenario's gains, as the thesis names them; a scenario without any gap in it only.
+// Least, greatest and mean gain of each scenario, as the thesis names them; only for scenarios without missing groups.
 std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, const std::string& here) {
   ChartData chart{"Gain of the best tree over brute force", "",   "percent", {},
                   {{here, {}}, {kStatedDevice, {}}},        false};
@@ -57,7 +57,7 @@ std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, con
   return chart.categories.empty() ? "" : bar_chart(chart);
 }
 
-// Empty where nothing of the scenario was measured.
+// Empty if the scenario has no measurement.
 std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, std::int64_t scenario) {
   const std::vector<ConfigurationFps> configurations = configurations_of(run.rates());
   const auto measured = [&](std::int64_t spheres) -> const ConfigurationFps* {
@@ -70,7 +70,7 @@ std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, 
   ChartData chart = frame_rate_bars(scenario, counts, max_prims, measured);
   chart.logarithmic = true;
 
-  // What the thesis states, where it states anything.
+  // Add the thesis's values, if it states any.
   Series stated_brute{fmt::format("BF, {}", kStatedDevice), {}}, stated_tree{fmt::format("BIH, {}", kStatedDevice), {}};
   for (const std::int64_t spheres : counts) {
     stated_brute.values.push_back(stated_fps(stated, scenario, spheres, std::nullopt));

@@ -1,4 +1,4 @@
-// What a run of Figure 4.4 gave: as JSON, and as charts beside what the thesis states of the iPhone 5s.
+// The result of a run of Figure 4.4: as JSON, and as charts beside the thesis's values for the iPhone 5s.
 #pragma once
 
 #include <functional>
@@ -11,19 +11,19 @@
 
 namespace bihive {
 
-/// A group of bars for each number of spheres, as the thesis draws it: brute force first, then each tree. `fps`: what
-/// was measured with so many spheres, null where nothing was.
+/// The thesis's chart: a group of bars for each number of spheres, brute force first. `fps` gives the measurement with
+/// so many spheres, or null if there is none.
 ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>& spheres,
                           const std::vector<std::int64_t>& max_prims,
                           const std::function<const ConfigurationFps*(std::int64_t spheres)>& fps);
 
-/// How charts and tables name a tree: "BIH 8".
+/// The name of a tree in charts and tables: "BIH 8".
 std::string tree_name(std::int64_t max_prims);
 
 /// {"experiment", "engine", "device", "width_px", "height_px", "quick", "rounds", "complete", "configurations":
 /// [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains": [{"scenario",
-/// "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}. `device`: in
-/// words, whatever the caller knows.
+/// "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}. `device`: any
+/// description of the machine.
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
                              const std::string& device);
 

@@ -25,7 +25,7 @@ bool is_whole(double number) {
   return number == std::floor(number) && std::abs(number) <= kMostWhole;
 }
 
-// The number that "4,095" or "87.51%" is; nothing for words and lists.
+// The number in "4,095" or "87.51%"; nothing for words and lists.
 std::optional<double> number_in_print(std::string printed) {
   printed.erase(std::remove(printed.begin(), printed.end(), ','), printed.end());
   if (!printed.empty() && printed.back() == '%') printed.pop_back();
@@ -105,7 +105,7 @@ Result<std::string> StatedValues::printed(const std::string& name) const {
   if (!value) return value.error();
   const auto& [numbers, is_list, text, printed, sentence] = **value;
   if (printed.empty()) return text;
-  // Where only the value was changed, the printed number is out of date.
+  // If only the value was changed, the printed number is out of date.
   const std::optional<double> number = number_in_print(printed);
   return number && (is_list || numbers.front() != *number) ? text : printed;
 }

@@ -16,8 +16,8 @@ namespace bihive {
 ///   {"experiment": "table-4.2",
 ///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "printed": "4,095", "sentence": "Nodes Internal
 ///    4,095 ..."}, ...}}
-/// "value" is a number or a list of numbers; "printed" is optional; "sentence" says where in the text it stands, or,
-/// with "chosen": true, why it was chosen where the text is silent.
+/// "value" is a number or a list of numbers. "printed" is optional. "sentence" quotes the text, or, with "chosen":
+/// true, says why the value was chosen, because the text is silent.
 class StatedValues {
  public:
   /// Error, with file and place: the document is not as above. `file`: as errors name it.
