@@ -7,6 +7,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
+#include "bihive/math/quartiles.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
 #include "frames/frame.h"

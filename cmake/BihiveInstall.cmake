@@ -1,14 +1,17 @@
-# cmake --install: the program, the library, its headers, and the files that find_package(bihive) needs.
+# cmake --install: the program, the library, its public headers (public_headers.txt), and the files that find_package(bihive)
+# needs.
 
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/bihive)
 install(TARGETS bihive_lib EXPORT bihiveTargets)
-install(
-  DIRECTORY ${PROJECT_SOURCE_DIR}/src/bihive
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING
-  PATTERN "*.h")
+set(public_headers ${PROJECT_SOURCE_DIR}/cmake/public_headers.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${public_headers})
+file(STRINGS ${public_headers} headers REGEX "^bihive/")
+foreach(header ${headers})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+endforeach()
 install(EXPORT bihiveTargets NAMESPACE bihive:: DESTINATION ${config_folder})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/bihiveConfig.cmake.in ${PROJECT_BINARY_DIR}/bihiveConfig.cmake
                               INSTALL_DESTINATION ${config_folder})

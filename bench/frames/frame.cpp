@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
+#include "bihive/math/quartiles.h"
 
 namespace bihive::bench {
 namespace {
@@ -52,12 +53,6 @@ void add_frame(const Scene& scene, const Tracer& tracer, const RenderSettings& s
   times.rays = rendered.rays;
   times.hash = picture_hash(image);
   times.film = std::move(rendered.film);
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 }  // namespace bihive::bench

@@ -36,6 +36,4 @@ struct FrameTimes {
 /// Draws the picture once more.
 void add_frame(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, FrameTimes& times);
 
-double median(std::vector<double> values);
-
 }  // namespace bihive::bench

@@ -11,6 +11,7 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
+#include "bihive/math/quartiles.h"
 #include "bihive/math/rng.h"
 #include "bihive/scene/generators.h"
 #include "bihive/simd/target.h"

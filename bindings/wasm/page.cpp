@@ -10,9 +10,10 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
 #include "bihive/scene/names.h"
-#include "bihive/viewer/frame_rates_report.h"
+#include "bihive/thesis/builtin_values.h"
+#include "bihive/thesis/frame_rates_report.h"
+#include "bihive/thesis/stated_values.h"
 #include "bihive/viewer/viewer_json.h"
-#include "stated_values.h"
 
 namespace bihive::page {
 namespace {
@@ -30,6 +31,10 @@ std::string failure(const Error& error) {
                     {"line", error.line},
                     {"column", error.column},
                     {"hint", error.hint}}}});
+}
+
+Result<StatedValues> stated_values() {
+  return StatedValues::parse(builtin_values_figure_4_4(), "thesis/figure-4.4/values.json");
 }
 
 std::string done_or(const Status& status) {
@@ -165,7 +170,9 @@ std::string Page::take_picture() {
 
 std::string Page::begin_thesis(bool quick) {
   return with_memory([&] {
-    Result<FrameRatePlan> plan = FrameRatePlan::from_values(stated_values_figure_4_4());
+    const Result<StatedValues> values = stated_values();
+    if (!values) return failure(values.error());
+    const Result<FrameRatePlan> plan = FrameRatePlan::from_values(*values);
     if (!plan) return failure(plan.error());
     thesis_.reset();
     thesis_gl_.reset();
@@ -174,7 +181,9 @@ std::string Page::begin_thesis(bool quick) {
       if (!renderer) return failure(renderer.error());
       thesis_gl_ = std::move(*renderer);
     }
-    thesis_.emplace(quick ? plan->quickly() : *plan, thesis_gl_ ? &*thesis_gl_ : nullptr);
+    FrameEngine engine;
+    engine.gl = thesis_gl_ ? &*thesis_gl_ : nullptr;
+    thesis_.emplace(quick ? plan->quickly() : *plan, engine);
     return std::string("{}");
   });
 }
@@ -196,11 +205,12 @@ std::string Page::step_thesis() {
 std::string Page::end_thesis(const std::string& device) {
   return with_memory([&] {
     if (!thesis_) return failure({"no run of the thesis has begun", "", 0, 0, ""});
-    const std::string_view values = stated_values_figure_4_4();
+    const Result<StatedValues> values = stated_values();
+    if (!values) return failure(values.error());
     const std::string engine = thesis_gl_ ? "gpu" : "cpu";
     ordered_json json;
-    json["result"] = frame_rates_json(*thesis_, values, engine, device);
-    json["charts"] = frame_rates_charts(*thesis_, values, "this device");
+    json["result"] = frame_rates_json(*thesis_, *values, engine, device);
+    json["charts"] = frame_rates_charts(*thesis_, *values, "this device");
     thesis_.reset();
     thesis_gl_.reset();
     return text_of(json);

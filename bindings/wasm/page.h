@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "bihive/viewer/frame_rates.h"
+#include "bihive/thesis/frame_rates.h"
 #include "bihive/viewer/viewer.h"
 
 namespace bihive::page {

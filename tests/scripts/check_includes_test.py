@@ -28,6 +28,7 @@ class CheckIncludes(unittest.TestCase):
 
     def test_arrow_that_runs_forward(self):
         files = {
+            "cmake/public_headers.txt": "bihive/base/check.h\n",
             "src/bihive/math/vec3.h": '#include "bihive/base/check.h"\n#include <cmath>\n',
             "src/bihive/base/check.h": "#pragma once\n",
         }
@@ -60,6 +61,7 @@ class CheckIncludes(unittest.TestCase):
 
     def test_program_includes_its_own_headers_and_the_library(self):
         files = {
+            "cmake/public_headers.txt": "bihive/base/check.h\n",
             "src/bihive/base/check.h": "#pragma once\n",
             "apps/cli/main.cpp": '#include "options.h"\n#include "bihive/base/check.h"\n',
             "apps/cli/options.h": "#pragma once\n",
@@ -68,11 +70,48 @@ class CheckIncludes(unittest.TestCase):
 
     def test_program_includes_a_test(self):
         files = {
+            "cmake/public_headers.txt": "bihive/base/check.h\n",
             "src/bihive/base/check.h": "#pragma once\n",
             "apps/cli/main.cpp": '#include "../../tests/oracle.h"\n',
             "tests/oracle.h": "#pragma once\n",
         }
         self.assertEqual(len(self.offences(files)), 1)
+
+    def one_offence(self, files, words):
+        found = self.offences(files)
+        self.assertEqual(len(found), 1, found)
+        self.assertIn(words, found[0])
+
+    def test_only_a_folder_itself_includes_its_private_headers(self):
+        private = {"src/bihive/wide/trace/lists.h": "#pragma once\n"}
+        include = '#include "bihive/wide/trace/lists.h"\n'
+        self.assertEqual(self.offences({**private, "src/bihive/wide/schedule/queries.cpp": include}), [])
+        self.one_offence({**private, "src/bihive/render/tracer.cpp": include}, "is private to src/bihive/wide")
+        for outside in ("apps/cli/main.cpp", "bench/measure.cpp", "bindings/wasm/page.cpp"):
+            self.one_offence({**private, outside: include}, "is private")
+        self.assertEqual(self.offences({**private, "tests/unit/lists_test.cpp": include}), [])
+
+    def test_private_header_that_some_may_include(self):
+        header = {"src/bihive/simd/dispatch.h": "#pragma once\n"}
+        include = '#include "bihive/simd/dispatch.h"\n'
+        for folder in ("wide", "render"):
+            self.assertEqual(self.offences({**header, f"src/bihive/{folder}/a.cpp": include}), [])
+        self.assertTrue(self.offences({**header, "src/bihive/viewer/a.cpp": include}))
+
+    def test_public_header_includes_public_headers_alone(self):
+        files = {
+            "cmake/public_headers.txt": "# A comment.\nbihive/wide/queries.h\nbihive/wide/wide_tree.h\n",
+            "src/bihive/wide/queries.h": '#include "bihive/wide/wide_tree.h"\n#include <vector>\n',
+            "src/bihive/wide/wide_tree.h": "#include <cstdint>\n",
+            "src/bihive/wide/tree/node.h": "#pragma once\n",
+        }
+        self.assertEqual(self.offences(files), [])
+        header = "src/bihive/wide/wide_tree.h"
+        self.one_offence({**files, header: '#include "bihive/wide/tree/node.h"\n'}, "must not include a private one")
+        self.one_offence({**files, header: "#include <hwy/highway.h>\n"}, "the standard library, not hwy/highway.h")
+
+    def test_public_header_that_is_not_there(self):
+        self.one_offence({"cmake/public_headers.txt": "bihive/base/gone.h\n"}, "there is no src/bihive/base/gone.h")
 
     def test_long_file(self):
         self.assertEqual(self.offences({"src/bihive/base/a.cpp": "\n" * 800}), [])

@@ -1,5 +1,5 @@
 // The run of Figure 4.4 in steps: the order of the measurements, and their results.
-#include "bihive/viewer/frame_rates.h"
+#include "bihive/thesis/frame_rates.h"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bihive/base/write_file.h"
-#include "bihive/viewer/frame_rates_report.h"
+#include "bihive/thesis/builtin_values.h"
+#include "bihive/thesis/frame_rates_report.h"
 
 namespace bihive {
 namespace {
 
-std::string values_json() {
-  return read_file(std::string(BIHIVE_SOURCE_DIR) + "/thesis/figure-4.4/values.json").value();
+Result<StatedValues> stated_values() {
+  return StatedValues::parse(builtin_values_figure_4_4(), "values.json");
 }
 
 FrameRatePlan small_plan() {
@@ -31,7 +31,7 @@ FrameRatePlan small_plan() {
 }
 
 TEST(FrameRatePlan, IsTheThesis) {
-  const Result<FrameRatePlan> plan = FrameRatePlan::from_values(values_json());
+  const Result<FrameRatePlan> plan = FrameRatePlan::from_values(stated_values().value());
   ASSERT_TRUE(plan) << plan.error().to_string();
   EXPECT_EQ(plan->configurations(), 54);
   EXPECT_EQ(plan->spheres, (std::vector<std::int64_t>{64, 128, 256}));
@@ -43,15 +43,16 @@ TEST(FrameRatePlan, IsTheThesis) {
 }
 
 TEST(FrameRatePlan, SaysWhichValueIsMissing) {
-  const Result<FrameRatePlan> plan = FrameRatePlan::from_values(R"({"values": {"scenarios": {"value": [1]}}})");
+  const Result<StatedValues> values =
+      StatedValues::parse(R"({"values": {"scenarios": {"value": [1], "sentence": ""}}})", "values.json");
+  ASSERT_TRUE(values) << values.error().to_string();
+  const Result<FrameRatePlan> plan = FrameRatePlan::from_values(*values);
   ASSERT_FALSE(plan);
   EXPECT_NE(plan.error().message.find("spheres_list"), std::string::npos);
-  EXPECT_FALSE(FrameRatePlan::from_values("[]"));
-  EXPECT_FALSE(FrameRatePlan::from_values("{"));
 }
 
 TEST(FrameRateRun, TakesTurnsAndCountsAllButTheFirstRound) {
-  FrameRateRun run(small_plan(), nullptr);
+  FrameRateRun run(small_plan(), {});
   int steps = 0;
   double before = -1;
   for (; !run.finished(); ++steps) {
@@ -77,10 +78,43 @@ TEST(FrameRateRun, TakesTurnsAndCountsAllButTheFirstRound) {
 TEST(FrameRateRun, EndsWithAnError) {
   FrameRatePlan plan = small_plan();
   plan.scenarios = {4};
-  FrameRateRun run(plan, nullptr);
+  FrameRateRun run(plan, {});
   EXPECT_FALSE(run.step());
   EXPECT_TRUE(run.finished());
   EXPECT_TRUE(run.rates().empty());
+}
+
+TEST(FrameContest, MeasuresBruteForceInEveryScenario) {
+  Result<FrameContest> contest = FrameContest::of_scenarios(small_plan(), {}, 64);
+  ASSERT_TRUE(contest) << contest.error().to_string();
+  while (!contest->finished()) ASSERT_TRUE(contest->step());
+  ASSERT_EQ(contest->rates().size(), 2u);
+  for (const MeasuredRate& rate : contest->rates()) {
+    EXPECT_FALSE(rate.max_prims);
+    EXPECT_EQ(rate.spheres, 64);
+    EXPECT_EQ(rate.frame_ms.size(), 3u);
+  }
+  EXPECT_EQ(contest->rates()[1].scenario, 2);
+}
+
+TEST(FrameContest, EndsWhereItIsCancelled) {
+  Result<FrameContest> contest = FrameContest::of_trees(small_plan(), {}, 1, 64);
+  ASSERT_TRUE(contest) << contest.error().to_string();
+  CancelToken cancel;
+  ASSERT_TRUE(contest->step(&cancel));
+  cancel.cancel();
+  EXPECT_FALSE(contest->step(&cancel));
+  EXPECT_TRUE(contest->finished());
+}
+
+TEST(ConfigurationFps, GainsByTheBestTree) {
+  const std::vector<ConfigurationFps> found =
+      configurations_of({{1, 64, std::nullopt, {10}}, {1, 64, 1, {5}}, {1, 64, 8, {2}}, {2, 64, std::nullopt, {4}}});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].best(), 1u);
+  EXPECT_DOUBLE_EQ(found[0].gain_percent(), 400);
+  EXPECT_EQ(found[1].scenario, 2);
+  EXPECT_DOUBLE_EQ(found[1].brute, 250);
 }
 
 TEST(MeasuredRate, IsOfTheMedianRound) {
@@ -90,9 +124,9 @@ TEST(MeasuredRate, IsOfTheMedianRound) {
 }
 
 TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
-  FrameRateRun run(small_plan(), nullptr);
+  FrameRateRun run(small_plan(), {});
   while (!run.finished()) ASSERT_TRUE(run.step());
-  const auto json = nlohmann::json::parse(frame_rates_json(run, values_json(), "cpu", "a \"device\" \xff"));
+  const auto json = nlohmann::json::parse(frame_rates_json(run, stated_values().value(), "cpu", "a \"device\" \xff"));
   EXPECT_EQ(json["engine"], "cpu");
   EXPECT_EQ(json["complete"], true);
   ASSERT_EQ(json["configurations"].size(), 6u);
@@ -108,10 +142,10 @@ TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
 }
 
 TEST(FrameRatesReport, DrawsWhatIsComplete) {
-  FrameRateRun run(small_plan(), nullptr);
-  EXPECT_TRUE(frame_rates_charts(run, values_json(), "here").empty());
+  FrameRateRun run(small_plan(), {});
+  EXPECT_TRUE(frame_rates_charts(run, stated_values().value(), "here").empty());
   while (!run.finished()) ASSERT_TRUE(run.step());
-  const std::vector<std::string> charts = frame_rates_charts(run, values_json(), "here");
+  const std::vector<std::string> charts = frame_rates_charts(run, stated_values().value(), "here");
   ASSERT_EQ(charts.size(), 3u);
   EXPECT_NE(charts[0].find("iPhone 5s, stated, 2 mean: 1,212"), std::string::npos) << charts[0];
   EXPECT_NE(charts[1].find("BIH 8, iPhone 5s, stated, 64: 60"), std::string::npos) << charts[1];

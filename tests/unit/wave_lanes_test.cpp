@@ -24,7 +24,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 
 // Counts of multiples of 16.
-void normalize_on_target(const Column<double> (&from)[3], std::int64_t count, Column<double> (&to)[3]) {
+void normalize_on_target(const Columns3<double>& from, std::int64_t count, Columns3<double>& to) {
   for (std::int64_t i = 0; i < count; i += kLanes) store(normalized_again(load(from, i)), to, i);
 }
 
@@ -53,7 +53,7 @@ bool same_bits(double a, double b) {
 TEST_P(EachTarget, vectors_are_normalized_as_one_by_one) {
   constexpr std::int64_t kCount = 1 << 14;
   SplitMix64 rng(1);
-  Column<double> from[3], to[3];
+  Columns3<double> from, to;
   for (int axis = 0; axis < 3; ++axis) {
     from[axis].reserve(kCount);
     to[axis].reserve(kCount);

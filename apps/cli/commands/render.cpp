@@ -206,14 +206,9 @@ Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings
   return drawn;
 }
 
-}  // namespace
-
-void run_render(const RenderOptions& options) {
-  const RenderEngine engine = choose_engine(options);
-  if (const Status status = check_writable(options.output); !status) fail(status.error());
-
-  // Load the scene and apply the user's options to it.
-  Input input = load_input(options.input);
+// Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
+// user's options are the result.
+RenderSettings apply_options(const RenderOptions& options, Input& input) {
   Scene& scene = input.scene;
   RenderSettings settings = settings_from(scene.picture);
   if (options.size) settings.width_px = options.size->width_px;
@@ -227,6 +222,19 @@ void run_render(const RenderOptions& options) {
   if (options.background) scene.background = *colour_from(*options.background, scene.picture.transfer);
   scene.camera = choose_camera(input, options, settings);
   if (!input.has_lights) scene.lights = {light_behind(scene.camera)};
+  return settings;
+}
+
+}  // namespace
+
+void run_render(const RenderOptions& options) {
+  const RenderEngine engine = choose_engine(options);
+  if (const Status status = check_writable(options.output); !status) fail(status.error());
+
+  // Load the scene and apply the user's options to it.
+  Input input = load_input(options.input);
+  const RenderSettings settings = apply_options(options, input);
+  const Scene& scene = input.scene;
   value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
   value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
 

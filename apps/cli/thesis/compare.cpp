@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bihive/base/check.h"
 #include "support/failure.h"
 
 namespace bihive::cli::thesis {
@@ -17,19 +16,6 @@ Spread spread_of(const std::vector<double>& values) {
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   return {mean, values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0};
-}
-
-Quartiles quartiles_of(std::vector<double> values) {
-  BIHIVE_CHECK(!values.empty());
-  std::sort(values.begin(), values.end());
-  const auto at = [&values](double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    const double rest = place - static_cast<double>(below);
-    return values[below] * (1 - rest) + values[above] * rest;
-  };
-  return {at(0.25), at(0.5), at(0.75)};
 }
 
 double print_rounding(const std::string& printed) {
@@ -46,16 +32,6 @@ bool inside_three_sd(double stated, const std::string& printed, const Spread& ou
   const bool whole = print_rounding(printed) == 0.5;
   if (whole && ours.sd == 0) return stated == ours.mean;
   return std::abs(stated - ours.mean) <= allowed;
-}
-
-std::vector<std::int64_t> integers(const Values& values, const std::string& name) {
-  std::vector<std::int64_t> whole;
-  for (const double number : values.numbers(name)) {
-    if (number != std::floor(number) || std::abs(number) > 0x1p53)
-      fail({"/values/" + name + ": expected whole numbers", "values.json", 0, 0, ""});
-    whole.push_back(static_cast<std::int64_t>(number));
-  }
-  return whole;
 }
 
 BuildParameters build_parameters(std::int64_t max_prims, std::int64_t max_depth) {

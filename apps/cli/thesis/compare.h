@@ -18,21 +18,12 @@ struct Spread {
 };
 Spread spread_of(const std::vector<double>& values);
 
-/// Quartiles by linear interpolation between the sorted values; at least one value.
-struct Quartiles {
-  double lower = 0, median = 0, upper = 0;
-};
-Quartiles quartiles_of(std::vector<double> values);
-
 /// Half a unit of the last digit of a printed number: "4,095" 0.5, "87.51%" 0.005.
 double print_rounding(const std::string& printed);
 
 /// Within three standard deviations; without deviation, within print rounding. If our value has no deviation and the
 /// printed one is whole, the numbers must be equal.
 bool inside_three_sd(double stated, const std::string& printed, const Spread& ours);
-
-/// A list of whole numbers. Fails if an entry is not whole.
-std::vector<std::int64_t> integers(const Values& values, const std::string& name);
 
 /// MAX_PRIMS and MAX_TREE_DEPTH from values.json, 0 for infinity. Fails if negative.
 BuildParameters build_parameters(std::int64_t max_prims, std::int64_t max_depth);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bihive/image/image_diff.h"
+#include "bihive/math/quartiles.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/views.h"
 #include "bihive/scene/generators.h"

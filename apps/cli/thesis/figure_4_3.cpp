@@ -204,25 +204,18 @@ void add_colour_steps(Statements& statements, const SectionContext& context) {
   add("visit.blue", "Blue of one node or leaf entered", "blue_step");
 }
 
-Section section_of(const SectionContext& context) {
-  Section section;
-  section.pairs = true;
+const Json* result_of(const SectionContext& context, const std::string& step) {
+  const auto found = context.results.find(step);
+  return found == context.results.end() ? nullptr : &found->second;
+}
+
+// Each tree as a row, with its two pictures side by side.
+void add_trees(const SectionContext& context, Statements& statements, Section& section) {
   const Values& values = context.values;
-  const auto result_of = [&](const std::string& step) {
-    const auto found = context.results.find(step);
-    return found == context.results.end() ? nullptr : &found->second;
-  };
-  Statements statements("What the text says of the trees", "A count agrees if it is the same in every leaf.");
-  const std::string stated_limit = values.printed("abc.max_prims_stated");
-  Statements as_stated(fmt::format("(a) to (c) with MAX_PRIMS = {}, as the text says", stated_limit),
-                       "Verdicts as above. Where this differs, the text contradicts itself.");
   Table trees{
       "Our trees", {"", "MAX_TREE_DEPTH", "MAX_PRIMS", "Inner nodes", "Leaves", "Spheres a leaf", "Levels"}, {}, ""};
-
-  // Each tree, with its two pictures side by side.
-  section.data = {{"trees", Json::object()}, {"identical", Json::object()}, {"as_stated", Json::object()}};
   for (const std::string& letter : kLetters) {
-    const Json* result = result_of(letter);
+    const Json* result = result_of(context, letter);
     if (result == nullptr) continue;
     const Json& tree = result->at("tree");
     const std::string limits =
@@ -242,13 +235,27 @@ Section section_of(const SectionContext& context) {
     add_stated(statements, values, letter, tree, letter, fmt::format("({})", letter));
     section.data["trees"][letter] = *result;
   }
+  if (!trees.rows.empty()) section.tables.push_back(std::move(trees));
+}
+
+Section section_of(const SectionContext& context) {
+  Section section;
+  section.pairs = true;
+  const Values& values = context.values;
+  Statements statements("What the text says of the trees", "A count agrees if it is the same in every leaf.");
+  const std::string stated_limit = values.printed("abc.max_prims_stated");
+  Statements as_stated(fmt::format("(a) to (c) with MAX_PRIMS = {}, as the text says", stated_limit),
+                       "Verdicts as above. Where this differs, the text contradicts itself.");
+
+  section.data = {{"trees", Json::object()}, {"identical", Json::object()}, {"as_stated", Json::object()}};
+  add_trees(context, statements, section);
   for (const auto& pair : kIdentical)
-    if (const Json* result = result_of(pair_name(pair))) {
+    if (const Json* result = result_of(context, pair_name(pair))) {
       add_identical(statements, values, pair_name(pair), *result);
       section.data["identical"][pair_name(pair)] = *result;
     }
   add_colour_steps(statements, context);
-  if (const Json* result = result_of("abc_as_stated")) {
+  if (const Json* result = result_of(context, "abc_as_stated")) {
     for (const std::string& letter : kByDepth)
       add_stated(as_stated, values, letter, result->at(letter), "as_stated." + letter, fmt::format("({})", letter));
     section.data["as_stated"] = *result;
@@ -266,7 +273,6 @@ Section section_of(const SectionContext& context) {
                   "that (b) has several and that (c) is the same tree as (f). Here they have {}, {} and {}.",
                   stated_limit, limit_text(values, "a.max_prims"), limit_text(values, "b.max_prims"),
                   limit_text(values, "c.max_prims"))};
-  if (!trees.rows.empty()) section.tables.push_back(std::move(trees));
   for (const Statements* table : {&statements, &as_stated})
     if (!table->empty()) section.tables.push_back(table->table());
   section.data["statements"] = statements.data();

@@ -1,142 +1,100 @@
-// Figure 4.4: how many frames a second brute force and trees of several MAX_PRIMS make.
-//
-// A frame is render() of the shaded view to a film: the same camera rays and the same shading for all, whatever finds
-// the hits. On the graphics processor it is the same picture, drawn there and left there.
+// Figure 4.4: how many frames a second brute force and trees of several MAX_PRIMS make, in steps of one configuration.
 #include "thesis/figure_4_4.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <memory>
+#include <functional>
+#include <utility>
 
-#include "bihive/render/renderer.h"
-#include "bihive/scene/generators.h"
+#include "bihive/gl/egl_context.h"
+#include "bihive/gl/gl_renderer.h"
+#include "bihive/math/quartiles.h"
 #include "support/failure.h"
-#include "thesis/frame_contestant.h"
 
 namespace bihive::cli::thesis {
 namespace {
 
-// A quick run draws pictures of a quarter of the width and height.
-constexpr int kQuickDivisor = 4;
-constexpr int kRepetitions = 9;
-// A frame that takes less time than this is repeated, so that a single moment of the machine does not decide.
-constexpr double kLeastMs = 15;
-// The approximate time of a frame of a full run by brute force for each of its spheres; for the estimate of the time
-// left.
-constexpr double kSecondsPerSphere = 0.0035;
+// The approximate time of a pixel for each unit of frame_cost(); for the estimate of the time left.
+constexpr double kSecondsPerPixel = 5e-9;
 
-RenderSettings frame_settings(const Settings& settings, const Values& values, const Scene& scene) {
-  RenderSettings frame = settings_from(scene.picture);
-  const int divisor = settings.quick ? kQuickDivisor : 1;
-  frame.width_px = static_cast<int>(values.integer("width_px")) / divisor;
-  frame.height_px = static_cast<int>(values.integer("height_px")) / divisor;
-  frame.recursion = static_cast<int>(values.integer("recursion"));
-  frame.threads = settings.threads;
-  return frame;
+FrameRatePlan plan_of(const Settings& settings, const Values& values) {
+  FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(values.stated()));
+  plan.seed = settings.seed;
+  plan.threads = settings.threads;
+  return settings.quick ? plan.with_small_pictures() : plan;
 }
 
-Scene scene_of(const StepContext& context, std::int64_t scenario, std::int64_t spheres) {
-  ScenarioParameters parameters;
-  parameters.count = spheres;
-  parameters.radius = static_cast<float>(context.values.number("radius"));
-  parameters.seed = context.settings.seed;
-  return value_or_fail(scenario_scene(static_cast<Scenario>(scenario), parameters));
-}
-
-// Milliseconds of a frame, from as many frames as kLeastMs needs. Nothing if cancelled.
-std::optional<double> frame_ms(Contestant& contestant, const RenderSettings& settings, const CancelToken& cancel) {
-  contestant.prepare();
-  double all_ms = 0;
-  int frames = 0;
-  for (; all_ms < kLeastMs; ++frames) {
-    all_ms += contestant.draw(settings, cancel);
-    if (cancel.cancelled()) return std::nullopt;
+// Runs all rounds. The times of each rate, under the name that `name_of` gives. Empty if cancelled.
+Json frame_times(FrameContest contest, const FrameRatePlan& plan, const ComparedEngine& engine,
+                 const CancelToken& cancel, const std::function<std::string(const MeasuredRate&)>& name_of) {
+  while (!contest.finished()) {
+    const Status status = contest.step(&cancel);
+    if (cancel.cancelled()) return {};
+    if (status) continue;
+    if (engine.gpu) fail_environment(status.error());
+    fail(status.error());
   }
-  return all_ms / frames;
-}
-
-// All contestants take turns, so that a slow minute of the machine affects all. The first round warms up and does not
-// count.
-Json frame_times(const std::vector<std::unique_ptr<Contestant>>& contestants, const StepContext& context) {
-  const RenderSettings settings = frame_settings(context.settings, context.values, contestants.front()->scene());
   Json times = Json::object();
-  for (int i = -1; i < kRepetitions; ++i)
-    for (const std::unique_ptr<Contestant>& contestant : contestants) {
-      const std::optional<double> ms = frame_ms(*contestant, settings, context.cancel);
-      if (!ms) return {};
-      if (i >= 0) times[contestant->name()].push_back(*ms);
-    }
-  return {{"width_px", settings.width_px}, {"height_px", settings.height_px}, {"frame_ms", std::move(times)}};
+  for (const MeasuredRate& rate : contest.rates()) times[name_of(rate)] = rate.frame_ms;
+  return {{"width_px", plan.width_px}, {"height_px", plan.height_px}, {"frame_ms", std::move(times)}};
 }
 
 Json measure_configuration(const StepContext& context, const ComparedEngine& engine, std::int64_t scenario,
-                           std::int64_t spheres, const ContestantMaker& make) {
-  const Scene scene = scene_of(context, scenario, spheres);
-  std::vector<std::unique_ptr<Contestant>> contestants;
-  contestants.push_back(
-      make("brute", scene, value_or_fail(Tracer::build(scene.spheres, engine.brute, engine.brute_parameters))));
-  for (const double max_prims : context.values.numbers("max_prims_list")) {
-    BuildParameters parameters;
-    parameters.max_prims = static_cast<std::int64_t>(max_prims);
-    contestants.push_back(make(fmt::format("max_prims{}", max_prims), scene,
-                               value_or_fail(Tracer::build(scene.spheres, engine.tree, parameters))));
-  }
-  return frame_times(contestants, context);
+                           std::int64_t spheres) {
+  const FrameRatePlan plan = plan_of(context.settings, context.values);
+  return frame_times(
+      value_or_fail(FrameContest::of_trees(plan, engine.engine, scenario, spheres)), plan, engine, context.cancel,
+      [](const MeasuredRate& rate) { return rate.max_prims ? fmt::format("max_prims{}", *rate.max_prims) : "brute"; });
 }
 
-Json measure_independence(const StepContext& context, const ComparedEngine& engine, const ContestantMaker& make) {
+Json measure_independence(const StepContext& context, const ComparedEngine& engine) {
+  const FrameRatePlan plan = plan_of(context.settings, context.values);
   Json by_spheres = Json::object();
-  for (const double spheres : context.values.numbers("spheres_list")) {
-    const std::vector<double> scenarios = context.values.numbers("scenarios");
-    std::vector<Scene> scenes;
-    scenes.reserve(scenarios.size());
-    std::vector<std::unique_ptr<Contestant>> contestants;
-    for (const double scenario : scenarios) {
-      scenes.push_back(scene_of(context, static_cast<std::int64_t>(scenario), static_cast<std::int64_t>(spheres)));
-      contestants.push_back(
-          make(fmt::format("scenario{}", scenario), scenes.back(),
-               value_or_fail(Tracer::build(scenes.back().spheres, engine.brute, engine.brute_parameters))));
-    }
-    by_spheres[fmt::format("spheres{}", spheres)] = frame_times(contestants, context);
+  for (const std::int64_t spheres : plan.spheres) {
+    by_spheres[fmt::format("spheres{}", spheres)] =
+        frame_times(value_or_fail(FrameContest::of_scenarios(plan, engine.engine, spheres)), plan, engine,
+                    context.cancel, [](const MeasuredRate& rate) { return fmt::format("scenario{}", rate.scenario); });
     if (context.cancel.cancelled()) return {};
   }
   return by_spheres;
 }
 
-// The result of `measure` with contestants of this engine; for the graphics processor with its name.
+// The result of `measure` with this engine; for the graphics processor with its name, or with the reason why there is
+// none.
 template <class Measure>
-Json measure_on(const ComparedEngine& engine, const Measure& measure) {
-  if (!engine.gpu) return measure(cpu_contestants());
-  const Result<std::shared_ptr<Gpu>> gpu = Gpu::open();
-  if (!gpu) return {{kMissing, gpu.error().message}};
-  Json result = measure(gpu_contestants(*gpu));
-  if (!result.empty()) result[kGpu] = (*gpu)->renderer.description();
+Json measure_on(ComparedEngine engine, const Measure& measure) {
+  if (!engine.gpu) return measure(engine);
+  const Result<EglContext> context = EglContext::create();
+  if (!context) return {{kMissing, context.error().message}};
+  Result<GlRenderer> renderer = GlRenderer::create(context->functions());
+  if (!renderer) return {{kMissing, renderer.error().message}};
+  engine.engine.gl = &*renderer;
+  Json result = measure(engine);
+  if (!result.empty()) result[kGpu] = renderer->description();
   return result;
 }
 
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
+  const FrameRatePlan plan = plan_of(settings, values);
+  const double seconds = (plan.rounds + 1) * kSecondsPerPixel * plan.width_px * plan.height_px;
   std::vector<Step> steps;
-  const double weight = (kRepetitions + 1) * kSecondsPerSphere / (settings.quick ? kQuickDivisor * kQuickDivisor : 1);
-  const std::vector<double> scenarios = values.numbers("scenarios"), counts = values.numbers("spheres_list");
   for (const ComparedEngine& engine : compared_engines()) {
-    double all_spheres = 0;
-    for (const double scenario_number : scenarios)
-      for (const double spheres_number : counts) {
-        const auto scenario = static_cast<std::int64_t>(scenario_number),
-                   spheres = static_cast<std::int64_t>(spheres_number);
-        steps.push_back({configuration_step(engine, scenario, spheres), 1.5 * weight * spheres_number,
+    double all_brute = 0;
+    for (const std::int64_t scenario : plan.scenarios)
+      for (const std::int64_t spheres : plan.spheres) {
+        const double brute = frame_cost(spheres, false), tree = frame_cost(spheres, true);
+        steps.push_back({configuration_step(engine, scenario, spheres),
+                         seconds * (brute + tree * static_cast<double>(plan.max_prims.size())),
                          [engine, scenario, spheres](StepContext& context) {
-                           return measure_on(engine, [&](const ContestantMaker& make) {
-                             return measure_configuration(context, engine, scenario, spheres, make);
+                           return measure_on(engine, [&](const ComparedEngine& opened) {
+                             return measure_configuration(context, opened, scenario, spheres);
                            });
                          }});
-        all_spheres += spheres_number;
+        all_brute += brute;
       }
-    steps.push_back({independence_step(engine), weight * all_spheres, [engine](StepContext& context) {
-                       return measure_on(engine, [&](const ContestantMaker& make) {
-                         return measure_independence(context, engine, make);
-                       });
+    steps.push_back({independence_step(engine), seconds * all_brute, [engine](StepContext& context) {
+                       return measure_on(
+                           engine, [&](const ComparedEngine& opened) { return measure_independence(context, opened); });
                      }});
   }
   return steps;
@@ -145,9 +103,9 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
 }  // namespace
 
 const std::vector<ComparedEngine>& compared_engines() {
-  static const std::vector<ComparedEngine> kCompared{{"reference", Engine::reference, Engine::brute, {}},
-                                                     {"wide", Engine::wide, Engine::wide, {std::nullopt, 1}},
-                                                     {"gpu", Engine::reference, Engine::brute, {}, true}};
+  static const std::vector<ComparedEngine> kCompared{{"reference", {Engine::reference, Engine::brute, {}}},
+                                                     {"wide", {Engine::wide, Engine::wide, {std::nullopt, 1}}},
+                                                     {"gpu", {Engine::reference, Engine::brute, {}}, true}};
   return kCompared;
 }
 
@@ -159,20 +117,6 @@ std::string independence_step(const ComparedEngine& engine) {
   return engine.name + "-brute_force_by_scenario";
 }
 
-std::size_t ConfigurationFps::best() const {
-  return static_cast<std::size_t>(std::max_element(trees.begin(), trees.end()) - trees.begin());
-}
-
-double ConfigurationFps::gain_percent() const {
-  return 100 * (trees[best()] / brute - 1);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::optional<std::string> why_missing(const Json& result) {
   const auto found = result.find(kMissing);
   return found == result.end() ? std::nullopt : std::optional(found->get<std::string>());
@@ -182,7 +126,7 @@ std::optional<ConfigurationFps> fps_of(const StepResults& results, const Compare
                                        std::int64_t spheres) {
   const auto found = results.find(configuration_step(engine, scenario, spheres));
   if (found == results.end() || why_missing(found->second)) return std::nullopt;
-  ConfigurationFps fps{0, {}};
+  ConfigurationFps fps{scenario, spheres, 0, {}};
   for (const auto& [name, times] : found->second["frame_ms"].items()) {
     const double value = 1000 / median(times.get<std::vector<double>>());
     if (name == "brute")

@@ -8,6 +8,7 @@
 
 #include "bihive/base/write_file.h"
 #include "bihive/image/svg_chart.h"
+#include "bihive/thesis/frame_rates_report.h"
 #include "support/failure.h"
 #include "thesis/figure_4_4.h"
 
@@ -62,12 +63,12 @@ std::string shape_text(Shape shape) {
 // One engine's part of the section.
 class EngineSection {
  public:
-  EngineSection(const SectionContext& context, const ComparedEngine& engine) : context_(context), engine_(engine) {
-    for (const double scenario : values().numbers("scenarios"))
-      scenarios_.push_back(static_cast<std::int64_t>(scenario));
-    for (const double spheres : values().numbers("spheres_list")) counts_.push_back(static_cast<std::int64_t>(spheres));
-    for (const double max_prims : values().numbers("max_prims_list"))
-      max_prims_.push_back(static_cast<std::int64_t>(max_prims));
+  EngineSection(const SectionContext& context, const ComparedEngine& engine)
+      : context_(context),
+        engine_(engine),
+        scenarios_(values().integers("scenarios")),
+        counts_(values().integers("spheres_list")),
+        max_prims_(values().integers("max_prims_list")) {
     for (const std::int64_t scenario : scenarios_)
       for (const std::int64_t spheres : counts_)
         if (std::optional<ConfigurationFps> fps = fps_of(context.results, engine, scenario, spheres))
@@ -93,7 +94,7 @@ class EngineSection {
   const Values& values() const { return context_.values; }
   bool complete() const { return fps_.size() == scenarios_.size() * counts_.size(); }
   std::string engine_title(const std::string& title) const { return title + " (engine " + engine_.name + ")"; }
-  std::string tree_name(std::size_t tree) const { return fmt::format("BIH {}", max_prims_[tree]); }
+  std::string name_of(std::size_t tree) const { return tree_name(max_prims_[tree]); }
 
   // Gains of one scenario, by number of spheres; empty if a configuration is missing.
   std::map<std::int64_t, double> gains_of(std::int64_t scenario) const {
@@ -116,7 +117,7 @@ class EngineSection {
 
   Table frame_rates() const {
     Table table{engine_title("Frames per second"), {"Scenario", "Spheres", "Brute force"}, {}, ""};
-    for (std::size_t i = 0; i < max_prims_.size(); ++i) table.columns.push_back(tree_name(i));
+    for (std::size_t i = 0; i < max_prims_.size(); ++i) table.columns.push_back(name_of(i));
     table.columns.push_back("Gain of the best");
     for (const auto& [configuration, fps] : fps_) {
       std::vector<Cell> row{{fmt::format("Scenario {}", configuration.first)},
@@ -144,7 +145,7 @@ class EngineSection {
     const std::size_t tree = fps_.at({scenario, spheres}).best();
     table.rows.push_back({{what + ": which"},
                           {fmt::format("BIH {}, {} spheres", stated_tree, stated_count)},
-                          judged(fmt::format("{}, {} spheres", tree_name(tree), spheres),
+                          judged(fmt::format("{}, {} spheres", name_of(tree), spheres),
                                  max_prims_[tree] == stated_tree && spheres == stated_count)});
   }
 
@@ -205,7 +206,7 @@ class EngineSection {
           sorted.size() > 1 ? fmt::format(", {:.1f} % ahead of the second", 100 * (sorted[0] / sorted[1] - 1)) : "";
       table.rows.push_back({{fmt::format("Scenario {}, {} spheres", configuration.first, configuration.second)},
                             {""},
-                            {tree_name(fps.best()) + lead}});
+                            {name_of(fps.best()) + lead}});
     }
     if (complete()) {
       const std::int64_t winner = values().integer("winner.max_prims"), stated = values().integer("winner.wins");
@@ -256,7 +257,7 @@ class EngineSection {
       };
       table.rows.push_back({{"best"},
                             {named("best") + "; without the display's limit perhaps " + named("supposed_best")},
-                            judged(fmt::format("{}, {} spheres, Scenario {}", tree_name(best->second.best()),
+                            judged(fmt::format("{}, {} spheres, Scenario {}", name_of(best->second.best()),
                                                best->first.second, best->first.first),
                                    is("best") || is("supposed_best"))});
       std::string slowest;
@@ -267,7 +268,7 @@ class EngineSection {
           const double value = i == 0 ? fps.brute : fps.trees[i - 1];
           if (value >= lowest) continue;
           lowest = value;
-          slowest = i == 0 ? "BF" : tree_name(i - 1);
+          slowest = i == 0 ? "BF" : name_of(i - 1);
           slowest_spheres = configuration.second;
         }
       table.rows.push_back({{"worst"},
@@ -319,26 +320,21 @@ class EngineSection {
   }
 
   void add_charts(std::int64_t scenario, Section& section) const {
-    // The thesis's chart: a group for each number of spheres, brute force first.
-    ChartData bars{
-        fmt::format("Scenario {}: frames per second", scenario), "spheres", "frames per second", {}, {}, false};
-    bars.series.push_back({"BF", {}});
-    for (std::size_t i = 0; i < max_prims_.size(); ++i) bars.series.push_back({tree_name(i), {}});
+    const auto measured = [&](std::int64_t spheres) -> const ConfigurationFps* {
+      const auto found = fps_.find({scenario, spheres});
+      return found == fps_.end() ? nullptr : &found->second;
+    };
+    const ChartData bars = frame_rate_bars(scenario, counts_, max_prims_, measured);
     // And a chart over MAX_PRIMS, which shows the curve.
     ChartData curves{
         fmt::format("Scenario {}: over MAX_PRIMS", scenario), "MAX_PRIMS", "frames per second", {}, {}, false};
     for (const std::int64_t max_prims : max_prims_) curves.categories.push_back(std::to_string(max_prims));
     for (const std::int64_t spheres : counts_) {
-      bars.categories.push_back(std::to_string(spheres));
-      curves.series.push_back({fmt::format("{} spheres", spheres), {}});
-      const auto found = fps_.find({scenario, spheres});
-      const bool here = found != fps_.end();
-      bars.series[0].values.push_back(here ? std::optional(found->second.brute) : std::nullopt);
-      for (std::size_t i = 0; i < max_prims_.size(); ++i) {
-        const std::optional<double> fps = here ? std::optional(found->second.trees[i]) : std::nullopt;
-        bars.series[i + 1].values.push_back(fps);
-        curves.series.back().values.push_back(fps);
-      }
+      const ConfigurationFps* const found = measured(spheres);
+      Series curve{fmt::format("{} spheres", spheres), {}};
+      for (std::size_t i = 0; i < max_prims_.size(); ++i)
+        curve.values.push_back(found != nullptr ? std::optional(found->trees[i]) : std::nullopt);
+      curves.series.push_back(std::move(curve));
     }
     const std::string experiment = "figure-4.4";
     const auto add = [&](const std::string& name, const std::string& svg, const std::string& caption) {

@@ -71,8 +71,8 @@ Json measure_tree(StepContext& context, Scenario scenario, std::int64_t count, s
 
 Json measure_scenario(StepContext& context, std::int64_t scenario) {
   Json trees = Json::array();
-  for (const std::int64_t count : integers(context.values, "spheres_list"))
-    for (const std::int64_t max_prims : integers(context.values, "max_prims_list")) {
+  for (const std::int64_t count : context.values.integers("spheres_list"))
+    for (const std::int64_t max_prims : context.values.integers("max_prims_list")) {
       if (context.cancel.cancelled()) return {};
       trees.push_back(measure_tree(context, scenario_of(scenario), count, max_prims));
     }
@@ -81,7 +81,7 @@ Json measure_scenario(StepContext& context, std::int64_t scenario) {
 
 std::vector<Step> figure_4_5_steps(const Settings& settings, const Values& values) {
   std::vector<Step> steps;
-  for (const std::int64_t scenario : integers(values, "scenarios")) {
+  for (const std::int64_t scenario : values.integers("scenarios")) {
     steps.push_back({step_name(scenario), settings.quick ? 0.5 : 2,
                      [scenario](StepContext& context) { return measure_scenario(context, scenario); }});
   }
@@ -150,9 +150,9 @@ void add_chart(const SectionContext& context, const std::string& file, const std
 // As in the thesis: one series for each MAX_PRIMS over the numbers of spheres.
 void add_thesis_chart(const SectionContext& context, std::int64_t scenario, const Json& trees, Section& section) {
   ChartData data{fmt::format("Scenario {}: memory as the thesis counts it", scenario), "spheres", "kB", {}, {}, false};
-  for (const std::int64_t count : integers(context.values, "spheres_list"))
+  for (const std::int64_t count : context.values.integers("spheres_list"))
     data.categories.push_back(fmt::format("{}", count));
-  for (const std::int64_t max_prims : integers(context.values, "max_prims_list")) {
+  for (const std::int64_t max_prims : context.values.integers("max_prims_list")) {
     Series series{fmt::format("MAX_PRIMS {}", max_prims), {}};
     for (const Json& tree : trees)
       if (tree["max_prims"] == max_prims) series.values.push_back(tree["thesis_bytes"].get<double>() / 1000);
@@ -165,7 +165,7 @@ void add_thesis_chart(const SectionContext& context, std::int64_t scenario, cons
 
 // The largest number of spheres: predicted and real memory.
 void add_allocation_chart(const SectionContext& context, std::int64_t scenario, const Json& trees, Section& section) {
-  const std::int64_t count = integers(context.values, "spheres_list").back();
+  const std::int64_t count = context.values.integers("spheres_list").back();
   ChartData data{
       fmt::format("Scenario {}: {} spheres, predicted and really allocated", scenario, count),
       "MAX_PRIMS",
@@ -219,7 +219,7 @@ Section figure_4_5_section(const SectionContext& context) {
       sizeof(std::int64_t), context.settings.seed));
   section.data["values"] = Json::array();
   std::vector<const Json*> done;
-  for (const std::int64_t scenario : integers(values, "scenarios")) {
+  for (const std::int64_t scenario : values.integers("scenarios")) {
     const auto found = context.results.find(step_name(scenario));
     if (found == context.results.end()) continue;
     const Json& trees = found->second["trees"];

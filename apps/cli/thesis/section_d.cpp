@@ -8,6 +8,7 @@
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
 #include "bihive/bih/traversal.h"
+#include "bihive/math/quartiles.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/generators.h"

@@ -1,39 +1,32 @@
-// The thesis's stated values: thesis/<experiment>/values.json, built into the program. No number of the thesis stands
-// in code.
+// The thesis's stated values (bihive/thesis/stated_values.h) for experiments: if a value is missing or of another kind,
+// the program fails (failure.h), because every value that code needs must be in the file.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "bihive/thesis/stated_values.h"
+#include "support/failure.h"
 #include "thesis/section.h"
 
 namespace bihive::cli::thesis {
 
-/// One experiment's values. Document:
-///   {"experiment": "table-4.2",
-///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "printed": "4,095", "sentence": "Nodes Internal
-///    4,095 ..."}, ...}}
-/// "value" is a number or a list of numbers; "printed" is optional; "sentence" says where in the text it stands, or,
-/// with "chosen": true, why it was chosen where the text is silent.
 class Values {
  public:
-  /// Fails (failure.h) with file and place if the document is not as above.
   Values(const std::string& bytes, const std::string& file);
 
-  /// Fails if the name is unknown, because every value that code needs must be in the file.
-  double number(const std::string& name) const;
-  std::int64_t integer(const std::string& name) const;
-  std::vector<double> numbers(const std::string& name) const;
-  bool has(const std::string& name) const;
-  /// As the thesis prints it: "printed", else the value; also where "printed" is another number than the value.
-  std::string printed(const std::string& name) const;
-  std::string sentence(const std::string& name) const;
+  bool has(const std::string& name) const { return stated_.has(name); }
+  double number(const std::string& name) const { return value_or_fail(stated_.number(name)); }
+  std::int64_t integer(const std::string& name) const { return value_or_fail(stated_.integer(name)); }
+  std::vector<double> numbers(const std::string& name) const { return value_or_fail(stated_.numbers(name)); }
+  std::vector<std::int64_t> integers(const std::string& name) const { return value_or_fail(stated_.integers(name)); }
+  std::string printed(const std::string& name) const { return value_or_fail(stated_.printed(name)); }
+  std::string sentence(const std::string& name) const { return value_or_fail(stated_.sentence(name)); }
+  const StatedValues& stated() const { return stated_; }
   const Json& document() const { return document_; }
 
  private:
-  const Json& entry(const std::string& name) const;
-
-  std::string file_;
+  StatedValues stated_;
   Json document_;
 };
 

@@ -107,8 +107,8 @@ Json build_times_result(StepContext& context) {
     BuildParameters parameters;
   };
   std::vector<Build> builds;
-  for (const std::int64_t scenario : integers(values, "scenarios"))
-    for (const std::int64_t max_prims : integers(values, "max_prims_list")) {
+  for (const std::int64_t scenario : values.integers("scenarios"))
+    for (const std::int64_t max_prims : values.integers("max_prims_list")) {
       const Subject subject = subject_of(values, scenario, max_prims, context.settings.seed);
       builds.push_back({tree_step(scenario, max_prims),
                         value_or_fail(scenario_spheres(subject.scenario, subject.parameters)), subject.build});
@@ -132,7 +132,7 @@ Json build_times_result(StepContext& context) {
 
 // One level less after the other, down to the root alone.
 Json levels_result(StepContext& context) {
-  const std::int64_t max_prims = integers(context.values, "max_prims_list").front();
+  const std::int64_t max_prims = context.values.integers("max_prims_list").front();
   Subject subject =
       subject_of(context.values, context.values.integer("balanced.scenario"), max_prims, context.settings.seed);
   const SphereSet spheres = value_or_fail(scenario_spheres(subject.scenario, subject.parameters));
@@ -149,8 +149,8 @@ std::vector<Step> table_4_2_steps(const Settings& settings, const Values& values
   // Measured seconds: a tree of Scenario 1 once, the others for each seed.
   const double seconds = settings.quick ? 0.3 : 2;
   std::vector<Step> steps;
-  for (const std::int64_t scenario : integers(values, "scenarios"))
-    for (const std::int64_t max_prims : integers(values, "max_prims_list"))
+  for (const std::int64_t scenario : values.integers("scenarios"))
+    for (const std::int64_t max_prims : values.integers("max_prims_list"))
       steps.push_back({tree_step(scenario, max_prims), scenario_of(scenario) == Scenario::grid ? 0.1 : seconds,
                        [=](StepContext& context) { return tree_result(context, scenario, max_prims); }});
   steps.push_back({kBuildTimesStep, settings.quick ? 0.5 : 2.5, build_times_result});

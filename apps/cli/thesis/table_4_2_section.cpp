@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/math/quartiles.h"
 #include "support/messages.h"
 #include "thesis/table_4_2.h"
 
@@ -174,7 +175,7 @@ class TableSection {
 }  // namespace
 
 TreeColumns::TreeColumns(const SectionContext& context)
-    : scenarios(integers(context.values, "scenarios")), max_prims(integers(context.values, "max_prims_list")) {
+    : scenarios(context.values.integers("scenarios")), max_prims(context.values.integers("max_prims_list")) {
   for (const std::int64_t scenario : scenarios)
     for (const std::int64_t prims : max_prims)
       if (const auto found = context.results.find(tree_step(scenario, prims)); found != context.results.end())

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "bihive/math/quartiles.h"
 #include "thesis/table_4_2.h"
 
 namespace bihive::cli::thesis {
@@ -41,7 +42,7 @@ class TableStatements {
     const bool all = reductions.back().first > 0;
     statements_.add("reduction_order", "The nodes are reduced in all scenarios; biggest reduction first",
                     values_.printed("reduction_order"), fmt::format("{}", fmt::join(order, ", ")),
-                    verdict_if(all && order == integers(values_, "reduction_order")));
+                    verdict_if(all && order == values_.integers("reduction_order")));
   }
 
   // The column where something is largest (or smallest).

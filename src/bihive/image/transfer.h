@@ -19,6 +19,9 @@ double linear_from_srgb(double srgb);
 /// Clamps to [0, 1] (NaN gives 0), applies the curve, and rounds to the nearest of 0 ... 255.
 std::uint8_t byte_from_radiance(double radiance, Transfer transfer);
 
+/// byte_from_radiance() without a curve for `count` numbers, on vectors.
+void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes);
+
 /// byte_from_radiance() for numbers of binary32, some hundred times faster on the sRGB curve.
 class ByteTable {
  public:

@@ -335,29 +335,4 @@ Rendered SlicedPicture::take() {
   return implementation_->take();
 }
 
-Image image_from_film(const Film& film, View view, Transfer transfer, int threads) {
-  const Transfer curve = view == View::shaded ? transfer : Transfer::none;
-  static const ByteTable byte_of(Transfer::srgb);
-  Image image{film.width, film.height, {}};
-  image.rgb.resize(3 * film.radiance.size());
-
-  // Draw some rows at a time.
-  constexpr std::int64_t kPixelsAtOnce = 1 << 15;
-  const auto pixels = static_cast<std::int64_t>(film.radiance.size());
-  parallel_for(threads, (pixels + kPixelsAtOnce - 1) / kPixelsAtOnce, [&](std::int64_t part) {
-    const std::int64_t end = std::min(pixels, (part + 1) * kPixelsAtOnce);
-    std::uint8_t* bytes = image.rgb.data() + 3 * part * kPixelsAtOnce;
-    if (curve == Transfer::none)
-      return steps::bytes_from_radiance(&film.radiance[static_cast<std::size_t>(part * kPixelsAtOnce)].x,
-                                        3 * (end - part * kPixelsAtOnce), bytes);
-    for (std::int64_t i = part * kPixelsAtOnce; i < end; ++i, bytes += 3) {
-      const Vec3f& pixel = film.radiance[static_cast<std::size_t>(i)];
-      bytes[0] = byte_of(pixel.x);
-      bytes[1] = byte_of(pixel.y);
-      bytes[2] = byte_of(pixel.z);
-    }
-  });
-  return image;
-}
-
 }  // namespace bihive

@@ -9,6 +9,7 @@
 #include "bihive/base/result.h"
 #include "bihive/image/film.h"
 #include "bihive/image/image.h"
+#include "bihive/image/image_from_film.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
@@ -60,6 +61,8 @@ class SlicedPicture {
 };
 
 /// Applies the transfer curve to a shaded film; any other view is written as it is. `threads` 0: all.
-Image image_from_film(const Film& film, View view, Transfer transfer, int threads = 0);
+inline Image image_from_film(const Film& film, View view, Transfer transfer, int threads = 0) {
+  return image_from_film(film, view == View::shaded ? transfer : Transfer::none, threads);
+}
 
 }  // namespace bihive

@@ -9,15 +9,9 @@
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/render/brute_force.h"
+#include "bihive/render/pixel_order.h"
 
 namespace bihive {
-namespace {
-
-// The side of a block of neighbouring pixels for RayOrder::blocks.
-constexpr int kBlockPx = 8;
-
-}  // namespace
-
 BuildParameters TreeParameters::for_reference() const {
   BuildParameters both;
   both.max_prims = max_prims.value_or(both.max_prims);
@@ -95,30 +89,28 @@ void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden)
 
 void Tracer::closest_hits(const PixelRays& pixels, const Tile& tile, const HitSpan& hits) const {
   // Trace a band of blocks at a time, and store the hits at the places of their pixels.
-  const std::int64_t width = tile.x1 - tile.x0;
+  const int width = tile.x1 - tile.x0;
   RayBatch rays;
   HitBatch band;
-  std::vector<std::int64_t> pixel_of_ray;
+  std::vector<PixelPlace> places;
   for (int y0 = tile.y0; y0 < tile.y1; y0 += kBlockPx) {
-    const int y1 = std::min(y0 + kBlockPx, tile.y1);
-    rays.resize(width * (y1 - y0));
-    pixel_of_ray.clear();
-    for (int x0 = tile.x0; x0 < tile.x1; x0 += kBlockPx)
-      for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < std::min(x0 + kBlockPx, tile.x1); ++x) {
-          const Ray ray = pixels.at(x + 0.5, y + 0.5);
-          const std::size_t i = pixel_of_ray.size();
-          for (int axis = 0; axis < 3; ++axis) {
-            rays.origin[axis][i] = ray.origin[axis];
-            rays.direction[axis][i] = ray.direction[axis];
-          }
-          pixel_of_ray.push_back((y - tile.y0) * width + (x - tile.x0));
-        }
+    const int height = std::min(kBlockPx, tile.y1 - y0);
+    order_pixels({0, 0, width, height}, places);
+    rays.resize(std::int64_t{width} * height);
     band.resize(rays.size());
+    const auto count = static_cast<std::size_t>(rays.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Ray ray = pixels.at(tile.x0 + places[i].x + 0.5, y0 + places[i].y + 0.5);
+      for (int axis = 0; axis < 3; ++axis) {
+        rays.origin[axis][i] = ray.origin[axis];
+        rays.direction[axis][i] = ray.direction[axis];
+      }
+    }
     closest_hits(rays.span(), RayOrder::blocks, band.span());
-    for (std::size_t i = 0; i < pixel_of_ray.size(); ++i) {
-      hits.t[pixel_of_ray[i]] = band.t[i];
-      hits.sphere_id[pixel_of_ray[i]] = band.sphere_id[i];
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t pixel = std::int64_t{y0 - tile.y0 + places[i].y} * width + places[i].x;
+      hits.t[pixel] = band.t[i];
+      hits.sphere_id[pixel] = band.sphere_id[i];
     }
   }
 }

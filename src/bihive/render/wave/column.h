@@ -30,4 +30,16 @@ class Column {
   std::int64_t capacity_ = 0;
 };
 
+/// Three columns: of x, y and z, or of red, green and blue.
+template <class T>
+struct Columns3 {
+  Column<T> column[3];
+
+  void reserve(std::int64_t n) {
+    for (Column<T>& each : column) each.reserve(n);
+  }
+  Column<T>& operator[](int i) { return column[i]; }
+  const Column<T>& operator[](int i) const { return column[i]; }
+};
+
 }  // namespace bihive

@@ -118,7 +118,7 @@ HWY_INLINE Lanes3 all(Vec3d v) {
   return {all(v.x), all(v.y), all(v.z)};
 }
 template <class T>
-HWY_INLINE Lanes3 load(const Column<T> (&columns)[3], std::int64_t i) {
+HWY_INLINE Lanes3 load(const Columns3<T>& columns, std::int64_t i) {
   return {load(columns[0], i), load(columns[1], i), load(columns[2], i)};
 }
 HWY_INLINE Lanes3 add(Lanes3 a, Lanes3 b) {
@@ -165,7 +165,7 @@ HWY_INLINE Lanes3 rounded_to_float(Lanes3 a) {
           hn::PromoteTo(Tag(), hn::DemoteTo(f, a.z))};
 }
 template <class T>
-HWY_INLINE void store(Lanes3 v, Column<T> (&columns)[3], std::int64_t i) {
+HWY_INLINE void store(Lanes3 v, Columns3<T>& columns, std::int64_t i) {
   store(v.x, columns[0], i);
   store(v.y, columns[1], i);
   store(v.z, columns[2], i);
@@ -262,7 +262,7 @@ class Appender {
     store(HWY_LIKELY(every_) ? v : hn::BitCast(WordTag(), compress_(hn::BitCast(Tag(), v))), column, at_);
   }
   template <class T>
-  HWY_INLINE void operator()(Lanes3 v, Column<T> (&columns)[3]) const {
+  HWY_INLINE void operator()(Lanes3 v, Columns3<T>& columns) const {
     (*this)(v.x, columns[0]);
     (*this)(v.y, columns[1]);
     (*this)(v.z, columns[2]);

@@ -63,20 +63,6 @@ void put_light_on_target(const WaveSums& sums, const PixelPlace* pixel, std::int
   }
 }
 
-void bytes_from_radiance_on_target(const float* radiance, std::int64_t count, std::uint8_t* bytes) {
-  constexpr hn::Rebind<std::int32_t, Tag> whole;
-  constexpr hn::Rebind<std::uint8_t, Tag> narrow;
-  std::int64_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    const Lanes value = hn::PromoteTo(Tag(), hn::LoadU(FloatHalf(), radiance + i));
-    const Lanes least = hn::IfThenElseZero(hn::Gt(value, all(0)), value);
-    const Lanes clamped = hn::IfThenElse(hn::Lt(least, all(1)), least, all(1));
-    const Lanes displayed = hn::Floor(hn::Add(hn::Mul(clamped, all(255)), all(0.5)));
-    hn::StoreU(hn::DemoteTo(narrow, hn::DemoteTo(whole, displayed)), narrow, bytes + i);
-  }
-  for (; i < count; ++i) bytes[i] = byte_from_radiance(double(radiance[i]), Transfer::none);
-}
-
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace bihive
@@ -85,18 +71,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bihive {
 HWY_EXPORT(put_light_on_target);
-HWY_EXPORT(bytes_from_radiance_on_target);
 
 namespace steps {
 
 void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film) {
   ensure_target();
   HWY_DYNAMIC_DISPATCH(put_light_on_target)(sums, pixel, count, film);
-}
-
-void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes) {
-  ensure_target();
-  HWY_DYNAMIC_DISPATCH(bytes_from_radiance_on_target)(radiance, count, bytes);
 }
 
 }  // namespace steps

@@ -31,25 +31,18 @@ struct WaveScene {
   explicit WaveScene(const Scene& drawn);
 };
 
-/// One generation of rays, in the order of their parents. An owner is a sample of a pixel; its rays are neighbours.
-struct Wave {
+/// The columns of every kind of ray.
+struct RayColumns {
   std::int64_t count = 0;
-  bool starts_at_eye = false;  ///< primary rays: ray i has owner i, weight 1; the columns behind `direction` are unused
-  Column<float> origin[3], direction[3];
-  Column<double> weight;  ///< share of the light along the ray
-  Column<std::int64_t> owner, leaves;
+  Columns3<float> origin, direction;
+  Column<std::int64_t> leaves;
   Column<std::uint8_t> inside;
 
   /// Forgets all rays, and makes room for n.
   void reset(std::int64_t n) {
     count = 0;
-    starts_at_eye = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      origin[axis].reserve(n);
-      direction[axis].reserve(n);
-    }
-    weight.reserve(n);
-    owner.reserve(n);
+    origin.reserve(n);
+    direction.reserve(n);
     leaves.reserve(n);
     inside.reserve(n);
   }
@@ -61,9 +54,31 @@ struct Wave {
       view.origin[axis] = origin[axis].data();
       view.direction[axis] = direction[axis].data();
     }
-    if (!starts_at_eye) {
-      view.leaves = leaves.data();
-      view.inside = inside.data();
+    view.leaves = leaves.data();
+    view.inside = inside.data();
+    return view;
+  }
+};
+
+/// One generation of rays, in the order of their parents. An owner is a sample of a pixel; its rays are neighbours.
+struct Wave : RayColumns {
+  /// Primary rays: ray i has owner i, weight 1, leaves nothing, and is inside nothing; those columns are unused.
+  bool starts_at_eye = false;
+  Column<double> weight;  ///< share of the light along the ray
+  Column<std::int64_t> owner;
+
+  void reset(std::int64_t n) {
+    RayColumns::reset(n);
+    starts_at_eye = false;
+    weight.reserve(n);
+    owner.reserve(n);
+  }
+
+  RaySpan span() const {
+    RaySpan view = RayColumns::span();
+    if (starts_at_eye) {
+      view.leaves = nullptr;
+      view.inside = nullptr;
     }
     return view;
   }
@@ -80,12 +95,12 @@ struct WavePart {
 
 /// The light that each owner has received so far.
 struct WaveSums {
-  Column<double> light[3];
+  Columns3<double> light;
   bool empty = true;  ///< no owner has received anything; the columns' content is ignored
 
   void reset(std::int64_t owners) {
     empty = true;
-    for (Column<double>& channel : light) channel.reserve(owners);
+    light.reserve(owners);
   }
   Vec3d at(std::int64_t owner) const { return {light[0][owner], light[1][owner], light[2][owner]}; }
 };
@@ -93,18 +108,17 @@ struct WaveSums {
 /// The places where the rays of a wave hit something, as in render/surface.h; in the order of the rays.
 struct WaveSurfaces {
   std::int64_t count = 0;
-  Column<float> origin[3];
-  Column<double> incoming[3], normal[3], weight;
+  Columns3<float> origin;
+  Columns3<double> incoming, normal;
+  Column<double> weight;
   Column<std::int64_t> owner, id;
   Column<std::int64_t> material_inside;  ///< 2 x position in WaveScene::materials + (1 if inside a sphere)
 
   void reset(std::int64_t n) {
     count = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      origin[axis].reserve(n);
-      incoming[axis].reserve(n);
-      normal[axis].reserve(n);
-    }
+    origin.reserve(n);
+    incoming.reserve(n);
+    normal.reserve(n);
     weight.reserve(n);
     owner.reserve(n);
     id.reserve(n);
@@ -113,36 +127,21 @@ struct WaveSurfaces {
 };
 
 /// Rays from surfaces towards one light, which is at t = 1.
-struct ShadowWave {
-  std::int64_t count = 0;
-  Column<float> origin[3], direction[3];
+struct ShadowWave : RayColumns {
   Column<double> t_max;
-  Column<std::int64_t> leaves, surface;  ///< the number of the ray's surface
-  Column<std::uint8_t> inside, hidden;
+  Column<std::int64_t> surface;  ///< the number of the ray's surface
+  Column<std::uint8_t> hidden;
 
   void reset(std::int64_t n) {
-    count = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      origin[axis].reserve(n);
-      direction[axis].reserve(n);
-    }
+    RayColumns::reset(n);
     t_max.reserve(n);
-    leaves.reserve(n);
     surface.reserve(n);
-    inside.reserve(n);
     hidden.reserve(n);
   }
 
   RaySpan span() const {
-    RaySpan view;
-    view.count = count;
-    for (int axis = 0; axis < 3; ++axis) {
-      view.origin[axis] = origin[axis].data();
-      view.direction[axis] = direction[axis].data();
-    }
+    RaySpan view = RayColumns::span();
     view.t_max = t_max.data();
-    view.leaves = leaves.data();
-    view.inside = inside.data();
     return view;
   }
 };
@@ -186,9 +185,6 @@ SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_
 /// Rounds the light of owners 0 to count - 1 to binary32, and stores that of owner i in the film at pixel[i]. The
 /// pixels are those of order_pixels() from a multiple of 64 on.
 void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
-
-/// byte_from_radiance() without a curve, of `count` numbers.
-void bytes_from_radiance(const float* radiance, std::int64_t count, std::uint8_t* bytes);
 
 }  // namespace steps
 

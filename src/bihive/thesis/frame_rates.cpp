@@ -1,0 +1,240 @@
+#include "bihive/thesis/frame_rates.h"
+
+#include <string>
+#include <utility>
+
+#include "bihive/base/timer.h"
+#include "bihive/math/quartiles.h"
+#include "bihive/render/renderer.h"
+#include "bihive/scene/generators.h"
+
+namespace bihive {
+namespace {
+
+constexpr int kQuickDivisor = 4;
+// Time between two looks at the cancel token. Without a token a frame is drawn without a break.
+constexpr double kSliceMs = 100, kWholeFrameMs = 1e9;
+
+Error bad_value(const char* name, const char* expected) {
+  return {std::string("expected ") + expected + " of \"" + name + "\" in Figure 4.4's values", "", 0, 0, ""};
+}
+
+Result<std::shared_ptr<const Scene>> scene_of(const FrameRatePlan& plan, std::int64_t scenario, std::int64_t spheres) {
+  if (scenario < 1 || scenario > 3) return Error{"there are the scenarios 1, 2 and 3", "", 0, 0, ""};
+  const ScenarioParameters parameters{spheres, static_cast<float>(plan.radius), plan.seed};
+  Result<Scene> scene = scenario_scene(static_cast<Scenario>(scenario), parameters);
+  if (!scene) return scene.error();
+  return std::make_shared<const Scene>(std::move(*scene));
+}
+
+RenderSettings frame_settings(const FrameRatePlan& plan, const Scene& scene) {
+  RenderSettings settings = settings_from(scene.picture);
+  settings.width_px = plan.width_px;
+  settings.height_px = plan.height_px;
+  settings.recursion = plan.recursion;
+  settings.threads = plan.threads;
+  return settings;
+}
+
+}  // namespace
+
+Result<FrameRatePlan> FrameRatePlan::from_values(const StatedValues& values) {
+  FrameRatePlan plan;
+  const auto at_least_one = [](std::int64_t value) { return value >= 1; };
+  for (const auto& [name, list] : {std::pair{"scenarios", &plan.scenarios},
+                                   {"spheres_list", &plan.spheres},
+                                   {"max_prims_list", &plan.max_prims}}) {
+    Result<std::vector<std::int64_t>> counts = values.integers(name);
+    if (!counts || !std::all_of(counts->begin(), counts->end(), at_least_one))
+      return bad_value(name, "a list of counts");
+    *list = std::move(*counts);
+  }
+  for (const auto& [name, number] :
+       {std::pair{"width_px", &plan.width_px}, {"height_px", &plan.height_px}, {"recursion", &plan.recursion}}) {
+    const Result<std::int64_t> value = values.integer(name);
+    if (!value || *value < 1) return bad_value(name, "a number");
+    *number = static_cast<int>(*value);
+  }
+  const Result<double> radius = values.number("radius");
+  if (!radius) return radius.error();
+  plan.radius = *radius;
+  return plan;
+}
+
+FrameRatePlan FrameRatePlan::with_small_pictures() const {
+  FrameRatePlan plan = *this;
+  plan.width_px = std::max(1, width_px / kQuickDivisor);
+  plan.height_px = std::max(1, height_px / kQuickDivisor);
+  plan.quick = true;
+  return plan;
+}
+
+FrameRatePlan FrameRatePlan::quickly() const {
+  FrameRatePlan plan = with_small_pictures();
+  plan.rounds = 1;
+  plan.least_ms = 4;
+  return plan;
+}
+
+int FrameRatePlan::configurations() const {
+  return static_cast<int>(scenarios.size() * spheres.size() * (1 + max_prims.size()));
+}
+
+double frame_cost(std::int64_t spheres, bool tree) {
+  return tree ? 20 + static_cast<double>(spheres) / 8 : 10 + static_cast<double>(spheres);
+}
+
+double MeasuredRate::fps() const {
+  return 1000 / median(frame_ms);
+}
+
+std::size_t ConfigurationFps::best() const {
+  return static_cast<std::size_t>(std::max_element(trees.begin(), trees.end()) - trees.begin());
+}
+
+double ConfigurationFps::gain_percent() const {
+  return 100 * (trees[best()] / brute - 1);
+}
+
+std::vector<ConfigurationFps> configurations_of(const std::vector<MeasuredRate>& rates) {
+  std::vector<ConfigurationFps> configurations;
+  for (const MeasuredRate& rate : rates) {
+    if (rate.max_prims)
+      configurations.back().trees.push_back(rate.fps());
+    else
+      configurations.push_back({rate.scenario, rate.spheres, rate.fps(), {}});
+  }
+  return configurations;
+}
+
+Result<FrameContest> FrameContest::of_trees(const FrameRatePlan& plan, const FrameEngine& engine, std::int64_t scenario,
+                                            std::int64_t spheres) {
+  FrameContest contest(plan, engine);
+  const Result<std::shared_ptr<const Scene>> scene = scene_of(plan, scenario, spheres);
+  if (!scene) return scene.error();
+  if (Status status = contest.add(*scene, scenario, std::nullopt); !status) return status.error();
+  for (const std::int64_t max_prims : plan.max_prims)
+    if (Status status = contest.add(*scene, scenario, max_prims); !status) return status.error();
+  return contest;
+}
+
+Result<FrameContest> FrameContest::of_scenarios(const FrameRatePlan& plan, const FrameEngine& engine,
+                                                std::int64_t spheres) {
+  FrameContest contest(plan, engine);
+  for (const std::int64_t scenario : plan.scenarios) {
+    const Result<std::shared_ptr<const Scene>> scene = scene_of(plan, scenario, spheres);
+    if (!scene) return scene.error();
+    if (Status status = contest.add(*scene, scenario, std::nullopt); !status) return status.error();
+  }
+  return contest;
+}
+
+Status FrameContest::add(std::shared_ptr<const Scene> scene, std::int64_t scenario,
+                         std::optional<std::int64_t> max_prims) {
+  BuildParameters parameters;
+  if (max_prims) parameters.max_prims = *max_prims;
+  Result<Tracer> tracer = Tracer::build(scene->spheres, max_prims ? engine_.tree : engine_.brute,
+                                        max_prims ? TreeParameters(parameters) : engine_.brute_parameters);
+  if (!tracer) return tracer.error();
+  rates_.push_back({scenario, scene->spheres.size(), max_prims, {}});
+  contestants_.push_back({std::move(scene), std::move(*tracer)});
+  return Done{};
+}
+
+Status FrameContest::draw_frame(const Contestant& contestant, const RenderSettings& settings,
+                                const CancelToken* cancel) {
+  const Scene& scene = *contestant.scene;
+  if (engine_.gl == nullptr) {
+    Result<Rendered> rendered = render(scene, contestant.tracer, settings, {}, cancel, std::move(film_));
+    if (!rendered) return rendered.error();
+    film_ = std::move(rendered->film);
+    return Done{};
+  }
+  if (Status status = engine_.gl->begin(scene.camera, settings); !status) return status;
+  while (!engine_.gl->finished()) {
+    if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
+    if (Status status = engine_.gl->advance(cancel != nullptr ? kSliceMs : kWholeFrameMs); !status) return status;
+  }
+  return Done{};
+}
+
+// Milliseconds of a frame. Draws as many frames as the least time of a round needs.
+Result<double> FrameContest::frame_ms(const Contestant& contestant, const CancelToken* cancel) {
+  const RenderSettings settings = frame_settings(plan_, *contestant.scene);
+  if (engine_.gl != nullptr) {
+    if (Status status = engine_.gl->set_scene(*contestant.scene, contestant.tracer.tree()); !status)
+      return status.error();
+    // The first frame with a scene waits for its upload; that wait does not count.
+    if (Status status = draw_frame(contestant, settings, cancel); !status) return status.error();
+  }
+  double all_ms = 0;
+  int frames = 0;
+  for (; frames == 0 || all_ms < plan_.least_ms; ++frames) {
+    const Timer timer;
+    if (Status status = draw_frame(contestant, settings, cancel); !status) return status.error();
+    all_ms += timer.elapsed_ms();
+  }
+  return all_ms / frames;
+}
+
+Status FrameContest::step(const CancelToken* cancel) {
+  if (finished()) return Done{};
+  const Result<double> ms = frame_ms(contestants_[contestant_], cancel);
+  if (!ms) {
+    round_ = plan_.rounds + 1;
+    return ms.error();
+  }
+  if (round_ > 0) rates_[contestant_].frame_ms.push_back(*ms);
+  if (++contestant_ < contestants_.size()) return Done{};
+  if (++round_ <= plan_.rounds) contestant_ = 0;
+  return Done{};
+}
+
+FrameRateRun::FrameRateRun(FrameRatePlan plan, const FrameEngine& engine) : plan_(std::move(plan)), engine_(engine) {
+  for (const std::int64_t spheres : plan_.spheres)
+    all_cost_ += frame_cost(spheres, false) + frame_cost(spheres, true) * static_cast<double>(plan_.max_prims.size());
+  all_cost_ *= static_cast<double>(plan_.scenarios.size()) * (plan_.rounds + 1);
+}
+
+double FrameRateRun::done() const {
+  return finished_ ? 1 : done_cost_ / all_cost_;
+}
+
+double FrameRateRun::seconds_left() const {
+  return done_cost_ > 0 ? spent_ms_ / 1000 * (all_cost_ - done_cost_) / done_cost_ : 0;
+}
+
+Status FrameRateRun::measure() {
+  if (!contest_) {
+    Result<FrameContest> contest = FrameContest::of_trees(plan_, engine_, scenario(), spheres());
+    if (!contest) return contest.error();
+    contest_ = std::move(*contest);
+  }
+  const MeasuredRate& rate = contest_->next();
+  const double cost = frame_cost(rate.spheres, rate.max_prims.has_value());
+  if (Status status = contest_->step(); !status) return status;
+  done_cost_ += cost;
+  return Done{};
+}
+
+Status FrameRateRun::step() {
+  if (finished_) return Done{};
+  const Timer timer;
+  if (Status status = measure(); !status) {
+    finished_ = true;
+    return status;
+  }
+  spent_ms_ += timer.elapsed_ms();
+  if (!contest_->finished()) return Done{};
+
+  // Go on to the next number of spheres, and the next scenario.
+  rates_.insert(rates_.end(), contest_->rates().begin(), contest_->rates().end());
+  contest_.reset();
+  if (++count_ == plan_.spheres.size()) {
+    count_ = 0;
+    finished_ = ++scenario_ == plan_.scenarios.size();
+  }
+  return Done{};
+}
+
+}  // namespace bihive

@@ -1,0 +1,150 @@
+// The thesis's Figure 4.4: frames a second of brute force and of trees of several MAX_PRIMS. `bihive thesis figure-4.4`
+// and the page's "Run the thesis on this device" are this one experiment.
+//
+// A frame is the shaded view of primary rays. It is the same for all contestants; only the search for hits differs. The
+// contestants take turns, round by round. The first round warms up and does not count. The measurement goes in small
+// steps, so that its caller can show progress and stop it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bihive/base/cancel.h"
+#include "bihive/base/result.h"
+#include "bihive/gl/gl_renderer.h"
+#include "bihive/image/film.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+#include "bihive/thesis/stated_values.h"
+
+namespace bihive {
+
+/// The plan: every scenario with every number of spheres, by brute force and by a tree of each MAX_PRIMS.
+struct FrameRatePlan {
+  std::vector<std::int64_t> scenarios, spheres, max_prims;  ///< none empty
+  double radius = 1;
+  std::uint64_t seed = 1;
+  int width_px = 0, height_px = 0;
+  int recursion = 1;
+  int threads = 0;       ///< 0: all
+  int rounds = 9;        ///< rounds that count; >= 1
+  double least_ms = 15;  ///< of a round: shorter frames are repeated, so that a single moment does not decide
+  bool quick = false;    ///< smaller pictures than in the thesis
+
+  /// The thesis's plan, from the values of Figure 4.4. Error: a value is missing there.
+  static Result<FrameRatePlan> from_values(const StatedValues& values);
+  /// A quarter of the width and height.
+  FrameRatePlan with_small_pictures() const;
+  /// Small pictures and a single round: seconds instead of minutes, and rougher numbers.
+  FrameRatePlan quickly() const;
+
+  int configurations() const;
+};
+
+/// An estimate of the time of a frame, in units of its own. Brute force: in proportion to the number of spheres. A
+/// tree: a smaller share of that, and a constant.
+double frame_cost(std::int64_t spheres, bool tree);
+
+/// An engine with a tree, and its brute force: the same code without a tree, or with one leaf if it cannot do without.
+struct FrameEngine {
+  Engine tree = Engine::reference, brute = Engine::brute;
+  TreeParameters brute_parameters = {};
+  /// If it is set, the graphics processor draws the trees of these engines; the renderer loses its scene.
+  GlRenderer* gl = nullptr;
+};
+
+/// One configuration's times.
+struct MeasuredRate {
+  std::int64_t scenario = 0, spheres = 0;
+  std::optional<std::int64_t> max_prims;  ///< unset: brute force
+  std::vector<double> frame_ms;           ///< one for each round
+
+  double fps() const;  ///< by the median of the rounds
+};
+
+/// Frames a second of brute force and of all trees on the same spheres.
+struct ConfigurationFps {
+  std::int64_t scenario = 0, spheres = 0;
+  double brute = 0;
+  std::vector<double> trees;  ///< in the order of the plan's MAX_PRIMS
+
+  /// Position of the fastest in `trees`.
+  std::size_t best() const;
+  /// The gain of the best tree over brute force, in percent.
+  double gain_percent() const;
+};
+/// From rates in the order of FrameRateRun::rates().
+std::vector<ConfigurationFps> configurations_of(const std::vector<MeasuredRate>& rates);
+
+/// Contestants that draw in turn. The engine's renderer must outlive the contest.
+class FrameContest {
+ public:
+  /// Brute force and a tree of each MAX_PRIMS on the same spheres.
+  static Result<FrameContest> of_trees(const FrameRatePlan& plan, const FrameEngine& engine, std::int64_t scenario,
+                                       std::int64_t spheres);
+  /// Brute force on as many spheres of each scenario.
+  static Result<FrameContest> of_scenarios(const FrameRatePlan& plan, const FrameEngine& engine, std::int64_t spheres);
+
+  /// Runs one round of one contestant. An Error ends the contest; one of them says "cancelled".
+  Status step(const CancelToken* cancel = nullptr);
+  bool finished() const { return round_ > plan_.rounds; }
+  /// The configuration that step() measures next; the last one after the end.
+  const MeasuredRate& next() const { return rates_[std::min(contestant_, rates_.size() - 1)]; }
+  /// One for each contestant, with the rounds so far.
+  const std::vector<MeasuredRate>& rates() const { return rates_; }
+
+ private:
+  struct Contestant {
+    std::shared_ptr<const Scene> scene;
+    Tracer tracer;  // of the scene's spheres
+  };
+
+  FrameContest(const FrameRatePlan& plan, const FrameEngine& engine) : plan_(plan), engine_(engine) {}
+  Status add(std::shared_ptr<const Scene> scene, std::int64_t scenario, std::optional<std::int64_t> max_prims);
+  Result<double> frame_ms(const Contestant& contestant, const CancelToken* cancel);
+  Status draw_frame(const Contestant& contestant, const RenderSettings& settings, const CancelToken* cancel);
+
+  FrameRatePlan plan_;
+  FrameEngine engine_;
+  std::vector<Contestant> contestants_;
+  std::vector<MeasuredRate> rates_;  // a contestant each
+  std::size_t contestant_ = 0;
+  int round_ = 0;  // 0 warms up
+  Film film_;
+};
+
+/// The contests of a whole plan, one after the other.
+class FrameRateRun {
+ public:
+  FrameRateRun(FrameRatePlan plan, const FrameEngine& engine);
+
+  /// Runs one round of one configuration. Does nothing after finished(). After an Error the run is over.
+  Status step();
+
+  bool finished() const { return finished_; }
+  double done() const;          ///< 0 to 1, a share of the whole time
+  double seconds_left() const;  ///< estimated from the rounds so far; 0 before the first
+  const FrameRatePlan& plan() const { return plan_; }
+  /// The complete ones, in the order of scenarios, spheres, brute force before trees.
+  const std::vector<MeasuredRate>& rates() const { return rates_; }
+  /// The configuration that step() measures next; the last one after the end.
+  std::int64_t scenario() const { return plan_.scenarios[std::min(scenario_, plan_.scenarios.size() - 1)]; }
+  std::int64_t spheres() const { return plan_.spheres[count_]; }
+
+ private:
+  Status measure();
+
+  FrameRatePlan plan_;
+  FrameEngine engine_;
+  std::size_t scenario_ = 0, count_ = 0;  // the contest: positions in the plan
+  std::optional<FrameContest> contest_;
+  bool finished_ = false;
+  std::vector<MeasuredRate> rates_;
+  double done_cost_ = 0, all_cost_ = 0, spent_ms_ = 0;
+};
+
+}  // namespace bihive

@@ -1,0 +1,156 @@
+#include "bihive/thesis/frame_rates_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace bihive {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kStatedDevice = "iPhone 5s, stated";
+
+std::optional<double> stated_number(const StatedValues& values, const std::string& name) {
+  const Result<double> number = values.number(name);
+  return number ? std::optional(*number) : std::nullopt;
+}
+
+// The stated frame rate of brute force (without max_prims) or of a tree. The thesis says that brute force does not
+// depend on the scenario.
+std::optional<double> stated_fps(const StatedValues& values, std::int64_t scenario, std::int64_t spheres,
+                                 std::optional<std::int64_t> max_prims) {
+  if (!max_prims) return stated_number(values, fmt::format("brute.fps.spheres{}", spheres));
+  const auto is = [&](const char* name, std::int64_t wanted) {
+    return stated_number(values, fmt::format("best.{}", name)) == static_cast<double>(wanted);
+  };
+  if (is("scenario", scenario) && is("spheres", spheres) && is("max_prims", *max_prims))
+    return stated_number(values, "best.fps");
+  return std::nullopt;
+}
+
+// Least, greatest and mean gain of each scenario, as the thesis names them; only for scenarios without missing groups.
+std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, const std::string& here) {
+  ChartData chart{"Gain of the best tree over brute force", "",   "percent", {},
+                  {{here, {}}, {kStatedDevice, {}}},        false};
+  const std::vector<ConfigurationFps> configurations = configurations_of(run.rates());
+  for (const std::int64_t scenario : run.plan().scenarios) {
+    std::vector<double> percents;
+    for (const ConfigurationFps& each : configurations)
+      if (each.scenario == scenario) percents.push_back(each.gain_percent());
+    if (percents.size() != run.plan().spheres.size()) continue;
+    double sum = 0;
+    for (const double percent : percents) sum += percent;
+    const auto [least, most] = std::minmax_element(percents.begin(), percents.end());
+    const std::pair<const char*, double> rows[] = {
+        {"least", *least}, {"best", *most}, {"mean", sum / static_cast<double>(percents.size())}};
+    for (const auto& [name, percent] : rows) {
+      chart.categories.push_back(fmt::format("{} {}", scenario, std::string(name) == "best" ? "most" : name));
+      chart.series[0].values.emplace_back(percent);
+      chart.series[1].values.push_back(
+          stated_number(stated, fmt::format("scenario{}.gain_percent.{}", scenario, name)));
+    }
+  }
+  chart.x_label = "scenario: least, most and mean over the numbers of spheres";
+  return chart.categories.empty() ? "" : bar_chart(chart);
+}
+
+// Empty if the scenario has no measurement.
+std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, std::int64_t scenario) {
+  const std::vector<ConfigurationFps> configurations = configurations_of(run.rates());
+  const auto measured = [&](std::int64_t spheres) -> const ConfigurationFps* {
+    for (const ConfigurationFps& each : configurations)
+      if (each.scenario == scenario && each.spheres == spheres) return &each;
+    return nullptr;
+  };
+  const std::vector<std::int64_t>&counts = run.plan().spheres, &max_prims = run.plan().max_prims;
+  if (std::none_of(counts.begin(), counts.end(), measured)) return "";
+  ChartData chart = frame_rate_bars(scenario, counts, max_prims, measured);
+  chart.logarithmic = true;
+
+  // Add the thesis's values, if it states any.
+  Series stated_brute{fmt::format("BF, {}", kStatedDevice), {}}, stated_tree{fmt::format("BIH, {}", kStatedDevice), {}};
+  for (const std::int64_t spheres : counts) {
+    stated_brute.values.push_back(stated_fps(stated, scenario, spheres, std::nullopt));
+    stated_tree.values.emplace_back();
+    for (const std::int64_t each : max_prims)
+      if (const auto fps = stated_fps(stated, scenario, spheres, each)) {
+        stated_tree.values.back() = fps;
+        stated_tree.name = fmt::format("{}, {}", tree_name(each), kStatedDevice);
+      }
+  }
+  for (Series* series : {&stated_brute, &stated_tree})
+    if (std::any_of(series->values.begin(), series->values.end(), [](const auto& value) { return value.has_value(); }))
+      chart.series.push_back(*series);
+  return bar_chart(chart);
+}
+
+}  // namespace
+
+std::string tree_name(std::int64_t max_prims) {
+  return fmt::format("BIH {}", max_prims);
+}
+
+ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>& spheres,
+                          const std::vector<std::int64_t>& max_prims,
+                          const std::function<const ConfigurationFps*(std::int64_t spheres)>& fps) {
+  ChartData bars{
+      fmt::format("Scenario {}: frames per second", scenario), "spheres", "frames per second", {}, {}, false};
+  bars.series.push_back({"BF", {}});
+  for (const std::int64_t each : max_prims) bars.series.push_back({tree_name(each), {}});
+  for (const std::int64_t count : spheres) {
+    bars.categories.push_back(std::to_string(count));
+    const ConfigurationFps* const found = fps(count);
+    for (std::size_t i = 0; i < bars.series.size(); ++i)
+      bars.series[i].values.push_back(found == nullptr ? std::nullopt
+                                                       : std::optional(i == 0 ? found->brute : found->trees[i - 1]));
+  }
+  return bars;
+}
+
+std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
+                             const std::string& device) {
+  const FrameRatePlan& plan = run.plan();
+  ordered_json json;
+  json["experiment"] = "figure-4.4";
+  json["engine"] = engine;
+  json["device"] = device;
+  json["width_px"] = plan.width_px;
+  json["height_px"] = plan.height_px;
+  json["quick"] = plan.quick;
+  json["rounds"] = plan.rounds;
+  json["complete"] = run.finished() && static_cast<int>(run.rates().size()) == plan.configurations();
+  json["configurations"] = ordered_json::array();
+  for (const MeasuredRate& rate : run.rates())
+    json["configurations"].push_back({{"scenario", rate.scenario},
+                                      {"spheres", rate.spheres},
+                                      {"max_prims", rate.max_prims ? ordered_json(*rate.max_prims) : ordered_json()},
+                                      {"fps", rate.fps()},
+                                      {"frame_ms", rate.frame_ms}});
+  json["gains"] = ordered_json::array();
+  for (const ConfigurationFps& each : configurations_of(run.rates()))
+    json["gains"].push_back({{"scenario", each.scenario},
+                             {"spheres", each.spheres},
+                             {"max_prims", plan.max_prims[each.best()]},
+                             {"percent", each.gain_percent()}});
+  json["stated"] = ordered_json::object();
+  const ordered_json stated = ordered_json::parse(values.text());
+  for (const auto& [name, entry] : stated["values"].items())
+    if (!entry.contains("chosen")) json["stated"][name] = entry;
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const StatedValues& values,
+                                            const std::string& here) {
+  std::vector<std::string> charts;
+  const auto add = [&charts](std::string chart) {
+    if (!chart.empty()) charts.push_back(std::move(chart));
+  };
+  add(gains_chart(run, values, here));
+  for (const std::int64_t scenario : run.plan().scenarios) add(scenario_chart(run, values, scenario));
+  return charts;
+}
+
+}  // namespace bihive

@@ -1,0 +1,35 @@
+// The result of a run of Figure 4.4: as JSON, and as charts beside the thesis's values for the iPhone 5s.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bihive/image/svg_chart.h"
+#include "bihive/thesis/frame_rates.h"
+#include "bihive/thesis/stated_values.h"
+
+namespace bihive {
+
+/// The thesis's chart: a group of bars for each number of spheres, brute force first. `fps` gives the measurement with
+/// so many spheres, or null if there is none.
+ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>& spheres,
+                          const std::vector<std::int64_t>& max_prims,
+                          const std::function<const ConfigurationFps*(std::int64_t spheres)>& fps);
+
+/// The name of a tree in charts and tables: "BIH 8".
+std::string tree_name(std::int64_t max_prims);
+
+/// {"experiment", "engine", "device", "width_px", "height_px", "quick", "rounds", "complete", "configurations":
+/// [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains": [{"scenario",
+/// "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}. `device`: any
+/// description of the machine.
+std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
+                             const std::string& device);
+
+/// SVG texts: the gains over brute force beside the stated ones, then the frame rates of each scenario beside the few
+/// that the thesis states. `here` names this device in the legend.
+std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const StatedValues& values,
+                                            const std::string& here);
+
+}  // namespace bihive

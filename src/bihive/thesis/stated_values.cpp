@@ -1,0 +1,119 @@
+#include "bihive/thesis/stated_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+namespace bihive {
+namespace {
+
+using nlohmann::json;
+
+// Beyond it not every whole number is a binary64 number.
+constexpr double kMostWhole = 0x1p53;
+
+bool is_value(const json& value) {
+  if (value.is_number()) return true;
+  return value.is_array() && !value.empty() &&
+         std::all_of(value.begin(), value.end(), [](const json& item) { return item.is_number(); });
+}
+
+bool is_whole(double number) {
+  return number == std::floor(number) && std::abs(number) <= kMostWhole;
+}
+
+// The number in "4,095" or "87.51%"; nothing for words and lists.
+std::optional<double> number_in_print(std::string printed) {
+  printed.erase(std::remove(printed.begin(), printed.end(), ','), printed.end());
+  if (!printed.empty() && printed.back() == '%') printed.pop_back();
+  if (printed.empty()) return std::nullopt;
+  char* end = nullptr;
+  const double number = std::strtod(printed.c_str(), &end);
+  return *end == '\0' ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+Error StatedValues::error_at(const std::string& place, const std::string& expected) const {
+  return {place + ": expected " + expected, file_, 0, 0, ""};
+}
+
+Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string file) {
+  StatedValues stated;
+  stated.file_ = std::move(file);
+  stated.text_ = bytes;
+  const json document = json::parse(bytes, nullptr, /*allow_exceptions=*/false);
+  if (document.is_discarded()) return stated.error_at("/", "a JSON document");
+  if (!document.is_object() || !document.contains("values") || !document["values"].is_object())
+    return stated.error_at("/values", "an object with one entry a value");
+  for (const auto& [name, entry] : document["values"].items()) {
+    if (!entry.is_object() || !entry.contains("value") || !is_value(entry["value"]))
+      return stated.error_at("/values/" + name + "/value", "a number or a list of numbers");
+    if (!entry.contains("sentence") || !entry["sentence"].is_string())
+      return stated.error_at("/values/" + name + "/sentence", "the sentence that it comes from");
+    const json& value = entry["value"];
+    const bool is_list = value.is_array(), is_printed = entry.contains("printed") && entry["printed"].is_string();
+    stated.values_[name] = {is_list ? value.get<std::vector<double>>() : std::vector<double>{value.get<double>()},
+                            is_list, value.dump(), is_printed ? entry["printed"].get<std::string>() : "",
+                            entry["sentence"].get<std::string>()};
+  }
+  return stated;
+}
+
+Result<const StatedValues::Value*> StatedValues::find(const std::string& name) const {
+  const auto found = values_.find(name);
+  if (found == values_.end()) return error_at("/values/" + name, "a value of this name");
+  return &found->second;
+}
+
+Result<double> StatedValues::number(const std::string& name) const {
+  const Result<const Value*> value = find(name);
+  if (!value) return value.error();
+  if ((*value)->is_list) return error_at("/values/" + name + "/value", "one number");
+  return (*value)->numbers.front();
+}
+
+Result<std::int64_t> StatedValues::integer(const std::string& name) const {
+  const Result<double> value = number(name);
+  if (!value) return value.error();
+  if (!is_whole(*value)) return error_at("/values/" + name + "/value", "a whole number");
+  return static_cast<std::int64_t>(*value);
+}
+
+Result<std::vector<double>> StatedValues::numbers(const std::string& name) const {
+  const Result<const Value*> value = find(name);
+  if (!value) return value.error();
+  return (*value)->numbers;
+}
+
+Result<std::vector<std::int64_t>> StatedValues::integers(const std::string& name) const {
+  const Result<const Value*> value = find(name);
+  if (!value) return value.error();
+  std::vector<std::int64_t> whole;
+  for (const double number : (*value)->numbers) {
+    if (!is_whole(number)) return error_at("/values/" + name, "whole numbers");
+    whole.push_back(static_cast<std::int64_t>(number));
+  }
+  return whole;
+}
+
+Result<std::string> StatedValues::printed(const std::string& name) const {
+  const Result<const Value*> value = find(name);
+  if (!value) return value.error();
+  const auto& [numbers, is_list, text, printed, sentence] = **value;
+  if (printed.empty()) return text;
+  // If only the value was changed, the printed number is out of date.
+  const std::optional<double> number = number_in_print(printed);
+  return number && (is_list || numbers.front() != *number) ? text : printed;
+}
+
+Result<std::string> StatedValues::sentence(const std::string& name) const {
+  const Result<const Value*> value = find(name);
+  if (!value) return value.error();
+  return (*value)->sentence;
+}
+
+}  // namespace bihive

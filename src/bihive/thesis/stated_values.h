@@ -1,0 +1,51 @@
+// The thesis's stated values: thesis/<experiment>/values.json (builtin_values.h). No number of the thesis stands in
+// code.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+
+namespace bihive {
+
+/// One experiment's values. Document:
+///   {"experiment": "table-4.2",
+///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "printed": "4,095", "sentence": "Nodes Internal
+///    4,095 ..."}, ...}}
+/// "value" is a number or a list of numbers. "printed" is optional. "sentence" quotes the text, or, with "chosen":
+/// true, says why the value was chosen, because the text is silent.
+class StatedValues {
+ public:
+  /// Error, with file and place: the document is not as above. `file`: as errors name it.
+  static Result<StatedValues> parse(std::string_view bytes, std::string file);
+
+  bool has(const std::string& name) const { return values_.count(name) != 0; }
+  // Error, with file and place: there is no such value, or it is another kind of value.
+  Result<double> number(const std::string& name) const;
+  Result<std::int64_t> integer(const std::string& name) const;
+  Result<std::vector<double>> numbers(const std::string& name) const;  ///< a single number is a list of one
+  Result<std::vector<std::int64_t>> integers(const std::string& name) const;
+  /// As the thesis prints it: "printed", else the value; also where "printed" is another number than the value.
+  Result<std::string> printed(const std::string& name) const;
+  Result<std::string> sentence(const std::string& name) const;
+  const std::string& text() const { return text_; }  ///< the document as it was read
+
+ private:
+  struct Value {
+    std::vector<double> numbers;
+    bool is_list;
+    std::string text, printed, sentence;  // the value as JSON; printed: empty where it is not said
+  };
+
+  Error error_at(const std::string& place, const std::string& expected) const;
+  Result<const Value*> find(const std::string& name) const;
+
+  std::string file_, text_;
+  std::map<std::string, Value> values_;
+};
+
+}  // namespace bihive

@@ -1,0 +1,57 @@
+// The thesis's stated values: what a file may hold, and what is said where it does not.
+#include "bihive/thesis/stated_values.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace bihive {
+namespace {
+
+Result<StatedValues> with(const std::string& entries) {
+  return StatedValues::parse("{\"values\": {" + entries + "}}", "file.json");
+}
+
+std::string message_of(const Result<StatedValues>& values) {
+  return values ? "none" : values.error().to_string();
+}
+
+TEST(StatedValues, GivesNumbersListsAndPrint) {
+  const auto values = with(R"("a": {"value": 4095, "printed": "4,095", "sentence": "s"},
+                              "b": {"value": [1, 2.5], "sentence": ""}, "c": {"value": 7, "printed": "8%", "sentence": ""},
+                              "d": {"value": 0, "printed": "did not vary", "sentence": ""})");
+  ASSERT_TRUE(values) << message_of(values);
+  EXPECT_EQ(values->number("a").value(), 4095);
+  EXPECT_EQ(values->integer("a").value(), 4095);
+  EXPECT_EQ(values->integers("a").value(), std::vector<std::int64_t>{4095});
+  EXPECT_EQ(values->numbers("b").value(), (std::vector<double>{1, 2.5}));
+  EXPECT_EQ(values->printed("a").value(), "4,095");
+  EXPECT_EQ(values->printed("b").value(), "[1,2.5]");
+  EXPECT_EQ(values->printed("c").value(), "7") << "what is printed is out of date";
+  EXPECT_EQ(values->printed("d").value(), "did not vary");
+  EXPECT_EQ(values->sentence("a").value(), "s");
+  EXPECT_FALSE(values->has("e"));
+}
+
+TEST(StatedValues, SaysWhatIsWrongWithAFile) {
+  EXPECT_EQ(message_of(StatedValues::parse("{", "file.json")), "file.json: /: expected a JSON document");
+  EXPECT_EQ(message_of(StatedValues::parse("[]", "file.json")),
+            "file.json: /values: expected an object with one entry a value");
+  EXPECT_EQ(message_of(with(R"("a": {"value": "x", "sentence": ""})")),
+            "file.json: /values/a/value: expected a number or a list of numbers");
+  EXPECT_EQ(message_of(with(R"("a": {"value": 1})")),
+            "file.json: /values/a/sentence: expected the sentence that it comes from");
+}
+
+TEST(StatedValues, SaysWhatIsWrongWithAValue) {
+  const auto values = with(R"("list": {"value": [1, 2.5], "sentence": ""}, "half": {"value": 0.5, "sentence": ""})");
+  ASSERT_TRUE(values) << message_of(values);
+  EXPECT_EQ(values->number("gone").error().to_string(), "file.json: /values/gone: expected a value of this name");
+  EXPECT_EQ(values->number("list").error().to_string(), "file.json: /values/list/value: expected one number");
+  EXPECT_EQ(values->integer("half").error().to_string(), "file.json: /values/half/value: expected a whole number");
+  EXPECT_EQ(values->integers("list").error().to_string(), "file.json: /values/list: expected whole numbers");
+}
+
+}  // namespace
+}  // namespace bihive
