@@ -1,7 +1,7 @@
-// Figure 4.4: how many frames a second brute force and trees of several MAX_PRIMS make.
+// Figure 4.4: frames a second of brute force and of trees of several MAX_PRIMS.
 //
-// A frame is render() of the shaded view to a film: the same camera rays and the same shading for all, whatever finds
-// the hits. On the graphics processor it is the same picture, drawn there and left there.
+// A frame is render() of the shaded view to a film. Camera rays and shading are the same for all; only the search for
+// hits differs. The graphics processor draws the same picture and keeps it.
 #include "thesis/figure_4_4.h"
 
 #include <fmt/format.h>

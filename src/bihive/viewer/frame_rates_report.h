@@ -11,8 +11,8 @@ namespace bihive {
 
 /// {"experiment", "engine", "device", "width_px", "height_px", "quick", "rounds", "configurations": [{"scenario",
 /// "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains": [{"scenario", "spheres",
-/// "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}. `device`: in words, whatever
-/// the caller knows. `values_json`: thesis/figure-4.4/values.json.
+/// "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}. `device`: a description of
+/// the device by the caller. `values_json`: thesis/figure-4.4/values.json.
 std::string frame_rates_json(const FrameRateRun& run, std::string_view values_json, const std::string& engine,
                              const std::string& device);
 
