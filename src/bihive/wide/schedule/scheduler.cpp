@@ -43,6 +43,22 @@ void for_some(std::int64_t total, std::int64_t at_a_time, const Body& body) {
   for (std::int64_t first = 0; first < total; first += at_a_time) body(first, std::min(at_a_time, total - first));
 }
 
+// Sorts rays by cells, many at a time. Calls answer(batch, some, from, first) for a tile after the other: `some` are
+// the rays of the batch from number `from` on, and the batch holds rays of the span from number `first` on. Small
+// tiles, so that answers go back to their places while they are in the cache.
+template <class Answer>
+void in_cell_order(const WideTree& tree, const RaySpan& rays, const Answer& answer) {
+  Memory& memory = memory_of_this_thread();
+  ReorderedBatch& batch = memory.sorted;
+  for_some(rays.count, kScatteredAtATime, [&](std::int64_t first, std::int64_t count) {
+    const RaySpan sorted = rays.part(first, count);
+    memory.by_cell.find(tree, sorted, batch.order());
+    batch.gather(sorted);
+    for_some(count, kTileRays,
+             [&](std::int64_t from, std::int64_t n) { answer(batch, batch.rays().part(from, n), from, first); });
+  });
+}
+
 // Rays that remain after a walker. Long runs go to in_place(first, count); the others are gathered in `batch`, and
 // gathered() is called whenever it is full.
 template <class InPlace, class Gathered>
@@ -70,17 +86,9 @@ void for_remaining(const RaySpan& rays, const RemainingRays& remaining, Reordere
 // ---- Closest hits ----
 
 void closest_hits_by_cell(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {
-  Memory& memory = memory_of_this_thread();
-  ReorderedBatch& batch = memory.sorted;
-  for_some(rays.count, kScatteredAtATime, [&](std::int64_t first, std::int64_t count) {
-    const RaySpan some = rays.part(first, count);
-    memory.by_cell.find(tree, some, batch.order());
-    batch.gather(some);
-    // Hits go back to their places while they are in the cache.
-    for_some(count, kTileRays, [&](std::int64_t from, std::int64_t n) {
-      closest_hits_by_lists(tree, batch.rays().part(from, n), batch.hits(kTileRays));
-      batch.put_back(from, n, hits.part(first));
-    });
+  in_cell_order(tree, rays, [&](ReorderedBatch& batch, const RaySpan& some, std::int64_t from, std::int64_t first) {
+    closest_hits_by_lists(tree, some, batch.hits(some.count));
+    batch.put_back(from, some.count, hits.part(first));
   });
 }
 
@@ -127,16 +135,9 @@ void occluded_remaining(const WideTree& tree, const RaySpan& rays, const Remaini
 }
 
 void occluded_by_cell(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
-  Memory& memory = memory_of_this_thread();
-  ReorderedBatch& batch = memory.sorted;
-  for_some(rays.count, kScatteredAtATime, [&](std::int64_t first, std::int64_t count) {
-    const RaySpan some = rays.part(first, count);
-    memory.by_cell.find(tree, some, batch.order());
-    batch.gather(some);
-    for_some(count, kTileRays, [&](std::int64_t from, std::int64_t n) {
-      occluded_by_lists(tree, batch.rays().part(from, n), batch.hidden(kTileRays));
-      batch.put_back(from, n, hidden + first);
-    });
+  in_cell_order(tree, rays, [&](ReorderedBatch& batch, const RaySpan& some, std::int64_t from, std::int64_t first) {
+    occluded_by_lists(tree, some, batch.hidden(some.count));
+    batch.put_back(from, some.count, hidden + first);
   });
 }
 
