@@ -1,8 +1,8 @@
 // The amount of work of the kernels' tests, and their instruction sets. Slow machines and emulators take fewer rays.
 //
 // In the environment:
-//   BIHIVE_TEST_SHARE=N    one N-th of the work (1 to 64; default 1, with a sanitizer 16): N up to 16 takes fewer rays, a
-//                          larger N also fewer sets of spheres
+//   BIHIVE_TEST_SHARE=N    one N-th of the work (1 to 64; default 1, with a sanitizer 16): N up to 16 takes fewer rays,
+//                          a larger N also fewer sets of spheres
 //   BIHIVE_TARGET=NAME     queries on that instruction set alone (default: on all of the machine)
 #pragma once
 
