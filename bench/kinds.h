@@ -16,7 +16,7 @@ enum class Kind { primary, random, shadow, mirror1, mirror2, mirror3, mirror_sha
 struct KindFacts {
   Kind kind;
   std::string_view name;
-  bool any_hit;  ///< whether anything is hit, not what
+  bool any_hit;  ///< whether anything is hit; the sphere does not matter
   RayOrder order;
   std::int64_t tile;  ///< rays that a thread takes at a time, at most, unless the user says another number
 };

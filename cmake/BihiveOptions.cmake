@@ -44,11 +44,11 @@ if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE}" MATCHES "-ffast-math|-Ofast|-
   message(FATAL_ERROR "bihive's pictures depend on exact IEEE arithmetic: remove -ffast-math or -Ofast from the flags")
 endif()
 
-# Instruction sets that no machine of the last ten years needs of its own (src/bihive/simd/target.h).
+# Instruction sets that every machine of the last ten years exceeds (src/bihive/simd/target.h).
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
-  # NEON, which every such machine has, and nothing to choose between. Vectors whose length is known only when the program
-  # runs (SVE) cannot be kept in arrays, as the kernels do. Without the second macro Highway would compile for NEON with
-  # cryptography, and a Raspberry Pi 4 has none.
+  # NEON alone: every such machine has it. Vectors whose length is known only when the program runs (SVE) cannot be kept
+  # in arrays, as the wide engine keeps them. Without the second macro Highway would compile for NEON with cryptography,
+  # and a Raspberry Pi 4 has none.
   target_compile_definitions(
     bihive_options INTERFACE "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)"
                              TOOLCHAIN_MISS_SYS_AUXV_H)

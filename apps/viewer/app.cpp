@@ -106,7 +106,7 @@ void App::listen(GLFWwindow* window) {
   });
 }
 
-// --- What the window tells --------------------------------------------------------------------------------------
+// --- Events of the window --------------------------------------------------------------------------------------
 
 void App::on_key(int key, int action, int mods) {
   if (action == GLFW_RELEASE) return;
@@ -250,7 +250,7 @@ void App::on_drop(std::vector<std::string> paths) {
   if (!paths.empty()) file_to_open_ = std::move(paths.front());
 }
 
-// --- What follows from it ---------------------------------------------------------------------------------------
+// --- Actions on events ------------------------------------------------------------------------------------------
 
 void App::open_file(const std::string& path) {
   const Result<std::string> bytes = read_file(path);

@@ -3,12 +3,13 @@
 //   trace_oracle --bihive PROGRAM [--rays N] [--threads N] [--scene NAME] [--seed N]     (or BIHIVE in the environment)
 //   trace_oracle --library ...                                                          the library, without files
 //
-// An answer is right if it is the oracle's, or if it is one that binary64 can give where the two differ: tests/support/
-// oracle.h states that as an interval for each root, which is never wider than a few 1e-15 of the distance and so
-// within the relative 1e-12 that the project allows itself. Such answers are counted as excused, and too many of them
-// fail too. Spheres that are equal bit for bit have equal roots in both arithmetics: there the smaller id is always
-// required. The reference engine is what is judged. The engine `auto` must give its bits on every ray; on the first
-// million rays so must `auto` on every other instruction set of this machine and brute force, and --any must agree.
+// An answer is right if it is the oracle's. It is also right if binary64 can give it where binary64 and the oracle
+// differ. tests/support/oracle.h states that as an interval for each root. Such an interval is at most a few 1e-15 of
+// the distance wide, far within the relative 1e-12 that the project allows itself. These answers count as excused, and
+// too many of them fail too. Spheres that are equal bit for bit have equal roots in both arithmetics, so the smaller id
+// is always required. The test judges the reference engine. The engine `auto` must give its bits on every ray. On the
+// first million rays `auto` on every other instruction set of this machine and brute force must give its bits too, and
+// --any must agree.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,7 +33,7 @@ namespace {
 
 constexpr std::int64_t kChunk = 500000;          // rays in memory at a time
 constexpr std::int64_t kComparedRays = 1000000;  // rays for brute force and any-hit
-// Shares of all rays that may be excused: where the ray maker aims at ties and ends on purpose, and elsewhere.
+// Shares of all rays that may be excused: for rays that aim at ties and ends on purpose, and for the other rays.
 constexpr double kMostOnPurpose = 1e-2;
 constexpr double kMostAtSilhouettes = 1e-4;
 constexpr double kFewAnyway = 5;  // rays, so that a short run does not fail by chance
@@ -98,7 +99,7 @@ void judge(const Oracle& oracle, const Ray& ray, double t, std::int64_t id, cons
   }
 }
 
-/// Says where two engines differ first; false if they do, or if one failed.
+/// Prints the first difference between two engines; returns false if there is one, or if an engine failed.
 bool same_answers(const std::vector<Ray>& rays, const std::optional<Answers>& a, const std::optional<Answers>& b,
                   const std::string& names) {
   if (!a || !b) return false;
@@ -111,7 +112,7 @@ bool same_answers(const std::vector<Ray>& rays, const std::optional<Answers>& a,
   return true;
 }
 
-/// What --any must say where the closest hits are known.
+/// The right answer of --any, from the closest hits.
 Answers any_of(const Answers& closest) {
   Answers any = closest;
   for (std::size_t i = 0; i < any.id.size(); ++i)

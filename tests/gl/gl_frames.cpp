@@ -1,6 +1,7 @@
-// gl_frames INPUT [WIDTH HEIGHT [RECURSION]]: how long a frame takes on the graphics processor, one sample a pixel.
+// gl_frames INPUT [WIDTH HEIGHT [RECURSION]]: measures the time of a frame on the graphics processor, one sample a
+// pixel.
 //
-// INPUT as for `bihive render`. Prints one JSON object: the processor, what comes before the first frame (packing and
+// INPUT as for `bihive render`. Prints one JSON object: the processor, the time before the first frame (packing, and
 // upload with linking the shaders), the first frame (many drivers compile then), and the median and the fastest of 15
 // more, with rays of all kinds a frame.
 #include <algorithm>

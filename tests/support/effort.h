@@ -1,9 +1,9 @@
-// How much a test of the kernels does, and on which instruction sets. Where a program runs slowly it takes fewer rays.
+// The amount of work of the kernels' tests, and their instruction sets. Slow machines and emulators take fewer rays.
 //
 // In the environment:
-//   BIHIVE_TEST_SHARE=N    one N-th of the work (1 to 64; default 1, with a sanitizer 16): up to 16 of the rays, beyond
-//                          that of the sets of spheres
-//   BIHIVE_TARGET=NAME     queries on that instruction set alone (default: on every one that the machine has)
+//   BIHIVE_TEST_SHARE=N    one N-th of the work (1 to 64; default 1, with a sanitizer 16): N up to 16 takes fewer rays,
+//                          a larger N also fewer sets of spheres
+//   BIHIVE_TARGET=NAME     queries on that instruction set alone (default: on all of the machine)
 #pragma once
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 
 namespace bihive::test {
 
-/// N: a test does about one N-th of its work.
+/// N: a test does one N-th of its work, roughly.
 inline std::int64_t test_share() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr std::int64_t kUsual = 16;  // a sanitizer is about that much slower
+  constexpr std::int64_t kUsual = 16;  // a sanitizer is slower by about this factor
 #else
   constexpr std::int64_t kUsual = 1;
 #endif

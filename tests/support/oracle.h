@@ -1,12 +1,12 @@
 // The oracle: brute force over all spheres in long double, written without the library's intersection code.
 //
-// It uses the cross product where the library uses the perpendicular form, takes world units where the library takes
-// stored ones, and carries 64 bits where the library carries 53. It answers two questions: what is hit, and whether an
-// answer given in binary64 is one that correct binary64 arithmetic can give.
+// It differs from the library in three ways: it uses the cross product, not the perpendicular form; world units, not
+// stored ones; and 64 bits, not 53. It answers two questions: what does the ray hit, and can correct binary64
+// arithmetic give a certain answer?
 //
-// The second is decided by an interval for each root, from the error bound of the library's sequence of operations that
-// docs/precision.md derives. With u = 2^-53, L the distance from the ray's origin to the centre, D the direction's
-// length, p the distance of the line from the centre:
+// An interval for each root decides the second question. It comes from the error bound of the library's sequence of
+// operations that docs/precision.md derives. With u = 2^-53, L the distance from the ray's origin to the centre, D the
+// direction's length, p the distance of the line from the centre:
 //   |error of t_closest|    <= 8 u L / D
 //   |error of discriminant| <= 4 u L p + 6 u p^2 + 2 u r^2 + 130 u^2 L^2
 //   half chord: 3 u relative; the sum of both: u relative.
@@ -29,7 +29,7 @@ static_assert(LDBL_MANT_DIG >= 64, "the oracle needs a long double wider than bi
 /// One ray and one sphere that it may meet.
 struct Encounter {
   std::int64_t id = -1;
-  long double t_near = 0, t_far = 0;     ///< exact roots (a tangent line's where only the error bound reaches it)
+  long double t_near = 0, t_far = 0;     ///< exact roots (a tangent line's if only the error bound reaches it)
   long double near_lo = 0, near_hi = 0;  ///< interval of the near root in binary64
   long double far_lo = 0, far_hi = 0;    ///< interval of the far root
   bool exists = false;                   ///< the line meets the sphere

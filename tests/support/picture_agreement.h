@@ -19,10 +19,10 @@
 
 namespace bihive::test {
 
-/// Of two pictures in bytes. A pixel differs if a channel differs by more than kTolerance of 255. It lies on an edge if
-/// the CPU's picture differs as much within its 3 x 3 neighbourhood, or if the CPU finds a value that differs as much
-/// when its primary rays are moved by a thousandth of a pixel, or less, in one of sixteen directions. (Less, because
-/// what is seen in a mirror in a mirror may be narrower than that.)
+/// Compares two pictures in bytes. A pixel differs if a channel differs by more than kTolerance of 255. It lies on an
+/// edge in two cases: the CPU's picture differs as much within its 3 x 3 neighbourhood; or the CPU finds a value that
+/// differs as much when its primary rays are moved by a thousandth of a pixel, or less, in one of sixteen directions.
+/// (Less, because a mirror image in a mirror may have details that are narrower.)
 struct Agreement {
   static constexpr int kTolerance = 2;
   static constexpr double kMovedPx[3] = {1e-3, 3e-4, 1e-4};

@@ -13,10 +13,10 @@
 
 namespace bihive::test {
 
-/// Of the rays, half are aimed within 1.5 radii of a random sphere and a tenth graze one (0.99 to 1.01 radii); the rest
+/// Half of the rays are aimed within 1.5 radii of a random sphere, and a tenth graze one (0.99 to 1.01 radii). The rest
 /// are a tenth each along an axis (two zero components), in a plane of two axes (one zero), starting inside a sphere,
-/// and anywhere through the set. A fifth of all are segments, some of which end at the hit as binary32 can tell it.
-/// Directions are of lengths over twelve orders of magnitude. Ray i depends on the seed and i alone.
+/// and anywhere through the set. A fifth of all are segments; some of them end at the hit, as exactly as binary32 can
+/// say. The lengths of directions span twelve orders of magnitude. Ray i depends on the seed and i alone.
 class RayMaker {
  public:
   RayMaker(const World& world, std::uint64_t seed) : world_(&world), seed_(seed) {

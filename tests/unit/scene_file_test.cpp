@@ -36,7 +36,7 @@ std::string error_of(const std::string& json, const ReadOptions& options = {}) {
   return loaded ? "no error" : loaded.error().to_string();
 }
 
-// --- What a document says ---------------------------------------------------------------------------------------
+// --- Documents and their scenes ---------------------------------------------------------------------------------
 
 TEST(SceneFile, TheSmallestDocumentHasTheDefaultsOfAFile) {
   const Result<LoadedScene> loaded = parse(R"({"bihive_scene": 1, "spheres": [[1, 2, 3, 4]]})");
@@ -257,7 +257,7 @@ TEST(SceneFile, LooksLikeAScene) {
   EXPECT_FALSE(looks_like_scene("1 2 3 {"));
 }
 
-// --- What is wrong with it --------------------------------------------------------------------------------------
+// --- Errors -----------------------------------------------------------------------------------------------------
 
 TEST(SceneFileErrors, NameThePathAndWhatWasExpected) {
   const std::pair<const char*, const char*> cases[] = {
