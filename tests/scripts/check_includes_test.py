@@ -50,6 +50,21 @@ class CheckIncludes(unittest.TestCase):
         }
         self.assertEqual(len(self.offences(files)), 1)
 
+    def test_floors_of_the_wide_engine(self):
+        files = {
+            "src/bihive/wide/tree/radii.h": "#pragma once\n",
+            "src/bihive/wide/trace/beams.h": '#pragma once\n#include "bihive/wide/tree/radii.h"\n',
+            "src/bihive/wide/schedule/scheduler.cpp": '#include "bihive/wide/trace/beams.h"\n',
+        }
+        self.assertEqual(self.offences(files), [])
+        files["src/bihive/wide/tree/radii.cpp"] = '#include "bihive/wide/tree/radii.h"\n#include "bihive/wide/trace/beams.h"\n'
+        found = self.offences(files)
+        self.assertEqual(len(found), 1)
+        self.assertTrue(found[0].startswith("src/bihive/wide/tree/radii.cpp:2: wide/tree must not include wide/trace"), found)
+        del files["src/bihive/wide/tree/radii.cpp"]
+        files["src/bihive/wide/attic/a.cpp"] = "\n"
+        self.assertEqual(len(self.offences(files)), 1)
+
     def test_header_that_is_not_there(self):
         self.assertEqual(len(self.offences({"src/bihive/base/a.cpp": '#include "bihive/base/a.h"\n'})), 1)
 

@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 
 void find_shadow_rays_on_target(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light,
                                 ShadowWave& shadows) {
-  const WordTag w;
+  const LongTag w;
   for (std::int64_t i = first; i < surfaces.count; i += kLanes) {
     const Lanes3 origin = load(surfaces.origin, i);
     const LightLanes to_light(light, origin, load(surfaces.normal, i));
@@ -39,7 +39,7 @@ HWY_INLINE void add_to_owners(Lanes3 light, const WaveSurfaces& surfaces, std::i
   // Neighbouring surfaces mostly have neighbouring owners.
   const std::int64_t first = surfaces.owner[i];
   const std::int64_t n = std::min<std::int64_t>(surfaces.count - i, kLanes);
-  if (n == kLanes && hn::AllTrue(WordTag(), hn::Eq(load(surfaces.owner, i), counted_from(first)))) {
+  if (n == kLanes && hn::AllTrue(LongTag(), hn::Eq(load(surfaces.owner, i), counted_from(first)))) {
     const Lanes3 before = sums.empty ? all(Vec3d{}) : load(sums.light, first);
     store(add(before, light), sums.light, first);
     return;

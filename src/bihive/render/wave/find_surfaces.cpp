@@ -17,10 +17,10 @@ void hit_plane_on_target(const WaveScene& scene, const WavePart& part, double* t
   const Wave& wave = *part.wave;
   for (std::int64_t k = 0; k < part.count(); k += kLanes) {
     const std::int64_t i = part.first + k;
-    RayLanes rays{load(wave.origin, i), load(wave.direction, i), hn::LoadU(Tag(), t + k), hn::LoadU(WordTag(), id + k)};
+    RayLanes rays{load(wave.origin, i), load(wave.direction, i), hn::LoadU(Tag(), t + k), hn::LoadU(LongTag(), id + k)};
     hit_plane(scene.scene->plane->plane, wave, i, rays);
     hn::StoreU(rays.t, Tag(), t + k);
-    hn::StoreU(rays.id, WordTag(), id + k);
+    hn::StoreU(rays.id, LongTag(), id + k);
   }
 }
 
@@ -46,7 +46,7 @@ HWY_INLINE void add_background(Vec3d background, const Wave& wave, std::int64_t 
 
 void find_surfaces_on_target(const WaveScene& wave_scene, const WavePart& part, const double* t, const std::int64_t* id,
                              WaveSurfaces& surfaces, WaveSums& sums) {
-  const WordTag w;
+  const LongTag w;
   const Scene& scene = *wave_scene.scene;
   const Wave& wave = *part.wave;
   for (std::int64_t k = 0; k < part.count(); k += kLanes) {

@@ -25,9 +25,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<double, 8>;
 using FloatHalf = hn::Rebind<float, Tag>;
-using WordTag = hn::Rebind<std::int64_t, Tag>;
+using LongTag = hn::Rebind<std::int64_t, Tag>;
 using Lanes = hn::Vec<Tag>;
-using Words = hn::Vec<WordTag>;
+using Longs = hn::Vec<LongTag>;
 using LaneMask = hn::Mask<Tag>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
 static_assert(kLanes <= kColumnPadding);
@@ -36,17 +36,17 @@ HWY_INLINE Lanes all(double x) {
   return hn::Set(Tag(), x);
 }
 /// first, first + 1, ... Highway 1.0.3 would store a vector to memory and load it.
-HWY_INLINE Words counted_from(std::int64_t first) {
-  return hn::Add(hn::Iota(WordTag(), 0), hn::Set(WordTag(), first));
+HWY_INLINE Longs counted_from(std::int64_t first) {
+  return hn::Add(hn::Iota(LongTag(), 0), hn::Set(LongTag(), first));
 }
 HWY_INLINE LaneMask first_lanes(std::int64_t n) {
   return hn::FirstN(Tag(), static_cast<std::size_t>(std::min<std::int64_t>(n, kLanes)));
 }
-HWY_INLINE LaneMask lanes_of(hn::Mask<WordTag> mask) {
+HWY_INLINE LaneMask lanes_of(hn::Mask<LongTag> mask) {
   return hn::RebindMask(Tag(), mask);
 }
-HWY_INLINE hn::Mask<WordTag> words_of(LaneMask mask) {
-  return hn::RebindMask(WordTag(), mask);
+HWY_INLINE hn::Mask<LongTag> longs_of(LaneMask mask) {
+  return hn::RebindMask(LongTag(), mask);
 }
 HWY_INLINE bool none(LaneMask mask) {
   return hn::AllFalse(Tag(), mask);
@@ -61,8 +61,8 @@ HWY_INLINE Lanes load(const Column<double>& column, std::int64_t i) {
 HWY_INLINE Lanes load(const Column<float>& column, std::int64_t i) {
   return hn::PromoteTo(Tag(), hn::LoadU(FloatHalf(), column.data() + i));
 }
-HWY_INLINE Words load(const Column<std::int64_t>& column, std::int64_t i) {
-  return hn::LoadU(WordTag(), column.data() + i);
+HWY_INLINE Longs load(const Column<std::int64_t>& column, std::int64_t i) {
+  return hn::LoadU(LongTag(), column.data() + i);
 }
 HWY_INLINE void store(Lanes v, Column<double>& column, std::int64_t i) {
   hn::StoreU(v, Tag(), column.data() + i);
@@ -70,14 +70,14 @@ HWY_INLINE void store(Lanes v, Column<double>& column, std::int64_t i) {
 HWY_INLINE void store(Lanes v, Column<float>& column, std::int64_t i) {
   hn::StoreU(hn::DemoteTo(FloatHalf(), v), FloatHalf(), column.data() + i);
 }
-HWY_INLINE void store(Words v, Column<std::int64_t>& column, std::int64_t i) {
-  hn::StoreU(v, WordTag(), column.data() + i);
+HWY_INLINE void store(Longs v, Column<std::int64_t>& column, std::int64_t i) {
+  hn::StoreU(v, LongTag(), column.data() + i);
 }
 
 /// As bytes; each number must fit one byte.
-HWY_INLINE void store(Words v, Column<std::uint8_t>& column, std::int64_t i) {
+HWY_INLINE void store(Longs v, Column<std::uint8_t>& column, std::int64_t i) {
   alignas(64) std::int64_t words[kLanes];
-  hn::Store(v, WordTag(), words);
+  hn::Store(v, LongTag(), words);
   for (int k = 0; k < kLanes; ++k) column[i + k] = static_cast<std::uint8_t>(words[k]);
 }
 
@@ -96,16 +96,16 @@ HWY_INLINE Lanes gathered(const float* column, const std::int64_t* at) {
   return hn::Load(Tag(), entry);
 #endif
 }
-HWY_INLINE Words gathered(const std::int32_t* column, const std::int64_t* at) {
+HWY_INLINE Longs gathered(const std::int32_t* column, const std::int64_t* at) {
 #if HWY_TARGET == HWY_AVX3
-  return Words{_mm512_set_epi64(column[at[7]], column[at[6]], column[at[5]], column[at[4]], column[at[3]],
+  return Longs{_mm512_set_epi64(column[at[7]], column[at[6]], column[at[5]], column[at[4]], column[at[3]],
                                 column[at[2]], column[at[1]], column[at[0]])};
 #elif HWY_TARGET == HWY_AVX2
-  return Words{_mm256_cvtepi32_epi64(_mm_set_epi32(column[at[3]], column[at[2]], column[at[1]], column[at[0]]))};
+  return Longs{_mm256_cvtepi32_epi64(_mm_set_epi32(column[at[3]], column[at[2]], column[at[1]], column[at[0]]))};
 #else
   alignas(64) std::int64_t entry[kLanes];
   for (int k = 0; k < kLanes; ++k) entry[k] = column[at[k]];
-  return hn::Load(WordTag(), entry);
+  return hn::Load(LongTag(), entry);
 #endif
 }
 
@@ -258,8 +258,8 @@ class Appender {
     store(HWY_LIKELY(every_) ? v : compress_(v), column, at_);
   }
   template <class T>
-  HWY_INLINE void operator()(Words v, Column<T>& column) const {
-    store(HWY_LIKELY(every_) ? v : hn::BitCast(WordTag(), compress_(hn::BitCast(Tag(), v))), column, at_);
+  HWY_INLINE void operator()(Longs v, Column<T>& column) const {
+    store(HWY_LIKELY(every_) ? v : hn::BitCast(LongTag(), compress_(hn::BitCast(Tag(), v))), column, at_);
   }
   template <class T>
   HWY_INLINE void operator()(Lanes3 v, Columns3<T>& columns) const {

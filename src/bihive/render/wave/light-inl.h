@@ -43,7 +43,7 @@ HWY_INLINE LaneMask has_highlight(const MaterialLanes& material) {
 HWY_INLINE LaneMask set_lanes(const std::uint8_t* bytes) {
   alignas(64) std::int64_t words[kLanes];
   for (int k = 0; k < kLanes; ++k) words[k] = bytes[k];
-  return lanes_of(hn::Ne(hn::Load(WordTag(), words), hn::Zero(WordTag())));
+  return lanes_of(hn::Ne(hn::Load(LongTag(), words), hn::Zero(LongTag())));
 }
 
 /// For the lanes `there`, at least one. `hidden`: null, or one byte for each light and surface, 1 if the light is

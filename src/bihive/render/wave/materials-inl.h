@@ -25,11 +25,11 @@ struct MaterialLanes {
 };
 
 /// Opacity and colour of single spheres, if the scene has any.
-HWY_INLINE void apply_attributes(const Scene& scene, Words id, MaterialLanes& lanes) {
+HWY_INLINE void apply_attributes(const Scene& scene, Longs id, MaterialLanes& lanes) {
   const SphereAttributes& attributes = scene.spheres.attributes();
-  const LaneMask on_sphere = lanes_of(hn::Gt(id, hn::Set(WordTag(), -1)));
+  const LaneMask on_sphere = lanes_of(hn::Gt(id, hn::Set(LongTag(), -1)));
   alignas(64) std::int64_t ids[kLanes];
-  hn::Store(id, WordTag(), ids);
+  hn::Store(id, LongTag(), ids);
   alignas(64) double channel[3][kLanes] = {}, opacity_of[kLanes] = {};
   for (int k = 0; k < kLanes; ++k) {
     if (ids[k] < 0) continue;
@@ -73,23 +73,23 @@ HWY_INLINE const Material& material_at(const WaveScene& scene, std::int64_t mate
 }
 
 /// For the lanes `wanted`, at least one; the others hold anything. `material_inside` and `id` as in WaveSurfaces.
-HWY_INLINE MaterialLanes materials_of(const WaveScene& scene, LaneMask wanted, Words material_inside, Words id) {
+HWY_INLINE MaterialLanes materials_of(const WaveScene& scene, LaneMask wanted, Longs material_inside, Longs id) {
   // Neighbours mostly share a material, so load each material that occurs once. The compared numbers include the inside
   // bit.
   alignas(64) std::int64_t numbers[kLanes];
-  const Words which = hn::Or(material_inside, hn::Set(WordTag(), 1));
-  hn::Store(which, WordTag(), numbers);
+  const Longs which = hn::Or(material_inside, hn::Set(LongTag(), 1));
+  hn::Store(which, LongTag(), numbers);
   std::int64_t number = numbers[hn::FindFirstTrue(Tag(), wanted)];
   MaterialLanes lanes = all(material_at(scene, number));
-  LaneMask left = hn::AndNot(lanes_of(hn::Eq(which, hn::Set(WordTag(), number))), wanted);
+  LaneMask left = hn::AndNot(lanes_of(hn::Eq(which, hn::Set(LongTag(), number))), wanted);
   while (HWY_UNLIKELY(!none(left))) {
     number = numbers[hn::FindFirstTrue(Tag(), left)];
-    const LaneMask same = hn::And(left, lanes_of(hn::Eq(which, hn::Set(WordTag(), number))));
+    const LaneMask same = hn::And(left, lanes_of(hn::Eq(which, hn::Set(LongTag(), number))));
     lanes = choose(same, all(material_at(scene, number)), lanes);
     left = hn::AndNot(same, left);
   }
   if (!scene.has_attributes) return lanes;
-  apply_attributes(*scene.scene, hn::IfThenElse(words_of(wanted), id, hn::Set(WordTag(), kNothing)), lanes);
+  apply_attributes(*scene.scene, hn::IfThenElse(longs_of(wanted), id, hn::Set(LongTag(), kNothing)), lanes);
   return lanes;
 }
 

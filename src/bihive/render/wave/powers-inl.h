@@ -19,17 +19,17 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 
 /// Conversion of whole numbers below 2^51 in magnitude between integer and binary64.
-HWY_INLINE Words words_from_whole(Lanes whole) {
+HWY_INLINE Longs words_from_whole(Lanes whole) {
   const auto magic = all(0x1.8p52);
-  return hn::Sub(hn::BitCast(WordTag(), hn::Add(whole, magic)), hn::BitCast(WordTag(), magic));
+  return hn::Sub(hn::BitCast(LongTag(), hn::Add(whole, magic)), hn::BitCast(LongTag(), magic));
 }
-HWY_INLINE Lanes whole_from_words(Words words) {
+HWY_INLINE Lanes whole_from_words(Longs words) {
   const auto magic = all(0x1.8p52);
-  return hn::Sub(hn::BitCast(Tag(), hn::Add(words, hn::BitCast(WordTag(), magic))), magic);
+  return hn::Sub(hn::BitCast(Tag(), hn::Add(words, hn::BitCast(LongTag(), magic))), magic);
 }
 /// 2^whole for -1022 <= whole <= 1023.
 HWY_INLINE Lanes power_of_two(Lanes whole) {
-  const auto biased = hn::Add(words_from_whole(whole), hn::Set(WordTag(), 1023));
+  const auto biased = hn::Add(words_from_whole(whole), hn::Set(LongTag(), 1023));
   return hn::BitCast(Tag(), hn::ShiftLeft<52>(biased));
 }
 
@@ -44,7 +44,7 @@ HWY_INLINE Lanes pair(double a, Lanes b, double c) {
 /// portable_log2() of normal numbers.
 HWY_INLINE Lanes log2_of(Lanes x) {
   // Split into mantissa in [sqrt(1/2), sqrt(2)) and exponent, both exact.
-  const WordTag w;
+  const LongTag w;
   const auto bits = hn::BitCast(w, x);
   auto exponent = whole_from_words(hn::Sub(hn::ShiftRight<52>(bits), hn::Set(w, 1022)));
   auto mantissa =
@@ -99,13 +99,13 @@ HWY_INLINE Lanes pow_of(LaneMask mask, Lanes x, Lanes y) {
 /// shading_power() where the mask is set, x > 0 there.
 HWY_INLINE Lanes shading_power_of(LaneMask mask, Lanes x, Lanes y) {
   // Neighbours mostly share a power, so compute each power that occurs once.
-  const Words bits = hn::BitCast(WordTag(), y);
+  const Longs bits = hn::BitCast(LongTag(), y);
   alignas(64) double powers[kLanes];
   hn::Store(y, Tag(), powers);
   Lanes result = all(0);
   for (LaneMask left = mask; !none(left);) {
     const double power = powers[hn::FindFirstTrue(Tag(), left)];
-    const LaneMask same = hn::And(left, lanes_of(hn::Eq(bits, hn::BitCast(WordTag(), all(power)))));
+    const LaneMask same = hn::And(left, lanes_of(hn::Eq(bits, hn::BitCast(LongTag(), all(power)))));
     Lanes raised = all(1);
     if (is_small_whole(power)) {
       Lanes square = x;

@@ -17,18 +17,18 @@ namespace HWY_NAMESPACE {
 struct SentLanes {
   Lanes3 direction;
   Lanes weight;
-  Words inside;
+  Longs inside;
 };
 
 HWY_INLINE SentLanes choose(LaneMask mask, const SentLanes& yes, const SentLanes& no) {
   return {choose(mask, yes.direction, no.direction), hn::IfThenElse(mask, yes.weight, no.weight),
-          hn::IfThenElse(words_of(mask), yes.inside, no.inside)};
+          hn::IfThenElse(longs_of(mask), yes.inside, no.inside)};
 }
 
 // transmitted_ray(), if the mirrored one is known.
 HWY_INLINE SentLanes transmitted(const MaterialLanes& material, Lanes3 incoming, Lanes3 normal, LaneMask on_plane,
                                  const SentLanes& reflected) {
-  const Words one = hn::Set(WordTag(), 1);
+  const Longs one = hn::Set(LongTag(), 1);
   const LaneMask from_inside = lanes_of(hn::Eq(reflected.inside, one));
   const Lanes index = material.refraction_index;
   const Lanes ratio = hn::IfThenElse(from_inside, index, hn::Div(all(1), index));
@@ -41,9 +41,9 @@ HWY_INLINE SentLanes transmitted(const MaterialLanes& material, Lanes3 incoming,
   // Total internal reflection stays inside; a plane is thin.
   const LaneMask total = hn::Lt(beyond_squared, all(0));
   SentLanes sent{choose(total, reflected.direction, refracted), reflected.weight,
-                 hn::IfThenElse(words_of(total), reflected.inside, hn::Sub(one, reflected.inside))};
+                 hn::IfThenElse(longs_of(total), reflected.inside, hn::Sub(one, reflected.inside))};
   sent.direction = choose(on_plane, incoming, sent.direction);
-  sent.inside = hn::IfThenZeroElse(words_of(on_plane), sent.inside);
+  sent.inside = hn::IfThenZeroElse(longs_of(on_plane), sent.inside);
   return sent;
 }
 
@@ -60,7 +60,7 @@ HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMa
     hn::Store(lanes.direction.y, Tag(), to.direction[1]);
     hn::Store(lanes.direction.z, Tag(), to.direction[2]);
     hn::Store(lanes.weight, Tag(), to.weight);
-    hn::Store(lanes.inside, WordTag(), to.inside);
+    hn::Store(lanes.inside, LongTag(), to.inside);
     hn::StoreMaskBits(Tag(), mask, to.bits);
   };
   keep(reflects, reflected, sent[0]);
@@ -81,13 +81,13 @@ HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMa
 }
 
 steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next) {
-  const WordTag w;
+  const LongTag w;
   steps::SentOn sent;
   for (std::int64_t i = first; i < surfaces.count; i += kLanes) {
     // A share of exactly 0 makes no ray.
     const LaneMask there = first_lanes(surfaces.count - i);
-    const Words id = load(surfaces.id, i);
-    const Words material_inside = load(surfaces.material_inside, i);
+    const Longs id = load(surfaces.id, i);
+    const Longs material_inside = load(surfaces.material_inside, i);
     const MaterialLanes material = materials_of(scene, there, material_inside, id);
     const LaneMask reflects = hn::And(there, hn::Ne(material.reflective, all(0)));
     const LaneMask transmits = hn::And(there, hn::Ne(material.transmissive, all(0)));
@@ -97,7 +97,7 @@ steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surf
     const Lanes3 incoming = load(surfaces.incoming, i);
     const Lanes3 normal = load(surfaces.normal, i);
     const Lanes weight = load(surfaces.weight, i);
-    const Words inside = hn::And(material_inside, hn::Set(w, 1));
+    const Longs inside = hn::And(material_inside, hn::Set(w, 1));
     const Lanes3 mirrored = subtract(incoming, multiply(hn::Mul(all(2), dot(incoming, normal)), normal));
     SentLanes ray{mirrored, hn::Mul(weight, material.reflective), inside};
     if (!none(transmits)) {

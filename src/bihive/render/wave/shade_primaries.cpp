@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, const double* t, const std::int64_t* id,
                                WaveSums& sums) {
-  const WordTag w;
+  const LongTag w;
   const Wave& wave = *part.wave;
   double* const red = sums.light[0].data();
   double* const green = sums.light[1].data();

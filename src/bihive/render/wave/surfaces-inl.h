@@ -25,7 +25,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct RayLanes {
   Lanes3 origin, direction;
   Lanes t;
-  Words id;
+  Longs id;
 };
 
 /// The height of the plane above points, in lengths of its normal.
@@ -41,7 +41,7 @@ HWY_INLINE LaneMask hits_plane(const Plane& plane, Lanes height, const RayLanes&
 }
 HWY_INLINE void put_plane(LaneMask hit, Lanes t, RayLanes& rays) {
   rays.t = hn::IfThenElse(hit, t, rays.t);
-  rays.id = hn::IfThenElse(words_of(hit), hn::Set(WordTag(), kPlane), rays.id);
+  rays.id = hn::IfThenElse(longs_of(hit), hn::Set(LongTag(), kPlane), rays.id);
 }
 
 /// The same for any rays of a wave, from number i on; they may be invalid.
@@ -51,13 +51,13 @@ HWY_INLINE void hit_plane(const Plane& plane, const Wave& wave, std::int64_t i, 
   if (!wave.starts_at_eye) {
     // t may be 0 for a direction that is not finite.
     hit = hn::And(hit, hn::Lt(hn::Abs(dot(all(plane.normal), rays.direction)), all(kInfinity)));
-    hit = hn::And(hit, lanes_of(hn::Ne(load(wave.leaves, i), hn::Set(WordTag(), kPlane))));
+    hit = hn::And(hit, lanes_of(hn::Ne(load(wave.leaves, i), hn::Set(LongTag(), kPlane))));
   }
   put_plane(hit, t, rays);
 }
 
 // The position of the plane's material by the checker's squares, counted from the plane's first material.
-HWY_INLINE Words checker_step(const WaveScene& scene, Lanes3 point) {
+HWY_INLINE Longs checker_step(const WaveScene& scene, Lanes3 point) {
   const Checker& checker = *scene.scene->plane->checker;
   const Lanes size = all(checker.size);
   const Lanes squares = hn::Add(hn::Floor(hn::Div(dot(point, all(scene.axes.u)), size)),
@@ -65,8 +65,8 @@ HWY_INLINE Words checker_step(const WaveScene& scene, Lanes3 point) {
   const Lanes rest = hn::Sub(squares, hn::Mul(all(2), hn::Floor(hn::Mul(squares, all(0.5)))));
   const LaneMask odd = hn::Ne(rest, all(0));
   const LaneMask far = hn::Gt(dot(point, point), all(checker.fade_distance * checker.fade_distance));
-  const WordTag w;
-  return hn::IfThenElse(words_of(far), hn::Set(w, 2), hn::IfThenElse(words_of(odd), hn::Set(w, 1), hn::Set(w, 0)));
+  const LongTag w;
+  return hn::IfThenElse(longs_of(far), hn::Set(w, 2), hn::IfThenElse(longs_of(odd), hn::Set(w, 1), hn::Set(w, 0)));
 }
 
 /// Surfaces in some lanes; the others hold anything.
@@ -74,12 +74,12 @@ struct SurfaceLanes {
   Lanes3 origin;  ///< numbers of binary32
   Lanes3 incoming, normal;
   Lanes cosine;  ///< -incoming . normal
-  Words id, material_inside;
+  Longs id, material_inside;
 };
 
 /// For lanes `found` of the rays, at least one: the rays that hit something.
 HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found, const RayLanes& rays) {
-  const WordTag w;
+  const LongTag w;
   const Scene& scene = *wave_scene.scene;
   SurfaceLanes surface;
   surface.id = rays.id;
@@ -92,10 +92,10 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
   const LaneMask on_plane = hn::And(found, lanes_of(hn::Eq(rays.id, hn::Set(w, kPlane))));
   const LaneMask on_sphere = hn::AndNot(on_plane, found);
   Lanes3 outward;
-  Words material = hn::Zero(w);
+  Longs material = hn::Zero(w);
   if (!none(on_sphere)) {
     alignas(64) std::int64_t sphere[kLanes];
-    hn::Store(hn::IfThenElseZero(words_of(on_sphere), rays.id), w, sphere);
+    hn::Store(hn::IfThenElseZero(longs_of(on_sphere), rays.id), w, sphere);
     const SphereSet& spheres = scene.spheres;
     const Lanes3 stored{gathered(spheres.x().data(), sphere), gathered(spheres.y().data(), sphere),
                         gathered(spheres.z().data(), sphere)};
@@ -104,14 +104,14 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
     if (!scene.material_of_sphere.empty()) material = gathered(scene.material_of_sphere.data(), sphere);
   }
   if (!none(on_plane)) {
-    Words of_plane = hn::Set(w, wave_scene.plane_material);
+    Longs of_plane = hn::Set(w, wave_scene.plane_material);
     if (scene.plane->checker) of_plane = hn::Add(of_plane, checker_step(wave_scene, point));
     if (none(on_sphere)) {
       outward = all(scene.plane->plane.normal);
       material = of_plane;
     } else {
       outward = choose(on_plane, all(scene.plane->plane.normal), outward);
-      material = hn::IfThenElse(words_of(on_plane), of_plane, material);
+      material = hn::IfThenElse(longs_of(on_plane), of_plane, material);
     }
   }
 
@@ -120,7 +120,7 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
   const LaneMask from_inside = hn::Gt(speed, all(0));
   surface.normal = negate(from_inside, outward);
   surface.cosine = hn::Abs(speed);
-  const Words inside = hn::IfThenElseZero(words_of(hn::And(on_sphere, from_inside)), hn::Set(w, 1));
+  const Longs inside = hn::IfThenElseZero(longs_of(hn::And(on_sphere, from_inside)), hn::Set(w, 1));
   surface.material_inside = hn::Add(hn::Add(material, material), inside);
   return surface;
 }
