@@ -14,7 +14,7 @@ function(bihive_test_name file name)
 endfunction()
 
 # add_bihive_test(file): tests/unit/tree_test.cpp becomes the program unit_tree_test and the ctest entry unit.tree with
-# the label unit. Programs get GoogleTest, GoogleMock, the library, and whatever tests/support holds.
+# the label unit. Programs get GoogleTest, GoogleMock, the library, and the helpers in tests/support.
 function(add_bihive_test file)
   bihive_test_name(${file} name kind target)
   add_executable(${target} ${file})

@@ -1,4 +1,4 @@
-// Figure 4.4: how many frames a second brute force and trees of several MAX_PRIMS make, in steps of one configuration.
+// Figure 4.4: frames a second of brute force and of trees of several MAX_PRIMS, in steps of one configuration.
 #include "thesis/figure_4_4.h"
 
 #include <fmt/format.h>

@@ -147,7 +147,7 @@ HWY_INLINE Lanes length(Lanes3 a) {
 HWY_INLINE Lanes3 normalized(Lanes3 a) {
   return multiply(hn::Div(all(1), length(a)), a);
 }
-/// A lane that is far from length 1 is done by itself.
+/// A lane that is far from length 1 is normalized by itself.
 HWY_INLINE Lanes3 normalized_again(Lanes3 a) {
   const Lanes beyond = hn::Sub(dot(a, a), all(1));
   const Lanes series = hn::Sub(all(1), hn::Mul(beyond, hn::Sub(all(0.5), hn::Mul(all(0.375), beyond))));

@@ -1,4 +1,5 @@
-// Many rays on their way through a picture at once, as structures of arrays: what the steps of a wave read and write.
+// Many rays on their way through a picture at once, as structures of arrays: the data that the steps of a wave read and
+// write.
 //
 // Files of this folder: STEP.cpp holds the step of namespace `steps` with that name (and its neighbours), *-inl.h the
 // vector code that several steps share, wave_integrator the order of the steps.
