@@ -1,9 +1,9 @@
 # Shortcuts: each job is a script in scripts/.
 
-.PHONY: help demo web test check bench verify lint format clean
+.PHONY: help demo web test test-all check bench verify lint format clean
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 18
 
 demo: ## install what the program needs, build it, render the bundled molecule
 	scripts/setup demo
@@ -13,9 +13,13 @@ web: ## install what the page needs, build it into build-web/page
 	scripts/setup web
 	scripts/build_web
 
-test: ## install what the tests need, run every test (about an hour on two cores)
-	scripts/setup all
+test: ## install what these tests need, build, run them: what a change must pass (ten minutes on two cores)
+	scripts/setup test
 	scripts/test
+
+test-all: ## all that and the rest: lint, sanitizers, emulated processors, fuzzing (under an hour on two cores)
+	scripts/setup all
+	scripts/test all
 
 check: ## the quick checks for daily work
 	scripts/check

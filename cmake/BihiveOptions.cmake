@@ -5,7 +5,12 @@ include(GNUInstallDirs)
 option(BIHIVE_BUILD_CLI "Build the bihive program" ON)
 option(BIHIVE_BUILD_TESTS "Build the tests (needs GoogleTest)" OFF)
 option(BIHIVE_BUILD_FUZZERS "Build the fuzz targets (needs clang)" OFF)
-option(BIHIVE_WERROR "Treat warnings as errors" OFF)
+# BIHIVE_WERROR in the environment is its default, for builds that are begun by a script.
+set(BIHIVE_WERROR_DEFAULT OFF)
+if(DEFINED ENV{BIHIVE_WERROR})
+  set(BIHIVE_WERROR_DEFAULT $ENV{BIHIVE_WERROR})
+endif()
+option(BIHIVE_WERROR "Treat warnings as errors" ${BIHIVE_WERROR_DEFAULT})
 set(BIHIVE_SANITIZE "" CACHE STRING "Sanitizers: empty, asan (address and undefined behaviour) or tsan (threads)")
 set_property(CACHE BIHIVE_SANITIZE PROPERTY STRINGS "" asan tsan)
 

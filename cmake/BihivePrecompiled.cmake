@@ -18,6 +18,9 @@ set(BIHIVE_OFTEN_INCLUDED
 
 # bihive_precompile(target [HEADER...]): those above, and more.
 function(bihive_precompile target)
+  if(BIHIVE_BARE)
+    return()
+  endif()
   target_precompile_headers(${target} PRIVATE ${BIHIVE_OFTEN_INCLUDED} ${ARGN})
   bihive_quiet_with_precompiled(${target})
 endfunction()

@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 
-from program import ProgramTest, main
+from program import PATIENCE_S, ProgramTest, main
 
 BENCH = os.environ["BIHIVE_BENCH"]
 KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3"]
@@ -15,7 +15,7 @@ class BenchTest(ProgramTest):
     def run_bihive(self, *arguments, **options):
         options.setdefault("cwd", self.folder)
         options.setdefault("stdout", subprocess.PIPE)
-        return subprocess.run([BENCH, *arguments], stderr=subprocess.PIPE, text=True, timeout=300, **options)
+        return subprocess.run([BENCH, *arguments], stderr=subprocess.PIPE, text=True, timeout=PATIENCE_S, **options)
 
     def test_json_has_the_published_keys_and_no_mismatch(self):
         report = self.succeed_json("scenario2", "--peer", "embree", "--threads", "2", *QUICK)
@@ -111,7 +111,7 @@ class BenchTest(ProgramTest):
 
     def frames(self, *arguments):
         program = os.path.join(os.path.dirname(BENCH), "bihive-frames")
-        return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=300, cwd=self.folder)
+        return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=PATIENCE_S, cwd=self.folder)
 
     def test_frames_of_the_nine_configurations(self):
         done = self.frames("thesis", "2", "1")

@@ -48,7 +48,7 @@ class Screen:
 
 
 class Drag:
-    SECONDS = 20
+    SECONDS = 600  # a busy machine takes longer
 
     def __init__(self, client, window):
         self.client = client

@@ -8,7 +8,7 @@ import tempfile
 import time
 import unittest
 
-from program import BIHIVE, ProgramTest, main, png_pixels, png_size, png_text
+from program import BIHIVE, PATIENCE_S, ProgramTest, main, png_pixels, png_size, png_text
 from screen import Screen
 
 HAS_WINDOW = "BIHIVE_VIEW" in os.environ
@@ -136,7 +136,7 @@ class Window(ProgramTest):
 
     def tool(self, *arguments):
         done = subprocess.run(
-            ["xdotool", *arguments], env=self.screen.environment(), capture_output=True, text=True, timeout=60
+            ["xdotool", *arguments], env=self.screen.environment(), capture_output=True, text=True, timeout=PATIENCE_S
         )
         self.assertEqual(done.returncode, 0, (arguments, done.stderr))
         return done.stdout
@@ -150,7 +150,7 @@ class Window(ProgramTest):
         """Presses S; the settings and the scene of the picture that is written."""
         before = set(os.listdir(self.folder))
         self.press("s")
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + PATIENCE_S
         while time.monotonic() < deadline:
             new = [name for name in set(os.listdir(self.folder)) - before if name.endswith(".png")]
             if new:
@@ -217,16 +217,17 @@ class Window(ProgramTest):
         open_file("broken.csv")
         self.assertEqual(self.saved()["scene"], "demo")
         open_file("pair.csv")
+        self.title("pair.csv - bihive")
         pair = self.saved()
         self.assertEqual((pair["scene"], pair["name"]), ("pair.csv", "pair.png"))
 
         self.press("q")
-        self.assertEqual(self.program.wait(timeout=20), 0)
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
 
     def title(self, expected):
         """Waits until the window has that name."""
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + PATIENCE_S
         while time.monotonic() < deadline:
             title = self.tool("getwindowname", self.window).strip()
             if title == expected:
@@ -248,7 +249,7 @@ class Window(ProgramTest):
         self.screen.drop(self.window, [self.path("one.xyz"), self.path("broken.csv")])
         self.title("one.xyz - bihive")
         self.press("q")
-        self.assertEqual(self.program.wait(timeout=20), 0)
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import subprocess
 import time
 import urllib.parse
 
-from program import BIHIVE, ProgramTest, main
+from program import BIHIVE, PATIENCE_S, ProgramTest, main
 
 SCRIPT = b"export const numbers = [" + b"1, 2, 3, " * 500 + b"];\n"
 WASM = b"\0asm\1\0\0\0" + bytes(3000)
@@ -61,7 +61,7 @@ class WebTest(ProgramTest):
 
     def ask(self, path, method="GET", host=None, **headers):
         """(status, headers, body)."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE_S)
         self.addCleanup(connection.close)
         wanted = {name.replace("_", "-"): value for name, value in headers.items()}
         if host is not None:
@@ -72,7 +72,7 @@ class WebTest(ProgramTest):
 
     def ask_raw(self, data):
         """The whole answer to these bytes, until the server closes the connection or is silent."""
-        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as client:
+        with socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S) as client:
             client.sendall(data)
             client.shutdown(socket.SHUT_WR)
             found = b""
@@ -190,7 +190,7 @@ class Source(WebTest):
             process = self.start(name)
             self.assertEqual(self.source(), {"built_in": name})
             process.send_signal(signal.SIGINT)
-            process.wait(timeout=20)
+            process.wait(timeout=PATIENCE_S)
 
     def test_a_file_of_any_name(self):
         os.mkdir(self.path("folder"))
@@ -227,7 +227,7 @@ class Source(WebTest):
         self.write("a.bin", data)
         self.start("a.bin")
         self.assertEqual(self.ask("/file/a.bin")[::2], (200, data))
-        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as client:
+        with socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S) as client:
             client.sendall(b"GET /file/a.bin HTTP/1.1\r\nHost: localhost\r\n\r\n")
             found = client.recv(1000)
             os.truncate(self.path("a.bin"), 10)
@@ -331,7 +331,7 @@ class Addresses(WebTest):
             self.skipTest(f"no IPv6 here: {error}")
         self.start("--bind", "0:0:0:0:0:0:0:1")
         self.assertEqual(self.said["url"], f"http://[::1]:{self.port}/")
-        connection = http.client.HTTPConnection("::1", self.port, timeout=20)
+        connection = http.client.HTTPConnection("::1", self.port, timeout=PATIENCE_S)
         self.addCleanup(connection.close)
         connection.request("GET", "/start.json")
         self.assertEqual(connection.getresponse().read(), b"{}\n")
@@ -382,7 +382,7 @@ class Addresses(WebTest):
         self.assertEqual(self.status_of(b"/", "evil.example")[0], 403)
         self.assertEqual(self.status_of(b"/", "8.8.8.8")[0], 403)
         process.send_signal(signal.SIGINT)
-        self.assertRegex(process.communicate(timeout=20)[1], r"\Abihive: warning: everyone [^\n]*fetch the file[^\n]*https[^\n]*\n\Z")
+        self.assertRegex(process.communicate(timeout=PATIENCE_S)[1], r"\Abihive: warning: everyone [^\n]*fetch the file[^\n]*https[^\n]*\n\Z")
 
     def test_addresses_that_cannot_be(self):
         self.assertIn("--bind", self.fail_usage("web", "--bind", "everywhere"))
@@ -405,7 +405,7 @@ class Words(WebTest):
         self.assertRegex(process.stdout.readline(), r"\Ahttp://127\.0\.0\.1:\d+/\n\Z")
         self.assertRegex(process.stdout.readline(), "Ctrl-C")
         process.send_signal(signal.SIGINT)
-        self.assertEqual((process.communicate(timeout=20)[0], process.returncode), ("", 0))
+        self.assertEqual((process.communicate(timeout=PATIENCE_S)[0], process.returncode), ("", 0))
 
     def test_nobody_listens_to_the_address(self):
         with open("/dev/full", "w", encoding="ascii") as full:
@@ -427,7 +427,7 @@ class Page(WebTest):
             copy.write(source.read())
         os.chmod(program, 0o755)
         environment = {name: value for name, value in self.environment.items() if name != "BIHIVE_PAGE"}
-        done = subprocess.run([program, "web", "--port", "0"], env=environment, capture_output=True, text=True, timeout=60)
+        done = subprocess.run([program, "web", "--port", "0"], env=environment, capture_output=True, text=True, timeout=PATIENCE_S)
         self.assertEqual((done.returncode, done.stdout), (3, ""))
         self.assertIn("make web", done.stderr)
         # An installed page is found from any folder of the program.
@@ -437,7 +437,7 @@ class Page(WebTest):
         self.port = json.loads(process.stdout.readline())["port"]
         self.assertEqual(self.ask("/assets/page.js")[2], SCRIPT)
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.communicate(timeout=20)[0], "")
+        self.assertEqual(process.communicate(timeout=PATIENCE_S)[0], "")
         self.assertEqual(process.returncode, 0)
 
     def test_a_folder_that_is_no_page(self):
@@ -451,23 +451,24 @@ class End(WebTest):
         self.write("large.bin", bytes(1 << 26))
         for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
             process = self.start("large.bin")
-            idle = socket.create_connection(("127.0.0.1", self.port), timeout=20)
-            half = socket.create_connection(("127.0.0.1", self.port), timeout=20)
+            idle = socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S)
+            half = socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S)
             half.sendall(b"GET / HTTP/1.1\r\n")
-            slow = socket.create_connection(("127.0.0.1", self.port), timeout=20)
+            slow = socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S)
             slow.sendall(b"GET /file/large.bin HTTP/1.1\r\nHost: localhost\r\n\r\n")
             self.assertTrue(slow.recv(1000))
             start = time.monotonic()
             process.send_signal(number)
-            out, err = process.communicate(timeout=20)
-            self.assertLess(time.monotonic() - start, 2)
+            out, err = process.communicate(timeout=PATIENCE_S)
+            # A server that waited for one of them would take 30 s; a busy machine may take a few to end it.
+            self.assertLess(time.monotonic() - start, 15)
             self.assertEqual((process.returncode, out, err), (0, "", ""))
             for client in [idle, half, slow]:
                 client.close()
 
     def test_many_connections_at_once(self):
         self.start()
-        clients = [socket.create_connection(("127.0.0.1", self.port), timeout=20) for _ in range(230)]
+        clients = [socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S) for _ in range(230)]
         for client in clients:
             client.sendall(b"GET /start.json HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
         for client in clients:
@@ -479,7 +480,7 @@ class End(WebTest):
         self.write("large.bin", bytes(1 << 24))
         self.start("large.bin")
         for _ in range(20):
-            with socket.create_connection(("127.0.0.1", self.port), timeout=20) as client:
+            with socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S) as client:
                 client.sendall(b"GET /file/large.bin HTTP/1.1\r\nHost: localhost\r\n\r\n")
                 client.recv(10)
         self.assertEqual(self.ask("/")[0], 200)
@@ -497,9 +498,8 @@ class Browser(WebTest):
         self.fake_desktop()
         self.environment["DISPLAY"] = ":99"
         self.start(browser=True)
-        for _ in range(200):
-            if os.path.exists(self.path("opened")):
-                break
+        deadline = time.monotonic() + PATIENCE_S
+        while not os.path.exists(self.path("opened")) and time.monotonic() < deadline:
             time.sleep(0.05)
         self.assertEqual(self.read("opened").decode(), self.said["url"] + "\n")
 

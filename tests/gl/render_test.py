@@ -4,10 +4,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cli"))
-from program import BIHIVE, ProgramTest, main, png_pixels, png_text  # noqa: E402
+from program import BIHIVE, PATIENCE_S, ProgramTest, main, png_pixels, png_text  # noqa: E402
 
 SIZE = ["--size", "96x64"]
 
@@ -48,9 +47,9 @@ class RenderOnGpu(ProgramTest):
         process = subprocess.Popen(
             [BIHIVE, "render", "scenario1", "--engine", "gpu", "--samples", "4096", "-o", "a.png"],
             cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        time.sleep(2)
+        self.let_work(process, 2)
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=PATIENCE_S)
         self.assertEqual((process.returncode, out, err), (130, b"", b""))
         self.assertEqual(self.contents(), {})
 

@@ -21,13 +21,13 @@ ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF
 
 def bihive(*arguments, code=0):
     program = [PREFIX / "bin/bihive", *arguments]
-    done = subprocess.run(program, cwd="/", env=ENVIRONMENT, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(program, cwd="/", env=ENVIRONMENT, capture_output=True, text=True, timeout=600)
     assert done.returncode == code, (arguments, done.returncode, done.stderr)
     return done.stdout + done.stderr
 
 
 def fetch(address):
-    with urllib.request.urlopen(address, timeout=30) as answer:
+    with urllib.request.urlopen(address, timeout=600) as answer:
         return answer.headers, answer.read()
 
 

@@ -232,9 +232,7 @@ for (const engine of ['cpu', 'gpu'])
     // To the end.
     if (engine === 'cpu') {
       await page.click('#thesis_run');
-      await page.waitForFunction(() => /All configurations/.test(document.querySelector('#thesis_text').textContent), null, {
-        timeout: 120_000,
-      });
+      await page.waitForFunction(() => /All configurations/.test(document.querySelector('#thesis_text').textContent));
       assert.match(await page.textContent('#thesis_text'), /pictures of 284 × 160/);
       assert.equal(await page.locator('#thesis_charts svg').count(), 4);
       assert.match(await page.textContent('#thesis_charts'), /iPhone 5s, stated/);

@@ -20,11 +20,15 @@ const flags = [
   '--enable-unsafe-swiftshader',
 ];
 
-export const launch = (...more) => chromium.launch({ executablePath: process.env.CHROMIUM, args: [...flags, ...more] });
+export const launch = (...more) => chromium.launch({ executablePath: process.env.CHROMIUM, args: [...flags, ...more], timeout: patience });
+
+/** How long a test waits for what must come: long, for other work may keep the machine busy. */
+const patience = 300_000;
 
 /** Opens the page and waits for the first whole picture. `complaints` fills with whatever the browser complains of. */
 export async function open_page(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 900, height: 600 }, acceptDownloads: true, ...options });
+  context.setDefaultTimeout(patience);
   const page = await context.newPage();
   const complaints = [];
   page.on('console', (message) => {
@@ -41,7 +45,7 @@ export async function open_page(browser, url, options = {}) {
 }
 
 /** Waits until all of the picture is drawn. */
-export const settled = (page) => page.waitForSelector('#picture[data-settled=true]', { timeout: 60_000 });
+export const settled = (page) => page.waitForSelector('#picture[data-settled=true]', { timeout: patience });
 
 /** Does something that begins a new picture, and waits for the end of it. */
 export async function and_settle(page, work) {
@@ -81,7 +85,7 @@ export function agreement(input, name, png, settings, ...options) {
 export async function saved_picture(page, width, height) {
   await page.fill('#save_width', String(width));
   await page.fill('#save_height', String(height));
-  const [download] = await Promise.all([page.waitForEvent('download', { timeout: 60_000 }), page.click('#save')]);
+  const [download] = await Promise.all([page.waitForEvent('download', { timeout: patience }), page.click('#save')]);
   return readFileSync(await download.path());
 }
 

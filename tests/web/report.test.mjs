@@ -84,6 +84,7 @@ async function look({ width, largestShare, leastTextHeight }) {
 // Opens the file in a window; errors of the browser also count as faults.
 async function inspect(file, window) {
   const context = await browser.newContext(window);
+  context.setDefaultTimeout(300_000); // other work may keep the machine busy
   const page = await context.newPage();
   const complaints = [];
   page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
