@@ -1,5 +1,5 @@
-// Stands in for libFuzzer where a fuzz target only has to take the inputs of a folder: replay FOLDER. Prints the name of
-// each before it is tried, so that the last one is the one that failed.
+// Stands in for libFuzzer where a fuzz target only has to take the inputs of a folder: replay FOLDER. Prints the name
+// of each before it is tried, so that the last one is the one that failed.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
