@@ -1,11 +1,11 @@
-// What the window is to show, as `bihive view` hands it over: it has parsed and checked the command line, and starts
-// this program with one argument, a JSON object.
+// The request of `bihive view` to the window. `bihive view` has parsed and checked the command line, and starts this
+// program with one argument, a JSON object:
 //
 //   {"input": "demo",                        a built-in name or a file
 //    "count": 64, "seed": 1, "radius": 1,    of the scenarios; all but "input" may be missing
 //    "radius_scale": 1, "recenter": false, "frame": 0,
 //    "size": [1280, 800], "view_from": "left",
-//    "settings": {...},                      as in viewer/viewer_json.h; what is missing is the scene's
+//    "settings": {...},                      as in viewer/viewer_json.h; missing ones are the scene's
 //    "screenshot": "window.png"}
 #pragma once
 
