@@ -26,7 +26,8 @@ function(bihive_precompile target)
 endfunction()
 
 # GCC 12 forgets that precompiled headers of the system's are the system's, and complains of its own std::string. Builds
-# without precompiled headers keep these warnings: of the library, that for 64-bit ARM does (tests/targets/run_neon).
+# without precompiled headers keep these warnings; the one for 64-bit ARM compiles the library and the tests of the kernels
+# (tests/targets/run_neon).
 function(bihive_quiet_with_precompiled target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
      AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)

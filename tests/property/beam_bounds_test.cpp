@@ -64,7 +64,9 @@ struct Meeting {
     m.b = mul_add(c[2], n[2], mul_add(c[1], n[1], c[0] * n[0]));
     for (int k = 0; k < 3; ++k) p[k] = mul_add(-m.b, n[k], c[k]);
     const float padded = radius + rays.e;
-    m.dp = padded * padded - mul_add(p[2], p[2], mul_add(p[1], p[1], p[0] * p[0]));
+    // meet() of sphere_filter-inl.h takes the squares one by one.
+    m.dp = padded * padded;
+    for (const int k : {2, 1, 0}) m.dp = mul_add(-p[k], p[k], m.dp);
     const float chord = std::sqrt(std::max(m.dp, 0.0F));
     m.lower = m.b - rays.e - chord;
     // The smallest possible value of an approximate reciprocal root.

@@ -39,8 +39,8 @@ struct Filtered {
   static float mul_add(float x, float y, float z) {
     return kFused ? std::fma(x, y, z) : x * y + z;
   }
-  // kChain: the squares are taken from (r + e)^2 one by one, as the ray lists do, not their sum.
-  template <bool kFused, bool kChain>
+  // The squares are taken from (r + e)^2 one by one, as meet() of sphere_filter-inl.h does.
+  template <bool kFused>
   static Filtered of(const OneRay& ray, Vec3f centre, float radius) {
     const float* const o = ray.local.origin;
     const float* const n = ray.local.direction;
@@ -51,10 +51,7 @@ struct Filtered {
     for (int k = 0; k < 3; ++k) p[k] = mul_add<kFused>(-f.b, n[k], c[k]);
     const float enlarged = radius + ray.e;
     f.dp = enlarged * enlarged;
-    if (kChain)
-      for (const int k : {2, 1, 0}) f.dp = mul_add<kFused>(-p[k], p[k], f.dp);
-    else
-      f.dp -= mul_add<kFused>(p[2], p[2], mul_add<kFused>(p[1], p[1], p[0] * p[0]));
+    for (const int k : {2, 1, 0}) f.dp = mul_add<kFused>(-p[k], p[k], f.dp);
     const float chord = std::sqrt(std::max(f.dp, 0.0F));
     f.lower = f.b - ray.e - chord;
     f.upper = f.b + ray.e + chord;
@@ -67,7 +64,7 @@ bool set_up(const Pair& pair, OneRay& local) {
   const ScaledRay scaled(pair.ray, 1.0);
   const double farthest = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
   double length = 0, shift = 0;
-  return farthest <= kFarthestOrigin && here::set_up_single(pair.ray, 1.0, local, length, shift);
+  return farthest <= kFarthestOrigin && here::set_up_single_ray(pair.ray, 1.0, local, length, shift);
 }
 
 // The largest value of `used` over pairs that the filter may get.
@@ -83,10 +80,8 @@ double most_used_of(const Used& used) {
 template <class Used>
 double most_used_by_filter(const Used& used) {
   return most_used_of([&](const Pair& pair, const OneRay& local, const Truth& truth) {
-    return std::max({used(pair, local, truth, Filtered::of<true, false>(local, pair.centre, pair.radius)),
-                     used(pair, local, truth, Filtered::of<false, false>(local, pair.centre, pair.radius)),
-                     used(pair, local, truth, Filtered::of<true, true>(local, pair.centre, pair.radius)),
-                     used(pair, local, truth, Filtered::of<false, true>(local, pair.centre, pair.radius))});
+    return std::max(used(pair, local, truth, Filtered::of<true>(local, pair.centre, pair.radius)),
+                    used(pair, local, truth, Filtered::of<false>(local, pair.centre, pair.radius)));
   });
 }
 
@@ -230,7 +225,7 @@ TEST(FilterBounds, ManyRaysAreSetUpAsOne) {
       const ScaledRay scaled(batch.span().at(i), 1.0);
       OneRay one;
       double length = 0, shift = 0;
-      const bool alive = here::set_up_single(batch.span().at(i), 1.0, one, length, shift);
+      const bool alive = here::set_up_single_ray(batch.span().at(i), 1.0, one, length, shift);
       const double size = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
       ASSERT_EQ((many.far >> i & 1) != 0, size > kFarthestOrigin) << test::text_of(batch.span().at(i));
       if ((many.dead >> i & 1) != 0) {

@@ -1,4 +1,4 @@
-// Where the lanes of a vector go when those of a mask move to the front.
+// Tables for compress(): the place of each lane when those of a mask move to the front.
 #pragma once
 
 #include <array>

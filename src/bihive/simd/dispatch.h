@@ -1,4 +1,4 @@
-// What every file with vector code does before its first call.
+// Chooses the target before the first call of vector code.
 #pragma once
 
 namespace bihive {

@@ -1,4 +1,4 @@
-// What Highway 1.0.3 leaves out for WebAssembly: vectors of two numbers of binary64. Its names, its meaning.
+// Adds to Highway 1.0.3 for WebAssembly: vectors of two numbers of binary64, with the names and the meaning of Highway.
 #pragma once
 
 #include <hwy/highway.h>

@@ -1,5 +1,5 @@
-// What Highway 1.0.3 does for WebAssembly lane after lane, though there are instructions for it. Its names, its
-// meaning: for the vectors below these are preferred to its own.
+// Functions that Highway 1.0.3 does lane after lane for WebAssembly, though there are instructions for them. Names and
+// meaning are those of Highway, and the compiler prefers these for the vectors below.
 #pragma once
 
 #include <hwy/highway.h>

@@ -1,4 +1,4 @@
-// What a wide tree looks like in numbers, and what a ray through it may cost.
+// Numbers of a wide tree, and the cost that a ray through it may have.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 #include <hwy/highway.h>
 
 #include <cstdint>
-#include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "bihive/math/aabb.h"
 #include "bihive/simd/lanes-inl.h"
@@ -24,8 +24,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Calls step(offset, valid) for each vector of a range: `valid` is true for all lanes but those after its end.
-/// Loads from arrays must use load(), which does not touch what lies behind the end.
+/// Calls step(offset, valid, whole) for each vector of a range: `valid` is true for all lanes but those after its end,
+/// and `whole` is std::true_type where it is true for all. Loads from arrays must use load(), which does not touch what
+/// lies behind the end.
 template <class Step>
 HWY_INLINE void for_lanes(std::int64_t count, const Step& step) {
   const FloatTag d;
@@ -79,10 +80,8 @@ struct GrowingBox {
     hi[axis] = hn::Max(hi[axis], high);
   }
   HWY_INLINE void add_where(FloatMask mask, int axis, Floats low, Floats high) {
-    const FloatTag d;
     lo[axis] = hn::IfThenElse(mask, hn::Min(lo[axis], low), lo[axis]);
     hi[axis] = hn::IfThenElse(mask, hn::Max(hi[axis], high), hi[axis]);
-    (void)d;
   }
   /// Adding 0 makes +0 of -0, so that the order of minima cannot show.
   HWY_INLINE Aabb box() const {

@@ -174,7 +174,7 @@ void Collapse::make_subtree(Subtree& subtree) const {
 void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads) {
   parameters_ = parameters;
 
-  // Make the top here; every subtree that is small enough becomes a subtree.
+  // Make the top here; each subtree of at most kSubtreeSpheres spheres is left to a task.
   subtree_count_ = 0;
   top_.nodes.clear();
   top_.nodes.resize(1);
@@ -202,7 +202,7 @@ void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters,
     }
   });
 
-  // Put the parts one after the other.
+  // Put the subtrees one after the other.
   node_count_ = static_cast<std::int64_t>(top_.nodes.size());
   largest_leaf_ = top_.largest_leaf;
   levels_ = top_.levels;

@@ -75,7 +75,7 @@ HWY_INLINE Words make_words(const SplitContext& context, int palette_size, Float
   return hn::Or(hn::ShiftLeft<WideSpheres::kIdBits>(classes), ids);
 }
 
-/// Calls use(offset, valid, whole, x, y, z, r, words) for the spheres begin to end - 1.
+/// Calls use(offset, x, y, z, r, words) for the spheres begin to end - 1.
 template <class Use>
 HWY_INLINE void for_spheres(const SphereSet& spheres, std::int64_t begin, std::int64_t end, const SplitContext& context,
                             const Use& use) {

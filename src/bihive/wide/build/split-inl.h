@@ -10,8 +10,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <new>
 #include <vector>
 
@@ -115,7 +115,7 @@ class Splitter {
     bool boxes_known = false;
     SplitPlane plane;
     if (range.depth < kDeepestMidpoint) {
-      // Halve the box. Where no number is between its sides, hi itself parts the spheres.
+      // Halve the box. Where no number is between its sides, hi itself is the plane.
       const float lo = range.centres.lo[axis], hi = range.centres.hi[axis];
       plane.axis[0] = axis;
       plane.at[0] = lo + (hi - lo) * 0.5F;

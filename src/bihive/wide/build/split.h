@@ -1,6 +1,6 @@
 // The builder's first step: spheres are put in leaf order under a binary tree, in vectors.
 //
-// What comes out depends on the spheres alone: only comparisons, minima, maxima, and arithmetic that is the same on
+// The result depends on the spheres alone: only comparisons, minima, maxima, and arithmetic that is the same on
 // every instruction set.
 #pragma once
 
@@ -46,7 +46,7 @@ struct RadiusPalette {
   }
 };
 
-/// What one look at the spheres tells.
+/// The facts that one look at the spheres tells.
 struct InputSummary {
   Aabb centres;
   float largest_radius = 0;
@@ -55,7 +55,7 @@ struct InputSummary {
   void add(const InputSummary& next);
 };
 
-/// What all tasks of a build share.
+/// The state that all tasks of a build share.
 struct SplitContext {
   SphereArrays scratch, final;  ///< spheres wander between the two; leaves end in `final`
   alignas(64) float palette[32] = {};
@@ -109,7 +109,7 @@ void scatter_spheres(const SphereSet& spheres, std::int64_t begin, std::int64_t 
 Aabb bound_centres(const SplitContext& context, const SplitRange& range);
 
 /// Builds the tree under range.node. Nodes with more than kTaskSpheres spheres are left without boxes and costs. Large
-/// parts become tasks in `list`.
+/// ranges become tasks in `list`.
 void split_range(SplitContext& context, const SplitRange& range, TaskList& list);
 
 /// When all tasks are done: boxes and costs of the nodes with more than kTaskSpheres spheres.

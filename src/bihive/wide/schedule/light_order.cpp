@@ -25,7 +25,7 @@ struct DirectionMap {
   float sign;   ///< of the main one
 };
 
-/// Of the places in the map.
+/// Bounds of the places in the map.
 struct MapBounds {
   float least[2], largest[2];
 };

@@ -2,10 +2,13 @@
 // the next pass answers those. No pass calls an earlier one:
 //
 //   closest hits   blocks: beams -> the remaining ones: lists
-//                  any:    scattered? in the order of cells: lists
+//                  any:    scattered? in the order of cells: lists; else lists
 //   occluded       blocks: beams -> the remaining ones: as any
 //                  any:    to one light? in that order: beams -> the remaining ones: lists
-//                          scattered? in the order of cells: lists
+//                          else scattered? in the order of cells: lists
+//                          else lists
+//
+// Lists answer all rays that beams do not take at all (beams_take()).
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -37,13 +40,13 @@ Memory& memory_of_this_thread() {
   return *memory;  // NOLINT(clang-analyzer-cplusplus.NewDelete): it takes the memory for freed at once
 }
 
-// Calls body(first, count) for at most `at_a_time` of `total` after the other.
+// Calls body(first, count) for one piece of `total` after the other, each of at most `at_a_time`.
 template <class Body>
 void for_some(std::int64_t total, std::int64_t at_a_time, const Body& body) {
   for (std::int64_t first = 0; first < total; first += at_a_time) body(first, std::min(at_a_time, total - first));
 }
 
-// Sorts rays by cells, many at a time. Calls answer(batch, some, from, first) for a tile after the other: `some` are
+// Sorts rays by cells, many at a time. Calls answer(batch, some, from, first) for one tile after the other: `some` are
 // the rays of the batch from number `from` on, and the batch holds rays of the span from number `first` on. Small
 // tiles, so that answers go back to their places while they are in the cache.
 template <class Answer>
@@ -51,9 +54,9 @@ void in_cell_order(const WideTree& tree, const RaySpan& rays, const Answer& answ
   Memory& memory = memory_of_this_thread();
   ReorderedBatch& batch = memory.sorted;
   for_some(rays.count, kScatteredAtATime, [&](std::int64_t first, std::int64_t count) {
-    const RaySpan sorted = rays.part(first, count);
-    memory.by_cell.find(tree, sorted, batch.order());
-    batch.gather(sorted);
+    const RaySpan unsorted = rays.part(first, count);
+    memory.by_cell.find(tree, unsorted, batch.order());
+    batch.gather(unsorted);
     for_some(count, kTileRays,
              [&](std::int64_t from, std::int64_t n) { answer(batch, batch.rays().part(from, n), from, first); });
   });
@@ -121,7 +124,7 @@ void closest_hits_in_blocks(const WideTree& tree, const RaySpan& rays, const Hit
 
 using Occluded = void (*)(const WideTree&, const RaySpan&, std::uint8_t*);
 
-// By `answer`.
+// The rays that remain, answered by `answer`; `batch` holds copies of them.
 void occluded_remaining(const WideTree& tree, const RaySpan& rays, const RemainingRays& remaining,
                         ReorderedBatch& batch, Occluded answer, std::uint8_t* hidden) {
   for_remaining(
@@ -141,7 +144,7 @@ void occluded_by_cell(const WideTree& tree, const RaySpan& rays, std::uint8_t* h
   });
 }
 
-// Do beams pay, by those that tried `tried` rays? Not where most of them remain, or where beams met many spheres.
+// Do beams pay? No if most of the `tried` rays remain, or if the beams met many spheres.
 bool beams_pay(const SortedBeams& trial, std::int64_t tried) {
   const std::int64_t answered = tried - trial.remaining.count();
   return trial.remaining.count() <= tried / 2 && trial.spheres_met <= answered * kMostSpheresMet;
@@ -160,11 +163,11 @@ void occluded_to_light(const WideTree& tree, const RaySpan& rays, std::uint8_t* 
   // Try some blocks from everywhere. If beams do not pay, lists do best with all rays in the caller's order.
   const std::int64_t blocks = (rays.count + kBeamRays - 1) / kBeamRays;
   const std::int64_t step = std::max(kBlocksPerTrial, blocks / kSortedTrialBlocks);
-  const SortedBeams trial = occluded_by_sorted_beams(tree, sorted, {step, false}, sorted_hidden);
+  SortedBeams trial = occluded_by_sorted_beams(tree, sorted, {step, false}, sorted_hidden);
   if (!beams_pay(trial, (blocks + step - 1) / step * kBeamRays)) return occluded_by_lists(tree, rays, hidden);
   const SortedBeams rest = occluded_by_sorted_beams(tree, sorted, {step, true}, sorted_hidden);
-  for (const SortedBeams* some : {&trial, &rest})
-    occluded_remaining(tree, sorted, some->remaining, memory.remaining_of_sorted, occluded_by_lists, sorted_hidden);
+  for (const RemainingRays::Run& run : rest.remaining.runs()) trial.remaining.add(run.first, run.count);
+  occluded_remaining(tree, sorted, trial.remaining, memory.remaining_of_sorted, occluded_by_lists, sorted_hidden);
   batch.put_back(0, rays.count, hidden);
 }
 

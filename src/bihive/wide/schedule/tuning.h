@@ -9,7 +9,7 @@ namespace bihive::wide {
 
 // ---- Order by light: shadow rays (docs/decisions/0012-shadow-rays-sorted.md) ----
 
-/// Of fewer rays blocks of 64 are hardly ever close. A guess, not measured.
+/// With fewer shadow rays, blocks of 64 are hardly ever close. A guess, not measured.
 constexpr std::int64_t kFewestToLight = 2048;
 /// Rays over the cross-section of a leaf: sixteen of them must fit into a run that is one leaf wide.
 constexpr double kFewestPerLeaf = 25;

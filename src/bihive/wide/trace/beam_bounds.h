@@ -1,4 +1,4 @@
-// The bounds behind the beams: what binary32 may be wrong by where 64 rays are tested at once.
+// The bounds behind the beams: how far binary32 may be wrong where 64 rays are tested at once.
 //
 // As wide/trace/filter_bounds.h, whose words are used here, but for rays that are set up in binary32. u = 2^-24, F =
 // max |o_k| + 1 over the rays of a beam, L = sqrt(3) F. Only rays whose origins are within kFarOrigin come here, so
@@ -38,7 +38,7 @@ constexpr float kBeamUnits = 26;
 constexpr float kFrustumUnits = 64;
 constexpr float kSureShare = 4.1F;
 constexpr float kWidthShare = 4.1F;
-/// Of a unit direction along the beam's major axis, at least.
+/// The least component of a unit direction along the beam's major axis.
 constexpr float kLeastMajor = 0.2F;
 
 /// For a beam whose local origins have no coordinate beyond `farthest_origin`.

@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <limits>
 
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/ray_batch.h"
@@ -31,7 +29,7 @@ using wide::kBeamRays;
 /// In a lane whose ray has no winner.
 constexpr std::uint32_t kNoWinner = ~std::uint32_t{0};
 
-/// What is known of a block's rays. Lanes beyond the block's last ray repeat it.
+/// The rays of a block. Lanes beyond the last ray repeat it.
 struct alignas(64) BeamRays {
   float origin[3][kBeamRays];
   float direction[3][kBeamRays];
@@ -95,11 +93,7 @@ HWY_INLINE bool plain_segments(const RaySpan& rays, std::int64_t first, int coun
   return true;
 }
 
-}  // namespace beam_rays
-
-namespace beam_rays {
-
-// Where the block's rays go, by its first ray.
+// The first ray tells along which axis the block goes.
 HWY_INLINE void choose_major_axis(const Block& block, BeamRays& out) {
   const float size[3] = {std::abs(block.direction[0][0]), std::abs(block.direction[1][0]),
                          std::abs(block.direction[2][0])};
@@ -111,16 +105,16 @@ HWY_INLINE void choose_major_axis(const Block& block, BeamRays& out) {
 // lanes whose origins are near enough.
 HWY_INLINE FloatMask set_up_origins(const Block& block, float scale, BeamRays& out, Floats& farthest) {
   const FloatTag d;
-  const auto all = hn::Set(d, scale);
+  const auto scales = hn::Set(d, scale);
   farthest = hn::Zero(d);
-  auto near = hn::Eq(all, all);
+  auto near = hn::Eq(scales, scales);
   auto common = near;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto one = hn::Set(d, block.origin[axis][0]);
+    const auto first = hn::Set(d, block.origin[axis][0]);
     for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
       const auto world = hn::LoadU(d, block.origin[axis] + lane);
-      common = hn::And(common, hn::Eq(world, one));
-      const auto o = hn::Mul(world, all);
+      common = hn::And(common, hn::Eq(world, first));
+      const auto o = hn::Mul(world, scales);
       near = hn::And(near, hn::Le(hn::Abs(o), hn::Set(d, static_cast<float>(kFarOrigin))));
       farthest = hn::Max(farthest, hn::Abs(o));
       hn::Store(o, d, out.origin[axis] + lane);

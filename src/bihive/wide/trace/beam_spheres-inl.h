@@ -72,7 +72,7 @@ struct Roots {
   FloatMask sure;       ///< is one, and before `sure_end`
 };
 
-/// Of a sphere and the rays of a beam, by the bounds of wide/trace/beam_bounds.h.
+/// Bounds the roots of one sphere and the rays of a beam (wide/trace/beam_bounds.h).
 class RootBounds {
  public:
   HWY_INLINE RootBounds(const BeamRays& rays, const Candidate& sphere)

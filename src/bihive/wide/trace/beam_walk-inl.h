@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstdint>
 
 #include "bihive/simd/lanes-inl.h"
@@ -80,10 +79,10 @@ struct SpheresInBeam {
   std::uint32_t bits;  ///< of `inside`; not 0
 };
 
-/// Calls meet(SpheresInBeam) for each vector of a leaf's spheres of which some lie in the frustum.
-template <class Meet>
+/// Calls visit(SpheresInBeam) for each vector of a leaf's spheres of which some lie in the frustum.
+template <class Visit>
 HWY_INLINE void spheres_of_leaf(const WideTree& tree, const Frustum& frustum, float e, std::int64_t first_slot,
-                                std::int64_t count, const Meet& meet) {
+                                std::int64_t count, const Visit& visit) {
   const FloatTag d;
   for (std::int64_t first = 0; first < count; first += kFloatLanes) {
     SpheresInBeam some;
@@ -96,7 +95,7 @@ HWY_INLINE void spheres_of_leaf(const WideTree& tree, const Frustum& frustum, fl
     if (count - first < kFloatLanes)
       some.inside = hn::And(some.inside, hn::FirstN(d, static_cast<std::size_t>(count - first)));
     some.bits = mask_bits(some.inside);
-    if (some.bits != 0) meet(some);
+    if (some.bits != 0) visit(some);
   }
 }
 

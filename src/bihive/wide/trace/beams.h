@@ -31,7 +31,7 @@ struct SortedBeams {
   std::int64_t spheres_met = 0;  ///< by beams, each times the rays of the beam
 };
 
-/// Of rays in the order of wide/schedule/light_order.h, the chosen blocks.
+/// Answers the chosen blocks of rays that are in the order of wide/schedule/light_order.h.
 SortedBeams occluded_by_sorted_beams(const WideTree& tree, const RaySpan& rays, const BlockChoice& blocks,
                                      std::uint8_t* hidden);
 

@@ -31,7 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 namespace beam {
 
-// Of kRays rays from lane `begin` on: the largest w at which the answer of one may lie.
+// The largest w at which the answer of one of kRays rays from lane `begin` on may lie.
 template <int kRays>
 HWY_INLINE float end_of(const BeamRays& rays, int begin) {
   const FloatTag d;
@@ -176,7 +176,7 @@ class ClosestBeam {
       }
       // No branch where a sphere lies in the run's own frustum: nearly always some ray comes near.
       if (kRays > kRunRays && hn::AllTrue(d, hn::Lt(largest, hn::Zero(d)))) continue;
-      std::uint32_t doubts = 0;
+      std::uint32_t undecided = 0;
       for (int v = 0; v < kRunVectors; ++v) {
         const int lane = run + v * kFloatLanes;
         const auto near = beam::near_enough<kSkipOwn>(rays_, sphere, met[v], lane);
@@ -189,10 +189,10 @@ class ClosestBeam {
         const auto wins = hn::RebindMask(WordTag(), roots.sure);
         hn::Store(hn::IfThenElse(wins, number, others), WordTag(), rays_.winner + lane);
         won |= mask_bits(roots.sure);
-        doubts |= mask_bits(hn::AndNot(roots.sure, roots.candidate)) << (v * kFloatLanes);
+        undecided |= mask_bits(hn::AndNot(roots.sure, roots.candidate)) << (v * kFloatLanes);
       }
-      for (; HWY_UNLIKELY(doubts != 0); doubts &= doubts - 1) {
-        const int ray = run + __builtin_ctz(doubts);
+      for (; HWY_UNLIKELY(undecided != 0); undecided &= undecided - 1) {
+        const int ray = run + __builtin_ctz(undecided);
         if (ray < rays_.count) call_.add_pair(first_ray_ + ray, sphere.slot);
       }
     }
@@ -229,7 +229,7 @@ class ClosestBeam {
   const std::int64_t first_ray_;
   bool decided_early_ = false;                      // some pairs of the block, before all its spheres were found
   alignas(64) float local_centre_[3][kFloatLanes];  // NOLINT: written before read
-  Frustum runs_[kRuns];
+  Frustum runs_[kRuns] = {};
   WaitingSpheres spheres_;
 };
 

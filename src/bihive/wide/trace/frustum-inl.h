@@ -49,10 +49,6 @@ HWY_INLINE float smallest(hn::VFromD<FloatTag> v) {
   return hn::GetLane(hn::MinOfLanes(FloatTag(), v));
 }
 
-}  // namespace frustum
-
-namespace frustum {
-
 // No coordinate of a ray comes near to it.
 constexpr float kFarUp = 1e30F;
 

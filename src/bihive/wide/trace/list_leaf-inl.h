@@ -143,7 +143,7 @@ HWY_INLINE void look_at_one_vector(const LeafAndRays& leaf, const Finish& finish
   });
 }
 
-/// What the ways below keep of a leaf: loads of these cost less than to spread each ray over the lanes once more.
+/// A leaf, ready to be loaded vector by vector: loads cost less than to spread each ray over the lanes once more.
 struct alignas(64) LeafInMemory {
   const float *x, *y, *z;
   alignas(64) float r_squared[kWidth];
@@ -160,7 +160,8 @@ struct alignas(64) LeafInMemory {
 
   /// How a ray lies to the spheres from `lane` on, and which of them it may hit.
   template <bool kSkipOwn>
-  HWY_INLINE Meeting meet(const LeafRay& ray, std::uint32_t outward_id, std::uint32_t lane, FloatMask& passes) const {
+  HWY_INLINE Meeting meet_ray(const LeafRay& ray, std::uint32_t outward_id, std::uint32_t lane,
+                              FloatMask& passes) const {
     const FloatTag d;
     const Meeting met = ray.to(x + lane, y + lane, z + lane, hn::Load(d, r_squared + lane));
     passes = hn::Ge(met.dp, hn::Zero(d));
@@ -177,7 +178,7 @@ HWY_INLINE void look_at_few_vectors(const LeafAndRays& leaf, const Finish& finis
     const LeafRay ray(leaf.ray(i));
     for (std::uint32_t lane = 0; lane < kVectors * kFloatLanes; lane += kFloatLanes) {
       FloatMask passes;
-      const Meeting met = memory.meet<kSkipOwn>(ray, leaf.ray(i).outward_id, lane, passes);
+      const Meeting met = memory.meet_ray<kSkipOwn>(ray, leaf.ray(i).outward_id, lane, passes);
       queued = queue_candidates(leaf.tile.queue, queued, passes, met, hn::Load(FloatTag(), memory.r_squared + lane),
                                 hn::Load(WordTag(), memory.slots + lane), leaf.list[i]);
     }
@@ -197,7 +198,7 @@ HWY_INLINE void look_at_short_vectors(const LeafAndRays& leaf, const Finish& fin
     std::uint32_t bits = 0;
     for (std::uint32_t lane = 0; lane < leaf.spheres; lane += kFloatLanes) {
       FloatMask passes;
-      const Meeting met = memory.meet<kSkipOwn>(ray, leaf.ray(i).outward_id, lane, passes);
+      const Meeting met = memory.meet_ray<kSkipOwn>(ray, leaf.ray(i).outward_id, lane, passes);
       bits |= mask_bits(passes) << lane;
       hn::Store(met.b, FloatTag(), b + lane);
       hn::Store(met.dp, FloatTag(), dp + lane);

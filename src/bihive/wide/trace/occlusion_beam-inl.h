@@ -194,7 +194,7 @@ class OcclusionBeam {
         open_vectors_ |= std::uint64_t{1} << (lane / kFloatLanes);
   }
 
-  // Of kRays rays from lane `begin` on.
+  // The open vectors among kRays rays from lane `begin` on.
   template <int kRays>
   HWY_INLINE std::uint64_t open_vectors(int begin) const {
     constexpr std::uint64_t kVectors = ~std::uint64_t{0} >> (64 - kRays / kFloatLanes);

@@ -269,7 +269,7 @@ class RayWalk {
 
 /// Makes a valid ray ready. False: it certainly misses everything, or it starts beyond kFarthestOrigin. s = t * length
 /// - shift.
-HWY_INLINE bool set_up_single(const Ray& world, double scale, SingleRay& ray, double& length, double& shift) {
+HWY_INLINE bool set_up_single_ray(const Ray& world, double scale, SingleRay& ray, double& length, double& shift) {
   using One = hn::CappedTag<double, 1>;
   const One d;
   WorldLanes<One> lanes;

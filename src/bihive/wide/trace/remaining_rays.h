@@ -23,10 +23,6 @@ class RemainingRays {
       runs_.push_back({first, count});
     }
   }
-  void clear() {
-    runs_.clear();
-    count_ = 0;
-  }
 
   std::int64_t count() const { return count_; }
   const std::vector<Run>& runs() const { return runs_; }

@@ -31,7 +31,7 @@ HWY_INLINE Hit answer_ray(const WideTree& tree, const Ray& world) {
   SingleRay& ray = walk.ray;
   double length = 0;
   double shift = 0;
-  if (!set_up_single(world, tree.scale, ray, length, shift)) return {};
+  if (!set_up_single_ray(world, tree.scale, ray, length, shift)) return {};
   if (world.leaves >= 0 && world.leaves < std::int64_t{kNoSphere}) {
     ray.left_id = static_cast<std::uint32_t>(world.leaves);
     ray.inward = world.inside;

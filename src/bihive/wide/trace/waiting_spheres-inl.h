@@ -25,7 +25,7 @@ class WaitingSpheres {
   /// A vector is full, or there are so many that a beam should meet them before it goes on: a hit ends it sooner.
   bool enough() const { return count_ >= std::min(kFloatLanes, 8); }
 
-  /// Those of `mask` among the spheres from `slot` on; not while there are enough().
+  /// Adds the spheres of `mask` among those from `slot` on. Not while there are enough().
   template <class V, class M>
   HWY_INLINE void add(std::int64_t slot, const V centre[3], V padded, M mask) {
     const FloatTag d;
