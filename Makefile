@@ -14,8 +14,8 @@ web: ## install what the page needs, build it into build-web/page
 	scripts/build_web
 
 test: ## install what these tests need, build, run them: what a change must pass (ten minutes on two cores)
-	scripts/setup test
-	scripts/test
+	scripts/setup build
+	scripts/test --setup
 
 test-all: ## all that and the rest: lint, sanitizers, emulated processors, fuzzing (under an hour on two cores)
 	scripts/setup all

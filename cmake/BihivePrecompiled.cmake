@@ -25,6 +25,12 @@ function(bihive_precompile target)
   bihive_quiet_with_precompiled(${target})
 endfunction()
 
+# bihive_optimise_little(target): for code that reads words and writes text, most of it by templates of others (CLI11,
+# Boost.Beast, JSON). Compiling it took more processor time than the kernels did, and running it takes next to none.
+function(bihive_optimise_little target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # GCC 12 forgets that precompiled headers of the system's are the system's, and complains of its own std::string. Builds
 # without precompiled headers keep these warnings; the one for 64-bit ARM compiles the library and the tests of the kernels
 # (tests/targets/run_neon).
