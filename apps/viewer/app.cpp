@@ -108,6 +108,7 @@ void App::listen(GLFWwindow* window) {
 
 // --- Events of the window --------------------------------------------------------------------------------------
 
+// Longer than most functions: a switch with a line or two for each key.
 void App::on_key(int key, int action, int mods) {
   if (action == GLFW_RELEASE) return;
   if (asked_file_) return on_prompt_key(key, mods);
