@@ -133,7 +133,7 @@ HWY_INLINE LocalLanes<D> local_lanes(D d, const WorldLanes<D>& world, double sca
   return local;
 }
 
-/// What box tests need of rays along one axis: 1 / direction, finite, and the offset of LocalRay. Directions within
+/// The factors of box tests along one axis: 1 / direction, finite, and the offset of LocalRay. Directions within
 /// 1e-18 of the axis's plane are moved off it: over the 16 units to anything in the set that is less than any padding.
 template <class D>
 HWY_INLINE void box_factors(D d, hn::Vec<D> origin, hn::Vec<D> direction, hn::Vec<D>& inverse, hn::Vec<D>& offset) {
