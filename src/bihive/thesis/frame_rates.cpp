@@ -11,7 +11,7 @@
 namespace bihive {
 namespace {
 
-constexpr int kQuickDivisor = 4;
+constexpr int kQuickDivisor = 4, kQuickRounds = 3;
 // Time between two looks at the cancel token. Without a token a frame is drawn without a break.
 constexpr double kSliceMs = 100, kWholeFrameMs = 1e9;
 
@@ -65,6 +65,7 @@ FrameRatePlan FrameRatePlan::with_small_pictures() const {
   FrameRatePlan plan = *this;
   plan.width_px = std::max(1, width_px / kQuickDivisor);
   plan.height_px = std::max(1, height_px / kQuickDivisor);
+  plan.rounds = kQuickRounds;
   plan.quick = true;
   return plan;
 }

@@ -37,7 +37,7 @@ struct FrameRatePlan {
 
   /// The thesis's plan, from the values of Figure 4.4. Error: a value is missing there.
   static Result<FrameRatePlan> from_values(const StatedValues& values);
-  /// A quarter of the width and height.
+  /// A quarter of the width and height, and a third of the rounds.
   FrameRatePlan with_small_pictures() const;
   /// Small pictures and a single round: seconds instead of minutes, and rougher numbers.
   FrameRatePlan quickly() const;
