@@ -25,6 +25,28 @@ function(bihive_precompile target)
   bihive_quiet_with_precompiled(${target})
 endfunction()
 
+# bihive_compile_together(target [ALONE regex]): several source files of a folder are compiled as one, because reading the same headers
+# again and again took most of the time. Files that Highway includes into themselves, once for each instruction set, stay
+# alone, and so do those that the regex names. A name in an anonymous namespace must then differ from those of the neighbours.
+function(bihive_compile_together target)
+  if(NOT BIHIVE_COMPILE_TOGETHER)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    if(NOT source MATCHES "\\.cpp$" OR NOT IS_ABSOLUTE ${source} OR NOT EXISTS ${source})
+      continue()
+    endif()
+    file(STRINGS ${source} once_for_each_target REGEX "hwy/foreach_target" LIMIT_COUNT 1)
+    if(once_for_each_target OR ("${ARGV1}" STREQUAL ALONE AND source MATCHES "${ARGV2}"))
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  # Hidden implementations may hold types of anonymous namespaces: each stays within its source file.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
 # bihive_optimise_little(target): for code that reads words and writes text, most of it by templates of others (CLI11,
 # Boost.Beast, JSON). Compiling it took more processor time than the kernels did, and running it takes next to none.
 function(bihive_optimise_little target)

@@ -12,5 +12,6 @@ function(bihive_embed_version target)
     COMMENT "Looking up the commit"
     VERBATIM)
   target_sources(${target} PRIVATE ${output})
+  set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON) # it changes with each commit
   add_dependencies(${target} ${target}_version)
 endfunction()

@@ -15,13 +15,13 @@ file(WRITE ${OUTPUT} "// Generated from ${name}.
 namespace bihive {
 namespace {
 
-constexpr char kBytes[] = {
+constexpr char ${FUNCTION}_bytes[] = {
 ${bytes}'\\0'};
 
 }  // namespace
 
 std::string_view ${FUNCTION}() {
-  return {kBytes, ${size}};
+  return {${FUNCTION}_bytes, ${size}};
 }
 
 }  // namespace bihive

@@ -96,6 +96,20 @@ void add_shadows(CLI::App& app, std::optional<bool>& shadows) {
   app.add_flag_callback("--no-shadows", set(false), "They do not (thesis's scenes)")->excludes(on);
 }
 
+void add_ambient_occlusion(CLI::App& app, AmbientOptions& ambient) {
+  const auto set = [&ambient](bool on) { return [&ambient, on] { ambient.on = on; }; };
+  CLI::Option* on = app.add_flag_callback("--ao", set(true), "Ambient occlusion: places that see little are darker");
+  CLI::Option* distance = add_value(app, "--ao-distance", ambient.distance, "D",
+                                    "It reaches so far, in world units (no limit); implies --ao",
+                                    [](const std::string& text) { return number_from(text, 0, kLargestFloat, true); });
+  CLI::Option* directions = add_integer(app, "--ao-directions", ambient.directions, 1, kMostAmbientDirections,
+                                        "Directions of each sample (64); implies --ao");
+  app.add_flag_callback("--no-ao", set(false), "No ambient occlusion (files without their own setting)")
+      ->excludes(on)
+      ->excludes(distance)
+      ->excludes(directions);
+}
+
 void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object instead of text");
 }
@@ -121,6 +135,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_integer(command, "--samples", options.samples, 1, 4096, "Samples a pixel (files: 4, thesis's scenes: 1)");
   add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
   add_shadows(command, options.shadows);
+  add_ambient_occlusion(command, options.ambient);
   add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
   add_value(command, "--background", options.background, "COLOUR",
             "A name, #rrggbb or r,g,b from 0 to 1 (files: white)", [](const std::string& text) -> Result<std::string> {

@@ -67,6 +67,18 @@ TEST_P(EveryScene, brute_force_and_every_tree_agree) {
 
 INSTANTIATE_TEST_SUITE_P(scenes, EveryScene, ::testing::Values(1, 2, 3, 4));
 
+TEST_P(EveryScene, ambient_occlusion_is_the_same_by_every_engine_and_on_any_number_of_threads) {
+  const Scene drawn = scene();
+  RenderSettings settings = small(drawn, View::shaded, 1);
+  settings.ambient_occlusion = {6, 7};
+  const Film expected = render(drawn, Tracer::build(drawn.spheres, Engine::brute).value(), settings)->film;
+  for (const Engine engine : {Engine::reference, Engine::wide})
+    for (const int threads : {1, 2, 7}) {
+      settings.threads = threads;
+      expect_same_bits(expected, render(drawn, Tracer::build(drawn.spheres, engine).value(), settings)->film);
+    }
+}
+
 TEST(Renderer, a_picture_in_other_units_is_the_same_picture) {
   // Everything times a power of two: every step scales exactly.
   const auto draw = [](double unit) {

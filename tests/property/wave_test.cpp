@@ -91,14 +91,16 @@ struct Expected {
 Expected one_after_the_other(const Scene& scene, const RenderSettings& settings) {
   const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
   const PixelRays pixels(scene.camera, settings.width_px, settings.height_px);
-  Integrator integrator(scene, tracer, settings.recursion, settings.shadows);
+  std::optional<AmbientRays> ambient;
+  if (settings.ambient_occlusion) ambient.emplace(*settings.ambient_occlusion, settings.samples_per_pixel);
+  Integrator integrator(scene, tracer, settings.recursion, settings.shadows, ambient ? &*ambient : nullptr);
   Expected expected{Film(settings.width_px, settings.height_px), {}};
   for (int y = 0; y < settings.height_px; ++y)
     for (int x = 0; x < settings.width_px; ++x) {
       Vec3d sum;
       for (int i = 0; i < settings.samples_per_pixel; ++i) {
         const SamplePlace place = sample_place(i, settings.samples_per_pixel);
-        sum = sum + integrator.radiance(pixels.at(x + place.x, y + place.y));
+        sum = sum + integrator.radiance(pixels.at(x + place.x, y + place.y), i);
       }
       expected.film.at(x, y) = to_float(sum / settings.samples_per_pixel);
     }
@@ -116,6 +118,7 @@ void expect_same(const Expected& expected, const Rendered& rendered, const std::
   EXPECT_EQ(rendered.rays.shadow, expected.rays.shadow) << what;
   EXPECT_EQ(rendered.rays.reflected, expected.rays.reflected) << what;
   EXPECT_EQ(rendered.rays.transmitted, expected.rays.transmitted) << what;
+  EXPECT_EQ(rendered.rays.ambient, expected.rays.ambient) << what;
 }
 
 // Steps from one seed to the next, so that only a part is tested if all would take too long. Each step is coprime to
@@ -139,6 +142,7 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
     settings.samples_per_pixel = 1 + static_cast<int>(seed % 5);
     settings.recursion = 1 + static_cast<int>(seed % 7);
     settings.shadows = seed % 4 != 0;
+    if (seed % 3 == 0) settings.ambient_occlusion = {seed % 2 == 0 ? 3.0 : AmbientOcclusion{}.distance, 5};
     const Expected expected = one_after_the_other(scene, settings);
     for (const Engine engine : {Engine::wide, Engine::reference}) {
       const Tracer tracer = Tracer::build(scene.spheres, engine).value();
@@ -199,6 +203,20 @@ TEST(Wave, sums_are_the_same_before_they_are_rounded) {
       }
     }
   }
+}
+
+// A pixel with more samples than a wave has rays, and than there are sets of directions.
+TEST(Wave, ambient_occlusion_of_many_samples) {
+  const Scene scene = random_scene(3);
+  RenderSettings settings;
+  settings.width_px = 5;
+  settings.height_px = 9;
+  settings.samples_per_pixel = 1000;
+  settings.recursion = 1;
+  settings.ambient_occlusion = {4.0, 2};
+  const Expected expected = one_after_the_other(scene, settings);
+  expect_same(expected, render(scene, Tracer::build(scene.spheres, Engine::wide).value(), settings).value(),
+              "many samples");
 }
 
 // One pass shades primary rays without shadows; the last vector of a tile is rarely full.

@@ -2,7 +2,7 @@
 //
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
-// molecule; recursion 1 to 5, every view, the sRGB curve, shadows, several samples.
+// molecule; recursion 1 to 5, ambient occlusion, every view, the sRGB curve, shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -106,6 +106,10 @@ bool print_hashes(const bihive::Scene& scene) {
     settings.recursion = recursion;
     good = print_hash(scene, settings, "shaded") && good;
   }
+  bihive::RenderSettings with_ambient = settings;
+  with_ambient.recursion = 2;
+  with_ambient.ambient_occlusion = {10, 4};
+  good = print_hash(scene, with_ambient, "shaded with ambient occlusion") && good;
   for (const auto& [name, view] : kViews) {
     settings.view = view;
     good = print_hash(scene, settings, name) && good;

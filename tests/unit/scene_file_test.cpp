@@ -353,8 +353,8 @@ TEST(SceneFileErrors, BrokenJsonHasAPlace) {
 
 TEST(SceneFileErrors, TheVersionMustBeKnown) {
   EXPECT_EQ(error_of(R"({"spheres": [[0,0,0,1]]})"), "a.json: /: the key \"bihive_scene\" is missing");
-  EXPECT_EQ(error_of(R"({"bihive_scene": 2, "spheres": [[0,0,0,1]]})"),
-            "a.json: /bihive_scene: expected the number 1, found 2");
+  EXPECT_EQ(error_of(R"({"bihive_scene": 3, "spheres": [[0,0,0,1]]})"),
+            "a.json: /bihive_scene: expected 1 or 2, found 3");
   EXPECT_THAT(error_of("[]"), StartsWith("a.json: /: expected a bihive scene"));
 }
 

@@ -22,6 +22,13 @@ namespace bihive::cli {
 enum class RenderEngine { automatic, wide, reference, brute, gpu, gpu_brute };
 
 /// Unset: the scene's value.
+/// Ambient occlusion: unset values are the scene's. A distance or a number of directions switches it on.
+struct AmbientOptions {
+  std::optional<bool> on;
+  std::optional<double> distance;  ///< world units, > 0
+  std::optional<std::int64_t> directions;
+};
+
 struct RenderOptions {
   InputOptions input;
   std::string output;
@@ -32,6 +39,7 @@ struct RenderOptions {
   TreeParameters tree;
   std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
   std::optional<bool> shadows;
+  AmbientOptions ambient;
   std::optional<Transfer> transfer;
   std::optional<std::string> background;  ///< a valid colour; its meaning depends on the transfer
   std::optional<Vec3d> eye, look_at, up;

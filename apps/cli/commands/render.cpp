@@ -111,6 +111,12 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   json["samples_per_pixel"] = settings.samples_per_pixel;
   json["recursion"] = settings.recursion;
   json["shadows"] = settings.shadows;
+  if (settings.ambient_occlusion) {
+    const AmbientOcclusion& ambient = *settings.ambient_occlusion;
+    ordered_json& object = json["ambient_occlusion"];
+    if (std::isfinite(ambient.distance)) object["distance"] = ambient.distance;
+    object["directions"] = ambient.directions;
+  }
   json["transfer"] = name_of(kTransfers, scene.picture.transfer);
   json["background"] = vector(scene.background);
   json["camera"] = {{"eye", vector(scene.camera.eye)},
@@ -179,12 +185,9 @@ Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings
   Rendered rendered = value_or_fail(std::move(result));
   const RenderCounts& rays = rendered.rays;
   Drawn drawn;
-  drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted;
-  drawn.rays = {{"primary", rays.primary},
-                {"shadow", rays.shadow},
-                {"reflected", rays.reflected},
-                {"transmitted", rays.transmitted},
-                {"all", drawn.all_rays}};
+  drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient;
+  drawn.rays = {{"primary", rays.primary},         {"shadow", rays.shadow},   {"reflected", rays.reflected},
+                {"transmitted", rays.transmitted}, {"ambient", rays.ambient}, {"all", drawn.all_rays}};
   drawn.film = std::move(rendered.film);
   drawn.render_ms = rendered.render_ms;
   return drawn;
@@ -206,6 +209,16 @@ Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings
   return drawn;
 }
 
+std::optional<AmbientOcclusion> choose_ambient(const AmbientOptions& options,
+                                               const std::optional<AmbientOcclusion>& of_scene) {
+  const bool implied = options.distance || options.directions;
+  if (!options.on.value_or(implied || of_scene)) return std::nullopt;
+  AmbientOcclusion ambient = of_scene.value_or(AmbientOcclusion{});
+  ambient.distance = options.distance.value_or(ambient.distance);
+  ambient.directions = static_cast<int>(options.directions.value_or(ambient.directions));
+  return ambient;
+}
+
 // Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
 // user's options are the result.
 RenderSettings apply_options(const RenderOptions& options, Input& input) {
@@ -216,6 +229,7 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   settings.samples_per_pixel = static_cast<int>(options.samples.value_or(settings.samples_per_pixel));
   settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
   settings.shadows = options.shadows.value_or(settings.shadows);
+  settings.ambient_occlusion = choose_ambient(options.ambient, settings.ambient_occlusion);
   settings.view = options.view;
   settings.threads = static_cast<int>(options.threads);
   scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);

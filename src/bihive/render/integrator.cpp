@@ -7,7 +7,7 @@
 
 namespace bihive {
 
-Vec3d Integrator::radiance(const Ray& primary) {
+Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
   Vec3d sum;
   deepest_hit_ = 0;
   ++rays_.primary;
@@ -27,7 +27,11 @@ Vec3d Integrator::radiance(const Ray& primary) {
       const WeightedRay& item = generation_[i];
       deepest_hit_ = depth;
       const Surface surface = surface_at(scene_, item.ray, hits_[i]);
-      sum = sum + item.weight * local_light(scene_, tracer_, surface, shadows_, rays_.shadow);
+      double visibility = 1;
+      if (ambient_ != nullptr)
+        visibility = ambient_visibility(scene_, tracer_, surface, ambient_->sets.of_sample(sample), ambient_->distance,
+                                        rays_.ambient);
+      sum = sum + item.weight * local_light(scene_, tracer_, surface, shadows_, visibility, rays_.shadow);
 
       // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray.
       if (depth == recursion_) continue;

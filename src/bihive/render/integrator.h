@@ -15,13 +15,16 @@ namespace bihive {
 /// Keeps its lists between calls; each thread needs its own.
 class Integrator {
  public:
-  Integrator(const Scene& scene, const Tracer& tracer, int recursion, bool shadows)
-      : scene_(scene), tracer_(tracer), recursion_(recursion), shadows_(shadows) {}
+  /// `ambient` must outlive it; null: no ambient occlusion.
+  Integrator(const Scene& scene, const Tracer& tracer, int recursion, bool shadows,
+             const AmbientRays* ambient = nullptr)
+      : scene_(scene), tracer_(tracer), recursion_(recursion), shadows_(shadows), ambient_(ambient) {}
 
   /// The sum has a fixed order, so that every engine can give the same bits: generation by generation. In a generation
   /// the rays that hit nothing come first and add weight x background; then come the surfaces of the others. Both
   /// follow the order of the parents, the reflected ray of a parent before the transmitted one.
-  Vec3d radiance(const Ray& primary);
+  /// `sample`: the number of the ray in its pixel.
+  Vec3d radiance(const Ray& primary, std::int64_t sample = 0);
 
   /// The deepest generation with a ray that hit something in the last call; 0 if no ray did.
   int deepest_hit() const { return deepest_hit_; }
@@ -37,6 +40,7 @@ class Integrator {
   const Tracer& tracer_;
   int recursion_;
   bool shadows_;
+  const AmbientRays* ambient_;
   int deepest_hit_ = 0;
   RenderCounts rays_;
   std::vector<WeightedRay> generation_, next_;

@@ -46,6 +46,7 @@ class Renderer {
         counts_(tiles_.size()),
         ranges_(tiles_.size(), kNoRange),
         passes_(settings.view == View::distance ? 2 : 1) {
+    if (settings_.ambient_occlusion) ambient_.emplace(*settings_.ambient_occlusion, settings_.samples_per_pixel);
     for (int i = 0; i < settings_.samples_per_pixel; ++i)
       places_.push_back(sample_place(i, settings_.samples_per_pixel));
     film_.resize(settings_.width_px, settings_.height_px);
@@ -82,6 +83,7 @@ class Renderer {
       rendered.rays.shadow += tile.shadow;
       rendered.rays.reflected += tile.reflected;
       rendered.rays.transmitted += tile.transmitted;
+      rendered.rays.ambient += tile.ambient;
     }
     return rendered;
   }
@@ -159,14 +161,16 @@ class Renderer {
     const bool shaded = settings_.view == View::shaded;
     WaveIntegrator integrator(
         wave_scene_, tracer_,
-        {settings_.recursion, shaded, shaded && settings_.shadows, settings_.view == View::recursion}, cancel_);
+        {settings_.recursion, shaded, shaded && settings_.shadows, settings_.view == View::recursion,
+         ambient_ ? &*ambient_ : nullptr, settings_.samples_per_pixel},
+        cancel_);
     const std::int64_t samples = settings_.samples_per_pixel;
     Vec3d sum;
     std::int64_t added = 0;
     for_each_part(tile, [&](const std::vector<PixelPlace>& pixels, WaveBuffers& buffers, std::int64_t first) {
       const std::int64_t count = WaveIntegrator::primaries(buffers).count;
       if (shaded || settings_.view == View::recursion)
-        integrator.trace(buffers, count);
+        integrator.trace(buffers, count, first % samples);
       else if (settings_.view != View::traversal)
         integrator.find_first_hits(buffers);
       if (cancelled()) return;
@@ -217,6 +221,7 @@ class Renderer {
   PixelRays rays_;
   WaveScene wave_scene_;
   std::vector<SamplePlace> places_;  // in a pixel
+  std::optional<AmbientRays> ambient_;
   std::vector<Tile> tiles_;
   std::vector<RenderCounts> counts_;  // of each tile
   std::vector<DistanceRange> ranges_;

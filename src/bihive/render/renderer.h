@@ -17,7 +17,7 @@
 namespace bihive {
 
 struct RenderCounts {
-  std::int64_t primary = 0, shadow = 0, reflected = 0, transmitted = 0;  ///< rays traced
+  std::int64_t primary = 0, shadow = 0, reflected = 0, transmitted = 0, ambient = 0;  ///< rays traced
 };
 
 struct Rendered {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/geometry/plane.h"
 #include "bihive/math/elementary.h"
 
 namespace bihive {
@@ -26,7 +27,24 @@ Vec3d mirrored(const Surface& surface) {
 
 }  // namespace
 
-Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows,
+double ambient_visibility(const Scene& scene, const Tracer& tracer, const Surface& surface,
+                          const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays) {
+  double seen = 0;
+  double in_front = 0;
+  for (const Vec3f& direction : directions) {
+    const double facing = dot(surface.normal, to_double(direction));
+    if (!(facing > 0)) continue;
+    in_front = in_front + facing;
+    Ray ray = ray_from(surface, to_double(direction), surface.from_inside);
+    ray.t_max = distance;
+    ++ambient_rays;
+    const bool hidden = tracer.occluded(ray) || (scene.plane && plane_hit(ray, scene.plane->plane) < kInfinity);
+    if (!hidden) seen = seen + facing;
+  }
+  return in_front > 0 ? seen / in_front : 1;
+}
+
+Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows, double visibility,
                   std::int64_t& shadow_rays) {
   const Material& material = surface.material;
   const double cosine = -dot(surface.incoming, surface.normal);
@@ -55,7 +73,8 @@ Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surfa
     if (highlight > 0)
       specular = specular + (material.specular * shading_power(highlight, material.power)) * light.colour;
   }
-  const Vec3d ambient{material.ambient, material.ambient, material.ambient};
+  const double strength = material.ambient * visibility;
+  const Vec3d ambient{strength, strength, strength};
   return material.colour * (ambient + diffuse) + specular;
 }
 

@@ -1,6 +1,9 @@
 // The view of a scene and the fineness of its picture: the same for every renderer.
 #pragma once
 
+#include <optional>
+
+#include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
@@ -16,6 +19,7 @@ struct RenderSettings {
   int samples_per_pixel = 4;  ///< 1 to 4096; 1 = the pixel's centre
   int recursion = 5;          ///< 1 to 16
   bool shadows = true;
+  std::optional<AmbientOcclusion> ambient_occlusion;
   View view = View::shaded;
   int threads = 0;  ///< 0 = as many as the machine runs at once; for the CPU's renderer
 };
@@ -28,6 +32,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.samples_per_pixel = defaults.samples_per_pixel;
   settings.recursion = defaults.recursion;
   settings.shadows = defaults.shadows;
+  settings.ambient_occlusion = defaults.ambient_occlusion;
   return settings;
 }
 

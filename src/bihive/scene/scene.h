@@ -9,6 +9,7 @@
 #include "bihive/geometry/plane.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/image/transfer.h"
+#include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/material.h"
 
@@ -42,6 +43,7 @@ struct PictureDefaults {
   int samples_per_pixel = 4;  ///< 1 = the pixel's centre
   int recursion = 5;          ///< generations of rays, 1 to 16
   bool shadows = true;
+  std::optional<AmbientOcclusion> ambient_occlusion;
   Transfer transfer = Transfer::srgb;
 };
 

@@ -1,5 +1,7 @@
 #include "bihive/scene/scene_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -50,6 +52,14 @@ class Extraction {
     return *colour_from_text(value.get_ref<const std::string&>(), loaded_.scene.picture.transfer);
   }
 
+  // A key that came with a later version of the format.
+  void need_version(int version, const std::string& pointer) {
+    if (document_.at("bihive_scene").get<int>() < version)
+      fail(pointer,
+           fmt::format("expected no such key in version {} of the format", document_.at("bihive_scene").get<int>()),
+           fmt::format("write \"bihive_scene\": {}", version));
+  }
+
   void take_seed() {
     if (!document_.contains("seed")) return;
     const json& value = document_.at("seed");
@@ -69,6 +79,13 @@ class Extraction {
     picture.samples_per_pixel = value.value("samples_per_pixel", picture.samples_per_pixel);
     picture.recursion = value.value("recursion", picture.recursion);
     picture.shadows = value.value("shadows", picture.shadows);
+    if (value.contains("ambient_occlusion")) {
+      need_version(2, "/picture/ambient_occlusion");
+      const json& occlusion = value.at("ambient_occlusion");
+      AmbientOcclusion& made = picture.ambient_occlusion.emplace();
+      made.distance = occlusion.value("distance", made.distance);
+      made.directions = occlusion.value("directions", made.directions);
+    }
     picture.transfer = value.value("transfer", std::string("srgb")) == "srgb" ? Transfer::srgb : Transfer::none;
   }
 

@@ -81,12 +81,25 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
   out += "}";
 }
 
+// With its comma, or nothing.
+std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
+  if (!ambient) return "";
+  const std::string distance =
+      std::isfinite(ambient->distance) ? fmt::format("\"distance\": {}, ", number(ambient->distance)) : "";
+  return fmt::format("\"ambient_occlusion\": {{{}\"directions\": {}}}, ", distance, ambient->directions);
+}
+
+// The oldest version of the format that has all that the scene needs.
+int version_of(const Scene& scene) {
+  return scene.picture.ambient_occlusion ? 2 : 1;
+}
+
 }  // namespace
 
 std::string scene_to_json(const Scene& scene) {
   const Camera& camera = scene.camera;
   const PictureDefaults& picture = scene.picture;
-  std::string out = "{\n  \"bihive_scene\": 1,\n";
+  std::string out = fmt::format("{{\n  \"bihive_scene\": {},\n", version_of(scene));
   if (!scene.name.empty()) out += "  \"name\": " + text(scene.name) + ",\n";
   if (scene.seed) out += fmt::format("  \"seed\": {},\n", *scene.seed);
   out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}}},\n",
@@ -101,9 +114,9 @@ std::string scene_to_json(const Scene& scene) {
   out += "  \"background\": " + vector(scene.background) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, \"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
-      picture.transfer == Transfer::srgb ? "srgb" : "none");
+      ambient_member(picture.ambient_occlusion), picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

@@ -56,7 +56,7 @@ HWY_INLINE void add_to_owners(Lanes3 light, const WaveSurfaces& surfaces, std::i
 }
 
 void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden,
-                               WaveSums& sums) {
+                               const double* visibility, WaveSums& sums) {
   for (std::int64_t i = 0; i < surfaces.count; i += kLanes) {
     const LaneMask there = first_lanes(surfaces.count - i);
     SurfaceLanes surface;
@@ -66,7 +66,8 @@ void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfa
     surface.cosine = hn::Neg(dot(surface.incoming, surface.normal));
     surface.id = load(surfaces.id, i);
     surface.material_inside = load(surfaces.material_inside, i);
-    const Lanes3 light = local_light(scene, there, surface, hidden == nullptr ? nullptr : hidden + i, surfaces.count);
+    const Lanes3 light = local_light(scene, there, surface, hidden == nullptr ? nullptr : hidden + i, surfaces.count,
+                                     visibility == nullptr ? all(1) : hn::LoadU(Tag(), visibility + i));
     add_to_owners(multiply(load(surfaces.weight, i), light), surfaces, i, sums);
   }
 }
@@ -88,9 +89,10 @@ void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const Po
   HWY_DYNAMIC_DISPATCH(find_shadow_rays_on_target)(surfaces, first, light, shadows);
 }
 
-void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums) {
+void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden,
+                     const double* visibility, WaveSums& sums) {
   ensure_target();
-  HWY_DYNAMIC_DISPATCH(add_local_light_on_target)(scene, surfaces, hidden, sums);
+  HWY_DYNAMIC_DISPATCH(add_local_light_on_target)(scene, surfaces, hidden, visibility, sums);
 }
 
 }  // namespace steps

@@ -47,9 +47,9 @@ HWY_INLINE LaneMask set_lanes(const std::uint8_t* bytes) {
 }
 
 /// For the lanes `there`, at least one. `hidden`: null, or one byte for each light and surface, 1 if the light is
-/// hidden; the bytes of the next light are `to_next_light` bytes further.
+/// hidden; the bytes of the next light are `to_next_light` bytes further. `visibility`: of ambient_visibility().
 HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const SurfaceLanes& surface,
-                              const std::uint8_t* hidden, std::int64_t to_next_light) {
+                              const std::uint8_t* hidden, std::int64_t to_next_light, Lanes visibility) {
   const MaterialLanes material = materials_of(wave_scene, there, surface.material_inside, surface.id);
   Lanes3 diffuse = all(Vec3d{});
   Lanes3 specular = all(Vec3d{});
@@ -75,7 +75,8 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
     const Lanes strength = hn::Mul(material.specular, shading_power_of(glossy, highlight, material.power));
     specular = add(specular, multiply(hn::IfThenElseZero(glossy, strength), colour));
   }
-  const Lanes3 ambient{material.ambient, material.ambient, material.ambient};
+  const Lanes strength = hn::Mul(material.ambient, visibility);
+  const Lanes3 ambient{strength, strength, strength};
   return add(multiply(material.colour, add(ambient, diffuse)), specular);
 }
 

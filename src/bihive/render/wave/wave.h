@@ -147,6 +147,30 @@ struct ShadowWave : RayColumns {
   }
 };
 
+/// Places on surfaces that take the same set of directions, and their rays in one of these directions.
+struct AmbientWave {
+  std::int64_t places = 0;
+  Columns3<float> origin;
+  Columns3<double> normal;
+  Column<std::int64_t> id, inside, surface;  ///< `surface`: its number in WaveSurfaces
+  Column<double> in_front, seen;             ///< sums over the directions so far
+
+  RayColumns rays;
+  Column<double> facing;
+  Column<std::int64_t> place;  ///< of each ray
+  Column<std::uint8_t> hidden;
+
+  void reset(std::int64_t n) {
+    places = 0;
+    origin.reserve(n);
+    normal.reserve(n);
+    for (Column<std::int64_t>* column : {&id, &inside, &surface, &place}) column->reserve(n);
+    for (Column<double>* column : {&in_front, &seen, &facing}) column->reserve(n);
+    rays.reset(n);
+    hidden.reserve(n);
+  }
+};
+
 /// The steps. Each gives the bits of the scalar code that it names on every instruction set.
 namespace steps {
 
@@ -167,9 +191,22 @@ void find_surfaces(const WaveScene& scene, const WavePart& rays, const double* t
 /// `shadows`.
 void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light, ShadowWave& shadows);
 
+/// The places of those surfaces whose owners have the numbers first_sample + owner = `set` modulo `sets`, after modulo
+/// `samples`.
+void gather_places(const WaveSurfaces& surfaces, std::int64_t first_sample, std::int64_t samples, std::int64_t set,
+                   std::int64_t sets, AmbientWave& wave);
+
+/// The rays of ambient_visibility() in one direction from the places that face it. They replace the rays of the last
+/// direction.
+void find_ambient_rays(Vec3f direction, AmbientWave& wave);
+
+/// Adds the facings of the rays that are not hidden to their places.
+void add_visible(AmbientWave& wave);
+
 /// Adds local_light() times weight to the owners. `hidden`: for each light a row of one byte for each surface, 1 if a
-/// sphere hides the light; null: no shadows.
-void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden, WaveSums& sums);
+/// sphere hides the light; null: no shadows. `visibility`: of each surface; null: 1.
+void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden,
+                     const double* visibility, WaveSums& sums);
 
 /// Both steps at once for at least one ray from one eye, without secondary rays and without shadows: the light that
 /// find_surfaces() and add_local_light() bring to the owners. The owners must have received nothing yet.

@@ -1,6 +1,9 @@
 #include "bihive/render/wave/wave_integrator.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "bihive/geometry/plane.h"
 
 namespace bihive {
 namespace {
@@ -23,7 +26,8 @@ std::int64_t end_of_part(const Wave& wave, std::int64_t first, std::int64_t last
 
 }  // namespace
 
-void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners) {
+void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners, std::int64_t first_sample) {
+  first_sample_ = first_sample;
   buffers.generations.resize(std::max<std::size_t>(buffers.generations.size(), std::size_t(settings_.recursion)));
   buffers.sums.reset(owners);
   if (settings_.depth) deepest_hit_.assign(static_cast<std::size_t>(owners), 0);
@@ -57,22 +61,25 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
   if (next != nullptr) next->reset(2 * rays.count());
-  if (rays.wave->starts_at_eye && last && settings_.light && !with_shadows() && !settings_.depth) {
+  if (rays.wave->starts_at_eye && last && settings_.light && !with_shadows() && !with_ambient() && !settings_.depth) {
     steps::shade_primaries(scene_, rays, buffers.t.data(), buffers.id.data(), buffers.sums);
     buffers.sums.empty = false;
     return;
   }
-  buffers.surfaces.reset(with_shadows() ? rays.count() : 0);
+  const bool of_generation = with_shadows() || with_ambient();
+  buffers.surfaces.reset(of_generation ? rays.count() : 0);
   if (with_shadows()) buffers.shadows.reset(rays.count());
   for (std::int64_t first = rays.first; first < rays.last;) {
     const WavePart part{rays.wave, first, end_of_part(*rays.wave, first, rays.last, kRaysShadedAtOnce)};
     shade(part, depth, HitSpan{buffers.t.data(), buffers.id.data()}.part(first - rays.first), next, buffers);
     first = part.last;
   }
-  if (with_shadows()) {
-    find_shadows(depth, buffers);
+  if (of_generation) {
+    if (with_shadows()) find_shadows(depth, buffers);
+    if (with_ambient()) find_visibility(depth, buffers);
     if (cancelled()) return;
-    steps::add_local_light(scene_, buffers.surfaces, buffers.hidden.data(), buffers.sums);
+    steps::add_local_light(scene_, buffers.surfaces, with_shadows() ? buffers.hidden.data() : nullptr,
+                           with_ambient() ? buffers.visibility.data() : nullptr, buffers.sums);
   }
   buffers.sums.empty = false;
 
@@ -92,9 +99,9 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
 }
 
 void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers) {
-  // Shadows need the surfaces of the whole generation.
+  // Shadows and ambient occlusion need the surfaces of the whole generation.
   WaveSurfaces& surfaces = buffers.surfaces;
-  if (!with_shadows()) surfaces.reset(rays.count());
+  if (!with_shadows() && !with_ambient()) surfaces.reset(rays.count());
   const std::int64_t known = surfaces.count;
   steps::find_surfaces(scene_, rays, hits.t, hits.sphere_id, surfaces, buffers.sums);
   if (settings_.depth)
@@ -103,8 +110,8 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
   if (with_shadows()) {
     const std::vector<PointLight>& lights = scene_.scene->lights;
     if (!lights.empty()) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
-  } else if (settings_.light) {
-    steps::add_local_light(scene_, surfaces, nullptr, buffers.sums);
+  } else if (settings_.light && !with_ambient()) {
+    steps::add_local_light(scene_, surfaces, nullptr, nullptr, buffers.sums);
   }
   if (next == nullptr) return;
   const steps::SentOn sent = steps::send_on(scene_, surfaces, known, *next);
@@ -134,6 +141,39 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
       tracer_.occluded(shadows.span().part(i, std::min(step, shadows.count - i)), order, shadows.hidden.data() + i);
     std::uint8_t* const hidden = buffers.hidden.data() + static_cast<std::int64_t>(l) * surfaces;
     for (std::int64_t i = 0; i < shadows.count; ++i) hidden[shadows.surface[i]] = shadows.hidden[i];
+  }
+}
+
+// All rays of one direction are parallel, and neighbours start at neighbouring places: beams take them.
+void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
+  const WaveSurfaces& surfaces = buffers.surfaces;
+  const AmbientRays& ambient = *settings_.ambient;
+  const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
+  const bool limited = ambient.distance < std::numeric_limits<double>::infinity();
+  AmbientWave& wave = buffers.ambient;
+  buffers.visibility.reserve(surfaces.count);
+  buffers.distances.reserve(surfaces.count);
+  if (limited) std::fill_n(buffers.distances.data(), surfaces.count, ambient.distance);
+  for (int set = 0; set < ambient.sets.count(); ++set) {
+    steps::gather_places(surfaces, first_sample_, settings_.samples_per_pixel, set, ambient.sets.count(), wave);
+    if (wave.places == 0) continue;
+    for (const Vec3f& direction : ambient.sets.of_sample(set)) {
+      steps::find_ambient_rays(direction, wave);
+      rays_.ambient += wave.rays.count;
+      RaySpan rays = wave.rays.span();
+      if (limited) rays.t_max = buffers.distances.data();
+      const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
+      for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
+        tracer_.occluded(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i);
+      if (cancelled()) return;
+      if (scene_.scene->plane)
+        for (std::int64_t i = 0; i < rays.count; ++i)
+          if (plane_hit(rays.at(i), scene_.scene->plane->plane) < std::numeric_limits<double>::infinity())
+            wave.hidden[i] = 1;
+      steps::add_visible(wave);
+    }
+    for (std::int64_t k = 0; k < wave.places; ++k)
+      buffers.visibility[wave.surface[k]] = wave.in_front[k] > 0 ? wave.seen[k] / wave.in_front[k] : 1;
   }
 }
 

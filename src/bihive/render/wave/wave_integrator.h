@@ -23,6 +23,8 @@ struct WaveBuffers {
   WaveSurfaces surfaces;
   ShadowWave shadows;
   Column<std::uint8_t> hidden;
+  AmbientWave ambient;
+  Column<double> visibility, distances;
   WaveSums sums;
   Column<double> x, y;  ///< picture positions of primary rays
 };
@@ -35,12 +37,16 @@ class WaveIntegrator {
     bool light;    ///< the light of owners is summed up
     bool shadows;  ///< only with `light`
     bool depth;    ///< deepest_hit() is known afterwards
+    /// Ambient occlusion, only with `light`; null: none. It must outlive the integrator.
+    const AmbientRays* ambient = nullptr;
+    std::int64_t samples_per_pixel = 1;  ///< for `ambient`
   };
   WaveIntegrator(const WaveScene& scene, const Tracer& tracer, const Settings& settings, const CancelToken* cancel)
       : scene_(scene), tracer_(tracer), settings_(settings), cancel_(cancel) {}
 
-  /// Follows the rays of primaries() to their end. Owners are 0 to owners - 1. After a cancel the result is undefined.
-  void trace(WaveBuffers& buffers, std::int64_t owners);
+  /// Follows the rays of primaries() to their end. Owners are 0 to owners - 1; owner 0 is sample `first_sample` of its
+  /// pixel, the others follow. After a cancel the result is undefined.
+  void trace(WaveBuffers& buffers, std::int64_t owners, std::int64_t first_sample = 0);
 
   /// Only the first hits of primaries(), on spheres and plane: t and id of ray i in buffers.t[i] and buffers.id[i].
   void find_first_hits(WaveBuffers& buffers);
@@ -60,7 +66,9 @@ class WaveIntegrator {
   void trace_part(const WavePart& rays, int depth, WaveBuffers& buffers);
   void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
   void find_shadows(int depth, WaveBuffers& buffers);
+  void find_visibility(int depth, WaveBuffers& buffers);
   bool with_shadows() const { return settings_.light && settings_.shadows; }
+  bool with_ambient() const { return settings_.light && settings_.ambient != nullptr; }
   bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }
 
   const WaveScene& scene_;
@@ -68,6 +76,7 @@ class WaveIntegrator {
   Settings settings_;
   const CancelToken* cancel_;
   RenderCounts rays_;
+  std::int64_t first_sample_ = 0;
   std::vector<std::uint8_t> deepest_hit_;
 };
 

@@ -1,0 +1,75 @@
+#include "bihive/render/wave/wave.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bihive/render/wave/find_ambient_rays.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "bihive/render/wave/lanes-inl.h"
+#include "bihive/simd/dispatch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+
+void find_ambient_rays_on_target(Vec3f direction, AmbientWave& wave) {
+  const Lanes3 along = all(to_double(direction));
+  RayColumns& rays = wave.rays;
+  rays.count = 0;
+  for (std::int64_t i = 0; i < wave.places; i += kLanes) {
+    const Lanes facing = dot(load(wave.normal, i), along);
+    const LaneMask asks = hn::And(hn::Gt(facing, all(0)), first_lanes(wave.places - i));
+    if (none(asks)) continue;
+    store(hn::Add(load(wave.in_front, i), hn::IfThenElseZero(asks, facing)), wave.in_front, i);
+    const Appender append(asks, rays.count);
+    append(load(wave.origin, i), rays.origin);
+    append(along, rays.direction);
+    append(load(wave.id, i), rays.leaves);
+    append(load(wave.inside, i), rays.inside);
+    append(facing, wave.facing);
+    append(counted_from(i), wave.place);
+    rays.count += append.count();
+  }
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bihive {
+HWY_EXPORT(find_ambient_rays_on_target);
+
+namespace steps {
+
+void gather_places(const WaveSurfaces& surfaces, std::int64_t first_sample, std::int64_t samples, std::int64_t set,
+                   std::int64_t sets, AmbientWave& wave) {
+  wave.reset(surfaces.count);
+  for (std::int64_t i = 0; i < surfaces.count; ++i) {
+    if ((first_sample + surfaces.owner[i]) % samples % sets != set) continue;
+    const std::int64_t k = wave.places++;
+    for (int axis = 0; axis < 3; ++axis) {
+      wave.origin[axis][k] = surfaces.origin[axis][i];
+      wave.normal[axis][k] = surfaces.normal[axis][i];
+    }
+    wave.id[k] = surfaces.id[i];
+    wave.inside[k] = surfaces.material_inside[i] & 1;
+    wave.surface[k] = i;
+    wave.in_front[k] = wave.seen[k] = 0;
+  }
+}
+
+void find_ambient_rays(Vec3f direction, AmbientWave& wave) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(find_ambient_rays_on_target)(direction, wave);
+}
+
+void add_visible(AmbientWave& wave) {
+  for (std::int64_t i = 0; i < wave.rays.count; ++i)
+    if (wave.hidden[i] == 0) wave.seen[wave.place[i]] = wave.seen[wave.place[i]] + wave.facing[i];
+}
+
+}  // namespace steps
+}  // namespace bihive
+#endif

@@ -1,0 +1,57 @@
+#include "bihive/scene/ambient_occlusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bihive/scene/sample_pattern.h"
+
+namespace bihive {
+namespace {
+
+// A turn about the axis: the angle's cosine and sine. Angles are made of square roots and products alone, so that they
+// have the same bits on every platform.
+struct Turn {
+  double cosine = 1, sine = 0;
+};
+
+Turn after(Turn a, Turn b) {
+  return {a.cosine * b.cosine - a.sine * b.sine, a.cosine * b.sine + a.sine * b.cosine};
+}
+
+// A binary fraction of a whole turn, by its digits: each is half the angle of the one before.
+Turn turn_by(double fraction) {
+  Turn turn;
+  Turn digit{-1, 0};  // half a turn
+  for (int i = 0; i < 32 && fraction > 0; ++i) {
+    fraction *= 2;
+    if (fraction >= 1) {
+      turn = after(turn, digit);
+      fraction -= 1;
+    }
+    digit = {std::sqrt(0.5 * (1 + digit.cosine)), std::sqrt(0.5 * (1 - digit.cosine))};
+  }
+  return turn;
+}
+
+}  // namespace
+
+// A spiral from pole to pole: equal steps along the axis are equal areas, and each step turns by the golden angle. The
+// sets lie between each other: set i starts a part of a step lower and is turned as the sample places are.
+DirectionSets::DirectionSets(int directions, int samples_per_pixel) {
+  const double golden = (3 - std::sqrt(5.0)) / 2;  // of a whole turn
+  const Turn step = turn_by(golden);
+  const int sets = std::min(samples_per_pixel, kMostDirectionSets);
+  for (int i = 0; i < sets; ++i) {
+    const SamplePlace place = sample_place(i, sets);
+    std::vector<Vec3f>& set = sets_.emplace_back();
+    Turn turn = turn_by(place.y);
+    for (int k = 0; k < directions; ++k) {
+      const double z = 1 - 2 * (k + place.x) / directions;
+      const double radius = std::sqrt(std::max(0.0, 1 - z * z));
+      set.push_back(to_float(Vec3d{radius * turn.cosine, radius * turn.sine, z}));
+      turn = after(turn, step);
+    }
+  }
+}
+
+}  // namespace bihive

@@ -1,0 +1,51 @@
+// Ambient occlusion: the share of its surroundings that a place on a surface sees. It scales the ambient term.
+//
+// The directions are the same for all places, so neighbouring pixels ask along parallel rays and the picture has no
+// noise. The samples of a pixel take different sets of directions, so that together they see more of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+constexpr int kMostAmbientDirections = 4096;
+
+struct AmbientOcclusion {
+  double distance = std::numeric_limits<double>::infinity();  ///< world units, > 0: what is farther does not darken
+  int directions = 64;  ///< of a set, on the whole sphere; 1 to kMostAmbientDirections
+};
+
+/// Samples beyond this many take the sets of the first ones again.
+constexpr int kMostDirectionSets = 16;
+
+/// The sets of directions of a picture: sample i of every pixel takes set i % count().
+class DirectionSets {
+ public:
+  /// `directions` and `samples_per_pixel` at least 1.
+  DirectionSets(int directions, int samples_per_pixel);
+
+  int count() const { return static_cast<int>(sets_.size()); }
+  /// Directions of length 1 up to binary32 rounding, spread evenly over the sphere.
+  const std::vector<Vec3f>& of_sample(std::int64_t sample) const {
+    return sets_[static_cast<std::size_t>(sample % count())];
+  }
+
+ private:
+  std::vector<std::vector<Vec3f>> sets_;
+};
+
+/// The rays that places ask with: what a renderer needs to know, made once for each picture.
+struct AmbientRays {
+  double distance;
+  DirectionSets sets;
+
+  AmbientRays(const AmbientOcclusion& occlusion, int samples_per_pixel)
+      : distance(occlusion.distance), sets(occlusion.directions, samples_per_pixel) {}
+};
+
+}  // namespace bihive
