@@ -234,7 +234,7 @@ FrameResult measure_frame(const BenchScene& bench, const BenchOptions& options) 
   for (std::int64_t rep = 0; rep < options.reps; ++rep) add_frame(bench.scene, tracer, settings, times);
   const RenderCounts& rays = times.rays;
   return {times.render_ms(), settings.width_px, settings.height_px,
-          rays.primary + rays.shadow + rays.reflected + rays.transmitted};
+          rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient};
 }
 
 }  // namespace

@@ -89,6 +89,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_integer(app, "--reps", options.reps, 1, 1000, "Repetitions, of which the median counts (7)");
   add_integer(app, "--rays", options.rays, 64, std::int64_t{1} << 26,
               "Primary and random rays, pixels of the frame, about (1048576)");
+  add_value(app, "--ao-distance", options.ao_distance, "D", "Length of the rays of ambient occlusion (no limit)",
+            [](const std::string& text) { return cli::number_from(text, 0, kLargestFloat, true); });
   add_integer(app, "--tile", options.tile, 64, 1048576,
               "Rays that a thread takes at a time, at most (131072, random rays 1048576)");
   app.add_option("--target", options.target,

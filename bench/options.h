@@ -19,9 +19,10 @@ struct BenchOptions {
   std::vector<Kind> kinds;  ///< in the order of kKinds
   bool build = true, frame = true;
   std::int64_t reps = 7;
-  std::int64_t rays = 1024 * 1024;  ///< primary and random rays, pixels of the frame; the others follow
-  std::int64_t tile = 0;            ///< rays that a thread takes at a time, at most; 0: the kind's own number
-  std::string target;               ///< empty: the best
+  std::int64_t rays = 1024 * 1024;    ///< primary and random rays, pixels of the frame; the others follow
+  std::optional<double> ao_distance;  ///< world units; unset: no limit
+  std::int64_t tile = 0;              ///< rays that a thread takes at a time, at most; 0: the kind's own number
+  std::string target;                 ///< empty: the best
   bool json = false;
 };
 

@@ -9,6 +9,7 @@
 #include "bihive/math/rng.h"
 #include "bihive/render/shading.h"
 #include "bihive/render/surface.h"
+#include "bihive/scene/ambient_occlusion.h"
 
 namespace bihive::bench {
 namespace {
@@ -121,6 +122,61 @@ Next next_rays(const Scene& scene, const WideTree& tree, const PixelRaySet& from
   return next;
 }
 
+// The renderer asks along 64 directions. Every eighth of them is measured here: they are as different from each other.
+constexpr int kAmbientDirections = 64, kAmbientStep = 8;
+
+// A direction around the normal, by cosine: the normal plus a place on the unit sphere.
+Vec3d direction_by_cosine(Vec3d normal, SplitMix64& random) {
+  Vec3d place;
+  double squared = 0;
+  do {
+    for (int axis = 0; axis < 3; ++axis) place[axis] = 2 * random.next_double() - 1;
+    squared = dot(place, place);
+  } while (squared > 1 || squared < 1e-6);
+  const Vec3d sum = normal + place / std::sqrt(squared);
+  return dot(sum, sum) > 1e-6 ? normalized(sum) : normal;
+}
+
+// Rays of ambient occlusion from the hits of primary rays: hit after hit along one direction after the other, which all
+// share or which each hit chooses. Half of the directions lie behind a surface, so a hit asks half as many.
+PixelRaySet ambient_rays(const Scene& scene, const WideTree& tree, const PixelRaySet& primary,
+                         std::optional<double> distance, bool shared) {
+  const std::int64_t count = primary.rays.size();
+  HitBatch hits;
+  hits.resize(count);
+  closest_hits(tree, primary.rays.span(), RayOrder::blocks, hits.span());
+  std::vector<Surface> surfaces;
+  std::vector<std::uint32_t> places;
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (!hits.at(i).found()) continue;
+    surfaces.push_back(surface_at(scene, primary.rays.span().at(i), {hits.at(i).t, hits.at(i).sphere_id}));
+    places.push_back(primary.place[static_cast<std::size_t>(i)]);
+  }
+
+  const DirectionSets sets(kAmbientDirections, 1);
+  SplitMix64 random(kSeed);
+  PixelRaySet set;
+  std::uint32_t passed = 0;
+  for (int k = 0; k < kAmbientDirections; k += kAmbientStep * (shared ? 1 : 2), passed += primary.place.size())
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const Surface& surface = surfaces[i];
+      const Vec3d direction = shared ? to_double(sets.of_sample(0)[static_cast<std::size_t>(k)])
+                                     : direction_by_cosine(surface.normal, random);
+      if (!(dot(surface.normal, direction) > 0)) continue;
+      Ray ray;
+      ray.origin = surface.origin;
+      ray.direction = to_float(direction);
+      if (distance) ray.t_max = *distance;
+      ray.leaves = surface.id;
+      ray.inside = surface.from_inside;
+      set.rays.push_back(ray);
+      set.place.push_back(passed + places[i]);
+    }
+  set.rays.t_min.clear();
+  if (!distance) set.rays.t_max.clear();
+  return set;
+}
+
 std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& place) {
   std::vector<std::uint32_t> order(place.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -167,6 +223,8 @@ std::vector<RaySet> make_ray_sets(const BenchScene& bench, const WideTree& tree,
       }
     }
   }
+  for (const Kind kind : {K::ao, K::ao_random})
+    if (asked(kind)) add(kind, ambient_rays(bench.scene, tree, primary, options.ao_distance, kind == K::ao));
   std::sort(sets.begin(), sets.end(), [](const RaySet& a, const RaySet& b) { return a.facts.kind < b.facts.kind; });
   return sets;
 }

@@ -215,6 +215,42 @@ def avx2(report):
     return lines, charts
 
 
+def light_rows(results):
+    rows = []
+    for result in results:
+        ours, theirs = result["mray_per_s"], result["peer"]["mray_per_s"]
+        floor_random, floor_shared = targets.AMBIENT[result["scene"]]
+        beside_random, beside_shared = ours["ao"] / theirs["ao_random"], ours["ao"] / theirs["ao"]
+        met = beside_random >= floor_random and beside_shared >= floor_shared
+        rows.append(
+            [
+                title_of(result),
+                result["ao_distance"] or "any",
+                result["threads"],
+                number(ours["ao"]),
+                f"{number(theirs['ao_random'])} **{times(beside_random)}** ({floor_random}x)",
+                f"{number(theirs['ao'])} **{times(beside_shared)}** ({floor_shared}x)",
+                f"{number(ours['ao_random'])} **{times(ratio(result, 'ao_random'))}**",
+                "met" if met else "missed",
+            ]
+        )
+    return rows
+
+
+def light(report):
+    results = [run["result"] for run in report["runs"]]
+    lines = [
+        "## Ambient occlusion",
+        "",
+        "Rays from what 1024 x 1024 primary rays hit, in millions a second, by Embree's best mode each. bihive's renderer asks along",
+        "directions that all places share: eight of its 64 are measured. Embree is asked along random directions, by cosine, one's own for",
+        "each place, as a path tracer would; and along the same shared ones. Floors in brackets.",
+        "",
+    ]
+    heads = ["scene", "distance", "threads", "bihive, shared", "Embree, random", "Embree, shared", "bihive, random", ""]
+    return lines + table(heads, light_rows(results)), {}
+
+
 def pictures(report):
     result = report["runs"][0]["result"]
     floor, aim = targets.PICTURE
@@ -446,6 +482,7 @@ def page(report):
 SECTIONS = [
     ("scenes", scenes),
     ("avx2", avx2),
+    ("light", light),
     ("pictures", pictures),
     ("thesis", thesis),
     ("growth", growth),

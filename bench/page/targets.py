@@ -24,6 +24,9 @@ _RATIOS = [
 _COLUMN = {"primary": 0, "random": 1, "shadow": 2, "mirror1": 3, "mirror2": 3, "mirror3": 3, "build": 5}
 _COLUMN.update({"mirror_shadow2": 4, "mirror_shadow3": 4})
 
+# Rays of ambient occlusion along shared directions: floors beside Embree's along random ones, and along the same ones.
+AMBIENT = {"s1": (3, 2), "mol": (5, 3), "u1e5": (2.5, 2), "u1e6": (4, 3)}
+
 BYTES = (19, 16.5)  # a sphere, at most
 AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4, "mirror2": 1.4, "mirror3": 1.4}
 PICTURE = (4, 8)  # times as fast as Tachyon

@@ -7,7 +7,7 @@ import subprocess
 from program import PATIENCE_S, ProgramTest, main
 
 BENCH = os.environ["BIHIVE_BENCH"]
-KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3"]
+KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3", "ao", "ao_random"]
 QUICK = ["--rays", "4096", "--reps", "1"]
 
 

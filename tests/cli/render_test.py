@@ -48,6 +48,35 @@ class Render(ProgramTest):
         self.assertEqual((settings["radius"], settings["radius_scale"], settings["recenter"]), (2, 0.5, True))
         self.assertTrue(self.settings("scenario1", *SMALL, "--shadows")["shadows"])
 
+    def test_ambient_occlusion_by_option_and_scene_file(self):
+        plain = self.render("demo", *SMALL)
+        self.assertNotIn("ambient_occlusion", plain["settings"])
+        self.assertEqual(plain["rays"]["ambient"], 0)
+        by_option = self.render("demo", *SMALL, "--ao-distance", "10", "--ao-directions", "8")
+        self.assertEqual(by_option["settings"]["ambient_occlusion"], {"distance": 10, "directions": 8})
+        self.assertGreater(by_option["rays"]["ambient"], 0)
+        self.assertNotEqual(by_option["picture_hash"], plain["picture_hash"])
+        self.assertEqual(self.settings("demo", *SMALL, "--ao")["ambient_occlusion"], {"directions": 64})
+
+        # A scene file says it too, from version 2 on; options replace it.
+        scene = '{"bihive_scene": 2, "picture": {"ambient_occlusion": {"distance": 3}}, "spheres": [[0, 0, 0, 1], [1, 1, 0, 1]]}'
+        self.write("a.json", scene)
+        self.assertEqual(self.settings("a.json", *SMALL)["ambient_occlusion"], {"distance": 3, "directions": 64})
+        changed = self.settings("a.json", *SMALL, "--ao-directions", "5")
+        self.assertEqual(changed["ambient_occlusion"], {"distance": 3, "directions": 5})
+        self.assertNotIn("ambient_occlusion", self.settings("a.json", *SMALL, "--no-ao"))
+
+    def test_bad_ambient_occlusion_is_refused(self):
+        for arguments in (["--ao-distance", "0"], ["--ao-directions", "0"], ["--ao", "--no-ao"], ["--ao", "--engine", "gpu"]):
+            done = self.run_bihive("render", "demo", "-o", "c.png", *arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(arguments[0] if len(arguments) == 2 else arguments[-1], done.stderr)
+        self.write("old.json", '{"bihive_scene": 1, "picture": {"ambient_occlusion": {}}, "spheres": [[0, 0, 0, 1]]}')
+        done = self.run_bihive("render", "old.json", "-o", "c.png")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/picture/ambient_occlusion: expected no such key in version 1", done.stderr)
+        self.assertFalse(os.path.exists(self.path("c.png")))
+
     def test_json_says_what_was_done(self):
         said = self.render("scenario2", *SMALL, "--count", "64", "--seed", "9")
         self.assertEqual((said["output"], said["scene"], said["seed"]), ("a.png", "scenario2", 9))

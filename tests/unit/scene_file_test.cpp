@@ -408,6 +408,11 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.picture.recursion, b.picture.recursion);
   EXPECT_EQ(a.picture.shadows, b.picture.shadows);
   EXPECT_EQ(a.picture.transfer, b.picture.transfer);
+  ASSERT_EQ(a.picture.ambient_occlusion.has_value(), b.picture.ambient_occlusion.has_value());
+  if (a.picture.ambient_occlusion) {
+    EXPECT_EQ(a.picture.ambient_occlusion->distance, b.picture.ambient_occlusion->distance);
+    EXPECT_EQ(a.picture.ambient_occlusion->directions, b.picture.ambient_occlusion->directions);
+  }
   ASSERT_EQ(a.lights.size(), b.lights.size());
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     EXPECT_EQ(a.lights[i].position, b.lights[i].position);
@@ -447,6 +452,24 @@ void expect_there_and_back(const Scene& scene) {
 
 TEST(SceneFileWriting, FourSpheresComeBack) {
   expect_there_and_back(four_spheres_scene());
+}
+
+TEST(SceneFileWriting, AmbientOcclusionComesBackInVersion2) {
+  Scene scene = four_spheres_scene();
+  EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 1,"));
+  scene.picture.ambient_occlusion = {0.1, 77};
+  EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 2,"));
+  expect_there_and_back(scene);
+  scene.picture.ambient_occlusion = AmbientOcclusion{};
+  expect_there_and_back(scene);
+}
+
+TEST(SceneFileErrors, ANewKeyNeedsItsVersion) {
+  EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"ambient_occlusion": {}}, "spheres": [[0,0,0,1]]})"),
+              StartsWith("a.json: /picture/ambient_occlusion: expected no such key in version 1 of the format"));
+  EXPECT_THAT(
+      error_of(R"({"bihive_scene": 2, "picture": {"ambient_occlusion": {"distance": 0}}, "spheres": [[0,0,0,1]]})"),
+      StartsWith("a.json: /picture/ambient_occlusion/distance: expected a number above 0"));
 }
 
 TEST(SceneFileWriting, ScenariosComeBack) {

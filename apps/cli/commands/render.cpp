@@ -248,6 +248,9 @@ void run_render(const RenderOptions& options) {
   // Load the scene and apply the user's options to it.
   Input input = load_input(options.input);
   const RenderSettings settings = apply_options(options, input);
+  if (is_gpu(engine) && settings.ambient_occlusion && settings.view == View::shaded)
+    fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no ambient occlusion",
+               "leave --engine out, or draw without it: --no-ao");
   const Scene& scene = input.scene;
   value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
   value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
