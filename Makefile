@@ -13,11 +13,11 @@ web: ## install what the page needs, build it into build-web/page
 	scripts/setup web
 	scripts/build_web
 
-test: ## install what these tests need, build, run them: what a change must pass (an estimated ten to fifteen minutes on two cores)
+test: ## install what these tests need, build, run them: what a change must pass (14 minutes on two slow cores, 6 with a filled compiler cache)
 	scripts/setup build
 	scripts/test --setup
 
-test-all: ## all that and the rest: lint, sanitizers, emulated processors, fuzzing (over an hour on two cores when last measured)
+test-all: ## all that and the rest: lint, sanitizers, emulated processors, fuzzing (half an hour more)
 	scripts/setup all
 	scripts/test all
 
