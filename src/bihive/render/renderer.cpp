@@ -237,6 +237,11 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
   BIHIVE_CHECK(settings.samples_per_pixel >= 1 && settings.samples_per_pixel <= 4096);
   BIHIVE_CHECK(settings.recursion >= 1 && settings.recursion <= 16);
   BIHIVE_CHECK_GE(settings.threads, 0);
+  if (settings.ambient_occlusion) {
+    BIHIVE_CHECK(settings.ambient_occlusion->distance > 0);
+    BIHIVE_CHECK(settings.ambient_occlusion->directions >= 1 &&
+                 settings.ambient_occlusion->directions <= kMostAmbientDirections);
+  }
   if (Status status = check_camera(scene.camera); !status) return status.error();
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   if (of_tree && tracer.tree() == nullptr)

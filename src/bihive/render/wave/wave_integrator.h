@@ -15,7 +15,8 @@ namespace bihive {
 /// part by part. A single owner's rays are never cut (2^15 of them in generation 16).
 constexpr std::int64_t kMostRaysAtOnce = 32768;
 
-/// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation.
+/// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation,
+/// and with ambient occlusion some 150 more.
 struct WaveBuffers {
   std::vector<Wave> generations;
   Column<double> t;
