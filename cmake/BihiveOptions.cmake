@@ -15,7 +15,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Release")
   set(BIHIVE_COMPILE_TOGETHER_DEFAULT ON)
 endif()
 option(BIHIVE_WERROR "Treat warnings as errors" ${BIHIVE_WERROR_DEFAULT})
-option(BIHIVE_COMPILE_TOGETHER "Compile source files of a folder together: all at once in less time, one of them in more"
+option(BIHIVE_COMPILE_TOGETHER "Compile neighbouring source files together: all at once in less time, one of them in more"
        ${BIHIVE_COMPILE_TOGETHER_DEFAULT})
 set(BIHIVE_SANITIZE "" CACHE STRING "Sanitizers: empty, asan (address and undefined behaviour) or tsan (threads)")
 set_property(CACHE BIHIVE_SANITIZE PROPERTY STRINGS "" asan tsan)

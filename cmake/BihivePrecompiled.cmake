@@ -25,10 +25,12 @@ function(bihive_precompile target)
   bihive_quiet_with_precompiled(${target})
 endfunction()
 
-# bihive_compile_together(target [ALONE regex]): several source files of a folder are compiled as one, because reading the same headers
-# again and again took most of the time. Files that Highway includes into themselves, once for each instruction set, stay
-# alone, and so do those that the regex names. A name in an anonymous namespace must then differ from those of the neighbours.
+# bihive_compile_together(target [ALONE REGEX]): eight neighbouring source files are compiled as one, because reading the
+# same headers again and again took most of the time. Files that Highway includes into themselves, once for each
+# instruction set, stay alone, and so do those that the regular expression matches. A name in an anonymous namespace must
+# then differ from those of the neighbours.
 function(bihive_compile_together target)
+  cmake_parse_arguments(PARSE_ARGV 1 together "" ALONE "")
   if(NOT BIHIVE_COMPILE_TOGETHER)
     return()
   endif()
@@ -38,7 +40,7 @@ function(bihive_compile_together target)
       continue()
     endif()
     file(STRINGS ${source} once_for_each_target REGEX "hwy/foreach_target" LIMIT_COUNT 1)
-    if(once_for_each_target OR ("${ARGV1}" STREQUAL ALONE AND source MATCHES "${ARGV2}"))
+    if(once_for_each_target OR (together_ALONE AND source MATCHES "${together_ALONE}"))
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
   endforeach()
