@@ -243,8 +243,8 @@ def light(report):
         "## Ambient occlusion",
         "",
         "Rays from what 1024 x 1024 primary rays hit, in millions a second, by Embree's best mode each. bihive's renderer asks along",
-        "directions that all places share: eight of its 64 are measured. Embree is asked along random directions, by cosine, one's own for",
-        "each place, as a path tracer would; and along the same shared ones. Floors in brackets.",
+        "directions that all places share: eight of its 64 are measured. Embree is asked along random directions, by cosine, different ones",
+        "for each place, as a path tracer would; and along the same shared ones. Floors in brackets.",
         "",
     ]
     heads = ["scene", "distance", "threads", "bihive, shared", "Embree, random", "Embree, shared", "bihive, random", ""]
