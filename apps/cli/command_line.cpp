@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "bihive/base/version.h"
+#include "bihive/scene/light_points.h"
+#include "bihive/scene/named_materials.h"
 #include "commands/names.h"
 #include "server/addresses.h"
 #include "support/failure.h"
@@ -110,6 +112,24 @@ void add_ambient_occlusion(CLI::App& app, AmbientOptions& ambient) {
       ->excludes(directions);
 }
 
+void add_look_options(CLI::App& app, LookOptions& look) {
+  add_value(app, "--style", look.style, "NAME|FILE", "The look: see bihive styles (files: default)",
+            [](const std::string& text) -> Result<std::string> { return text; });
+  add_choice(app, "--material", look.material, named_materials(), "Of all spheres (the style's)");
+  add_choice(app, "--light", look.lights, light_presets(), "The lights around the camera (the style's)");
+  add_ambient_occlusion(app, look.ambient);
+  add_integer(app, "--light-points", look.light_points, 1, kMostLightPoints,
+              "Soft shadows: points of each light, a sample (the style's)");
+  add_value(app, "--outline", look.outline_px, "PX", "Width of outlines, 1 to 16; 0: none (the style's)",
+            [](const std::string& text) -> Result<double> {
+              Result<double> width = number_from(text, 0, kWidestOutlinePx);
+              if (width && *width > 0 && *width < 1)
+                return Error{"expected 0 or a number from 1 to 16, found " + text, "", 0, 0, ""};
+              return width;
+            });
+  add_number(app, "--fog", look.fog, 1, "F", "Share of the background where the set is deepest; 0: none (the style's)");
+}
+
 void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object instead of text");
 }
@@ -135,7 +155,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_integer(command, "--samples", options.samples, 1, 4096, "Samples a pixel (files: 4, thesis's scenes: 1)");
   add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
   add_shadows(command, options.shadows);
-  add_ambient_occlusion(command, options.ambient);
+  add_look_options(command, options.look);
   add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
   add_value(command, "--background", options.background, "COLOUR",
             "A name, #rrggbb or r,g,b from 0 to 1 (files: white)", [](const std::string& text) -> Result<std::string> {
@@ -182,6 +202,12 @@ void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
   add_input(command, options.input);
   add_tree_options(command, options.tree);
   add_input_options(command, options.input);
+  add_json_flag(command, options.json);
+}
+
+void add_styles(CLI::App& app, StylesOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "styles", "List the looks for bihive render --style", "bihive styles",
+                                  "bihive styles --json", options, request);
   add_json_flag(command, options.json);
 }
 
@@ -282,6 +308,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   TraceOptions trace;
   SceneOptions scene;
   InfoOptions info;
+  StylesOptions styles;
   ThesisOptions thesis;
   WebOptions web;
   Request request = HelpText{"", false};
@@ -291,6 +318,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   add_trace(app, trace, request);
   add_scene(app, scene, request);
   add_info(app, info, request);
+  add_styles(app, styles, request);
   add_thesis(app, thesis, request);
   add_web(app, web, request);
   try {

@@ -31,6 +31,7 @@ struct Run {
   int operator()(const TraceOptions& options) const { return run_trace(options), kSuccess; }
   int operator()(const SceneOptions& options) const { return run_scene(options), kSuccess; }
   int operator()(const InfoOptions& options) const { return run_info(options), kSuccess; }
+  int operator()(const StylesOptions& options) const { return run_styles(options), kSuccess; }
   int operator()(const ThesisOptions& options) const { return run_thesis(options), kSuccess; }
   int operator()(const WebOptions& options) const { return run_web(options), kSuccess; }
 };

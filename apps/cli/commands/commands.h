@@ -10,7 +10,9 @@
 #include "bihive/math/vec3.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
+#include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
+#include "bihive/scene/material.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "support/input.h"
 #include "support/values.h"
@@ -21,7 +23,6 @@ namespace bihive::cli {
 /// sphere.
 enum class RenderEngine { automatic, wide, reference, brute, gpu, gpu_brute };
 
-/// Unset: the scene's value.
 /// Ambient occlusion: unset values are the scene's. A distance or a number of directions switches it on.
 struct AmbientOptions {
   std::optional<bool> on;
@@ -29,6 +30,17 @@ struct AmbientOptions {
   std::optional<std::int64_t> directions;
 };
 
+/// Unset: the style's or the scene's value.
+struct LookOptions {
+  std::string style;  ///< a name or a path; empty: the default one
+  std::optional<Material> material;
+  std::optional<LightRig> lights;
+  AmbientOptions ambient;
+  std::optional<std::int64_t> light_points;
+  std::optional<double> outline_px, fog;  ///< 0: none
+};
+
+/// Unset: the scene's value.
 struct RenderOptions {
   InputOptions input;
   std::string output;
@@ -39,7 +51,7 @@ struct RenderOptions {
   TreeParameters tree;
   std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
   std::optional<bool> shadows;
-  AmbientOptions ambient;
+  LookOptions look;
   std::optional<Transfer> transfer;
   std::optional<std::string> background;  ///< a valid colour; its meaning depends on the transfer
   std::optional<Vec3d> eye, look_at, up;
@@ -48,6 +60,11 @@ struct RenderOptions {
   bool json = false;
 };
 void run_render(const RenderOptions& options);
+
+struct StylesOptions {
+  bool json = false;
+};
+void run_styles(const StylesOptions& options);
 
 /// Unset: the scene's value.
 struct ViewOptions {

@@ -12,6 +12,7 @@
 #include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/simd/target.h"
+#include "commands/choose_look.h"
 #include "commands/commands.h"
 #include "commands/names.h"
 #include "commands/render_on_gpu.h"
@@ -101,6 +102,20 @@ Engine structure_of(RenderEngine engine) {
   return Engine::automatic;
 }
 
+// With the ambient light and the lights that throw soft shadows; only what differs from plain pictures.
+void describe_effects(const RenderSettings& settings, const Scene& scene, ordered_json& json) {
+  if (settings.ambient_occlusion) {
+    const AmbientOcclusion& ambient = *settings.ambient_occlusion;
+    ordered_json& object = json["ambient_occlusion"];
+    if (std::isfinite(ambient.distance)) object["distance"] = ambient.distance;
+    object["directions"] = ambient.directions;
+  }
+  for (const PointLight& light : scene.lights)
+    if (light.radius > 0) json["light_points"] = settings.light_points;
+  if (settings.outline) json["outline_px"] = settings.outline->width_px;
+  if (settings.fog) json["fog"] = settings.fog->strength;
+}
+
 // Everything that decides the picture, for its text chunk. Threads and engine do not.
 ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene) {
   const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
@@ -111,12 +126,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   json["samples_per_pixel"] = settings.samples_per_pixel;
   json["recursion"] = settings.recursion;
   json["shadows"] = settings.shadows;
-  if (settings.ambient_occlusion) {
-    const AmbientOcclusion& ambient = *settings.ambient_occlusion;
-    ordered_json& object = json["ambient_occlusion"];
-    if (std::isfinite(ambient.distance)) object["distance"] = ambient.distance;
-    object["directions"] = ambient.directions;
-  }
+  describe_effects(settings, scene, json);
   json["transfer"] = name_of(kTransfers, scene.picture.transfer);
   json["background"] = vector(scene.background);
   json["camera"] = {{"eye", vector(scene.camera.eye)},
@@ -209,19 +219,9 @@ Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings
   return drawn;
 }
 
-std::optional<AmbientOcclusion> choose_ambient(const AmbientOptions& options,
-                                               const std::optional<AmbientOcclusion>& of_scene) {
-  const bool implied = options.distance || options.directions;
-  if (!options.on.value_or(implied || of_scene)) return std::nullopt;
-  AmbientOcclusion ambient = of_scene.value_or(AmbientOcclusion{});
-  ambient.distance = options.distance.value_or(ambient.distance);
-  ambient.directions = static_cast<int>(options.directions.value_or(ambient.directions));
-  return ambient;
-}
-
 // Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
 // user's options are the result.
-RenderSettings apply_options(const RenderOptions& options, Input& input) {
+RenderSettings apply_options(const RenderOptions& options, const Style& style, Input& input) {
   Scene& scene = input.scene;
   RenderSettings settings = settings_from(scene.picture);
   if (options.size) settings.width_px = options.size->width_px;
@@ -229,13 +229,13 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   settings.samples_per_pixel = static_cast<int>(options.samples.value_or(settings.samples_per_pixel));
   settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
   settings.shadows = options.shadows.value_or(settings.shadows);
-  settings.ambient_occlusion = choose_ambient(options.ambient, settings.ambient_occlusion);
+  apply_effects(options.look, settings);
   settings.view = options.view;
   settings.threads = static_cast<int>(options.threads);
   scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
   if (options.background) scene.background = *colour_from(*options.background, scene.picture.transfer);
   scene.camera = choose_camera(input, options, settings);
-  if (!input.has_lights) scene.lights = {light_behind(scene.camera)};
+  apply_look(options.look, style, input);
   return settings;
 }
 
@@ -246,11 +246,14 @@ void run_render(const RenderOptions& options) {
   if (const Status status = check_writable(options.output); !status) fail(status.error());
 
   // Load the scene and apply the user's options to it.
-  Input input = load_input(options.input);
-  const RenderSettings settings = apply_options(options, input);
-  if (is_gpu(engine) && settings.ambient_occlusion && settings.view == View::shaded)
-    fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no ambient occlusion",
-               "leave --engine out, or draw without it: --no-ao");
+  const bool named = !options.look.style.empty();
+  const Style style = is_gpu(engine) && !named ? Style{} : choose_style(options.look);
+  Input input = load_input(options.input, &style, /*of_scenes=*/named);
+  const RenderSettings settings = apply_options(options, style, input);
+  if (is_gpu(engine) && settings.view == View::shaded)
+    if (const std::string beyond = beyond_gpu(input.scene, settings); !beyond.empty())
+      fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + beyond,
+                 "leave --engine out, or draw without it: --style plain");
   const Scene& scene = input.scene;
   value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
   value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));

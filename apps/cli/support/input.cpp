@@ -62,20 +62,24 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
   return std::move(loaded->scene);
 }
 
-Input load_input(const InputOptions& options) {
+Input load_input(const InputOptions& options, const Style* style, bool of_scenes) {
   if (std::optional<Scene> scene = generated_scene(options)) {
     Input input;
     input.scene = std::move(*scene);
     input.has_camera = true;
-    input.has_lights = true;
+    input.has_lights = style == nullptr || !of_scenes;
+    if (!input.has_lights) apply_style(*style, input.scene);
     input.format = "built-in";
     return input;
   }
   check_input_options(options);
   const ReadOptions reading = read_options(options);
-  Input input = value_or_fail(options.input == "demo"
-                                  ? built_in_scene("demo", {}, reading)
-                                  : load_scene(value_or_fail(read_file(options.input)), options.input, reading));
+  const auto load = [&]() -> Result<Input> {
+    if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
+    const std::string bytes = value_or_fail(read_file(options.input));
+    return load_scene(bytes, options.input, reading, of_scenes || !looks_like_scene(bytes) ? style : nullptr);
+  };
+  Input input = value_or_fail(load());
   warn(input.warnings);
   return input;
 }

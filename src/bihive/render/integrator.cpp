@@ -31,7 +31,8 @@ Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
       if (ambient_ != nullptr)
         visibility = ambient_visibility(scene_, tracer_, surface, ambient_->sets.of_sample(sample), ambient_->distance,
                                         rays_.ambient);
-      sum = sum + item.weight * local_light(scene_, tracer_, surface, shadows_, visibility, rays_.shadow);
+      const std::vector<Vec3d>* points = light_points_ != nullptr ? &light_points_->of_sample(sample) : nullptr;
+      sum = sum + item.weight * local_light(scene_, tracer_, surface, shadows_, points, visibility, rays_.shadow);
 
       // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray.
       if (depth == recursion_) continue;

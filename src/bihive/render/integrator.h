@@ -8,6 +8,7 @@
 #include "bihive/render/renderer.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tracer.h"
+#include "bihive/scene/light_points.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
@@ -15,10 +16,15 @@ namespace bihive {
 /// Keeps its lists between calls; each thread needs its own.
 class Integrator {
  public:
-  /// `ambient` must outlive it; null: no ambient occlusion.
+  /// `ambient` and `light_points` must outlive it; null: no ambient occlusion, no soft shadows.
   Integrator(const Scene& scene, const Tracer& tracer, int recursion, bool shadows,
-             const AmbientRays* ambient = nullptr)
-      : scene_(scene), tracer_(tracer), recursion_(recursion), shadows_(shadows), ambient_(ambient) {}
+             const AmbientRays* ambient = nullptr, const LightPointSets* light_points = nullptr)
+      : scene_(scene),
+        tracer_(tracer),
+        recursion_(recursion),
+        shadows_(shadows),
+        ambient_(ambient),
+        light_points_(light_points) {}
 
   /// The sum has a fixed order, so that every engine can give the same bits: generation by generation. In a generation
   /// the rays that hit nothing come first and add weight x background; then come the surfaces of the others. Both
@@ -41,6 +47,7 @@ class Integrator {
   int recursion_;
   bool shadows_;
   const AmbientRays* ambient_;
+  const LightPointSets* light_points_;
   int deepest_hit_ = 0;
   RenderCounts rays_;
   std::vector<WeightedRay> generation_, next_;

@@ -11,6 +11,7 @@
 #include "bihive/base/check.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
+#include "bihive/render/after_effects.h"
 #include "bihive/render/pixel_order.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tree_picture.h"
@@ -25,6 +26,14 @@ namespace {
 // neither.
 constexpr int kTilePx = 64;
 constexpr int kScalarTilePx = 16;
+
+// Outlines and fog keep something for each sample of a tile, so there are small tiles if there are many samples.
+constexpr int kSamplesOfLargeTiles = 64;
+
+int tile_px(const Tracer& tracer, const RenderSettings& settings) {
+  const bool small = (settings.outline || settings.fog) && settings.samples_per_pixel > kSamplesOfLargeTiles;
+  return tracer.engine() == Engine::wide && !small ? kTilePx : kScalarTilePx;
+}
 
 constexpr DistanceRange kNoRange{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
@@ -41,11 +50,14 @@ class Renderer {
         film_(std::move(film)),
         rays_(scene.camera, settings.width_px, settings.height_px),
         wave_scene_(scene),
-        tiles_(
-            tiles_of(settings.width_px, settings.height_px, tracer.engine() == Engine::wide ? kTilePx : kScalarTilePx)),
+        effects_(scene, wave_scene_, tracer, settings, rays_),
+        tiles_(tiles_of(settings.width_px, settings.height_px, tile_px(tracer, settings))),
         counts_(tiles_.size()),
         ranges_(tiles_.size(), kNoRange),
         passes_(settings.view == View::distance ? 2 : 1) {
+    const auto is_soft = [](const PointLight& light) { return light.radius > 0; };
+    if (settings_.shadows && std::any_of(scene.lights.begin(), scene.lights.end(), is_soft))
+      light_points_.emplace(settings_.light_points, settings_.samples_per_pixel);
     if (settings_.ambient_occlusion) ambient_.emplace(*settings_.ambient_occlusion, settings_.samples_per_pixel);
     for (int i = 0; i < settings_.samples_per_pixel; ++i)
       places_.push_back(sample_place(i, settings_.samples_per_pixel));
@@ -162,8 +174,11 @@ class Renderer {
     WaveIntegrator integrator(
         wave_scene_, tracer_,
         {settings_.recursion, shaded, shaded && settings_.shadows, settings_.view == View::recursion,
-         ambient_ ? &*ambient_ : nullptr, settings_.samples_per_pixel},
+         ambient_ ? &*ambient_ : nullptr, light_points_ ? &*light_points_ : nullptr, settings_.samples_per_pixel},
         cancel_);
+    // Each thread has its own.
+    static thread_local EffectBuffers effects;
+    if (effects_.any()) effects_.find(tile, places_, cancel_, effects);
     const std::int64_t samples = settings_.samples_per_pixel;
     Vec3d sum;
     std::int64_t added = 0;
@@ -175,13 +190,16 @@ class Renderer {
         integrator.find_first_hits(buffers);
       if (cancelled()) return;
 
-      if (shaded && samples == 1) return steps::put_light(buffers.sums, pixels.data() + first, count, film_);
+      if (shaded && samples == 1 && !effects_.any())
+        return steps::put_light(buffers.sums, pixels.data() + first, count, film_);
 
       // Add the samples in order, then divide by their number.
       for (std::int64_t i = 0; i < count; ++i) {
-        sum = sum + sample_value(buffers, integrator, i);
-        if (++added < samples) continue;
         const PixelPlace& pixel = pixels[static_cast<std::size_t>((first + i) / samples)];
+        Vec3d value = sample_value(buffers, integrator, i);
+        if (effects_.any()) value = effects_.applied(tile, effects, pixel.x, pixel.y, added, value);
+        sum = sum + value;
+        if (++added < samples) continue;
         film_.at(pixel.x, pixel.y) = to_float(sum / static_cast<double>(samples));
         sum = {};
         added = 0;
@@ -220,8 +238,10 @@ class Renderer {
   Film film_;
   PixelRays rays_;
   WaveScene wave_scene_;
+  AfterEffects effects_;
   std::vector<SamplePlace> places_;  // in a pixel
   std::optional<AmbientRays> ambient_;
+  std::optional<LightPointSets> light_points_;
   std::vector<Tile> tiles_;
   std::vector<RenderCounts> counts_;  // of each tile
   std::vector<DistanceRange> ranges_;
@@ -242,6 +262,12 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
     BIHIVE_CHECK(settings.ambient_occlusion->directions >= 1 &&
                  settings.ambient_occlusion->directions <= kMostAmbientDirections);
   }
+  BIHIVE_CHECK(settings.light_points >= 1 && settings.light_points <= kMostLightPoints);
+  if (settings.outline) {
+    BIHIVE_CHECK(settings.outline->width_px >= 1 && settings.outline->width_px <= kWidestOutlinePx);
+    BIHIVE_CHECK(settings.outline->step >= 0);
+  }
+  if (settings.fog) BIHIVE_CHECK(settings.fog->start < settings.fog->end);
   if (Status status = check_camera(scene.camera); !status) return status.error();
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   if (of_tree && tracer.tree() == nullptr)

@@ -21,6 +21,40 @@ Ray ray_from(const Surface& surface, Vec3d direction, bool inside) {
   return ray;
 }
 
+// A point of light as seen from a place.
+struct LightOffset {
+  Vec3d offset;
+  double distance_squared, towards, nearness;
+
+  LightOffset(Vec3d point, const Surface& surface)
+      : offset(point - to_double(surface.origin)),
+        distance_squared(dot(offset, offset)),
+        towards(dot(surface.normal, offset)),
+        nearness(1 / std::sqrt(distance_squared)) {}
+
+  bool in_front() const { return distance_squared > 0 && distance_squared < kInfinity && towards > 0; }
+  // N.L. Only the product is divided by the length of the offset.
+  double facing() const { return towards * nearness; }
+};
+
+// Is a sphere between the place and the light, which lies at t = 1?
+bool is_hidden(const Tracer& tracer, const Surface& surface, Vec3d offset, std::int64_t& shadow_rays) {
+  Ray shadow = ray_from(surface, offset, surface.from_inside);
+  shadow.t_max = 1;
+  ++shadow_rays;
+  return tracer.occluded(shadow);
+}
+
+double in_bands(double facing, int bands) {
+  return std::floor(facing * bands + 0.5) / bands;
+}
+
+// The colour of a highlight in white light.
+Vec3d tinted(const Material& material) {
+  const double rest = 1 - material.tint;
+  return Vec3d{rest, rest, rest} + material.tint * material.colour;
+}
+
 Vec3d mirrored(const Surface& surface) {
   return surface.incoming - (2 * dot(surface.incoming, surface.normal)) * surface.normal;
 }
@@ -44,38 +78,53 @@ double ambient_visibility(const Scene& scene, const Tracer& tracer, const Surfac
   return in_front > 0 ? seen / in_front : 1;
 }
 
-Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows, double visibility,
-                  std::int64_t& shadow_rays) {
+LightShare soft_light_share(const PointLight& light, const Tracer& tracer, const Surface& surface,
+                            const std::vector<Vec3d>& points, std::int64_t& shadow_rays) {
+  double facing = 0;
+  double seen = 0;
+  for (const Vec3d& point : points) {
+    const LightOffset to_point(light.position + light.radius * point, surface);
+    if (!to_point.in_front() || is_hidden(tracer, surface, to_point.offset, shadow_rays)) continue;
+    facing = facing + to_point.facing();
+    seen = seen + 1;
+  }
+  const auto count = static_cast<double>(points.size());
+  return {facing / count, seen / count};
+}
+
+Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows,
+                  const std::vector<Vec3d>* light_points, double visibility, std::int64_t& shadow_rays) {
   const Material& material = surface.material;
   const double cosine = -dot(surface.incoming, surface.normal);
   Vec3d diffuse;
   Vec3d specular;
   for (const PointLight& light : scene.lights) {
-    // Leave out lights behind the surface.
-    const Vec3d offset = light.position - to_double(surface.origin);
-    const double distance_squared = dot(offset, offset);
-    const double towards = dot(surface.normal, offset);
-    if (!(distance_squared > 0 && distance_squared < kInfinity && towards > 0)) continue;
-
-    // Leave out lights behind a sphere: any hit up to the light, which lies at t = 1.
-    if (shadows) {
-      Ray shadow = ray_from(surface, offset, surface.from_inside);
-      shadow.t_max = 1;
-      ++shadow_rays;
-      if (tracer.occluded(shadow)) continue;
+    // Leave out lights behind the surface, and lights behind a sphere.
+    const LightOffset centre(light.position, surface);
+    LightShare share{0, 1};
+    if (shadows && light_points != nullptr && light.radius > 0) {
+      share = soft_light_share(light, tracer, surface, *light_points, shadow_rays);
+      if (share.seen == 0) continue;
+    } else {
+      if (!centre.in_front()) continue;
+      if (shadows && is_hidden(tracer, surface, centre.offset, shadow_rays)) continue;
+      share.facing = centre.facing();
     }
+    if (material.bands > 0) share.facing = in_bands(share.facing, material.bands);
+    diffuse = diffuse + (material.diffuse * share.facing) * light.colour;
 
-    // N.L, and R.V = 2 (N.L) (N.V) - L.V. Only the products are divided by the length of the offset.
-    const double nearness = 1 / std::sqrt(distance_squared);
-    const double facing = towards * nearness;
-    diffuse = diffuse + (material.diffuse * facing) * light.colour;
-    const double highlight = 2 * facing * cosine + dot(offset, surface.incoming) * nearness;
+    // R.V = 2 (N.L) (N.V) - L.V.
+    if (!centre.in_front()) continue;
+    const double highlight = 2 * centre.facing() * cosine + dot(centre.offset, surface.incoming) * centre.nearness;
     if (highlight > 0)
-      specular = specular + (material.specular * shading_power(highlight, material.power)) * light.colour;
+      specular = specular + (material.specular * share.seen * shading_power(highlight, material.power)) * light.colour;
   }
   const double strength = material.ambient * visibility;
-  const Vec3d ambient{strength, strength, strength};
-  return material.colour * (ambient + diffuse) + specular;
+  const Vec3d ambient = strength * scene.ambient_light;
+  if (material.tint > 0) specular = specular * tinted(material);
+  Vec3d light = ambient + diffuse;
+  if (material.glow > 0) light = light + Vec3d{material.glow, material.glow, material.glow};
+  return material.colour * light + specular;
 }
 
 Ray reflected_ray(const Surface& surface) {

@@ -17,11 +17,23 @@ namespace bihive {
 double ambient_visibility(const Scene& scene, const Tracer& tracer, const Surface& surface,
                           const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays);
 
-/// colour x (ambient x visibility + sum of diffuse x light x N.L) + sum of specular x light x (R.V)^power. The sums go
-/// over the lights in scene order that are in front of the surface and, with `shadows`, not hidden by a sphere. Adds
-/// the traced shadow rays to the count.
-Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows, double visibility,
-                  std::int64_t& shadow_rays);
+/// How much of a light reaches a place.
+struct LightShare {
+  double facing;  ///< N.L; of a light with a radius: the mean over its points, a hidden point counting 0
+  double seen;    ///< share of the light's points that are in front of the surface and not hidden by a sphere
+};
+
+/// Of a light with a radius. `points`: of the ball of radius 1, at least one. Adds the traced shadow rays to the count.
+LightShare soft_light_share(const PointLight& light, const Tracer& tracer, const Surface& surface,
+                            const std::vector<Vec3d>& points, std::int64_t& shadow_rays);
+
+/// colour x (glow + ambient x visibility x ambient light + sum of diffuse x light x N.L) + tint of sum of specular x
+/// light x (R.V)^power. The sums go over the lights in scene order that are in front of the surface and, with
+/// `shadows`, not hidden by a sphere. Adds the traced shadow rays to the count. `light_points`: null if no light has a
+/// radius or there are no shadows; else a light with a radius gives the mean of its points to the diffuse term, and its
+/// share to its centre's highlight.
+Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows,
+                  const std::vector<Vec3d>* light_points, double visibility, std::int64_t& shadow_rays);
 
 /// The mirrored ray.
 Ray reflected_ray(const Surface& surface);

@@ -3,37 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/math/turn.h"
 #include "bihive/scene/sample_pattern.h"
 
 namespace bihive {
-namespace {
-
-// A turn about the axis: the angle's cosine and sine. Angles are made of square roots and products alone, so that they
-// have the same bits on every platform.
-struct Turn {
-  double cosine = 1, sine = 0;
-};
-
-Turn after(Turn a, Turn b) {
-  return {a.cosine * b.cosine - a.sine * b.sine, a.cosine * b.sine + a.sine * b.cosine};
-}
-
-// A binary fraction of a whole turn, by its digits: each is half the angle of the one before.
-Turn turn_by(double fraction) {
-  Turn turn;
-  Turn digit{-1, 0};  // half a turn
-  for (int i = 0; i < 32 && fraction > 0; ++i) {
-    fraction *= 2;
-    if (fraction >= 1) {
-      turn = after(turn, digit);
-      fraction -= 1;
-    }
-    digit = {std::sqrt(0.5 * (1 + digit.cosine)), std::sqrt(0.5 * (1 - digit.cosine))};
-  }
-  return turn;
-}
-
-}  // namespace
 
 // A spiral from pole to pole: equal steps along the axis are equal areas, and each step turns by the golden angle. The
 // sets lie between each other: set i starts a part of a step lower and is turned as the sample places are.

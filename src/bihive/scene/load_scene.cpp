@@ -12,7 +12,7 @@ namespace {
 // Bytes for each sphere of a generated scene: three growing arrays and radii, the set itself, materials.
 constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
 
-Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& name) {
+Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& name, const Style* style) {
   if (!file) return file.error();
   LoadedScene loaded;
   loaded.scene.spheres = std::move(file->spheres);
@@ -22,7 +22,8 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
   loaded.rules = std::move(file->rules);
   loaded.warnings = std::move(file->warnings);
   loaded.recentred_by = file->recentred_by;
-  colour_spheres(loaded.scene.spheres);
+  if (style != nullptr) apply_style(*style, loaded.scene);
+  colour_spheres(loaded.scene.spheres, style != nullptr ? style->element_colours : ElementColours::jmol);
   return loaded;
 }
 
@@ -46,8 +47,8 @@ Status check_scenario_memory(const ScenarioParameters& parameters) {
 }
 
 Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters,
-                                   const ReadOptions& options) {
-  if (name == "demo") return from_spheres(read_spheres_from_memory(bundled_molecule(), name, options), name);
+                                   const ReadOptions& options, const Style* style) {
+  if (name == "demo") return from_spheres(read_spheres_from_memory(bundled_molecule(), name, options), name, style);
   if (name == "four-spheres") return generated(four_spheres_scene());
   if (!is_built_in_scene(name)) {
     std::string known;
@@ -66,9 +67,10 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
   return generated(std::move(*scene));
 }
 
-Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  if (looks_like_scene(bytes)) return parse_scene(bytes, name, options);
-  return from_spheres(read_spheres_from_memory(bytes, name, options), name);
+Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options,
+                               const Style* style) {
+  if (looks_like_scene(bytes)) return parse_scene(bytes, name, options, style);
+  return from_spheres(read_spheres_from_memory(bytes, name, options), name, style);
 }
 
 }  // namespace bihive

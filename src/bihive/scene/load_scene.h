@@ -9,6 +9,7 @@
 #include "bihive/io/read_spheres.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/scene_file.h"
+#include "bihive/scene/style.h"
 
 namespace bihive {
 
@@ -20,11 +21,14 @@ Status check_scenario_memory(const ScenarioParameters& parameters);
 
 /// One of kBuiltInScenes. The parameters are for the scenarios, the options for the demo; other scenes ignore them.
 /// Error: an unknown name (the message lists all names), parameters out of range, or more spheres than memory holds.
+/// `style`: of the demo; null: plain.
 Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters = {},
-                                   const ReadOptions& options = {});
+                                   const ReadOptions& options = {}, const Style* style = nullptr);
 
 /// A scene file if the bytes look like one, else spheres of any known format, coloured by element or type. `name` is
 /// the file's, as for parse_scene() and read_spheres_from_memory().
-Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+/// `style` is the look of what the bytes do not say themselves; null: plain.
+Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {},
+                               const Style* style = nullptr);
 
 }  // namespace bihive

@@ -16,6 +16,9 @@ struct Material {
   double power = 1;  ///< Phong exponent, > 0
   double transmissive = 0;
   double refraction_index = 1;  ///< relative to the outside; > 0 if transmissive > 0
+  double tint = 0;              ///< of the highlight: 0 = the light's colour, 1 = times the material's, as of a metal
+  double glow = 0;              ///< share of its colour that it shows without any light
+  int bands = 0;                ///< the diffuse light is rounded to so many even steps; 0 = smooth
 };
 
 /// Table 4.1.

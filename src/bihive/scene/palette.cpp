@@ -51,12 +51,29 @@ std::array<Vec3f, n> linear_colours(const std::uint32_t (&srgb)[n]) {
   return linear;
 }
 
+// The elements of life by eye, so that they go together; the others are Jmol's, darker and a little greyer.
+std::array<Vec3f, kElements> soft_colours(std::array<Vec3f, kElements> colours) {
+  for (Vec3f& colour : colours) {
+    const float luminance = 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z;  // ITU-R BT.709
+    for (int channel = 0; channel < 3; ++channel)
+      colour[channel] = 0.85f * (0.75f * colour[channel] + 0.25f * luminance);
+  }
+  colours[1] = {0.92f, 0.92f, 0.90f};   // H
+  colours[6] = {0.70f, 0.70f, 0.68f};   // C
+  colours[7] = {0.24f, 0.38f, 0.76f};   // N
+  colours[8] = {0.80f, 0.20f, 0.17f};   // O
+  colours[15] = {0.85f, 0.45f, 0.12f};  // P
+  colours[16] = {0.88f, 0.72f, 0.20f};  // S
+  return colours;
+}
+
 }  // namespace
 
-Vec3f element_colour(int atomic_number) {
-  static const std::array<Vec3f, kElements> colours = linear_colours(kElementColours);
+Vec3f element_colour(int atomic_number, ElementColours scheme) {
+  static const std::array<Vec3f, kElements> jmol = linear_colours(kElementColours);
+  static const std::array<Vec3f, kElements> soft = soft_colours(jmol);
   const bool known = atomic_number > 0 && atomic_number < kElements;
-  return colours[known ? static_cast<std::size_t>(atomic_number) : 0];
+  return (scheme == ElementColours::jmol ? jmol : soft)[known ? static_cast<std::size_t>(atomic_number) : 0];
 }
 
 Vec3f type_colour(std::int32_t type) {
@@ -65,13 +82,13 @@ Vec3f type_colour(std::int32_t type) {
   return colours[static_cast<std::size_t>(remainder < 0 ? remainder + kTypes : remainder)];
 }
 
-void colour_spheres(SphereSet& spheres) {
+void colour_spheres(SphereSet& spheres, ElementColours scheme) {
   SphereAttributes& attributes = spheres.attributes();
   if (!attributes.colour.empty()) return;
   const std::size_t n = static_cast<std::size_t>(spheres.size());
   if (!attributes.element.empty()) {
     attributes.colour.resize(n);
-    for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = element_colour(attributes.element[i]);
+    for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = element_colour(attributes.element[i], scheme);
   } else if (!attributes.type.empty()) {
     attributes.colour.resize(n);
     for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = type_colour(attributes.type[i]);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bihive/scene/ambient_occlusion.h"
+#include "bihive/scene/picture_effects.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
@@ -20,6 +21,9 @@ struct RenderSettings {
   int recursion = 5;          ///< 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
+  int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
+  std::optional<Outline> outline;
+  std::optional<Fog> fog;
   View view = View::shaded;
   int threads = 0;  ///< 0 = as many as the machine runs at once; for the CPU's renderer
 };
@@ -33,6 +37,9 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.recursion = defaults.recursion;
   settings.shadows = defaults.shadows;
   settings.ambient_occlusion = defaults.ambient_occlusion;
+  settings.light_points = defaults.light_points;
+  settings.outline = defaults.outline;
+  settings.fog = defaults.fog;
   return settings;
 }
 

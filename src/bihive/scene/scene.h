@@ -12,13 +12,16 @@
 #include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/material.h"
+#include "bihive/scene/picture_effects.h"
 
 namespace bihive {
 
-/// White light of strength 1 unless coloured; no fall-off with distance.
+/// White light of strength 1 unless coloured; no fall-off with distance. A light with a radius is a bright ball and
+/// throws soft shadows.
 struct PointLight {
   Vec3d position;
   Vec3d colour{1, 1, 1};
+  double radius = 0;  ///< world units, >= 0; without shadows it has no effect
 };
 
 /// Squares of `size` world units; the material's colour where floor(u / size) + floor(v / size) is even,
@@ -44,6 +47,9 @@ struct PictureDefaults {
   int recursion = 5;          ///< generations of rays, 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
+  int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
+  std::optional<Outline> outline;
+  std::optional<Fog> fog;
   Transfer transfer = Transfer::srgb;
 };
 
@@ -54,7 +60,8 @@ struct Scene {
   std::vector<PointLight> lights;
   std::optional<ScenePlane> plane;
   Camera camera;
-  Vec3d background{1, 1, 1};  ///< linear radiance
+  Vec3d background{1, 1, 1};     ///< linear radiance
+  Vec3d ambient_light{1, 1, 1};  ///< light from everywhere: the ambient term is multiplied by it
   PictureDefaults picture;
   std::string name;                   ///< for messages and the picture's text chunks
   std::optional<std::uint64_t> seed;  ///< of a generated scene

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/io/finish.h"
-#include "bihive/scene/colour_text.h"
+#include "bihive/scene/json_parts.h"
 #include "bihive/scene/palette.h"
 #include "bihive/scene/scene_json.h"
 
@@ -20,8 +20,10 @@ using nlohmann::json;
 // everything after it does not matter.
 class Extraction {
  public:
-  Extraction(const json& document, const std::string& name, const ReadOptions& options)
-      : document_(document), name_(name), options_(options) {}
+  Extraction(const json& document, const std::string& name, const ReadOptions& options, const Style* style)
+      : document_(document), name_(name), options_(options), style_(style) {
+    if (style != nullptr) apply_style(*style, loaded_.scene);
+  }
 
   Result<LoadedScene> run() {
     Scene& scene = loaded_.scene;
@@ -33,6 +35,10 @@ class Extraction {
     take_lights();
     take_plane();
     if (document_.contains("background")) scene.background = colour(document_.at("background"));
+    if (document_.contains("ambient_light")) {
+      need_version(2, "/ambient_light");
+      scene.ambient_light = colour(document_.at("ambient_light"));
+    }
     if (failed_.message.empty()) take_spheres();
     if (!failed_.message.empty()) return failed_;
     return std::move(loaded_);
@@ -43,14 +49,9 @@ class Extraction {
     if (failed_.message.empty()) failed_ = Error{pointer + ": " + what, name_, 0, 0, hint};
   }
 
-  static Vec3d vector(const json& value) {
-    return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
-  }
+  static Vec3d vector(const json& value) { return vector_from_json(value); }
 
-  Vec3d colour(const json& value) const {
-    if (value.is_array()) return vector(value);
-    return *colour_from_text(value.get_ref<const std::string&>(), loaded_.scene.picture.transfer);
-  }
+  Vec3d colour(const json& value) const { return colour_from_json(value, loaded_.scene.picture.transfer); }
 
   // A key that came with a later version of the format.
   void need_version(int version, const std::string& pointer) {
@@ -73,32 +74,19 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
+    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog"})
+      if (value.contains(key)) need_version(2, std::string("/picture/") + key);
     PictureDefaults& picture = loaded_.scene.picture;
-    picture.width_px = value.value("width_px", picture.width_px);
-    picture.height_px = value.value("height_px", picture.height_px);
-    picture.samples_per_pixel = value.value("samples_per_pixel", picture.samples_per_pixel);
-    picture.recursion = value.value("recursion", picture.recursion);
-    picture.shadows = value.value("shadows", picture.shadows);
-    if (value.contains("ambient_occlusion")) {
-      need_version(2, "/picture/ambient_occlusion");
-      const json& occlusion = value.at("ambient_occlusion");
-      AmbientOcclusion& made = picture.ambient_occlusion.emplace();
-      made.distance = occlusion.value("distance", made.distance);
-      made.directions = occlusion.value("directions", made.directions);
-    }
-    picture.transfer = value.value("transfer", std::string("srgb")) == "srgb" ? Transfer::srgb : Transfer::none;
+    bihive::take_picture(value, picture);
+    if (picture.fog && !(picture.fog->start < picture.fog->end))
+      fail("/picture/fog", "the start of the fog is not before its end");
   }
 
   Material material(const json& value, const std::string& pointer) {
+    for (const char* key : {"tint", "bands", "glow"})
+      if (value.contains(key)) need_version(2, pointer + "/" + key);
     Material made = matte_material();
-    if (value.contains("colour")) made.colour = colour(value.at("colour"));
-    made.ambient = value.value("ambient", made.ambient);
-    made.diffuse = value.value("diffuse", made.diffuse);
-    made.reflective = value.value("reflective", made.reflective);
-    made.specular = value.value("specular", made.specular);
-    made.power = value.value("power", made.power);
-    made.transmissive = value.value("transmissive", made.transmissive);
-    made.refraction_index = value.value("refraction_index", made.refraction_index);
+    take_material(value, loaded_.scene.picture.transfer, made);
     if (made.transmissive > 0 && !(made.refraction_index > 0))
       fail(pointer + "/refraction_index", "expected a number above 0, because transmissive is above 0, found 0");
     return made;
@@ -167,6 +155,10 @@ class Extraction {
     for (const json& value : document_.at("lights")) {
       PointLight light{vector(value.at("position"))};
       if (value.contains("colour")) light.colour = colour(value.at("colour"));
+      if (value.contains("radius")) {
+        need_version(2, fmt::format("/lights/{}/radius", loaded_.scene.lights.size()));
+        light.radius = value.at("radius").get<double>();
+      }
       loaded_.scene.lights.push_back(light);
     }
   }
@@ -303,12 +295,13 @@ class Extraction {
     if (states_colour)
       scene.spheres.attributes().colour.clear();
     else
-      colour_spheres(scene.spheres);
+      colour_spheres(scene.spheres, style_ != nullptr ? style_->element_colours : ElementColours::jmol);
   }
 
   const json& document_;
   const std::string& name_;
   const ReadOptions& options_;
+  const Style* style_;
   LoadedScene loaded_;
   std::map<std::string, std::int32_t> position_of_material_;
   Error failed_;
@@ -316,12 +309,13 @@ class Extraction {
 
 }  // namespace
 
-Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, const ReadOptions& options) {
+Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, const ReadOptions& options,
+                                const Style* style) {
   const Result<json> document = parse_json(text, name);
   if (!document) return document.error();
   const Status status = check_against_schema(*document, name);
   if (!status) return status.error();
-  return Extraction(*document, name, options).run();
+  return Extraction(*document, name, options, style).run();
 }
 
 bool looks_like_scene(std::string_view bytes) {

@@ -10,6 +10,7 @@
 #include "bihive/base/result.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/scene/scene.h"
+#include "bihive/scene/style.h"
 
 namespace bihive {
 
@@ -29,7 +30,9 @@ struct LoadedScene {
 /// inline spheres and to a sphere file of the document alike, and replace what the document says. If only the options
 /// recentre, camera, lights and plane move along. Errors name the path inside the document (/materials/0/power) and the
 /// expected value.
-Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options);
+/// `style`: the look of what the document does not say; null: plain.
+Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options,
+                                const Style* style = nullptr);
 
 /// True if the bytes look like a scene document (first character after white space is '{').
 bool looks_like_scene(std::string_view bytes);

@@ -33,12 +33,23 @@ std::string text(const std::string& value) {
   return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+bool has_effects(const Material& m) {
+  return m.tint != 0 || m.bands != 0 || m.glow != 0;
+}
+
+// With the comma before them, or nothing.
+std::string effect_members(const Material& m) {
+  if (!has_effects(m)) return "";
+  return fmt::format(R"(, "tint": {}, "bands": {}, "glow": {})", number(m.tint), m.bands, number(m.glow));
+}
+
 // The members of a material, without braces.
 std::string members(const Material& m) {
   return fmt::format(
-      R"("colour": {}, "ambient": {}, "diffuse": {}, "reflective": {}, "specular": {}, "power": {}, "transmissive": {}, "refraction_index": {})",
-      vector(m.colour), number(m.ambient), number(m.diffuse), number(m.reflective), number(m.specular), number(m.power),
-      number(m.transmissive), number(m.refraction_index));
+             R"("colour": {}, "ambient": {}, "diffuse": {}, "reflective": {}, "specular": {}, "power": {}, "transmissive": {}, "refraction_index": {})",
+             vector(m.colour), number(m.ambient), number(m.diffuse), number(m.reflective), number(m.specular),
+             number(m.power), number(m.transmissive), number(m.refraction_index)) +
+         effect_members(m);
 }
 
 void write_materials(const Scene& scene, std::string& out) {
@@ -89,9 +100,37 @@ std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
   return fmt::format("\"ambient_occlusion\": {{{}\"directions\": {}}}, ", distance, ambient->directions);
 }
 
+std::string outline_member(const std::optional<Outline>& outline) {
+  if (!outline) return "";
+  return fmt::format("\"outline\": {{\"width_px\": {}, \"step\": {}, \"colour\": {}}}, ", number(outline->width_px),
+                     number(outline->step), vector(outline->colour));
+}
+
+std::string fog_member(const std::optional<Fog>& fog) {
+  if (!fog) return "";
+  return fmt::format("\"fog\": {{\"start\": {}, \"end\": {}, \"strength\": {}}}, ", number(fog->start),
+                     number(fog->end), number(fog->strength));
+}
+
+std::string light_points_member(int points) {
+  return points == PictureDefaults().light_points ? "" : fmt::format("\"light_points\": {}, ", points);
+}
+
+bool has_ambient_light(const Scene& scene) {
+  const Vec3d light = scene.ambient_light;
+  return light.x != 1 || light.y != 1 || light.z != 1;
+}
+
 // The oldest version of the format that has all that the scene needs.
 int version_of(const Scene& scene) {
-  return scene.picture.ambient_occlusion ? 2 : 1;
+  const PictureDefaults& picture = scene.picture;
+  const bool effects =
+      picture.ambient_occlusion || picture.outline || picture.fog || !light_points_member(picture.light_points).empty();
+  const bool soft =
+      std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& light) { return light.radius != 0; });
+  const bool materials = std::any_of(scene.materials.begin(), scene.materials.end(), has_effects) ||
+                         (scene.plane && has_effects(scene.plane->material));
+  return effects || soft || materials || has_ambient_light(scene) ? 2 : 1;
 }
 
 }  // namespace
@@ -106,17 +145,20 @@ std::string scene_to_json(const Scene& scene) {
                      vector(camera.eye), vector(camera.look_at), vector(camera.up), number(camera.fov_deg));
   out += "  \"lights\": [";
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    out += fmt::format("{}{{\"position\": {}, \"colour\": {}}}", i == 0 ? "" : ", ", vector(scene.lights[i].position),
-                       vector(scene.lights[i].colour));
+    out += fmt::format("{}{{\"position\": {}, \"colour\": {}{}}}", i == 0 ? "" : ", ", vector(scene.lights[i].position),
+                       vector(scene.lights[i].colour),
+                       scene.lights[i].radius == 0 ? "" : ", \"radius\": " + number(scene.lights[i].radius));
   out += "],\n";
   write_materials(scene, out);
   if (scene.plane) write_plane(*scene.plane, out);
   out += "  \"background\": " + vector(scene.background) + ",\n";
+  if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}\"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}{}{}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
-      ambient_member(picture.ambient_occlusion), picture.transfer == Transfer::srgb ? "srgb" : "none");
+      ambient_member(picture.ambient_occlusion), light_points_member(picture.light_points),
+      outline_member(picture.outline), fog_member(picture.fog), picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

@@ -207,4 +207,12 @@ Status check_against_schema(const json& document, const std::string& name) {
   return error;
 }
 
+Status check_against_definition(const json& document, const std::string& definition, const std::string& name) {
+  const json& schema = schema_document().at("definitions").at(definition);
+  if (Judge(schema).accepts(document)) return Done{};
+  Error error = explain(document, schema, "");
+  error.file = name;
+  return error;
+}
+
 }  // namespace bihive

@@ -18,4 +18,7 @@ Result<nlohmann::json> parse_json(std::string_view text, const std::string& name
 /// keys: the JSON pointer of the place, the expected value by the schema's title, and the value that was found.
 Status check_against_schema(const nlohmann::json& document, const std::string& name);
 
+/// The same for one of the schema's definitions.
+Status check_against_definition(const nlohmann::json& document, const std::string& definition, const std::string& name);
+
 }  // namespace bihive

@@ -21,7 +21,7 @@ void find_shadow_rays_on_target(const WaveSurfaces& surfaces, std::int64_t first
   const LongTag w;
   for (std::int64_t i = first; i < surfaces.count; i += kLanes) {
     const Lanes3 origin = load(surfaces.origin, i);
-    const LightLanes to_light(light, origin, load(surfaces.normal, i));
+    const LightLanes to_light(light.position, origin, load(surfaces.normal, i));
     const LaneMask lit = hn::And(to_light.in_front, first_lanes(surfaces.count - i));
     if (none(lit)) continue;
     const Appender append(lit, shadows.count);
@@ -55,8 +55,8 @@ HWY_INLINE void add_to_owners(Lanes3 light, const WaveSurfaces& surfaces, std::i
     }
 }
 
-void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden,
-                               const double* visibility, WaveSums& sums) {
+void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfaces,
+                               const steps::LightReceived& received, const double* visibility, WaveSums& sums) {
   for (std::int64_t i = 0; i < surfaces.count; i += kLanes) {
     const LaneMask there = first_lanes(surfaces.count - i);
     SurfaceLanes surface;
@@ -66,7 +66,7 @@ void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfa
     surface.cosine = hn::Neg(dot(surface.incoming, surface.normal));
     surface.id = load(surfaces.id, i);
     surface.material_inside = load(surfaces.material_inside, i);
-    const Lanes3 light = local_light(scene, there, surface, hidden == nullptr ? nullptr : hidden + i, surfaces.count,
+    const Lanes3 light = local_light(scene, there, surface, received, i,
                                      visibility == nullptr ? all(1) : hn::LoadU(Tag(), visibility + i));
     add_to_owners(multiply(load(surfaces.weight, i), light), surfaces, i, sums);
   }
@@ -89,10 +89,10 @@ void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const Po
   HWY_DYNAMIC_DISPATCH(find_shadow_rays_on_target)(surfaces, first, light, shadows);
 }
 
-void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden,
+void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const LightReceived& received,
                      const double* visibility, WaveSums& sums) {
   ensure_target();
-  HWY_DYNAMIC_DISPATCH(add_local_light_on_target)(scene, surfaces, hidden, visibility, sums);
+  HWY_DYNAMIC_DISPATCH(add_local_light_on_target)(scene, surfaces, received, visibility, sums);
 }
 
 }  // namespace steps

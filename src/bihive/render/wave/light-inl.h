@@ -21,18 +21,20 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-/// The place of a light as seen from surfaces.
+/// The place of a light's point as seen from surfaces.
 struct LightLanes {
   Lanes3 offset;
   Lanes distance_squared, towards;
   LaneMask in_front;
 
-  HWY_INLINE LightLanes(const PointLight& light, Lanes3 origin, Lanes3 normal)
-      : offset(subtract(all(light.position), origin)),
+  HWY_INLINE LightLanes(Vec3d point, Lanes3 origin, Lanes3 normal)
+      : offset(subtract(all(point), origin)),
         distance_squared(dot(offset, offset)),
         towards(dot(normal, offset)),
         in_front(hn::And(hn::And(hn::Gt(distance_squared, all(0)), hn::Lt(distance_squared, all(kInfinity))),
                          hn::Gt(towards, all(0)))) {}
+
+  HWY_INLINE Lanes nearness() const { return hn::Div(all(1), hn::Sqrt(distance_squared)); }
 };
 
 // A highlight of exactly no strength adds nothing at any power, except powers that could overflow.
@@ -46,38 +48,93 @@ HWY_INLINE LaneMask set_lanes(const std::uint8_t* bytes) {
   return lanes_of(hn::Ne(hn::Load(LongTag(), words), hn::Zero(LongTag())));
 }
 
-/// For the lanes `there`, at least one. `hidden`: null, or one byte for each light and surface, 1 if the light is
-/// hidden; the bytes of the next light are `to_next_light` bytes further. `visibility`: of ambient_visibility().
+/// The effects of materials, if the scene has any.
+struct EffectLanes {
+  Lanes bands, tint, glow;
+
+  /// None.
+  HWY_INLINE EffectLanes() : bands(all(0)), tint(all(0)), glow(all(0)) {}
+
+  HWY_INLINE EffectLanes(const WaveScene& scene, LaneMask there, Longs material_inside) {
+    alignas(64) std::int64_t numbers[kLanes];
+    hn::Store(hn::IfThenElseZero(longs_of(there), material_inside), LongTag(), numbers);
+    alignas(64) double bands_of[kLanes], tint_of[kLanes], glow_of[kLanes];
+    for (int k = 0; k < kLanes; ++k) {
+      const Material& material = material_at(scene, numbers[k]);
+      bands_of[k] = material.bands;
+      tint_of[k] = material.tint;
+      glow_of[k] = material.glow;
+    }
+    bands = hn::Load(Tag(), bands_of);
+    tint = hn::Load(Tag(), tint_of);
+    glow = hn::Load(Tag(), glow_of);
+  }
+
+  HWY_INLINE Lanes in_bands(Lanes facing) const {
+    const Lanes stepped = hn::Div(hn::Floor(hn::Add(hn::Mul(facing, bands), all(0.5))), bands);
+    return hn::IfThenElse(hn::Gt(bands, all(0)), stepped, facing);
+  }
+  HWY_INLINE Lanes3 with_glow(Lanes3 light) const {
+    return choose(hn::Gt(glow, all(0)), add(light, Lanes3{glow, glow, glow}), light);
+  }
+  HWY_INLINE Lanes3 tinted(Lanes3 specular, Lanes3 colour) const {
+    const Lanes rest = hn::Sub(all(1), tint);
+    const Lanes3 of_highlight = add(Lanes3{rest, rest, rest}, multiply(tint, colour));
+    return choose(hn::Gt(tint, all(0)), multiply(specular, of_highlight), specular);
+  }
+};
+
+/// For the lanes `there`, at least one. `received`: of the surfaces from number `first` on. `visibility`: of
+/// ambient_visibility().
 HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const SurfaceLanes& surface,
-                              const std::uint8_t* hidden, std::int64_t to_next_light, Lanes visibility) {
+                              const steps::LightReceived& received, std::int64_t first, Lanes visibility) {
   const MaterialLanes material = materials_of(wave_scene, there, surface.material_inside, surface.id);
+  EffectLanes effects;
+  if (HWY_UNLIKELY(wave_scene.has_effects)) effects = EffectLanes(wave_scene, there, surface.material_inside);
   Lanes3 diffuse = all(Vec3d{});
   Lanes3 specular = all(Vec3d{});
+  std::int64_t hidden_at = first;
+  std::int64_t soft_at = first;
   for (const PointLight& light : wave_scene.scene->lights) {
+    const LightLanes to_light(light.position, surface.origin, surface.normal);
+    const LaneMask in_front = hn::And(to_light.in_front, there);
+    LaneMask lit = in_front;
+    Lanes seen = all(1);
+    Lanes soft_facing = all(0);
+    const bool soft = received.facing != nullptr && light.radius > 0;
     // Leave out lights behind the surface or behind a sphere.
-    const LightLanes to_light(light, surface.origin, surface.normal);
-    LaneMask lit = hn::And(to_light.in_front, there);
-    if (hidden != nullptr) {
-      lit = hn::AndNot(set_lanes(hidden), lit);
-      hidden += to_next_light;
+    if (soft) {
+      soft_facing = hn::LoadU(Tag(), received.facing + soft_at);
+      seen = hn::LoadU(Tag(), received.seen + soft_at);
+      soft_at += received.surfaces;
+      lit = hn::And(there, hn::Ne(seen, all(0)));
+    } else if (received.hidden != nullptr) {
+      lit = hn::AndNot(set_lanes(received.hidden + hidden_at), lit);
     }
+    hidden_at += received.surfaces;
     if (none(lit)) continue;
 
     // Add nothing for lights that are left out.
     const Lanes3 colour = all(light.colour);
-    const Lanes nearness = hn::Div(all(1), hn::Sqrt(to_light.distance_squared));
-    const Lanes facing = hn::IfThenElseZero(lit, hn::Mul(to_light.towards, nearness));
-    diffuse = add(diffuse, multiply(hn::Mul(material.diffuse, facing), colour));
+    const Lanes nearness = to_light.nearness();
+    const Lanes facing = hn::IfThenElseZero(hn::And(lit, in_front), hn::Mul(to_light.towards, nearness));
+    Lanes received_facing = soft ? hn::IfThenElseZero(lit, soft_facing) : facing;
+    if (HWY_UNLIKELY(wave_scene.has_effects)) received_facing = effects.in_bands(received_facing);
+    diffuse = add(diffuse, multiply(hn::Mul(material.diffuse, received_facing), colour));
     const Lanes highlight = hn::Add(hn::Mul(hn::Mul(all(2), facing), surface.cosine),
                                     hn::Mul(dot(to_light.offset, surface.incoming), nearness));
-    const LaneMask glossy = hn::And(hn::And(lit, hn::Gt(highlight, all(0))), has_highlight(material));
+    const LaneMask glossy =
+        hn::And(hn::And(hn::And(lit, in_front), hn::Gt(highlight, all(0))), has_highlight(material));
     if (none(glossy)) continue;
-    const Lanes strength = hn::Mul(material.specular, shading_power_of(glossy, highlight, material.power));
+    const Lanes strength =
+        hn::Mul(hn::Mul(material.specular, seen), shading_power_of(glossy, highlight, material.power));
     specular = add(specular, multiply(hn::IfThenElseZero(glossy, strength), colour));
   }
+  if (HWY_UNLIKELY(wave_scene.has_effects)) specular = effects.tinted(specular, material.colour);
   const Lanes strength = hn::Mul(material.ambient, visibility);
-  const Lanes3 ambient{strength, strength, strength};
-  return add(multiply(material.colour, add(ambient, diffuse)), specular);
+  Lanes3 light = add(multiply(strength, all(wave_scene.scene->ambient_light)), diffuse);
+  if (HWY_UNLIKELY(wave_scene.has_effects)) light = effects.with_glow(light);
+  return add(multiply(material.colour, light), specular);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

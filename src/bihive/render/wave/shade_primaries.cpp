@@ -41,7 +41,7 @@ void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, con
     Lanes3 light = background;
     if (!none(found)) {
       const SurfaceLanes surface = surfaces_at(scene, found, rays);
-      light = choose(found, add(all(Vec3d{}), local_light(scene, found, surface, nullptr, 0, all(1))), background);
+      light = choose(found, add(all(Vec3d{}), local_light(scene, found, surface, {}, 0, all(1))), background);
     }
     hn::StoreU(light.x, Tag(), red + i);
     hn::StoreU(light.y, Tag(), green + i);

@@ -26,6 +26,7 @@ struct WaveScene {
   std::vector<Material>
       materials;                ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
   bool has_attributes = false;  ///< some sphere has its own colour or opacity
+  bool has_effects = false;     ///< some material has bands, a tint or a glow
   std::int64_t plane_material = 0;  ///< the plane's first
   PlaneAxes axes{};                 ///< of the plane, if it has a checker
 
@@ -147,13 +148,14 @@ struct ShadowWave : RayColumns {
   }
 };
 
-/// Places on surfaces that take the same set of directions, and their rays in one of these directions.
-struct AmbientWave {
+/// Places on surfaces that take the same set of directions or of a light's points, and their rays to one of these.
+struct PlaceWave {
   std::int64_t places = 0;
   Columns3<float> origin;
   Columns3<double> normal;
   Column<std::int64_t> id, inside, surface;  ///< `surface`: its number in WaveSurfaces
-  Column<double> in_front, seen;             ///< sums over the directions so far
+  /// Sums so far: of the facings of all rays, of those that nothing hides, and the number of these rays.
+  Column<double> in_front, seen, rays_seen;
 
   RayColumns rays;
   Column<double> facing;
@@ -165,7 +167,7 @@ struct AmbientWave {
     origin.reserve(n);
     normal.reserve(n);
     for (Column<std::int64_t>* column : {&id, &inside, &surface, &place}) column->reserve(n);
-    for (Column<double>* column : {&in_front, &seen, &facing}) column->reserve(n);
+    for (Column<double>* column : {&in_front, &seen, &rays_seen, &facing}) column->reserve(n);
     rays.reset(n);
     hidden.reserve(n);
   }
@@ -194,18 +196,33 @@ void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const Po
 /// The places of those surfaces whose owners have the numbers first_sample + owner = `set` modulo `sets`, after modulo
 /// `samples`.
 void gather_places(const WaveSurfaces& surfaces, std::int64_t first_sample, std::int64_t samples, std::int64_t set,
-                   std::int64_t sets, AmbientWave& wave);
+                   std::int64_t sets, PlaceWave& wave);
+
+/// Sets the sums of the places to 0.
+void forget_sums(PlaceWave& wave);
 
 /// The rays of ambient_visibility() in one direction from the places that face it. They replace the rays of the last
 /// direction.
-void find_ambient_rays(Vec3f direction, AmbientWave& wave);
+void find_ambient_rays(Vec3f direction, PlaceWave& wave);
 
-/// Adds the facings of the rays that are not hidden to their places.
-void add_visible(AmbientWave& wave);
+/// The rays of soft_light_share() towards one point of a light, at t = 1, from the places that face it. They replace
+/// the rays before.
+void find_light_rays(Vec3d point, PlaceWave& wave);
 
-/// Adds local_light() times weight to the owners. `hidden`: for each light a row of one byte for each surface, 1 if a
-/// sphere hides the light; null: no shadows. `visibility`: of each surface; null: 1.
-void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden,
+/// Adds the rays that are not hidden to their places.
+void add_visible(PlaceWave& wave);
+
+/// What the shadow rays of surfaces brought. Rows of one entry for each surface.
+struct LightReceived {
+  std::int64_t surfaces = 0;             ///< entries of a row
+  const std::uint8_t* hidden = nullptr;  ///< a row for each light, 1 if a sphere hides the light; null: no shadows
+  /// A row for each light with a radius, of LightShare; null: no shadows, or no light has a radius.
+  const double* facing = nullptr;
+  const double* seen = nullptr;
+};
+
+/// Adds local_light() times weight to the owners. `visibility`: of each surface; null: 1.
+void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const LightReceived& received,
                      const double* visibility, WaveSums& sums);
 
 /// Both steps at once for at least one ray from one eye, without secondary rays and without shadows: the light that

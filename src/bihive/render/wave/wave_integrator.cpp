@@ -76,10 +76,17 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
   }
   if (of_generation) {
     if (with_shadows()) find_shadows(depth, buffers);
+    if (with_shadows()) find_soft_shadows(depth, buffers);
     if (with_ambient()) find_visibility(depth, buffers);
     if (cancelled()) return;
-    steps::add_local_light(scene_, buffers.surfaces, with_shadows() ? buffers.hidden.data() : nullptr,
-                           with_ambient() ? buffers.visibility.data() : nullptr, buffers.sums);
+    steps::LightReceived received{buffers.surfaces.count, nullptr, nullptr, nullptr};
+    if (with_shadows()) received.hidden = buffers.hidden.data();
+    if (with_shadows() && settings_.light_points != nullptr) {
+      received.facing = buffers.light_facing.data();
+      received.seen = buffers.light_seen.data();
+    }
+    steps::add_local_light(scene_, buffers.surfaces, received, with_ambient() ? buffers.visibility.data() : nullptr,
+                           buffers.sums);
   }
   buffers.sums.empty = false;
 
@@ -109,9 +116,9 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
       deepest_hit_[static_cast<std::size_t>(surfaces.owner[k])] = static_cast<std::uint8_t>(depth);
   if (with_shadows()) {
     const std::vector<PointLight>& lights = scene_.scene->lights;
-    if (!lights.empty()) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
+    if (!lights.empty() && !is_soft(lights[0])) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
   } else if (settings_.light && !with_ambient()) {
-    steps::add_local_light(scene_, surfaces, nullptr, nullptr, buffers.sums);
+    steps::add_local_light(scene_, surfaces, {}, nullptr, buffers.sums);
   }
   if (next == nullptr) return;
   const steps::SentOn sent = steps::send_on(scene_, surfaces, known, *next);
@@ -127,6 +134,7 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
   ShadowWave& shadows = buffers.shadows;
   for (std::size_t l = 0; l < lights.size(); ++l) {
+    if (is_soft(lights[l])) continue;
     // The shadow rays towards the first light exist already.
     if (l > 0) {
       shadows.reset(surfaces);
@@ -144,37 +152,79 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   }
 }
 
+// The rays towards one point of a light start at neighbouring places: beams take them.
+void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
+  if (settings_.light_points == nullptr) return;
+  const WaveSurfaces& surfaces = buffers.surfaces;
+  const LightPointSets& points = *settings_.light_points;
+  std::vector<const PointLight*> lights;
+  for (const PointLight& light : scene_.scene->lights)
+    if (is_soft(light)) lights.push_back(&light);
+  const std::int64_t all = surfaces.count * static_cast<std::int64_t>(lights.size());
+  buffers.light_facing.reserve(all);
+  buffers.light_seen.reserve(all);
+  PlaceWave& wave = buffers.places;
+  for (int set = 0; set < points.count(); ++set) {
+    steps::gather_places(surfaces, first_sample_, settings_.samples_per_pixel, set, points.count(), wave);
+    if (wave.places == 0) continue;
+    const std::vector<Vec3d>& of_set = points.of_sample(set);
+    const auto count = static_cast<double>(of_set.size());
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      steps::forget_sums(wave);
+      for (const Vec3d& point : of_set) {
+        steps::find_light_rays(lights[l]->position + lights[l]->radius * point, wave);
+        rays_.shadow += wave.rays.count;
+        trace_places(depth, 1, buffers);
+        if (cancelled()) return;
+        steps::add_visible(wave);
+      }
+      const std::int64_t row = static_cast<std::int64_t>(l) * surfaces.count;
+      for (std::int64_t k = 0; k < wave.places; ++k) {
+        buffers.light_facing[row + wave.surface[k]] = wave.seen[k] / count;
+        buffers.light_seen[row + wave.surface[k]] = wave.rays_seen[k] / count;
+      }
+    }
+  }
+}
+
 // All rays of one direction are parallel, and neighbours start at neighbouring places: beams take them.
 void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
   const WaveSurfaces& surfaces = buffers.surfaces;
   const AmbientRays& ambient = *settings_.ambient;
-  const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
-  const bool limited = ambient.distance < std::numeric_limits<double>::infinity();
-  AmbientWave& wave = buffers.ambient;
+  PlaceWave& wave = buffers.places;
   buffers.visibility.reserve(surfaces.count);
-  buffers.distances.reserve(surfaces.count);
-  if (limited) std::fill_n(buffers.distances.data(), surfaces.count, ambient.distance);
   for (int set = 0; set < ambient.sets.count(); ++set) {
     steps::gather_places(surfaces, first_sample_, settings_.samples_per_pixel, set, ambient.sets.count(), wave);
     if (wave.places == 0) continue;
     for (const Vec3f& direction : ambient.sets.of_sample(set)) {
       steps::find_ambient_rays(direction, wave);
       rays_.ambient += wave.rays.count;
-      RaySpan rays = wave.rays.span();
-      if (limited) rays.t_max = buffers.distances.data();
-      const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
-      for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
-        tracer_.occluded(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i);
+      trace_places(depth, ambient.distance, buffers);
       if (cancelled()) return;
       if (scene_.scene->plane)
-        for (std::int64_t i = 0; i < rays.count; ++i)
-          if (plane_hit(rays.at(i), scene_.scene->plane->plane) < std::numeric_limits<double>::infinity())
+        for (std::int64_t i = 0; i < wave.rays.count; ++i)
+          if (plane_hit(wave.rays.span().at(i), scene_.scene->plane->plane) < std::numeric_limits<double>::infinity())
             wave.hidden[i] = 1;
       steps::add_visible(wave);
     }
     for (std::int64_t k = 0; k < wave.places; ++k)
       buffers.visibility[wave.surface[k]] = wave.in_front[k] > 0 ? wave.seen[k] / wave.in_front[k] : 1;
   }
+}
+
+// Which rays of the places does a sphere hide before t = limit?
+void WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffers) {
+  PlaceWave& wave = buffers.places;
+  RaySpan rays = wave.rays.span();
+  if (limit < std::numeric_limits<double>::infinity()) {
+    buffers.limits.reserve(rays.count);
+    std::fill_n(buffers.limits.data(), rays.count, limit);
+    rays.t_max = buffers.limits.data();
+  }
+  const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
+  const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
+  for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
+    tracer_.occluded(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i);
 }
 
 }  // namespace bihive

@@ -8,6 +8,7 @@
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/render/wave/wave.h"
+#include "bihive/scene/light_points.h"
 
 namespace bihive {
 
@@ -24,8 +25,9 @@ struct WaveBuffers {
   WaveSurfaces surfaces;
   ShadowWave shadows;
   Column<std::uint8_t> hidden;
-  AmbientWave ambient;
-  Column<double> visibility, distances;
+  PlaceWave places;
+  Column<double> visibility, limits;
+  Column<double> light_facing, light_seen;  ///< of LightReceived
   WaveSums sums;
   Column<double> x, y;  ///< picture positions of primary rays
 };
@@ -40,7 +42,9 @@ class WaveIntegrator {
     bool depth;    ///< deepest_hit() is known afterwards
     /// Ambient occlusion, only with `light`; null: none. It must outlive the integrator.
     const AmbientRays* ambient = nullptr;
-    std::int64_t samples_per_pixel = 1;  ///< for `ambient`
+    /// Soft shadows, only with `shadows`; null: none. It must outlive the integrator.
+    const LightPointSets* light_points = nullptr;
+    std::int64_t samples_per_pixel = 1;  ///< for `ambient` and `light_points`
   };
   WaveIntegrator(const WaveScene& scene, const Tracer& tracer, const Settings& settings, const CancelToken* cancel)
       : scene_(scene), tracer_(tracer), settings_(settings), cancel_(cancel) {}
@@ -67,7 +71,10 @@ class WaveIntegrator {
   void trace_part(const WavePart& rays, int depth, WaveBuffers& buffers);
   void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
   void find_shadows(int depth, WaveBuffers& buffers);
+  void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);
+  void trace_places(int depth, double limit, WaveBuffers& buffers);
+  bool is_soft(const PointLight& light) const { return settings_.light_points != nullptr && light.radius > 0; }
   bool with_shadows() const { return settings_.light && settings_.shadows; }
   bool with_ambient() const { return settings_.light && settings_.ambient != nullptr; }
   bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }

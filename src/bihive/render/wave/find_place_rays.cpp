@@ -1,18 +1,21 @@
+#include <algorithm>
+
 #include "bihive/render/wave/wave.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bihive/render/wave/find_ambient_rays.cpp"
+#define HWY_TARGET_INCLUDE "bihive/render/wave/find_place_rays.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include "bihive/render/wave/lanes-inl.h"
+#include "bihive/render/wave/light-inl.h"
 #include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-void find_ambient_rays_on_target(Vec3f direction, AmbientWave& wave) {
+void find_ambient_rays_on_target(Vec3f direction, PlaceWave& wave) {
   const Lanes3 along = all(to_double(direction));
   RayColumns& rays = wave.rays;
   rays.count = 0;
@@ -32,6 +35,25 @@ void find_ambient_rays_on_target(Vec3f direction, AmbientWave& wave) {
   }
 }
 
+void find_light_rays_on_target(Vec3d point, PlaceWave& wave) {
+  RayColumns& rays = wave.rays;
+  rays.count = 0;
+  for (std::int64_t i = 0; i < wave.places; i += kLanes) {
+    const Lanes3 origin = load(wave.origin, i);
+    const LightLanes to_point(point, origin, load(wave.normal, i));
+    const LaneMask asks = hn::And(to_point.in_front, first_lanes(wave.places - i));
+    if (none(asks)) continue;
+    const Appender append(asks, rays.count);
+    append(origin, rays.origin);
+    append(to_point.offset, rays.direction);
+    append(load(wave.id, i), rays.leaves);
+    append(load(wave.inside, i), rays.inside);
+    append(hn::Mul(to_point.towards, to_point.nearness()), wave.facing);
+    append(counted_from(i), wave.place);
+    rays.count += append.count();
+  }
+}
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace bihive
@@ -40,11 +62,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bihive {
 HWY_EXPORT(find_ambient_rays_on_target);
+HWY_EXPORT(find_light_rays_on_target);
 
 namespace steps {
 
 void gather_places(const WaveSurfaces& surfaces, std::int64_t first_sample, std::int64_t samples, std::int64_t set,
-                   std::int64_t sets, AmbientWave& wave) {
+                   std::int64_t sets, PlaceWave& wave) {
   wave.reset(surfaces.count);
   for (std::int64_t i = 0; i < surfaces.count; ++i) {
     if ((first_sample + surfaces.owner[i]) % samples % sets != set) continue;
@@ -56,18 +79,32 @@ void gather_places(const WaveSurfaces& surfaces, std::int64_t first_sample, std:
     wave.id[k] = surfaces.id[i];
     wave.inside[k] = surfaces.material_inside[i] & 1;
     wave.surface[k] = i;
-    wave.in_front[k] = wave.seen[k] = 0;
   }
+  forget_sums(wave);
 }
 
-void find_ambient_rays(Vec3f direction, AmbientWave& wave) {
+void forget_sums(PlaceWave& wave) {
+  for (Column<double>* column : {&wave.in_front, &wave.seen, &wave.rays_seen})
+    std::fill_n(column->data(), wave.places, 0.0);
+}
+
+void find_ambient_rays(Vec3f direction, PlaceWave& wave) {
   ensure_target();
   HWY_DYNAMIC_DISPATCH(find_ambient_rays_on_target)(direction, wave);
 }
 
-void add_visible(AmbientWave& wave) {
-  for (std::int64_t i = 0; i < wave.rays.count; ++i)
-    if (wave.hidden[i] == 0) wave.seen[wave.place[i]] = wave.seen[wave.place[i]] + wave.facing[i];
+void find_light_rays(Vec3d point, PlaceWave& wave) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(find_light_rays_on_target)(point, wave);
+}
+
+void add_visible(PlaceWave& wave) {
+  for (std::int64_t i = 0; i < wave.rays.count; ++i) {
+    if (wave.hidden[i] != 0) continue;
+    const std::int64_t place = wave.place[i];
+    wave.seen[place] = wave.seen[place] + wave.facing[i];
+    wave.rays_seen[place] = wave.rays_seen[place] + 1;
+  }
 }
 
 }  // namespace steps

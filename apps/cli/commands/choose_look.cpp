@@ -1,0 +1,83 @@
+#include "commands/choose_look.h"
+
+#include <algorithm>
+
+#include "bihive/base/write_file.h"
+#include "support/failure.h"
+
+namespace bihive::cli {
+namespace {
+
+std::optional<AmbientOcclusion> choose_ambient(const AmbientOptions& options,
+                                               const std::optional<AmbientOcclusion>& of_scene) {
+  const bool implied = options.distance || options.directions;
+  if (!options.on.value_or(implied || of_scene)) return std::nullopt;
+  AmbientOcclusion ambient = of_scene.value_or(AmbientOcclusion{});
+  ambient.distance = options.distance.value_or(ambient.distance);
+  ambient.directions = static_cast<int>(options.directions.value_or(ambient.directions));
+  return ambient;
+}
+
+// A name has neither a folder nor an ending.
+bool is_path(const std::string& style) {
+  return style.find('/') != std::string::npos || style.find('.') != std::string::npos;
+}
+
+bool has_effect(const Material& material) {
+  return material.tint != 0 || material.bands != 0 || material.glow != 0;
+}
+
+}  // namespace
+
+Style choose_style(const LookOptions& options) {
+  const std::string& wanted = options.style.empty() ? style_names().front() : options.style;
+  if (is_path(wanted)) return value_or_fail(parse_style(value_or_fail(read_file(wanted)), wanted));
+  Result<Style> style = style_named(wanted);
+  if (!style) fail_usage("--style: " + style.error().message, style.error().hint);
+  return std::move(*style);
+}
+
+void apply_look(const LookOptions& options, const Style& style, Input& input) {
+  Scene& scene = input.scene;
+  if (options.lights || !input.has_lights) {
+    const LightRig& rig = options.lights ? *options.lights : style.lights;
+    scene.lights = lights_around(rig, scene.camera);
+    if (options.lights) scene.ambient_light = rig.ambient_light;
+  }
+  if (!options.material) return;
+  // Spheres without a colour of their own keep that of their material.
+  Material material = *options.material;
+  material.colour = scene.materials.front().colour;
+  scene.materials = {material};
+  scene.material_of_sphere.clear();
+}
+
+void apply_effects(const LookOptions& options, RenderSettings& settings) {
+  settings.ambient_occlusion = choose_ambient(options.ambient, settings.ambient_occlusion);
+  settings.light_points = static_cast<int>(options.light_points.value_or(settings.light_points));
+  if (options.outline_px) {
+    Outline outline = settings.outline.value_or(Outline{});
+    outline.width_px = *options.outline_px;
+    settings.outline = outline.width_px > 0 ? std::optional<Outline>(outline) : std::nullopt;
+  }
+  if (options.fog) {
+    Fog fog = settings.fog.value_or(Fog{});
+    fog.strength = *options.fog;
+    settings.fog = fog.strength > 0 ? std::optional<Fog>(fog) : std::nullopt;
+  }
+}
+
+std::string beyond_gpu(const Scene& scene, const RenderSettings& settings) {
+  if (settings.ambient_occlusion) return "ambient occlusion";
+  if (settings.outline) return "outlines";
+  if (settings.fog) return "fog";
+  const Vec3d ambient = scene.ambient_light;
+  const bool soft =
+      std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& light) { return light.radius > 0; });
+  if (soft && settings.shadows) return "soft shadows";
+  if (ambient.x != 1 || ambient.y != 1 || ambient.z != 1) return "ambient light of another strength";
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), has_effect)) return "such materials";
+  return "";
+}
+
+}  // namespace bihive::cli

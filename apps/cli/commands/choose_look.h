@@ -1,0 +1,21 @@
+// The look of a picture: from a style and the options that change parts of it.
+#pragma once
+
+#include "commands/commands.h"
+
+namespace bihive::cli {
+
+/// The style that the user names, or the default one. Fails with kBadUsage on an unknown name, with kBadInput on a file
+/// that is no style.
+Style choose_style(const LookOptions& options);
+
+/// The options replace parts of the scene's look. `style`: of which the lights come if the input has none.
+void apply_look(const LookOptions& options, const Style& style, Input& input);
+
+/// The effects of the picture, with the user's options.
+void apply_effects(const LookOptions& options, RenderSettings& settings);
+
+/// Whether a scene and its settings need what graphics processors do not draw; a name for it, or empty.
+std::string beyond_gpu(const Scene& scene, const RenderSettings& settings);
+
+}  // namespace bihive::cli

@@ -1,0 +1,130 @@
+#include "bihive/render/after_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bihive/geometry/hit.h"
+
+namespace bihive {
+namespace {
+
+constexpr double kBackgroundDepth = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, const Tracer& tracer,
+                           const RenderSettings& settings, const PixelRays& rays)
+    : scene_(scene), wave_scene_(wave_scene), tracer_(tracer), rays_(rays) {
+  if (settings.view != View::shaded) return;
+  outline_ = settings.outline;
+  fog_ = settings.fog;
+  if (outline_) {
+    border_ = static_cast<int>(std::ceil(outline_->width_px));
+    for (int y = -border_; y <= border_; ++y)
+      for (int x = -border_; x <= border_; ++x)
+        if ((x != 0 || y != 0) && x * x + y * y <= outline_->width_px * outline_->width_px) around_.push_back({x, y});
+  }
+  if (fog_) {
+    nearest_ = kBackgroundDepth;
+    const SphereSet& spheres = scene.spheres;
+    const Vec3d eye = to_double(rays.eye());
+    for (std::int64_t id = 0; id < spheres.size(); ++id) {
+      const double depth = dot(spheres.centre(id) - eye, rays.forward());
+      nearest_ = std::min(nearest_, depth - spheres.radius(id));
+      farthest_ = std::max(farthest_, depth + spheres.radius(id));
+    }
+    nearest_ = std::min(std::max(nearest_, 0.0), farthest_);
+  }
+}
+
+void AfterEffects::find(const Tile& tile, const std::vector<SamplePlace>& places, const CancelToken* cancel,
+                        EffectBuffers& buffers) const {
+  const Tile grown{tile.x0 - border_, tile.y0 - border_, tile.x1 + border_, tile.y1 + border_};
+  const std::int64_t row = grown.x1 - grown.x0;
+  const std::int64_t width = tile.x1 - tile.x0;
+  const std::size_t samples = places.size();
+  buffers.effects.resize(static_cast<std::size_t>(width * (tile.y1 - tile.y0)) * samples);
+  for (std::size_t sample = 0; sample < samples; ++sample) {
+    find_depths(grown, places[sample], cancel, buffers);
+    if (cancel != nullptr && cancel->cancelled()) return;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        const std::int64_t at = (y - grown.y0) * row + (x - grown.x0);
+        SampleEffect& effect =
+            buffers.effects[static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0)) * samples + sample];
+        effect.outlined = outline_ && is_outlined(buffers, at, row);
+        effect.fog = static_cast<float>(fog_at(buffers.depth[static_cast<std::size_t>(at)]));
+      }
+  }
+}
+
+// The first hits through one place of each pixel. The rays are in blocks, as the queries for many rays like them.
+void AfterEffects::find_depths(const Tile& grown, SamplePlace place, const CancelToken* cancel,
+                               EffectBuffers& buffers) const {
+  const std::int64_t row = grown.x1 - grown.x0;
+  const std::int64_t all = row * (grown.y1 - grown.y0);
+  WaveBuffers& rays = buffers.rays;
+  rays.x.reserve(all);
+  rays.y.reserve(all);
+  buffers.depth.resize(static_cast<std::size_t>(all));
+  buffers.id.resize(static_cast<std::size_t>(all));
+  buffers.place.resize(static_cast<std::size_t>(all));
+  std::int64_t count = 0;
+  for (int y0 = grown.y0; y0 < grown.y1; y0 += kBlockPx)
+    for (int x0 = grown.x0; x0 < grown.x1; x0 += kBlockPx)
+      for (int y = y0; y < std::min(y0 + kBlockPx, grown.y1); ++y)
+        for (int x = x0; x < std::min(x0 + kBlockPx, grown.x1); ++x) {
+          rays.x[count] = x + place.x;
+          rays.y[count] = y + place.y;
+          buffers.place[static_cast<std::size_t>(count)] =
+              static_cast<std::int32_t>((y - grown.y0) * row + (x - grown.x0));
+          ++count;
+        }
+  Wave& wave = WaveIntegrator::primaries(rays);
+  wave.reset(count);
+  wave.count = count;
+  wave.starts_at_eye = true;
+  steps::camera_rays(rays_, rays.x.data(), rays.y.data(), wave);
+  WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel);
+  integrator.find_first_hits(rays);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(buffers.place[static_cast<std::size_t>(i)]);
+    buffers.id[at] = rays.id[i];
+    const Vec3d direction{double(wave.direction[0][i]), double(wave.direction[1][i]), double(wave.direction[2][i])};
+    buffers.depth[at] = rays.id[i] == kNothing ? kBackgroundDepth : rays.t[i] * dot(direction, rays_.forward());
+  }
+}
+
+bool AfterEffects::is_outlined(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const {
+  const std::int64_t id = buffers.id[static_cast<std::size_t>(at)];
+  if (id < 0) return false;
+  const double limit = buffers.depth[static_cast<std::size_t>(at)] + outline_->step * scene_.spheres.radius(id);
+  return std::any_of(around_.begin(), around_.end(), [&](Step step) {
+    const auto beside = static_cast<std::size_t>(at + step.y * row + step.x);
+    return buffers.id[beside] != id && buffers.depth[beside] > limit;
+  });
+}
+
+double AfterEffects::fog_at(double depth) const {
+  if (!fog_ || depth == kBackgroundDepth) return 0;
+  const double all = farthest_ - nearest_;
+  const double share = all > 0 ? (depth - nearest_) / all : 0;
+  return fog_->strength * std::clamp((share - fog_->start) / (fog_->end - fog_->start), 0.0, 1.0);
+}
+
+Vec3d AfterEffects::applied(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample,
+                            Vec3d light) const {
+  const std::int64_t width = tile.x1 - tile.x0;
+  const std::size_t pixel = static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0));
+  const std::size_t samples = buffers.effects.size() / static_cast<std::size_t>(width * (tile.y1 - tile.y0));
+  const SampleEffect& effect = buffers.effects[pixel * samples + static_cast<std::size_t>(sample)];
+  if (effect.outlined) light = outline_->colour;
+  if (effect.fog > 0) {
+    const double fog = double(effect.fog);
+    light = (1 - fog) * light + fog * scene_.background;
+  }
+  return light;
+}
+
+}  // namespace bihive

@@ -1,0 +1,67 @@
+// Outlines and fog of scene/picture_effects.h, sample by sample.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bihive/image/film.h"
+#include "bihive/render/tracer.h"
+#include "bihive/render/wave/wave_integrator.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/sample_pattern.h"
+
+namespace bihive {
+
+/// What becomes of one sample's light.
+struct SampleEffect {
+  bool outlined = false;
+  float fog = 0;  ///< the share of the background
+};
+
+/// Buffers that a thread keeps from tile to tile.
+struct EffectBuffers {
+  WaveBuffers rays;
+  std::vector<double> depth;  ///< of a tile with its border, row by row; +inf: background
+  std::vector<std::int64_t> id;
+  std::vector<std::int32_t> place;  ///< in `depth`, of each ray
+  std::vector<SampleEffect> effects;
+};
+
+class AfterEffects {
+ public:
+  /// Scene, tracer and rays must outlive it.
+  AfterEffects(const Scene& scene, const WaveScene& wave_scene, const Tracer& tracer, const RenderSettings& settings,
+               const PixelRays& rays);
+
+  /// Whether the settings ask for any.
+  bool any() const { return outline_ || fog_; }
+
+  /// Looks at the first hits of all samples of the tile and of the pixels around it, which are rays of their own also
+  /// beyond the picture's edge; so each pixel is the same in every tile.
+  void find(const Tile& tile, const std::vector<SamplePlace>& places, const CancelToken* cancel,
+            EffectBuffers& buffers) const;
+
+  /// The light of sample `sample` of a pixel of the tile of the last find().
+  Vec3d applied(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample, Vec3d light) const;
+
+ private:
+  void find_depths(const Tile& grown, SamplePlace place, const CancelToken* cancel, EffectBuffers& buffers) const;
+  bool is_outlined(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const;
+  double fog_at(double depth) const;
+
+  const Scene& scene_;
+  const WaveScene& wave_scene_;
+  const Tracer& tracer_;
+  const PixelRays& rays_;
+  std::optional<Outline> outline_;
+  std::optional<Fog> fog_;
+  double nearest_ = 0, farthest_ = 0;  // depths of the set
+  struct Step {
+    int x, y;
+  };
+  std::vector<Step> around_;
+  int border_ = 0;
+};
+
+}  // namespace bihive

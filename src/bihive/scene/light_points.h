@@ -1,0 +1,37 @@
+// Soft shadows: the points of lights with a radius towards which places look.
+//
+// The points are the same for all places, so neighbouring pixels ask along neighbouring rays and the picture has no
+// noise. The samples of a pixel take different points, so that together they see more of them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+constexpr int kMostLightPoints = 1024;
+
+/// Samples beyond this many take the points of the first ones again.
+constexpr int kMostPointSets = 16;
+
+/// Points of the ball of radius 1 around 0: sample i of every pixel takes set i % count(). Seen from any side they fill
+/// the disc evenly, as a bright ball does.
+class LightPointSets {
+ public:
+  /// `points` 1 to kMostLightPoints, `samples_per_pixel` at least 1.
+  LightPointSets(int points, int samples_per_pixel);
+
+  int count() const { return static_cast<int>(sets_.size()); }
+  const std::vector<Vec3d>& of_sample(std::int64_t sample) const {
+    return sets_[static_cast<std::size_t>(sample % count())];
+  }
+
+ private:
+  std::vector<std::vector<Vec3d>> sets_;
+};
+
+}  // namespace bihive

@@ -1,0 +1,28 @@
+// What a picture gets after its light is known: outlines, and fog by depth. Both look at the first hits alone.
+#pragma once
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// The background's colour hides what is far: a share that grows evenly with the depth along the view, from 0 at
+/// `start` to `strength` at `end` and beyond. Depths are shares of the set's own depth: 0 at its nearest point (the
+/// eye, if the eye is inside the set), 1 at its farthest. So the same fog fits any set.
+struct Fog {
+  double start = 0;       ///< finite, below `end`
+  double end = 1;         ///< finite
+  double strength = 0.5;  ///< 0 to 1
+};
+
+constexpr double kWidestOutlinePx = 16;
+
+/// A line along the inner edge of what stands in front of something else. A sample of a pixel lies on it if, at most
+/// `width_px` away and at the same place in its pixel, another sphere, the plane or the background is deeper by more
+/// than `step` radii of the sphere that the sample shows.
+struct Outline {
+  double width_px = 1;    ///< 1 to kWidestOutlinePx
+  double step = 2;        ///< radii, >= 0
+  Vec3d colour{0, 0, 0};  ///< linear
+};
+
+}  // namespace bihive

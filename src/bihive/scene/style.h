@@ -1,0 +1,39 @@
+// A look that fits any input: a material, colours, lights that stand around the camera, and effects.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/scene/camera_lights.h"
+#include "bihive/scene/palette.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+struct Style {
+  std::string name;
+  std::string description;  ///< one line
+  Material material = matte_material();
+  ElementColours element_colours = ElementColours::jmol;
+  LightRig lights;
+  Vec3d background{1, 1, 1};  ///< linear
+  PictureDefaults picture;    ///< its size and transfer are of no use
+};
+
+/// The styles that the library brings along, the default one first.
+const std::vector<std::string>& style_names();
+
+/// One of them. Error: there is none of this name; the hint lists all.
+Result<Style> style_named(std::string_view name);
+
+/// From the text of a style file (docs/styles.md; docs/scene.schema.json under definitions/style). `file` is for
+/// messages, and the name of a style without one. What the text does not say is as in the style `plain`.
+Result<Style> parse_style(std::string_view text, const std::string& file);
+
+/// The scene gets the style's material, background, ambient light and effects, and keeps spheres, camera, lights,
+/// plane, size and transfer.
+void apply_style(const Style& style, Scene& scene);
+
+}  // namespace bihive

@@ -1,0 +1,111 @@
+// The other half of style.h: from a style's text to the style.
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bihive/base/check.h"
+#include "bihive/scene/builtin_styles.h"
+#include "bihive/scene/json_parts.h"
+#include "bihive/scene/named_materials.h"
+#include "bihive/scene/scene_json.h"
+#include "bihive/scene/style.h"
+
+namespace bihive {
+namespace {
+
+using nlohmann::json;
+
+const Names<std::string_view (*)()>& builtin_styles() {
+  static const Names<std::string_view (*)()> styles{
+      {"default", style_text_default}, {"plain", style_text_plain},   {"illustrative", style_text_illustrative},
+      {"studio", style_text_studio},   {"glossy", style_text_glossy}, {"flat", style_text_flat},
+      {"xray", style_text_xray}};
+  return styles;
+}
+
+// The schema has checked that the name exists.
+template <class T>
+T value_named(const Names<T>& names, const std::string& wanted) {
+  for (const auto& [name, value] : names)
+    if (name == wanted) return value;
+  BIHIVE_CHECK(false);
+  return names.front().second;
+}
+
+CameraLight camera_light(const json& value) {
+  CameraLight light;
+  light.direction = vector_from_json(value.at("direction"));
+  if (value.contains("colour")) light.colour = colour_from_json(value.at("colour"), Transfer::srgb);
+  light.angle_deg = value.value("angle_deg", light.angle_deg);
+  return light;
+}
+
+LightRig light_rig(const json& value) {
+  if (value.is_string()) return value_named(light_presets(), value.get<std::string>());
+  LightRig rig;
+  rig.light_behind = false;
+  for (const json& light : value) rig.lights.push_back(camera_light(light));
+  return rig;
+}
+
+Error fault(const std::string& file, const std::string& what, const std::string& hint) {
+  return {what, file, 0, 0, hint};
+}
+
+}  // namespace
+
+Result<Style> parse_style(std::string_view text, const std::string& file) {
+  const Result<json> parsed = parse_json(text, file);
+  if (!parsed) return parsed.error();
+  const json& document = *parsed;
+  if (Status status = check_against_definition(document, "style", file); !status) return status.error();
+
+  Style style;
+  style.name = document.value("name", file);
+  style.description = document.value("description", std::string());
+  if (document.contains("material")) {
+    const json& value = document.at("material");
+    if (value.is_string())
+      style.material = value_named(named_materials(), value.get<std::string>());
+    else
+      take_material(value, Transfer::srgb, style.material);
+  }
+  if (document.contains("colour")) style.material.colour = colour_from_json(document.at("colour"), Transfer::srgb);
+  if (document.contains("element_colours"))
+    style.element_colours = value_named(kElementColourNames, document.at("element_colours").get<std::string>());
+  if (document.contains("lights")) style.lights = light_rig(document.at("lights"));
+  if (document.contains("ambient_light"))
+    style.lights.ambient_light = colour_from_json(document.at("ambient_light"), Transfer::srgb);
+  if (document.contains("background")) style.background = colour_from_json(document.at("background"), Transfer::srgb);
+  if (document.contains("picture")) take_picture(document.at("picture"), style.picture);
+
+  // Rules that a schema cannot express.
+  for (const CameraLight& light : style.lights.lights)
+    if (!(dot(light.direction, light.direction) > 0))
+      return fault(file, "/lights: a light's direction is [0, 0, 0]", "state right, up and towards the viewer");
+  if (style.material.transmissive > 0 && !(style.material.refraction_index > 0))
+    return fault(file, "/material/refraction_index: expected a number above 0, because transmissive is above 0", "");
+  if (style.picture.fog && !(style.picture.fog->start < style.picture.fog->end))
+    return fault(file, "/picture/fog: the start of the fog is not before its end", "");
+  return style;
+}
+
+const std::vector<std::string>& style_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& style : builtin_styles()) all.push_back(style.first);
+    return all;
+  }();
+  return names;
+}
+
+Result<Style> style_named(std::string_view name) {
+  std::string known;
+  for (const auto& [style, text] : builtin_styles()) {
+    if (style == name) return parse_style(text(), style);
+    known += (known.empty() ? "" : ", ") + style;
+  }
+  return Error{"there is no style \"" + std::string(name) + "\"", "", 0, 0, "there are " + known + ", or a file"};
+}
+
+}  // namespace bihive
