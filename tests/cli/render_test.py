@@ -49,14 +49,14 @@ class Render(ProgramTest):
         self.assertTrue(self.settings("scenario1", *SMALL, "--shadows")["shadows"])
 
     def test_ambient_occlusion_by_option_and_scene_file(self):
-        plain = self.render("demo", *SMALL)
+        plain = self.render("demo", *SMALL, "--style", "plain")
         self.assertNotIn("ambient_occlusion", plain["settings"])
         self.assertEqual(plain["rays"]["ambient"], 0)
-        by_option = self.render("demo", *SMALL, "--ao-distance", "10", "--ao-directions", "8")
+        by_option = self.render("demo", *SMALL, "--style", "plain", "--ao-distance", "10", "--ao-directions", "8")
         self.assertEqual(by_option["settings"]["ambient_occlusion"], {"distance": 10, "directions": 8})
         self.assertGreater(by_option["rays"]["ambient"], 0)
         self.assertNotEqual(by_option["picture_hash"], plain["picture_hash"])
-        self.assertEqual(self.settings("demo", *SMALL, "--ao")["ambient_occlusion"], {"directions": 64})
+        self.assertEqual(self.settings("demo", *SMALL, "--style", "plain", "--ao")["ambient_occlusion"], {"directions": 64})
 
         # A scene file says it too, from version 2 on; options replace it.
         scene = '{"bihive_scene": 2, "picture": {"ambient_occlusion": {"distance": 3}}, "spheres": [[0, 0, 0, 1], [1, 1, 0, 1]]}'
@@ -65,6 +65,79 @@ class Render(ProgramTest):
         changed = self.settings("a.json", *SMALL, "--ao-directions", "5")
         self.assertEqual(changed["ambient_occlusion"], {"distance": 3, "directions": 5})
         self.assertNotIn("ambient_occlusion", self.settings("a.json", *SMALL, "--no-ao"))
+
+    def test_files_are_drawn_in_the_default_style_and_scenes_in_their_own(self):
+        settings = self.settings("demo", *SMALL)
+        self.assertEqual(settings["ambient_occlusion"], {"directions": 32})
+        self.assertEqual((settings["outline_px"], settings["light_points"]), (1, 6))
+        self.assertGreater(settings["fog"], 0)
+        self.assertEqual(self.render("demo", *SMALL)["picture_hash"], self.render("demo", *SMALL, "--style", "default")["picture_hash"])
+        for scene in ["four-spheres", "scenario1"]:
+            self.assertNotIn("fog", self.settings(scene, *SMALL))
+        self.succeed("scene", "four-spheres", "-o", "four.json")
+        same = [self.render(name, *SMALL)["picture_hash"] for name in ["four-spheres", "four.json"]]
+        self.assertEqual(same[0], same[1])
+        # A style that is asked for fills what a scene file leaves open.
+        self.write("open.json", '{"bihive_scene": 1, "background": [1, 0, 0], "spheres": [[0, 0, 0, 1]]}')
+        self.assertNotIn("ambient_occlusion", self.settings("open.json", *SMALL))
+        studio = self.settings("open.json", *SMALL, "--style", "studio")
+        self.assertEqual((studio["ambient_occlusion"], studio["background"]), ({"directions": 48}, [1, 0, 0]))
+
+    def test_each_style_light_and_material_draws_another_picture(self):
+        styles = [style["name"] for style in self.succeed_json("styles")["styles"]]
+        self.assertEqual(styles[:2], ["default", "plain"])
+        hashes = {style: self.render("demo", *SMALL, "--style", style)["picture_hash"] for style in styles}
+        for light in ["studio", "cloudy", "headlight"]:
+            hashes[light] = self.render("demo", *SMALL, "--style", "plain", "--light", light)["picture_hash"]
+        for material in ["matte", "plastic", "metal", "glass", "flat", "toon"]:
+            hashes[material] = self.render("demo", *SMALL, "--style", "plain", "--material", material)["picture_hash"]
+        self.assertEqual(len(set(hashes.values())), len(hashes), hashes)
+        thesis = self.render("demo", *SMALL, "--style", "plain", "--light", "thesis")
+        self.assertEqual(thesis["picture_hash"], hashes["plain"])
+
+    def test_options_change_parts_of_a_style(self):
+        settings = self.settings("demo", *SMALL, "--outline", "2", "--fog", "0.5", "--light-points", "3", "--no-ao")
+        self.assertEqual((settings["outline_px"], settings["fog"], settings["light_points"]), (2, 0.5, 3))
+        self.assertNotIn("ambient_occlusion", settings)
+        settings = self.settings("demo", *SMALL, "--outline", "0", "--fog", "0", "--no-shadows")
+        self.assertNotIn("outline_px", settings)
+        self.assertNotIn("fog", settings)
+        self.write("own.json", '{"bihive_style": 1, "background": [0, 0, 1], "picture": {"fog": {"strength": 0.125}}}')
+        settings = self.settings("demo", *SMALL, "--style", "own.json")
+        self.assertEqual((settings["background"], settings["fog"]), ([0, 0, 1], 0.125))
+
+    def test_looks_have_the_same_bits_everywhere(self):
+        for look in [["--style", "default"], ["--style", "studio"], ["--style", "plain", "--material", "toon", "--light", "studio"]]:
+            pictures = {
+                self.render("demo", *SMALL, *look, "--engine", engine, "--threads", threads)["picture_hash"]
+                for engine in ["wide", "reference", "brute"]
+                for threads in ["1", "2", "7"]
+            }
+            self.assertEqual(len(pictures), 1, look)
+
+    def test_bad_looks_are_refused(self):
+        self.write("bad.json", '{"bihive_style": 1, "material": "wood"}')
+        for arguments, code, words in [
+            (["--style", "pretty"], 2, ['--style: there is no style "pretty"', "default, plain"]),
+            (["--style", "none.json"], 1, ["none.json"]),
+            (["--style", "bad.json"], 1, ["bad.json: /material", "matte, plastic"]),
+            (["--material", "wood"], 2, ["--material", "matte"]),
+            (["--light", "disco"], 2, ["--light", "studio"]),
+            (["--light-points", "0"], 2, ["--light-points"]),
+            (["--outline", "0.5"], 2, ["--outline", "0 or a number from 1 to 16"]),
+            (["--outline", "17"], 2, ["--outline"]),
+            (["--fog", "1.5"], 2, ["--fog"]),
+            (["--style", "--fog"], 2, ["--style"]),
+            (["--engine", "gpu", "--style", "studio"], 2, ["--engine gpu draws no", "--style plain"]),
+        ]:
+            done = self.run_bihive("render", "demo", "-o", "c.png", *arguments)
+            self.assertEqual(done.returncode, code, (arguments, done.stderr))
+            for word in words:
+                self.assertIn(word, done.stderr)
+        done = self.run_bihive("render", "scenario1", "-o", "c.png", "--style", "studio")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--style is for files, not for scenario1", done.stderr)
+        self.assertFalse(os.path.exists(self.path("c.png")))
 
     def test_bad_ambient_occlusion_is_refused(self):
         for arguments in (["--ao-distance", "0"], ["--ao-directions", "0"], ["--ao", "--no-ao"], ["--ao", "--engine", "gpu"]):
@@ -234,7 +307,7 @@ class Render(ProgramTest):
         self.write("data/a.xyz", "2\n\nC 0 0 0\nO 3 0 0\n")
         self.write("data/s.json", '{"bihive_scene": 1, "spheres": {"file": "a.xyz"}}')
         from_scene = self.render("data/s.json", *SMALL)["picture_hash"]
-        self.assertEqual(from_scene, self.render("data/a.xyz", *SMALL)["picture_hash"])
+        self.assertEqual(from_scene, self.render("data/a.xyz", *SMALL, "--style", "plain")["picture_hash"])
 
     def test_a_link_is_followed(self):
         self.write("real.png", "old")

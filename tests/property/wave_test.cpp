@@ -14,10 +14,24 @@
 #include "bihive/scene/generators.h"
 #include "bihive/scene/sample_pattern.h"
 #include "bihive/simd/target.h"
+#include "support/effects_reference.h"
 #include "support/effort.h"
 
 namespace bihive {
 namespace {
+
+// Some lights with a radius, some materials with effects, and another ambient light.
+void add_look(std::uint64_t seed, Scene& scene) {
+  SplitMix64 rng(seed + 1000);
+  for (PointLight& light : scene.lights)
+    if (rng.next() % 3 != 0) light.radius = 8 * rng.next_double();
+  for (Material& material : scene.materials) {
+    if (rng.next() % 2 == 0) material.tint = rng.next_double();
+    if (rng.next() % 2 == 0) material.bands = static_cast<int>(rng.next() % 5);
+    if (rng.next() % 2 == 0) material.glow = rng.next_double();
+  }
+  scene.ambient_light = {rng.next_double(), rng.next_double(), 2 * rng.next_double()};
+}
 
 // Random spheres of many materials, lights and a plane: reflecting, transparent, both or neither; inside each other;
 // with opacities and colours of their own.
@@ -67,6 +81,7 @@ Scene random_scene(std::uint64_t seed) {
 
   const int lights = static_cast<int>(between(0, 4));
   for (int i = 0; i < lights; ++i) scene.lights.push_back({vector(30), {between(0, 1), between(0, 1), between(0, 1)}});
+  if (seed % 2 == 0) add_look(seed, scene);
   if (chance(0.7)) {
     scene.plane = thesis_plane();
     scene.plane->plane.point = {0, -6, 0};
@@ -93,14 +108,17 @@ Expected one_after_the_other(const Scene& scene, const RenderSettings& settings)
   const PixelRays pixels(scene.camera, settings.width_px, settings.height_px);
   std::optional<AmbientRays> ambient;
   if (settings.ambient_occlusion) ambient.emplace(*settings.ambient_occlusion, settings.samples_per_pixel);
-  Integrator integrator(scene, tracer, settings.recursion, settings.shadows, ambient ? &*ambient : nullptr);
+  const LightPointSets points(settings.light_points, settings.samples_per_pixel);
+  Integrator integrator(scene, tracer, settings.recursion, settings.shadows, ambient ? &*ambient : nullptr, &points);
+  const test::EffectsReference effects(scene, tracer, settings);
   Expected expected{Film(settings.width_px, settings.height_px), {}};
   for (int y = 0; y < settings.height_px; ++y)
     for (int x = 0; x < settings.width_px; ++x) {
       Vec3d sum;
       for (int i = 0; i < settings.samples_per_pixel; ++i) {
         const SamplePlace place = sample_place(i, settings.samples_per_pixel);
-        sum = sum + integrator.radiance(pixels.at(x + place.x, y + place.y), i);
+        const Vec3d light = integrator.radiance(pixels.at(x + place.x, y + place.y), i);
+        sum = sum + effects.applied(x + place.x, y + place.y, light);
       }
       expected.film.at(x, y) = to_float(sum / settings.samples_per_pixel);
     }
@@ -142,6 +160,9 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
     settings.samples_per_pixel = 1 + static_cast<int>(seed % 5);
     settings.recursion = 1 + static_cast<int>(seed % 7);
     settings.shadows = seed % 4 != 0;
+    settings.light_points = 1 + static_cast<int>(seed % 4);
+    if (seed % 5 == 0) settings.outline = Outline{1 + 0.5 * static_cast<double>(seed % 3), 0.3, {0.2, 0, 0.1}};
+    if (seed % 5 < 2) settings.fog = Fog{0.1, 0.8, 0.7};
     if (seed % 3 == 0) settings.ambient_occlusion = {seed % 2 == 0 ? 3.0 : AmbientOcclusion{}.distance, 5};
     const Expected expected = one_after_the_other(scene, settings);
     for (const Engine engine : {Engine::wide, Engine::reference}) {

@@ -2,7 +2,8 @@
 //
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
-// molecule; recursion 1 to 5, ambient occlusion, every view, the sRGB curve, shadows, several samples.
+// molecule; recursion 1 to 5, ambient occlusion, soft shadows with
+// effects of materials, outlines and fog, every view, the sRGB curve, shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -12,6 +13,7 @@
 #include "bihive/io/bundled.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/render/renderer.h"
+#include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/palette.h"
@@ -96,6 +98,28 @@ bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted
   return good;
 }
 
+// The scene with soft lights and materials with effects.
+bihive::Scene with_look(bihive::Scene scene) {
+  bihive::LightRig rig = *bihive::value_named(bihive::light_presets(), "studio");
+  scene.lights = bihive::lights_around(rig, scene.camera);
+  scene.ambient_light = rig.ambient_light;
+  for (bihive::Material& material : scene.materials) {
+    material.tint = 0.5;
+    material.bands = 3;
+    material.glow = 0.1;
+  }
+  return scene;
+}
+
+bihive::RenderSettings look_settings(bihive::RenderSettings settings) {
+  settings.recursion = 2;
+  settings.shadows = true;
+  settings.light_points = 3;
+  settings.outline = bihive::Outline{1.5, 0.5, {0.1, 0, 0}};
+  settings.fog = bihive::Fog{0.2, 0.9, 0.5};
+  return settings;
+}
+
 // All pictures of one scene.
 bool print_hashes(const bihive::Scene& scene) {
   bool good = true;
@@ -110,6 +134,7 @@ bool print_hashes(const bihive::Scene& scene) {
   with_ambient.recursion = 2;
   with_ambient.ambient_occlusion = {10, 4};
   good = print_hash(scene, with_ambient, "shaded with ambient occlusion") && good;
+  good = print_hash(with_look(scene), look_settings(settings), "shaded with a look") && good;
   for (const auto& [name, view] : kViews) {
     settings.view = view;
     good = print_hash(scene, settings, name) && good;

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "bihive/scene/generators.h"
 #include "bihive/scene/palette.h"
@@ -326,7 +327,7 @@ TEST(SceneFileErrors, OfSpheres) {
 
 TEST(SceneFileErrors, UnknownKeysListTheKnownOnes) {
   EXPECT_EQ(error_of(with(R"("lights": [{"position": [0,0,0], "color": "red"}])")),
-            "a.json: /lights/0: unknown key \"color\"; known keys: colour, position");
+            "a.json: /lights/0: unknown key \"color\"; known keys: colour, position, radius");
   EXPECT_THAT(error_of(with(R"("sphere": 1)")), StartsWith("a.json: /: unknown key \"sphere\"; known keys: "));
 }
 
@@ -392,6 +393,9 @@ void expect_equal(const Material& a, const Material& b) {
   EXPECT_EQ(a.power, b.power);
   EXPECT_EQ(a.transmissive, b.transmissive);
   EXPECT_EQ(a.refraction_index, b.refraction_index);
+  EXPECT_EQ(a.tint, b.tint);
+  EXPECT_EQ(a.bands, b.bands);
+  EXPECT_EQ(a.glow, b.glow);
 }
 
 void expect_equal(const Scene& a, const Scene& b) {
@@ -402,6 +406,20 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.camera.up, b.camera.up);
   EXPECT_EQ(a.camera.fov_deg, b.camera.fov_deg);
   EXPECT_EQ(a.background, b.background);
+  EXPECT_EQ(a.ambient_light, b.ambient_light);
+  EXPECT_EQ(a.picture.light_points, b.picture.light_points);
+  ASSERT_EQ(a.picture.outline.has_value(), b.picture.outline.has_value());
+  if (a.picture.outline) {
+    EXPECT_EQ(a.picture.outline->width_px, b.picture.outline->width_px);
+    EXPECT_EQ(a.picture.outline->step, b.picture.outline->step);
+    EXPECT_EQ(a.picture.outline->colour, b.picture.outline->colour);
+  }
+  ASSERT_EQ(a.picture.fog.has_value(), b.picture.fog.has_value());
+  if (a.picture.fog) {
+    EXPECT_EQ(a.picture.fog->start, b.picture.fog->start);
+    EXPECT_EQ(a.picture.fog->end, b.picture.fog->end);
+    EXPECT_EQ(a.picture.fog->strength, b.picture.fog->strength);
+  }
   EXPECT_EQ(a.picture.width_px, b.picture.width_px);
   EXPECT_EQ(a.picture.height_px, b.picture.height_px);
   EXPECT_EQ(a.picture.samples_per_pixel, b.picture.samples_per_pixel);
@@ -417,6 +435,7 @@ void expect_equal(const Scene& a, const Scene& b) {
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     EXPECT_EQ(a.lights[i].position, b.lights[i].position);
     EXPECT_EQ(a.lights[i].colour, b.lights[i].colour);
+    EXPECT_EQ(a.lights[i].radius, b.lights[i].radius);
   }
   ASSERT_EQ(a.materials.size(), b.materials.size());
   for (std::size_t i = 0; i < a.materials.size(); ++i) expect_equal(a.materials[i], b.materials[i]);
@@ -464,7 +483,38 @@ TEST(SceneFileWriting, AmbientOcclusionComesBackInVersion2) {
   expect_there_and_back(scene);
 }
 
+TEST(SceneFileWriting, EachPartOfALookComesBackInVersion2) {
+  const std::vector<std::function<void(Scene&)>> changes{[](Scene& scene) {
+                                                           scene.lights.push_back({{1, 2, 3}, {1, 0.5, 2}, 0.1});
+                                                         },
+                                                         [](Scene& scene) {
+                                                           scene.ambient_light = {0.1, 2, 1};
+                                                         },
+                                                         [](Scene& scene) { scene.materials[0].tint = 0.3; },
+                                                         [](Scene& scene) { scene.materials[0].bands = 3; },
+                                                         [](Scene& scene) { scene.plane->material.glow = 0.7; },
+                                                         [](Scene& scene) { scene.picture.light_points = 3; },
+                                                         [](Scene& scene) {
+                                                           scene.picture.outline = Outline{1.5, 0.1, {0.1, 0.2, 0.3}};
+                                                         },
+                                                         [](Scene& scene) {
+                                                           scene.picture.fog = Fog{-0.1, 0.7, 0.3};
+                                                         }};
+  for (const auto& change : changes) {
+    Scene scene = *scenario_scene(Scenario::grid, {8, 0.3f, 1});
+    EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 1,"));
+    change(scene);
+    EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 2,"));
+    expect_there_and_back(scene);
+  }
+}
+
 TEST(SceneFileErrors, ANewKeyNeedsItsVersion) {
+  for (const char* text : {R"("lights": [{"position": [0, 0, 0], "radius": 1}])", R"("ambient_light": [1, 1, 1])",
+                           R"("materials": [{"name": "a", "tint": 1}])", R"("picture": {"outline": {}})",
+                           R"("picture": {"fog": {}})", R"("picture": {"light_points": 2})"})
+    EXPECT_THAT(error_of(std::string(R"({"bihive_scene": 1, "spheres": [[0,0,0,1]], )") + text + "}"),
+                HasSubstr("expected no such key in version 1 of the format"));
   EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"ambient_occlusion": {}}, "spheres": [[0,0,0,1]]})"),
               StartsWith("a.json: /picture/ambient_occlusion: expected no such key in version 1 of the format"));
   EXPECT_THAT(

@@ -63,7 +63,7 @@ export async function shown_error(page) {
 /** What `bihive render` makes of an input: the bytes of a PNG. */
 export function native_picture(input, name, ...options) {
   const file = join(scratch, `${name}.png`);
-  execFileSync(process.env.BIHIVE, ['render', input, '-o', file, ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
+  execFileSync(process.env.BIHIVE, ['render', input, '-o', file, '--style', 'plain', ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
   return readFileSync(file);
 }
 

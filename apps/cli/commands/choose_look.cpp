@@ -37,10 +37,10 @@ Style choose_style(const LookOptions& options) {
   return std::move(*style);
 }
 
-void apply_look(const LookOptions& options, const Style& style, Input& input) {
+void apply_look(const LookOptions& options, Input& input) {
   Scene& scene = input.scene;
   if (options.lights || !input.has_lights) {
-    const LightRig& rig = options.lights ? *options.lights : style.lights;
+    const LightRig& rig = options.lights ? *options.lights : input.rig;
     scene.lights = lights_around(rig, scene.camera);
     if (options.lights) scene.ambient_light = rig.ambient_light;
   }

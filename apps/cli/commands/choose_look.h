@@ -9,8 +9,9 @@ namespace bihive::cli {
 /// that is no style.
 Style choose_style(const LookOptions& options);
 
-/// The options replace parts of the scene's look. `style`: of which the lights come if the input has none.
-void apply_look(const LookOptions& options, const Style& style, Input& input);
+/// The options replace parts of the scene's look, and an input without lights gets those of its rig. The camera must
+/// stand already.
+void apply_look(const LookOptions& options, Input& input);
 
 /// The effects of the picture, with the user's options.
 void apply_effects(const LookOptions& options, RenderSettings& settings);

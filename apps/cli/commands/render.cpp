@@ -221,7 +221,7 @@ Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings
 
 // Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
 // user's options are the result.
-RenderSettings apply_options(const RenderOptions& options, const Style& style, Input& input) {
+RenderSettings apply_options(const RenderOptions& options, Input& input) {
   Scene& scene = input.scene;
   RenderSettings settings = settings_from(scene.picture);
   if (options.size) settings.width_px = options.size->width_px;
@@ -235,7 +235,7 @@ RenderSettings apply_options(const RenderOptions& options, const Style& style, I
   scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
   if (options.background) scene.background = *colour_from(*options.background, scene.picture.transfer);
   scene.camera = choose_camera(input, options, settings);
-  apply_look(options.look, style, input);
+  apply_look(options.look, input);
   return settings;
 }
 
@@ -248,8 +248,8 @@ void run_render(const RenderOptions& options) {
   // Load the scene and apply the user's options to it.
   const bool named = !options.look.style.empty();
   const Style style = is_gpu(engine) && !named ? Style{} : choose_style(options.look);
-  Input input = load_input(options.input, &style, /*of_scenes=*/named);
-  const RenderSettings settings = apply_options(options, style, input);
+  Input input = load_input(options.input, &style, /*asked_for=*/named);
+  const RenderSettings settings = apply_options(options, input);
   if (is_gpu(engine) && settings.view == View::shaded)
     if (const std::string beyond = beyond_gpu(input.scene, settings); !beyond.empty())
       fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + beyond,

@@ -12,11 +12,11 @@
 namespace bihive::cli {
 
 void run_styles(const StylesOptions& options) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  nlohmann::ordered_json json;
   std::string text;
   for (const std::string& name : style_names()) {
     const Style style = value_or_fail(style_named(name));
-    json.push_back({{"name", name}, {"description", style.description}});
+    json["styles"].push_back({{"name", name}, {"description", style.description}});
     text += fmt::format("{:<14}{}\n", name, style.description);
   }
   print(options.json ? json.dump(2) + "\n" : text);

@@ -62,13 +62,13 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
   return std::move(loaded->scene);
 }
 
-Input load_input(const InputOptions& options, const Style* style, bool of_scenes) {
+Input load_input(const InputOptions& options, const Style* style, bool asked_for) {
   if (std::optional<Scene> scene = generated_scene(options)) {
+    only_for(asked_for, "--style", "files", options.input);
     Input input;
     input.scene = std::move(*scene);
     input.has_camera = true;
-    input.has_lights = style == nullptr || !of_scenes;
-    if (!input.has_lights) apply_style(*style, input.scene);
+    input.has_lights = true;
     input.format = "built-in";
     return input;
   }
@@ -77,7 +77,7 @@ Input load_input(const InputOptions& options, const Style* style, bool of_scenes
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
     const std::string bytes = value_or_fail(read_file(options.input));
-    return load_scene(bytes, options.input, reading, of_scenes || !looks_like_scene(bytes) ? style : nullptr);
+    return load_scene(bytes, options.input, reading, asked_for || !looks_like_scene(bytes) ? style : nullptr);
   };
   Input input = value_or_fail(load());
   warn(input.warnings);

@@ -30,9 +30,9 @@ void check_input_options(const InputOptions& options);
 
 /// Built-in names come first: scenario1, scenario2, scenario3, four-spheres, demo. Prints warnings on stderr. Fails
 /// with kBadUsage on options that do not fit the input, and with kBadInput on an unreadable file.
-/// `style`: the look of spheres without their own; null: plain. `of_scenes`: also what scene files leave open and the
-/// scenes of the thesis take it.
-Input load_input(const InputOptions& options, const Style* style = nullptr, bool of_scenes = false);
+/// `style`: the look of spheres without their own; null: plain. `asked_for`: what scene files leave open takes it too,
+/// and the thesis's scenes, which leave nothing open, refuse it.
+Input load_input(const InputOptions& options, const Style* style = nullptr, bool asked_for = false);
 
 /// The scene of a name of `bihive scene`: scenario1, scenario2, scenario3 or four-spheres; nothing for other names.
 std::optional<Scene> generated_scene(const InputOptions& options);

@@ -22,7 +22,10 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
   loaded.rules = std::move(file->rules);
   loaded.warnings = std::move(file->warnings);
   loaded.recentred_by = file->recentred_by;
-  if (style != nullptr) apply_style(*style, loaded.scene);
+  if (style != nullptr) {
+    apply_style(*style, loaded.scene);
+    loaded.rig = style->lights;
+  }
   colour_spheres(loaded.scene.spheres, style != nullptr ? style->element_colours : ElementColours::jmol);
   return loaded;
 }

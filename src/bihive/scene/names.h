@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,14 @@ std::string name_of(const Names<T>& names, T value) {
   for (const auto& [name, named] : names)
     if (named == value) return name;
   return "";
+}
+
+/// The value of a name; null if it is not in the list.
+template <class T>
+const T* value_named(const Names<T>& names, std::string_view wanted) {
+  for (const auto& [name, value] : names)
+    if (name == wanted) return &value;
+  return nullptr;
 }
 
 }  // namespace bihive

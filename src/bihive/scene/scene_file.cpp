@@ -22,7 +22,9 @@ class Extraction {
  public:
   Extraction(const json& document, const std::string& name, const ReadOptions& options, const Style* style)
       : document_(document), name_(name), options_(options), style_(style) {
-    if (style != nullptr) apply_style(*style, loaded_.scene);
+    if (style == nullptr) return;
+    apply_style(*style, loaded_.scene);
+    loaded_.rig = style->lights;
   }
 
   Result<LoadedScene> run() {

@@ -18,7 +18,8 @@ namespace bihive {
 struct LoadedScene {
   Scene scene;
   bool has_camera = false;  ///< false: the caller places the camera
-  bool has_lights = false;
+  bool has_lights = false;  ///< false: the caller places the lights of `rig`
+  LightRig rig;
   std::string format = "scene file";  ///< or "built-in", or a sphere file's format (scene/load_scene.h)
   std::int64_t frames = 1;            ///< frames or models in the document's sphere file
   std::vector<std::string> rules;     ///< what was done to its spheres, one sentence each

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bihive/base/check.h"
 #include "bihive/scene/builtin_styles.h"
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/named_materials.h"
@@ -23,15 +22,7 @@ const Names<std::string_view (*)()>& builtin_styles() {
   return styles;
 }
 
-// The schema has checked that the name exists.
-template <class T>
-T value_named(const Names<T>& names, const std::string& wanted) {
-  for (const auto& [name, value] : names)
-    if (name == wanted) return value;
-  BIHIVE_CHECK(false);
-  return names.front().second;
-}
-
+// The schema has checked that the names exist.
 CameraLight camera_light(const json& value) {
   CameraLight light;
   light.direction = vector_from_json(value.at("direction"));
@@ -41,7 +32,7 @@ CameraLight camera_light(const json& value) {
 }
 
 LightRig light_rig(const json& value) {
-  if (value.is_string()) return value_named(light_presets(), value.get<std::string>());
+  if (value.is_string()) return *value_named(light_presets(), value.get<std::string>());
   LightRig rig;
   rig.light_behind = false;
   for (const json& light : value) rig.lights.push_back(camera_light(light));
@@ -66,13 +57,13 @@ Result<Style> parse_style(std::string_view text, const std::string& file) {
   if (document.contains("material")) {
     const json& value = document.at("material");
     if (value.is_string())
-      style.material = value_named(named_materials(), value.get<std::string>());
+      style.material = *value_named(named_materials(), value.get<std::string>());
     else
       take_material(value, Transfer::srgb, style.material);
   }
   if (document.contains("colour")) style.material.colour = colour_from_json(document.at("colour"), Transfer::srgb);
   if (document.contains("element_colours"))
-    style.element_colours = value_named(kElementColourNames, document.at("element_colours").get<std::string>());
+    style.element_colours = *value_named(kElementColourNames, document.at("element_colours").get<std::string>());
   if (document.contains("lights")) style.lights = light_rig(document.at("lights"));
   if (document.contains("ambient_light"))
     style.lights.ambient_light = colour_from_json(document.at("ambient_light"), Transfer::srgb);

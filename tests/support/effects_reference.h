@@ -1,0 +1,77 @@
+// Outlines and fog (scene/picture_effects.h) as the header defines them, sample by sample and ray by ray.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bihive/render/scene_hit.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive::test {
+
+class EffectsReference {
+ public:
+  /// Scene and tracer must outlive it.
+  EffectsReference(const Scene& scene, const Tracer& tracer, const RenderSettings& settings)
+      : scene_(scene),
+        tracer_(tracer),
+        settings_(settings),
+        pixels_(scene.camera, settings.width_px, settings.height_px) {
+    for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+      const double depth = dot(scene.spheres.centre(id) - to_double(pixels_.eye()), pixels_.forward());
+      nearest_ = std::min(nearest_, depth - scene.spheres.radius(id));
+      farthest_ = std::max(farthest_, depth + scene.spheres.radius(id));
+    }
+    nearest_ = std::min(std::max(nearest_, 0.0), farthest_);
+  }
+
+  /// Of the light through a place of the picture.
+  Vec3d applied(double x, double y, Vec3d light) const {
+    const Seen here = seen(x, y);
+    if (settings_.outline && here.id >= 0 && is_outlined(x, y, here)) light = settings_.outline->colour;
+    if (!settings_.fog || here.id == kNothing) return light;
+    const Fog& fog = *settings_.fog;
+    const double share = farthest_ > nearest_ ? (here.depth - nearest_) / (farthest_ - nearest_) : 0;
+    const double grown = std::clamp((share - fog.start) / (fog.end - fog.start), 0.0, 1.0);
+    const auto hidden = static_cast<double>(static_cast<float>(fog.strength * grown));
+    if (hidden == 0) return light;
+    return (1 - hidden) * light + hidden * scene_.background;
+  }
+
+ private:
+  struct Seen {
+    double depth;
+    std::int64_t id;
+  };
+
+  Seen seen(double x, double y) const {
+    const Ray ray = pixels_.at(x, y);
+    const SceneHit hit = scene_hit(scene_, tracer_, ray);
+    if (!hit.found()) return {std::numeric_limits<double>::infinity(), kNothing};
+    return {hit.t * dot(to_double(ray.direction), pixels_.forward()), hit.id};
+  }
+
+  bool is_outlined(double x, double y, Seen here) const {
+    const double width = settings_.outline->width_px;
+    const double limit = here.depth + settings_.outline->step * scene_.spheres.radius(here.id);
+    for (int dy = -16; dy <= 16; ++dy)
+      for (int dx = -16; dx <= 16; ++dx) {
+        if (dx * dx + dy * dy > width * width) continue;
+        const Seen there = seen(x + dx, y + dy);
+        if (there.id != here.id && there.depth > limit) return true;
+      }
+    return false;
+  }
+
+  const Scene& scene_;
+  const Tracer& tracer_;
+  RenderSettings settings_;
+  PixelRays pixels_;
+  double nearest_ = std::numeric_limits<double>::infinity(), farthest_ = 0;
+};
+
+}  // namespace bihive::test
