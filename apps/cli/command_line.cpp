@@ -149,6 +149,8 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_value(command, "--up", options.up, "X,Y,Z", "What is up in the picture", vector_from);
   add_value(command, "--fov", options.fov_deg, "DEG", "Angle along the shorter side (30)",
             [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
+  add_choice(command, "--projection", options.projection, kProjections,
+             "orthographic: equal spheres look equally large at any distance (perspective)");
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);

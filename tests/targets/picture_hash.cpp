@@ -2,7 +2,7 @@
 //
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
-// molecule; recursion 1 to 5, ambient occlusion, every view, the sRGB curve, shadows, several samples.
+// molecule; recursion 1 to 5, ambient occlusion, every view, parallel rays, the sRGB curve, shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -96,6 +96,23 @@ bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted
   return good;
 }
 
+// Pictures with parallel rays: shaded in one step, shaded with all that follows, and the tree's views.
+bool print_orthographic(bihive::Scene scene) {
+  scene.camera = bihive::with_projection(scene.camera, bihive::Projection::orthographic);
+  bihive::RenderSettings settings = bihive::settings_from(scene.picture);
+  settings.width_px = kWidthPx;
+  settings.height_px = kHeightPx;
+  settings.recursion = 5;
+  bool good = print_hash(scene, settings, "shaded orthographic");
+  settings.recursion = 1;
+  settings.shadows = false;
+  good = print_hash(scene, settings, "shaded orthographic") && good;
+  settings.view = View::distance;
+  good = print_hash(scene, settings, "distance orthographic") && good;
+  settings.view = View::tree;
+  return print_hash(scene, settings, "tree orthographic") && good;
+}
+
 // All pictures of one scene.
 bool print_hashes(const bihive::Scene& scene) {
   bool good = true;
@@ -114,7 +131,7 @@ bool print_hashes(const bihive::Scene& scene) {
     settings.view = view;
     good = print_hash(scene, settings, name) && good;
   }
-  return good;
+  return print_orthographic(scene) && good;
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ struct RenderOptions {
   std::optional<Vec3d> eye, look_at, up;
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;
+  std::optional<Projection> projection;
   bool json = false;
 };
 void run_render(const RenderOptions& options);

@@ -12,6 +12,7 @@
 #include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/simd/target.h"
+#include "commands/choose_camera.h"
 #include "commands/commands.h"
 #include "commands/names.h"
 #include "commands/render_on_gpu.h"
@@ -23,40 +24,6 @@ namespace bihive::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-bool parallel(Vec3d a, Vec3d b) {
-  return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
-}
-
-// The scene's own camera, or one that shows everything; the user's options replace parts of it.
-Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings) {
-  const bool placed = options.eye || options.look_at || options.up;
-  if (placed && options.view_from) fail_usage("--view-from and --eye, --look-at or --up contradict each other");
-
-  const Scene& scene = input.scene;
-  Camera camera = scene.camera;
-  camera.fov_deg = options.fov_deg.value_or(camera.fov_deg);
-  if (!input.has_camera || options.view_from) {
-    const ViewFrom side = options.view_from.value_or(ViewFrom::front);
-    camera = settings.view == View::tree
-                 ? frame_tree(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px)
-                 : frame_spheres(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px);
-  }
-  if (!placed) return camera;
-
-  // A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
-  const SphereSet::Bounds bounds = scene.spheres.bounds();
-  if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
-  camera.eye = options.eye.value_or(camera.eye);
-  camera.look_at = options.look_at.value_or(camera.look_at);
-  const Vec3d view = camera.look_at - camera.eye;
-  if (options.up)
-    camera.up = *options.up;
-  else if (parallel(camera.up, view))
-    camera.up = parallel({0, 1, 0}, view) ? Vec3d{0, 0, -1} : Vec3d{0, 1, 0};
-  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
-  return camera;
-}
 
 bool shows_reference_tree(View view) {
   return view == View::traversal || view == View::tree;
@@ -123,6 +90,10 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
                     {"look_at", vector(scene.camera.look_at)},
                     {"up", vector(scene.camera.up)},
                     {"fov_deg", scene.camera.fov_deg}};
+  if (scene.camera.projection == Projection::orthographic) {
+    json["camera"]["projection"] = name_of(kProjections, scene.camera.projection);
+    json["camera"]["shorter_side"] = scene.camera.shorter_side;
+  }
   if (shows_reference_tree(settings.view)) {
     const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
     const BuildParameters tree = options.tree.for_reference();
@@ -251,6 +222,9 @@ void run_render(const RenderOptions& options) {
   if (is_gpu(engine) && settings.ambient_occlusion && settings.view == View::shaded)
     fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no ambient occlusion",
                "leave --engine out, or draw without it: --no-ao");
+  if (is_gpu(engine) && input.scene.camera.projection == Projection::orthographic)
+    fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no orthographic pictures",
+               "leave --engine out, or draw with --projection perspective");
   const Scene& scene = input.scene;
   value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
   value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));

@@ -62,6 +62,9 @@ void SceneUniforms::put(GlProgram& program) const {
 
 Result<CameraUniforms> CameraUniforms::from(const Camera& camera, double scale, int width_px, int height_px) {
   if (Status status = check_camera(camera); !status) return status.error();
+  if (camera.projection == Projection::orthographic)
+    return Error{"camera: the graphics processor draws no orthographic pictures", "", 0, 0,
+                 "choose an engine of the CPU, or the projection perspective"};
   const PixelRays rays(camera, width_px, height_px);
   const Vec3d eye = to_double(rays.eye()) * scale;
   if (length(eye) > kFarthestEye)

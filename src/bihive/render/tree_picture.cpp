@@ -44,6 +44,10 @@ TreePictureLayout tree_picture_layout(int width_px, int height_px) {
 }
 
 Camera frame_tree(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {
+  return frame_tree(spheres, side_of(from), {fov_deg, Projection::perspective}, width_px, height_px);
+}
+
+Camera frame_tree(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
   // Frame the corners of the box.
   std::vector<double> x, y, z;
   if (!spheres.empty()) {
@@ -56,7 +60,7 @@ Camera frame_tree(const SphereSet& spheres, ViewFrom from, double fov_deg, int w
   }
   const Result<SphereSet> corners = SphereSet::from_world(x, y, z, std::vector<double>(x.size(), 0.0));
   const CanvasArea part = tree_picture_layout(width_px, height_px).boxes;
-  return frame_spheres(corners ? *corners : spheres, from, fov_deg, static_cast<int>(part.width()),
+  return frame_spheres(corners ? *corners : spheres, side, lens, static_cast<int>(part.width()),
                        static_cast<int>(part.height()));
 }
 

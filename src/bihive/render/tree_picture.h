@@ -44,6 +44,7 @@ Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, c
                                      const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr);
 
 /// A camera that shows the whole box around the set in the first part of a picture of this size.
+Camera frame_tree(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px);
 Camera frame_tree(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
 
 /// Draws the boxes, blended over the canvas's content.

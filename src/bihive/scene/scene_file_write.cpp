@@ -82,6 +82,12 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
 }
 
 // With its comma, or nothing.
+std::string projection_members(const Camera& camera) {
+  if (camera.projection == Projection::perspective) return "";
+  return fmt::format(", \"projection\": \"orthographic\", \"shorter_side\": {}", number(camera.shorter_side));
+}
+
+// With its comma, or nothing.
 std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
   if (!ambient) return "";
   const std::string distance =
@@ -91,7 +97,8 @@ std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
 
 // The oldest version of the format that has all that the scene needs.
 int version_of(const Scene& scene) {
-  return scene.picture.ambient_occlusion ? 2 : 1;
+  const bool parallel = scene.camera.projection != Projection::perspective;
+  return parallel || scene.picture.ambient_occlusion ? 2 : 1;
 }
 
 }  // namespace
@@ -102,8 +109,9 @@ std::string scene_to_json(const Scene& scene) {
   std::string out = fmt::format("{{\n  \"bihive_scene\": {},\n", version_of(scene));
   if (!scene.name.empty()) out += "  \"name\": " + text(scene.name) + ",\n";
   if (scene.seed) out += fmt::format("  \"seed\": {},\n", *scene.seed);
-  out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}}},\n",
-                     vector(camera.eye), vector(camera.look_at), vector(camera.up), number(camera.fov_deg));
+  out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}{}}},\n",
+                     vector(camera.eye), vector(camera.look_at), vector(camera.up), number(camera.fov_deg),
+                     projection_members(camera));
   out += "  \"lights\": [";
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     out += fmt::format("{}{{\"position\": {}, \"colour\": {}}}", i == 0 ? "" : ", ", vector(scene.lights[i].position),

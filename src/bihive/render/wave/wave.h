@@ -65,12 +65,14 @@ struct RayColumns {
 struct Wave : RayColumns {
   /// Primary rays: ray i has owner i, weight 1, leaves nothing, and is inside nothing; those columns are unused.
   bool starts_at_eye = false;
-  Column<double> weight;  ///< share of the light along the ray
+  bool has_one_origin = false;  ///< all rays start at the same point
+  Column<double> weight;        ///< share of the light along the ray
   Column<std::int64_t> owner;
 
   void reset(std::int64_t n) {
     RayColumns::reset(n);
     starts_at_eye = false;
+    has_one_origin = false;
     weight.reserve(n);
     owner.reserve(n);
   }
@@ -208,7 +210,7 @@ void add_visible(AmbientWave& wave);
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const std::uint8_t* hidden,
                      const double* visibility, WaveSums& sums);
 
-/// Both steps at once for at least one ray from one eye, without secondary rays and without shadows: the light that
+/// Both steps at once for at least one primary ray, without secondary rays and without shadows: the light that
 /// find_surfaces() and add_local_light() bring to the owners. The owners must have received nothing yet.
 void shade_primaries(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
                      WaveSums& sums);
