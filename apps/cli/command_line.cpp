@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kLargestFloat = 3.4028234663852886e38;
 constexpr std::int64_t kMostThreads = 4096;
+constexpr double kMostZoom = 1e6;
 constexpr std::int64_t kLargestPort = 65535;
 
 // An option with one value of its own syntax: `parse` turns the text into a Result.
@@ -151,6 +152,12 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
             [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
   add_choice(command, "--projection", options.projection, kProjections,
              "orthographic: equal spheres look equally large at any distance (perspective)");
+  add_value(command, "--turn", options.turn, "AZ,EL[,ROLL]",
+            "Degrees: the camera goes AZ to the right and EL up around what it\n"
+            "looks at; the picture turns ROLL counter-clockwise",
+            turn_from);
+  add_value(command, "--zoom", options.zoom, "F", "Draw everything F times as large (1)",
+            [](const std::string& text) { return number_from(text, 0, kMostZoom, /*open=*/true); });
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);

@@ -81,5 +81,56 @@ class ProjectionOption(CameraTest):
             self.assertIn("--engine " + engine, said)
 
 
+class TurnAndZoom(CameraTest):
+    def offset(self, *arguments):
+        """From what the camera looks at to its eye, of length 1."""
+        camera = self.camera(*arguments, "--size", "60x40")
+        offset = [eye - middle for eye, middle in zip(camera["eye"], camera["look_at"])]
+        length = sum(x * x for x in offset) ** 0.5
+        return [x / length for x in offset]
+
+    def test_a_turn_leads_to_the_other_sides(self):
+        self.write("row.csv", ROW)
+        for turn, side in [("90,0", "right"), ("-90,0", "left"), ("0,90", "top"), ("0,-90", "bottom"), ("180,0", "back")]:
+            turned, from_side = self.offset("row.csv", "--turn", turn), self.offset("row.csv", "--view-from", side)
+            self.assertTrue(all(abs(a - b) < 1e-9 for a, b in zip(turned, from_side)), turn)
+            self.assertEqual(self.render("row.csv", "--size", "60x40", "--turn", turn)["picture_hash"],
+                             self.render("row.csv", "--size", "60x40", "--view-from", side)["picture_hash"], turn)
+
+    def test_the_set_is_fitted_from_any_direction(self):
+        for projection in ["perspective", "orthographic"]:
+            for turn in ["0,0,45", "37,0", "37,50", "-120,-30,200"]:
+                self.render("demo", "--size", "90x60", "--turn", turn, "--projection", projection)
+                rows = png_pixels(self.read("a.png"))
+                border = rows[0] + rows[-1] + [row[0] for row in rows] + [row[-1] for row in rows]
+                self.assertEqual(set(border), {WHITE}, turn)
+                columns = list(zip(*rows))
+                filled = [sum(any(pixel != WHITE for pixel in line) for line in lines) for lines in (rows, columns)]
+                self.assertTrue(filled[0] >= 0.85 * 60 or filled[1] >= 0.85 * 90, (turn, filled))
+
+    def test_a_camera_that_is_placed_turns_around_what_it_looks_at(self):
+        for more in ([], ["--projection", "orthographic"]):
+            camera = self.camera("scenario1", "--size", "60x40", "--turn", "90,0", *more)
+            self.assertEqual(camera["look_at"], [0, 0, 0])
+            self.assertEqual(camera["eye"], [100, 0, 0])
+        camera = self.camera("demo", "--size", "60x40", "--eye", "0,0,90", "--look-at", "0,0,40", "--turn", "0,90")
+        self.assertEqual((camera["eye"], camera["look_at"]), ([0, 50, 40], [0, 0, 40]))
+
+    def test_zoom_draws_larger(self):
+        self.write("one.csv", "x,y,z,r\n0,0,0,1\n")
+        for more in ([], ["--projection", "orthographic"], ["--view-from", "iso"]):
+            widths = [self.widths("one.csv", "--size", "400x400", "--zoom", zoom, *more)[0] for zoom in ("1", "0.5", "0.25")]
+            self.assertLessEqual(abs(widths[0] - 2 * widths[1]), 2, more)
+            self.assertLessEqual(abs(widths[0] - 4 * widths[2]), 4, more)
+        eyes = [self.camera("one.csv", "--size", "40x40", "--zoom", zoom)["eye"] for zoom in ("1", "7")]
+        self.assertEqual(eyes[0], eyes[1])
+
+    def test_what_is_refused(self):
+        for turn in ["", "1", "1,2,3,4", "a,b", "1,", "361,0", "nan,0"]:
+            self.assertIn("--turn:", self.fail_usage("render", "demo", "-o", "a.png", "--turn=" + turn))
+        for zoom in ["", "0", "-1", "inf", "2x", "1e6"]:
+            self.assertIn("--zoom:", self.fail_usage("render", "demo", "-o", "a.png", "--zoom=" + zoom))
+
+
 if __name__ == "__main__":
     main()

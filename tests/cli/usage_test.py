@@ -45,7 +45,7 @@ class Help(ProgramTest):
     def test_help_says_every_option_of_the_contract(self):
         contract = {
             "render": "-o --size --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
-            "--no-shadows --transfer --background --eye --look-at --up --fov --projection --view-from --radius --radius-scale "
+            "--no-shadows --transfer --background --eye --look-at --up --fov --projection --turn --zoom --view-from --radius --radius-scale "
             "--recenter --frame --json --count --seed",
             "stats": "--max-prims --max-depth --json --count --radius --seed",
             "trace": "--rays --t --id --any --plane --engine --threads --count --radius --seed",

@@ -41,7 +41,9 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   const Projection projection = options.projection.value_or(camera.projection);
   const bool fitted = !input.has_camera || options.view_from;
   if (fitted) {
-    const Side side = side_of(options.view_from.value_or(ViewFrom::front));
+    // The fit is for the direction after the turn. A camera that the user places is turned below.
+    Side side = side_of(options.view_from.value_or(ViewFrom::front));
+    if (options.turn && !user_places) side = turned(side, *options.turn);
     // From an eye of the user's own, the angle decides how much is seen.
     camera = framed(input.scene, side, {camera.fov_deg, options.eye ? Projection::perspective : projection}, settings);
   } else if (options.fov_deg) {
@@ -49,7 +51,11 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   }
   if (user_places) camera = placed(camera, input, options);
   if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
-  return with_projection(camera, projection);
+  camera = with_projection(camera, projection);
+  if (options.turn && (user_places || !fitted)) camera = turned(camera, *options.turn);
+  camera = enlarged(camera, options.zoom.value_or(1));
+  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
+  return camera;
 }
 
 }  // namespace bihive::cli

@@ -11,6 +11,7 @@
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/framing.h"
+#include "bihive/scene/turn.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "support/input.h"
 #include "support/values.h"
@@ -46,6 +47,8 @@ struct RenderOptions {
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;
   std::optional<Projection> projection;
+  std::optional<Turn> turn;
+  std::optional<double> zoom;  ///< above 0
   bool json = false;
 };
 void run_render(const RenderOptions& options);

@@ -1,5 +1,6 @@
 #include "support/values.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -24,18 +25,27 @@ std::optional<T> whole(std::string_view text) {
   return value;
 }
 
+// Numbers with commas between them; empty if one is not of the type T.
+template <class T>
+std::vector<T> numbers_of(std::string_view text) {
+  std::vector<T> numbers;
+  for (bool more = true; more;) {
+    const std::size_t comma = text.find(',');
+    const std::optional<T> number = whole<T>(text.substr(0, comma));
+    if (!number) return {};
+    numbers.push_back(*number);
+    more = comma != std::string_view::npos;
+    text.remove_prefix(more ? comma + 1 : text.size());
+  }
+  return numbers;
+}
+
 // Three finite numbers with commas between them.
 std::optional<Vec3d> three_numbers(std::string_view text) {
-  Vec3d v;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t comma = axis < 2 ? text.find(',') : text.size();
-    if (comma == std::string_view::npos) return std::nullopt;
-    const std::optional<double> number = whole<double>(text.substr(0, comma));
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    v[axis] = *number;
-    text.remove_prefix(std::min(comma + 1, text.size()));
-  }
-  return v;
+  const std::vector<double> numbers = numbers_of<double>(text);
+  if (numbers.size() != 3) return std::nullopt;
+  const Vec3d v{numbers[0], numbers[1], numbers[2]};
+  return is_finite(v) ? std::optional(v) : std::nullopt;
 }
 
 std::string short_text(double value) {
@@ -81,6 +91,16 @@ Result<Vec3d> vector_from(const std::string& text) {
   const std::optional<Vec3d> v = three_numbers(text);
   if (v && std::abs(v->x) <= kLargest && std::abs(v->y) <= kLargest && std::abs(v->z) <= kLargest) return *v;
   return unexpected("three numbers X,Y,Z", text);
+}
+
+Result<Turn> turn_from(const std::string& text) {
+  constexpr double kMost = 360;
+  const std::vector<double> degrees = numbers_of<double>(text);
+  const bool in_range =
+      std::all_of(degrees.begin(), degrees.end(), [](double number) { return std::abs(number) <= kMost; });
+  if (in_range && (degrees.size() == 2 || degrees.size() == 3))
+    return Turn{degrees[0], degrees[1], degrees.size() == 3 ? degrees[2] : 0};
+  return unexpected("degrees AZ,EL or AZ,EL,ROLL, each from -360 to 360", text);
 }
 
 Result<PictureSize> size_from(const std::string& text) {

@@ -10,6 +10,7 @@
 #include "bihive/base/result.h"
 #include "bihive/image/transfer.h"
 #include "bihive/math/vec3.h"
+#include "bihive/scene/turn.h"
 
 namespace bihive::cli {
 
@@ -29,6 +30,9 @@ Result<double> number_from(const std::string& text, double min, double max, bool
 
 /// "X,Y,Z", each within +-3.4e38.
 Result<Vec3d> vector_from(const std::string& text);
+
+/// "AZ,EL" or "AZ,EL,ROLL" in degrees, each within +-360.
+Result<Turn> turn_from(const std::string& text);
 
 /// "1280x720", each side 1 to 65535.
 Result<PictureSize> size_from(const std::string& text);
