@@ -132,5 +132,30 @@ class TurnAndZoom(CameraTest):
             self.assertIn("--zoom:", self.fail_usage("render", "demo", "-o", "a.png", "--zoom=" + zoom))
 
 
+class Crop(CameraTest):
+    def test_a_part_is_equal_to_the_whole(self):
+        for view in ["shaded", "distance", "tree"]:
+            self.render("demo", "--size", "90x60", "--view", view)
+            whole = png_pixels(self.read("a.png"))
+            said = self.render("demo", "--size", "90x60", "--view", view, "--crop", "11,20,75,41")
+            self.assertEqual(said["size"], "64x21")
+            self.assertEqual(said["settings"]["crop"], [11, 20, 75, 41])
+            self.assertEqual(said["settings"]["width_px"], 90)
+            part = png_pixels(self.read("a.png"))
+            self.assertEqual(part, [row[11:75] for row in whole[20:41]], view)
+
+    def test_a_small_part_of_a_huge_picture(self):
+        said = self.succeed("render", "demo", "-o", "a.png", "--size", "65535x65535", "--crop", "30000,30000,30040,30030")
+        self.assertRegex(said, r"\Aa\.png: 40 x 30, ")
+
+    def test_what_is_refused(self):
+        for crop in ["", "1,2,3", "0,0,0,9", "9,0,5,9", "-1,0,5,5", "a,0,5,5", "0,0,1.5,5", "0,0,65536,5", "1,2,3,4,5"]:
+            self.assertIn("--crop:", self.fail_usage("render", "demo", "-o", "a.png", "--crop=" + crop))
+        said = self.fail_usage("render", "demo", "-o", "a.png", "--size", "90x60", "--crop", "0,0,91,60")
+        self.assertIn("--crop ends outside of the picture of 90 x 60 pixels; ", said)
+        said = self.fail_usage("render", "demo", "-o", "a.png", "--engine", "gpu", "--crop", "0,0,9,9")
+        self.assertIn("--crop", said)
+
+
 if __name__ == "__main__":
     main()

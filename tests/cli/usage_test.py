@@ -44,8 +44,8 @@ class Help(ProgramTest):
 
     def test_help_says_every_option_of_the_contract(self):
         contract = {
-            "render": "-o --size --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
-            "--no-shadows --transfer --background --eye --look-at --up --fov --projection --turn --zoom --view-from --radius --radius-scale "
+            "render": "-o --size --crop --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
+            "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --radius --radius-scale "
             "--recenter --frame --json --count --seed",
             "stats": "--max-prims --max-depth --json --count --radius --seed",
             "trace": "--rays --t --id --any --plane --engine --threads --count --radius --seed",

@@ -410,6 +410,7 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.picture.recursion, b.picture.recursion);
   EXPECT_EQ(a.picture.shadows, b.picture.shadows);
   EXPECT_EQ(a.picture.transfer, b.picture.transfer);
+  EXPECT_EQ(a.picture.transparent, b.picture.transparent);
   ASSERT_EQ(a.picture.ambient_occlusion.has_value(), b.picture.ambient_occlusion.has_value());
   if (a.picture.ambient_occlusion) {
     EXPECT_EQ(a.picture.ambient_occlusion->distance, b.picture.ambient_occlusion->distance);
@@ -474,6 +475,13 @@ TEST(SceneFileWriting, AnOrthographicCameraComesBackInVersion2) {
   expect_there_and_back(scene);
 }
 
+TEST(SceneFileWriting, ATransparentPictureComesBackInVersion2) {
+  Scene scene = four_spheres_scene();
+  scene.picture.transparent = true;
+  EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 2,"));
+  expect_there_and_back(scene);
+}
+
 TEST(SceneFile, OrthographicWithoutAShorterSideShowsWhatTheAngleShows) {
   const auto loaded = parse(R"({"bihive_scene": 2, "camera": {"eye": [0, 0, 10], "look_at": [0, 0, 0], "fov_deg": 90,
                              "projection": "orthographic"}, "spheres": [[0,0,0,1]]})");
@@ -499,6 +507,8 @@ TEST(SceneFileErrors, ABadProjection) {
 }
 
 TEST(SceneFileErrors, ANewKeyNeedsItsVersion) {
+  EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"transparent": false}, "spheres": [[0,0,0,1]]})"),
+              StartsWith("a.json: /picture/transparent: expected no such key in version 1 of the format"));
   EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"ambient_occlusion": {}}, "spheres": [[0,0,0,1]]})"),
               StartsWith("a.json: /picture/ambient_occlusion: expected no such key in version 1 of the format"));
   EXPECT_THAT(

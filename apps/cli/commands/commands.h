@@ -30,10 +30,16 @@ struct AmbientOptions {
   std::optional<std::int64_t> directions;
 };
 
+/// The word of --background for a transparent picture.
+inline const std::string kNoBackground = "none";
+/// The word of --output for the standard output.
+inline const std::string kStandardOutput = "-";
+
 struct RenderOptions {
   InputOptions input;
-  std::string output;
+  std::string output;  ///< a path, or kStandardOutput
   std::optional<PictureSize> size;
+  std::optional<Tile> crop;  ///< not yet compared with the size
   std::optional<std::int64_t> recursion, samples;
   View view = View::shaded;
   RenderEngine engine = RenderEngine::automatic;
@@ -42,7 +48,9 @@ struct RenderOptions {
   std::optional<bool> shadows;
   AmbientOptions ambient;
   std::optional<Transfer> transfer;
-  std::optional<std::string> background;  ///< a valid colour; its meaning depends on the transfer
+  std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
+  std::optional<std::int64_t> bits;       ///< 8 or 16
+  double dots_per_inch = 0;               ///< 0: not said
   std::optional<Vec3d> eye, look_at, up;
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;

@@ -115,6 +115,20 @@ Result<PictureSize> size_from(const std::string& text) {
   return unexpected("WIDTHxHEIGHT in pixels, each from 1 to 65535", text);
 }
 
+Result<Tile> crop_from(const std::string& text) {
+  constexpr int kLargest = 65535;
+  const std::vector<int> n = numbers_of<int>(text);
+  if (n.size() == 4 && n[0] >= 0 && n[1] >= 0 && n[0] < n[2] && n[1] < n[3] && n[2] <= kLargest && n[3] <= kLargest)
+    return Tile{n[0], n[1], n[2], n[3]};
+  return unexpected("four whole numbers X0,Y0,X1,Y1 from 0 to 65535, X0 below X1 and Y0 below Y1", text);
+}
+
+Result<std::int64_t> bits_from(const std::string& text) {
+  const std::optional<std::int64_t> bits = whole<std::int64_t>(text);
+  if (bits && (*bits == 8 || *bits == 16)) return *bits;
+  return unexpected("8 or 16", text);
+}
+
 Result<Vec3d> colour_from(const std::string& text, Transfer transfer) {
   if (const std::optional<Vec3d> colour = colour_from_text(text, transfer)) return *colour;
   const std::optional<Vec3d> v = three_numbers(text);

@@ -76,6 +76,7 @@ Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, c
   relief.height_px = static_cast<int>(layout.boxes.height());
   relief.samples_per_pixel = 1;
   relief.view = View::normal;
+  relief.crop.reset();
   Result<Rendered> rendered = render(scene, tracer, relief, progress, cancel);
   if (!rendered) return rendered;
   draw_relief(canvas, rendered->film, scene.camera);
@@ -85,6 +86,7 @@ Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, c
 
   rendered->film = Film(settings.width_px, settings.height_px);
   rendered->film.radiance = canvas.take_pixels();
+  if (settings.crop) rendered->film = part_of(rendered->film, *settings.crop);
   rendered->render_ms = timer.elapsed_ms();
   return rendered;
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "bihive/image/film.h"
 #include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/scene.h"
 
@@ -20,9 +21,19 @@ struct RenderSettings {
   int recursion = 5;          ///< 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
+  /// The film gets coverage: samples that hit nothing add no light to their pixel. Reflected and transmitted rays see
+  /// the background as ever. Not for View::traversal and View::tree.
+  bool transparent = false;
   View view = View::shaded;
+  /// Only these pixels of the picture are drawn, with the same bits as in the whole picture: at least one, inside it.
+  std::optional<Tile> crop;
   int threads = 0;  ///< 0 = as many as the machine runs at once; for the CPU's renderer
 };
+
+/// The pixels of the whole picture that are drawn.
+inline Tile drawn_pixels(const RenderSettings& settings) {
+  return settings.crop.value_or(Tile{0, 0, settings.width_px, settings.height_px});
+}
 
 /// The defaults of a scene as settings.
 inline RenderSettings settings_from(const PictureDefaults& defaults) {
@@ -33,6 +44,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.recursion = defaults.recursion;
   settings.shadows = defaults.shadows;
   settings.ambient_occlusion = defaults.ambient_occlusion;
+  settings.transparent = defaults.transparent;
   return settings;
 }
 

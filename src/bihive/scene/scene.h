@@ -44,6 +44,7 @@ struct PictureDefaults {
   int recursion = 5;          ///< generations of rays, 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
+  bool transparent = false;  ///< the picture has opacity instead of a background
   Transfer transfer = Transfer::srgb;
 };
 

@@ -86,6 +86,8 @@ class Extraction {
       made.distance = occlusion.value("distance", made.distance);
       made.directions = occlusion.value("directions", made.directions);
     }
+    if (value.contains("transparent")) need_version(2, "/picture/transparent");
+    picture.transparent = value.value("transparent", false);
     picture.transfer = value.value("transfer", std::string("srgb")) == "srgb" ? Transfer::srgb : Transfer::none;
   }
 

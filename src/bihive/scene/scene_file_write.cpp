@@ -98,7 +98,7 @@ std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
 // The oldest version of the format that has all that the scene needs.
 int version_of(const Scene& scene) {
   const bool parallel = scene.camera.projection != Projection::perspective;
-  return parallel || scene.picture.ambient_occlusion ? 2 : 1;
+  return parallel || scene.picture.ambient_occlusion || scene.picture.transparent ? 2 : 1;
 }
 
 }  // namespace
@@ -122,9 +122,10 @@ std::string scene_to_json(const Scene& scene) {
   out += "  \"background\": " + vector(scene.background) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}\"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
-      ambient_member(picture.ambient_occlusion), picture.transfer == Transfer::srgb ? "srgb" : "none");
+      ambient_member(picture.ambient_occlusion), picture.transparent ? "\"transparent\": true, " : "",
+      picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

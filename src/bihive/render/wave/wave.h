@@ -222,9 +222,9 @@ struct SentOn {
 };
 SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
 
-/// Rounds the light of owners 0 to count - 1 to binary32, and stores that of owner i in the film at pixel[i]. The
-/// pixels are those of order_pixels() from a multiple of 64 on.
-void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
+/// Rounds the light of owners 0 to count - 1 to binary32, and stores that of owner i in the film at pixel[i] -
+/// film_corner. The pixels are those of order_pixels() from a multiple of 64 on.
+void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, PixelPlace film_corner, Film& film);
 
 }  // namespace steps
 
