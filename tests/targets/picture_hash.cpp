@@ -2,13 +2,15 @@
 //
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
-// molecule; recursion 1 to 5, ambient occlusion, every view, parallel rays, the sRGB curve, shadows, several samples.
+// molecule; recursion 1 to 5, ambient occlusion, every view, parallel rays, a part with opacity, the sRGB curve,
+// shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bihive/image/png_pixels.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/render/renderer.h"
@@ -80,8 +82,8 @@ bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted
         std::fprintf(stderr, "%s: %s\n", scene.name.c_str(), rendered.error().to_string().c_str());
         return false;
       }
-      const std::uint64_t hash =
-          bihive::picture_hash(bihive::image_from_film(rendered->film, settings.view, scene.picture.transfer));
+      const bihive::Transfer curve = settings.view == View::shaded ? scene.picture.transfer : bihive::Transfer::none;
+      const std::uint64_t hash = bihive::picture_hash(bihive::png_pixels_from_film(rendered->film, curve, 8));
       std::printf("%s view %s recursion %d samples %d engine %s threads %d: %016" PRIx64 "\n", scene.name.c_str(),
                   view_name, settings.recursion, settings.samples_per_pixel, engine_name, threads, hash);
       if (!have_first) first = hash;
@@ -123,6 +125,10 @@ bool print_hashes(const bihive::Scene& scene) {
     settings.recursion = recursion;
     good = print_hash(scene, settings, "shaded") && good;
   }
+  bihive::RenderSettings part = settings;
+  part.transparent = true;
+  part.crop = bihive::Tile{5, 3, 80, 70};
+  good = print_hash(scene, part, "shaded transparent part") && good;
   bihive::RenderSettings with_ambient = settings;
   with_ambient.recursion = 2;
   with_ambient.ambient_occlusion = {10, 4};
