@@ -75,10 +75,6 @@ class ProjectionOption(CameraTest):
 
     def test_what_is_refused(self):
         self.assertIn("--projection:", self.fail_usage("render", "demo", "-o", "a.png", "--projection", "fisheye"))
-        for engine in ["gpu", "gpu-brute"]:
-            said = self.fail_usage("render", "demo", "-o", "a.png", "--projection", "orthographic", "--engine", engine)
-            self.assertIn("orthographic", said)
-            self.assertIn("--engine " + engine, said)
 
 
 class TurnAndZoom(CameraTest):

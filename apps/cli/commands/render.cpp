@@ -226,7 +226,7 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
 }
 
 // What the graphics processor cannot draw.
-void refuse_on_gpu(RenderEngine engine, const RenderSettings& settings, const Scene& scene) {
+void refuse_on_gpu(RenderEngine engine, const RenderSettings& settings) {
   const auto refuse = [engine](const std::string& what, const std::string& without) {
     fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + what,
                "leave --engine out, or draw " + without);
@@ -234,8 +234,6 @@ void refuse_on_gpu(RenderEngine engine, const RenderSettings& settings, const Sc
   if (settings.ambient_occlusion && settings.view == View::shaded) refuse("ambient occlusion", "without it: --no-ao");
   if (settings.crop) refuse("part of a picture", "the whole picture without --crop");
   if (settings.transparent) refuse("transparent background", "on a colour: --background white");
-  if (scene.camera.projection == Projection::orthographic)
-    refuse("orthographic pictures", "with --projection perspective");
 }
 
 // Two views are drawn whole before they are cut.
@@ -271,7 +269,7 @@ void run_render(const RenderOptions& options) {
   // Load the scene and apply the user's options to it.
   Input input = load_input(options.input);
   const RenderSettings settings = apply_options(options, input);
-  if (is_gpu(engine)) refuse_on_gpu(engine, settings, input.scene);
+  if (is_gpu(engine)) refuse_on_gpu(engine, settings);
   const Scene& scene = input.scene;
   check_memory_of(settings);
   value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
