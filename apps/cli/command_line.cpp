@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kLargestFloat = 3.4028234663852886e38;
 constexpr std::int64_t kMostThreads = 4096;
+constexpr double kMostZoom = 1e6;
+constexpr double kMostDotsPerInch = 1e6;
 constexpr std::int64_t kLargestPort = 65535;
 
 // An option with one value of its own syntax: `parse` turns the text into a Result.
@@ -149,8 +151,11 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
       "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
   add_input(command, options.input);
-  add_path(command, "-o,--output", options.output, "The picture (PNG)");
+  add_path(command, "-o,--output", options.output, "The picture (PNG); - writes it to the standard output");
   add_value(command, "--size", options.size, "WxH", "Pixels (1280x720)", size_from);
+  add_value(command, "--crop", options.crop, "X0,Y0,X1,Y1",
+            "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",
+            crop_from);
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
   add_integer(command, "--samples", options.samples, 1, 4096, "Samples a pixel (files: 4, thesis's scenes: 1)");
   add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
@@ -158,17 +163,30 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_look_options(command, options.look);
   add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
   add_value(command, "--background", options.background, "COLOUR",
-            "A name, #rrggbb or r,g,b from 0 to 1 (files: white)", [](const std::string& text) -> Result<std::string> {
+            "A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)",
+            [](const std::string& text) -> Result<std::string> {
+              if (text == kNoBackground) return text;
               const Result<Vec3d> colour = colour_from(text, Transfer::none);
               if (!colour) return colour.error();
               return text;
             });
+  add_value(command, "--bits", options.bits, "8|16", "Bits of each number in the picture (8)", bits_from);
+  add_value(command, "--dpi", options.dots_per_inch, "N", "Pixels an inch in print, as a note in the picture",
+            [](const std::string& text) { return number_from(text, 0, kMostDotsPerInch, /*open=*/true); });
   add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
   add_value(command, "--eye", options.eye, "X,Y,Z", "Where the camera is", vector_from);
   add_value(command, "--look-at", options.look_at, "X,Y,Z", "The middle of the picture", vector_from);
   add_value(command, "--up", options.up, "X,Y,Z", "What is up in the picture", vector_from);
   add_value(command, "--fov", options.fov_deg, "DEG", "Angle along the shorter side (30)",
             [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
+  add_choice(command, "--projection", options.projection, kProjections,
+             "orthographic: equal spheres look equally large at any distance (perspective)");
+  add_value(command, "--turn", options.turn, "AZ,EL[,ROLL]",
+            "Degrees: the camera goes AZ to the right and EL up around what it\n"
+            "looks at; the picture turns ROLL counter-clockwise",
+            turn_from);
+  add_value(command, "--zoom", options.zoom, "F", "Draw everything F times as large (1)",
+            [](const std::string& text) { return number_from(text, 0, kMostZoom, /*open=*/true); });
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);

@@ -63,6 +63,8 @@ Result<std::string> output_of(const std::string& command) {
 }  // namespace
 
 Result<Tachyon> Tachyon::start(const Scene& scene, const RenderSettings& settings, const std::string& path) {
+  if (scene.camera.projection != Projection::perspective)
+    return Error{"Tachyon is asked for pictures in perspective alone", "", 0, 0, "choose a scene without a projection"};
   if (Result<std::string> version = output_of("command -v tachyon"); !version) return version.error();
   if (const Status status = write_file(path, in_its_language(scene, settings)); !status) return status.error();
   Tachyon tachyon;

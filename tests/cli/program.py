@@ -132,12 +132,29 @@ def png_pixels(data):
     return rows
 
 
-def unfiltered(method, line, above):
+def png_numbers(data):
+    """Rows of pixels, each a tuple of 3 or 4 numbers of 8 or 16 bits."""
+    width, height = png_size(data)
+    bits, colour_type = dict(png_chunks(data))["IHDR"][8:10]
+    channels = {2: 3, 6: 4}[colour_type]
+    step = channels * bits // 8
+    raw = zlib.decompress(b"".join(body for kind, body in png_chunks(data) if kind == "IDAT"))
+    stride = step * width
+    rows, above = [], bytes(stride)
+    for y in range(height):
+        start = y * (stride + 1)
+        above = unfiltered(raw[start], raw[start + 1 : start + 1 + stride], above, step)
+        numbers = struct.unpack(f">{channels * width}{'B' if bits == 8 else 'H'}", above)
+        rows.append([numbers[i : i + channels] for i in range(0, len(numbers), channels)])
+    return rows
+
+
+def unfiltered(method, line, above, step=3):
     """A row of bytes as it was before PNG's filter (0 none, 1 left, 2 above, 3 mean, 4 Paeth)."""
     line = bytearray(line)
     for i in range(len(line)):
-        left = line[i - 3] if i >= 3 else 0
-        corner = above[i - 3] if i >= 3 else 0
+        left = line[i - step] if i >= step else 0
+        corner = above[i - step] if i >= step else 0
         estimate = left + above[i] - corner
         nearest = min((abs(estimate - value), rank, value) for rank, value in enumerate((left, above[i], corner)))
         line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, nearest[2])[method]) & 255

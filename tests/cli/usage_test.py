@@ -44,8 +44,8 @@ class Help(ProgramTest):
 
     def test_help_says_every_option_of_the_contract(self):
         contract = {
-            "render": "-o --size --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
-            "--no-shadows --transfer --background --eye --look-at --up --fov --view-from --radius --radius-scale "
+            "render": "-o --size --crop --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
+            "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --radius --radius-scale "
             "--recenter --frame --json --count --seed",
             "stats": "--max-prims --max-depth --json --count --radius --seed",
             "trace": "--rays --t --id --any --plane --engine --threads --count --radius --seed",
@@ -94,6 +94,7 @@ class WrongUsage(ProgramTest):
             "--engine": ["tpu"],
             "--transfer": ["gamma"],
             "--view-from": ["inside"],
+            "--projection": ["fisheye", ""],
             "--background": ["reddish", "#fff", "#12345g", "1,2", "0,0,1.5", "0,0,nan"],
             "--eye": ["1,2", "1,2,3,4", "a,b,c", "1,,3", "nan,0,0", "1e39,0,0"],
             "--look-at": ["here"],

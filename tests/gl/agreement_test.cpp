@@ -107,6 +107,16 @@ INSTANTIATE_TEST_SUITE_P(all, Scenes,
                          ::testing::Values("scenario1", "scenario2", "scenario3", "four_spheres", "molecule"),
                          [](const auto& scene) { return scene.param; });
 
+TEST_P(Scenes, orthographic) {
+  Scene scene = scene_of(GetParam());
+  scene.camera = with_projection(scene.camera, Projection::orthographic);
+  RenderSettings settings = settings_of(scene, 240, 150);
+  settings.recursion = 1;
+  expect_agreement(compare(scene, settings), kAtDepth1);
+  settings.view = View::distance;
+  expect_agreement(compare(scene, settings), kAtDepth1);
+}
+
 // Red and transparent spheres in turn, seen from the front, with a light.
 Scene scene_around(SphereSet spheres) {
   Scene scene;

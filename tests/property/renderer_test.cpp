@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <mutex>
 
@@ -65,6 +66,80 @@ TEST_P(EveryScene, brute_force_and_every_tree_agree) {
   }
 }
 
+TEST_P(EveryScene, a_part_has_the_bits_of_the_whole_picture) {
+  const Scene drawn = scene();
+  for (const Engine engine : {Engine::reference, Engine::wide}) {
+    const Tracer tracer = Tracer::build(drawn.spheres, engine).value();
+    for (const View view :
+         {View::shaded, View::recursion, View::traversal, View::normal, View::distance, View::id, View::tree}) {
+      if (engine == Engine::wide && (view == View::traversal || view == View::tree)) continue;
+      for (const int samples : {1, 3}) {
+        RenderSettings settings = small(drawn, view, 2);
+        settings.samples_per_pixel = samples;
+        settings.shadows = true;
+        settings.recursion = 3;
+        if (samples == 3) settings.ambient_occlusion = {6, 5};
+        const Film whole = render(drawn, tracer, settings)->film;
+        for (const Tile& part : {Tile{0, 0, 70, 50}, {1, 2, 70, 50}, {33, 7, 34, 8}, {5, 9, 65, 48}}) {
+          settings.crop = part;
+          const Film film = render(drawn, tracer, settings)->film;
+          ASSERT_EQ(film.width, part.width());
+          ASSERT_EQ(film.height, part.height());
+          expect_same_bits(film, part_of(whole, part));
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EveryScene, a_transparent_picture_laid_over_the_background_is_the_picture) {
+  Scene drawn = scene();
+  drawn.plane.reset();
+  drawn.background = {0.3, 0.6, 0.9};
+  for (const int samples : {1, 4}) {
+    RenderSettings settings = small(drawn, View::shaded, 1);
+    settings.samples_per_pixel = samples;
+    settings.recursion = 3;
+    settings.shadows = samples == 4;
+    const Film opaque = render(drawn, Tracer::build(drawn.spheres, Engine::brute).value(), settings)->film;
+    EXPECT_TRUE(opaque.coverage.empty());
+    settings.transparent = true;
+    const Film film = render(drawn, Tracer::build(drawn.spheres, Engine::brute).value(), settings)->film;
+    ASSERT_EQ(film.coverage.size(), film.radiance.size());
+    int partly = 0, none = 0;
+    for (std::size_t i = 0; i < film.radiance.size(); ++i) {
+      const double share = film.coverage[i];
+      ASSERT_EQ(share * samples, std::floor(share * samples));
+      partly += share > 0 && share < 1;
+      none += share == 0;
+      if (share == 0) {
+        ASSERT_EQ(film.radiance[i], (Vec3f{0, 0, 0}));
+      }
+      const Vec3d laid = share * to_double(film.radiance[i]) + (1 - share) * drawn.background;
+      ASSERT_NEAR(length(laid - to_double(opaque.radiance[i])), 0, 1e-6) << i;
+    }
+    EXPECT_EQ(partly > 0, samples > 1);
+    EXPECT_GT(none, 0);
+    for (const Engine engine : {Engine::reference, Engine::wide})
+      for (const int threads : {2, 7}) {
+        settings.threads = threads;
+        const Film other = render(drawn, Tracer::build(drawn.spheres, engine).value(), settings)->film;
+        expect_same_bits(film, other);
+        EXPECT_EQ(film.coverage, other.coverage);
+      }
+    for (const View view : {View::recursion, View::normal, View::distance, View::id}) {
+      settings.view = view;
+      EXPECT_EQ(render(drawn, Tracer::build(drawn.spheres, Engine::wide).value(), settings)->film.coverage,
+                film.coverage);
+    }
+    settings.view = View::shaded;
+    settings.crop = Tile{9, 5, 60, 44};
+    const Film part = render(drawn, Tracer::build(drawn.spheres, Engine::wide).value(), settings)->film;
+    expect_same_bits(part, part_of(film, *settings.crop));
+    EXPECT_EQ(part.coverage, part_of(film, *settings.crop).coverage);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(scenes, EveryScene, ::testing::Values(1, 2, 3, 4));
 
 TEST_P(EveryScene, ambient_occlusion_is_the_same_by_every_engine_and_on_any_number_of_threads) {
@@ -115,6 +190,16 @@ TEST(Renderer, progress_ends_at_1_and_cancelling_stops) {
   };
   EXPECT_FALSE(render(scene, tracer, small(scene, View::shaded, 1), stop, &cancel));
   EXPECT_EQ(calls, 1);
+}
+
+TEST(Renderer, views_of_the_tree_are_never_transparent) {
+  const Scene scene = four_spheres_scene();
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
+  for (const View view : {View::traversal, View::tree}) {
+    RenderSettings settings = small(scene, view, 1);
+    settings.transparent = true;
+    EXPECT_FALSE(render(scene, tracer, settings));
+  }
 }
 
 TEST(Renderer, the_traversal_view_needs_a_tree) {

@@ -94,6 +94,7 @@ Scene random_scene(std::uint64_t seed) {
   scene.background = {between(0, 1), between(0, 1), between(0, 1)};
   scene.camera.eye = chance(0.2) ? vector(5) : Vec3d{0, 0, 30};
   scene.camera.fov_deg = between(20, 100);
+  if (seed % 4 == 1) scene.camera = with_projection(scene.camera, Projection::orthographic);
   return scene;
 }
 

@@ -2,14 +2,15 @@
 //
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
-// molecule; recursion 1 to 5, ambient occlusion, soft shadows with
-// effects of materials, outlines and fog, every view, the sRGB curve, shadows, several samples.
+// molecule; recursion 1 to 5, ambient occlusion, soft shadows with effects of materials, outlines and fog, every view,
+// parallel rays, a part with opacity, the sRGB curve, shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bihive/image/png_pixels.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/render/renderer.h"
@@ -82,8 +83,8 @@ bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted
         std::fprintf(stderr, "%s: %s\n", scene.name.c_str(), rendered.error().to_string().c_str());
         return false;
       }
-      const std::uint64_t hash =
-          bihive::picture_hash(bihive::image_from_film(rendered->film, settings.view, scene.picture.transfer));
+      const bihive::Transfer curve = settings.view == View::shaded ? scene.picture.transfer : bihive::Transfer::none;
+      const std::uint64_t hash = bihive::picture_hash(bihive::png_pixels_from_film(rendered->film, curve, 8));
       std::printf("%s view %s recursion %d samples %d engine %s threads %d: %016" PRIx64 "\n", scene.name.c_str(),
                   view_name, settings.recursion, settings.samples_per_pixel, engine_name, threads, hash);
       if (!have_first) first = hash;
@@ -120,6 +121,23 @@ bihive::RenderSettings look_settings(bihive::RenderSettings settings) {
   return settings;
 }
 
+// Pictures with parallel rays: shaded in one step, shaded with all that follows, and the tree's views.
+bool print_orthographic(bihive::Scene scene) {
+  scene.camera = bihive::with_projection(scene.camera, bihive::Projection::orthographic);
+  bihive::RenderSettings settings = bihive::settings_from(scene.picture);
+  settings.width_px = kWidthPx;
+  settings.height_px = kHeightPx;
+  settings.recursion = 5;
+  bool good = print_hash(scene, settings, "shaded orthographic");
+  settings.recursion = 1;
+  settings.shadows = false;
+  good = print_hash(scene, settings, "shaded orthographic") && good;
+  settings.view = View::distance;
+  good = print_hash(scene, settings, "distance orthographic") && good;
+  settings.view = View::tree;
+  return print_hash(scene, settings, "tree orthographic") && good;
+}
+
 // All pictures of one scene.
 bool print_hashes(const bihive::Scene& scene) {
   bool good = true;
@@ -130,6 +148,10 @@ bool print_hashes(const bihive::Scene& scene) {
     settings.recursion = recursion;
     good = print_hash(scene, settings, "shaded") && good;
   }
+  bihive::RenderSettings part = settings;
+  part.transparent = true;
+  part.crop = bihive::Tile{5, 3, 80, 70};
+  good = print_hash(scene, part, "shaded transparent part") && good;
   bihive::RenderSettings with_ambient = settings;
   with_ambient.recursion = 2;
   with_ambient.ambient_occlusion = {10, 4};
@@ -139,7 +161,7 @@ bool print_hashes(const bihive::Scene& scene) {
     settings.view = view;
     good = print_hash(scene, settings, name) && good;
   }
-  return good;
+  return print_orthographic(scene) && good;
 }
 
 }  // namespace

@@ -46,6 +46,78 @@ TEST(PixelPlaces, are_where_the_rays_go) {
   EXPECT_LT(places.from_eye(camera.eye + (camera.eye - camera.look_at)).z, 0) << "behind the eye";
 }
 
+Camera orthographic_camera() {
+  Camera camera{{3, 1, 2}, {-4, 5, 6}, {0, 0.2, 1}, 70};
+  camera.projection = Projection::orthographic;
+  camera.shorter_side = 7;
+  return camera;
+}
+
+TEST(PixelRays, orthographic_rays_are_parallel_bit_for_bit_and_start_on_one_plane) {
+  const Camera camera = orthographic_camera();
+  const PixelRays rays(camera, 64, 48);
+  const Vec3d forward = normalized(camera.look_at - camera.eye);
+  const Vec3f direction = rays.at(0, 0).direction;
+  EXPECT_NEAR(length(to_double(direction) - forward), 0, 1e-7);
+  for (double y = 0; y <= 48; y += 3.7)
+    for (double x = 0; x <= 64; x += 4.1) {
+      EXPECT_EQ(rays.at(x, y).direction, direction);
+      EXPECT_NEAR(dot(to_double(rays.at(x, y).origin) - camera.eye, forward), 0, 2e-6);
+    }
+  EXPECT_NEAR(length(to_double(rays.at(32, 0).origin) - to_double(rays.at(32, 48).origin)), 7, 1e-5);
+  EXPECT_NEAR(length(to_double(rays.at(8, 24).origin) - to_double(rays.at(56, 24).origin)), 7, 1e-5);
+  EXPECT_EQ(rays.at(32, 24).origin, (Vec3f{3, 1, 2}));
+}
+
+TEST(PixelPlaces, are_where_parallel_rays_go) {
+  const Camera camera = orthographic_camera();
+  const PixelRays rays(camera, 64, 48);
+  const PixelPlaces places(camera, 64, 48);
+  for (double y = 0; y <= 48; y += 3.7)
+    for (double x = 0; x <= 64; x += 4.1) {
+      const Ray ray = rays.at(x, y);
+      for (const double t : {0.5, 20.0}) {
+        const Vec3d seen = places.from_eye(to_double(ray.origin) + t * to_double(ray.direction));
+        EXPECT_NEAR(places.x_px(seen), x, 1e-4);
+        EXPECT_NEAR(places.y_px(seen), y, 1e-4);
+        EXPECT_NEAR(seen.z, t, 1e-5);
+      }
+    }
+}
+
+TEST(Camera, another_projection_keeps_the_size_at_look_at) {
+  const Camera camera{{3, 1, 2}, {-4, 5, 6}, {0, 0.2, 1}, 70};
+  const Camera parallel = with_projection(camera, Projection::orthographic);
+  const PixelPlaces before(camera, 64, 48), after(parallel, 64, 48);
+  const Vec3d aside = normalized(cross(camera.look_at - camera.eye, camera.up));
+  const Vec3d seen = camera.look_at + 2.5 * aside;
+  EXPECT_NEAR(before.x_px(before.from_eye(seen)), after.x_px(after.from_eye(seen)), 1e-9);
+  EXPECT_NEAR(with_projection(parallel, Projection::perspective).fov_deg, 70, 1e-12);
+}
+
+TEST(Camera, enlarged_changes_the_size_alone) {
+  for (const Camera& camera : {Camera{{3, 1, 2}, {-4, 5, 6}, {0, 0.2, 1}, 70}, orthographic_camera()}) {
+    const Camera larger = enlarged(camera, 2.5);
+    EXPECT_EQ(larger.eye, camera.eye);
+    const PixelPlaces before(camera, 64, 48), after(larger, 64, 48);
+    for (const Vec3d seen : {Vec3d{-2, 4, 5}, Vec3d{-9, 6, 9}, Vec3d{1, 4, 1}}) {
+      const double x = before.x_px(before.from_eye(seen)) - 32;
+      EXPECT_NEAR(after.x_px(after.from_eye(seen)) - 32, 2.5 * x, 1e-9);
+    }
+    EXPECT_EQ(enlarged(camera, 1), camera);
+  }
+}
+
+TEST(CheckCamera, the_shorter_side_counts_for_orthographic_cameras_alone) {
+  for (const double side : {0.0, -1.0, 1e39, std::numeric_limits<double>::quiet_NaN()}) {
+    Camera camera = orthographic_camera();
+    camera.shorter_side = side;
+    EXPECT_FALSE(check_camera(camera)) << side;
+    camera.projection = Projection::perspective;
+    EXPECT_TRUE(check_camera(camera)) << side;
+  }
+}
+
 TEST(CheckCamera, names_what_is_wrong) {
   const Camera good;
   EXPECT_TRUE(check_camera(good));
@@ -105,6 +177,39 @@ TEST_P(Framing, whole_set_in_view_and_as_large_as_it_fits) {
     }
   }
   EXPECT_GT(used, 0.9) << "no border is reached";
+}
+
+TEST_P(Framing, orthographic_fits_the_silhouettes_and_starts_in_front) {
+  const auto [from, unit] = GetParam();
+  SplitMix64 random(8);
+  std::vector<double> x, y, z, r;
+  for (int i = 0; i < 100; ++i) {
+    x.push_back(unit * (random.next_double() * 3 + 50));
+    y.push_back(unit * random.next_double());
+    z.push_back(unit * random.next_double() * 2);
+    r.push_back(unit * random.next_double() * 0.2);
+  }
+  const SphereSet set = SphereSet::from_world(x, y, z, r).value();
+  for (const double fov : {1.0, 30.0, 179.0}) {
+    const Camera camera = frame_spheres(set, side_of(from), {fov, Projection::orthographic}, 320, 200);
+    ASSERT_TRUE(check_camera(camera));
+    const PixelPlaces places(camera, 320, 200);
+    double border = 160;
+    for (std::int64_t id = 0; id < set.size(); ++id) {
+      const Vec3d seen = places.from_eye(set.centre(id));
+      const double radius_px = set.radius(id) / camera.shorter_side * 200;
+      border = std::min({border, places.x_px(seen) - radius_px, 320 - places.x_px(seen) - radius_px});
+      border = std::min({border, places.y_px(seen) - radius_px, 200 - places.y_px(seen) - radius_px});
+      // No origin may lie in a sphere, though it is rounded.
+      for (const double share : {0.0, 0.3, 0.7, 1.0}) {
+        const Vec3d origin = to_double(PixelRays(camera, 320, 200).at(320 * share, 200 * share).origin);
+        ASSERT_GT(dot(set.centre(id) - origin, normalized(camera.look_at - camera.eye)), set.radius(id));
+      }
+    }
+    // The margin is 4 % of the side that bounds the set.
+    EXPECT_GT(border, 0.04 * 200 - 0.01);
+    EXPECT_LT(border, 0.04 * 320 + 0.01);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(sides, Framing,

@@ -93,5 +93,34 @@ TEST(Elementary, tangent) {
   }
 }
 
+TEST(Elementary, atan_deg) {
+  SplitMix64 random(11);
+  const long double degree = std::acos(-1.0L) / 180;
+  for (int i = 0; i < kTries; ++i) {
+    const double x = std::ldexp(1 + random.next_double(), static_cast<int>(random.next_below(80)) - 40);
+    const long double expected = std::atan((long double)x) / degree;
+    ASSERT_LT(std::abs(atan_deg(x) - expected), 2e-15L * expected) << x;
+  }
+  EXPECT_EQ(atan_deg(0), 0);
+  EXPECT_EQ(atan_deg(std::numeric_limits<double>::infinity()), 90);
+}
+
+TEST(Elementary, sine_and_cosine_of_degrees) {
+  SplitMix64 random(12);
+  const long double degree = std::acos(-1.0L) / 180;
+  for (int i = 0; i < kTries; ++i) {
+    const double degrees = (random.next_double() - 0.5) * 1440;
+    const SineCosine found = sine_cosine_deg(degrees);
+    ASSERT_LT(std::abs(found.sine - std::sin(degrees * degree)), 3e-16L) << degrees;
+    ASSERT_LT(std::abs(found.cosine - std::cos(degrees * degree)), 3e-16L) << degrees;
+  }
+  for (int quarters = -9; quarters <= 9; ++quarters) {
+    const SineCosine found = sine_cosine_deg(90.0 * quarters);
+    const int place = (quarters % 4 + 4) % 4;
+    EXPECT_EQ(found.sine, place == 1 ? 1 : place == 3 ? -1 : 0) << quarters;
+    EXPECT_EQ(found.cosine, place == 0 ? 1 : place == 2 ? -1 : 0) << quarters;
+  }
+}
+
 }  // namespace
 }  // namespace bihive

@@ -129,6 +129,24 @@ TEST(Zoomed, keeps_the_point_under_the_pointer) {
   }
 }
 
+TEST(Orthographic, moves_follow_the_pointer_and_the_eye_keeps_its_distance) {
+  for (const double scale : kScales) {
+    const Camera camera = with_projection(camera_in(scale), Projection::orthographic);
+    const DistanceLimits limits = distance_limits(camera, scale * 50);
+    const Vec3d panned_to = seen(panned(camera, 31, -17, kSize), camera.look_at);
+    EXPECT_NEAR(panned_to.x - seen(camera, camera.look_at).x, 31, 0.01) << scale;
+    const Vec3d anchor = point_under(camera, 500, 80, kSize);
+    for (const double factor : {2.0, 0.5}) {
+      const Camera moved = zoomed(camera, factor, anchor, limits);
+      const Vec3d after = seen(moved, anchor);
+      EXPECT_NEAR(after.x, 500, 0.01) << scale << " " << factor;
+      EXPECT_NEAR(after.y, 80, 0.01);
+      EXPECT_NEAR(camera.shorter_side / moved.shorter_side, factor, 1e-12);
+      EXPECT_NEAR(distance_of(moved) / distance_of(camera), 1, 1e-9);
+    }
+  }
+}
+
 TEST(Zoomed, ends_at_the_limits_and_comes_back) {
   for (const double scale : kScales) {
     Camera camera = camera_in(scale);

@@ -405,6 +405,8 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.camera.look_at, b.camera.look_at);
   EXPECT_EQ(a.camera.up, b.camera.up);
   EXPECT_EQ(a.camera.fov_deg, b.camera.fov_deg);
+  EXPECT_EQ(a.camera.projection, b.camera.projection);
+  EXPECT_TRUE(a.camera.shorter_side == b.camera.shorter_side || a.camera.projection == Projection::perspective);
   EXPECT_EQ(a.background, b.background);
   EXPECT_EQ(a.ambient_light, b.ambient_light);
   EXPECT_EQ(a.picture.light_points, b.picture.light_points);
@@ -426,6 +428,7 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.picture.recursion, b.picture.recursion);
   EXPECT_EQ(a.picture.shadows, b.picture.shadows);
   EXPECT_EQ(a.picture.transfer, b.picture.transfer);
+  EXPECT_EQ(a.picture.transparent, b.picture.transparent);
   ASSERT_EQ(a.picture.ambient_occlusion.has_value(), b.picture.ambient_occlusion.has_value());
   if (a.picture.ambient_occlusion) {
     EXPECT_EQ(a.picture.ambient_occlusion->distance, b.picture.ambient_occlusion->distance);
@@ -509,12 +512,53 @@ TEST(SceneFileWriting, EachPartOfALookComesBackInVersion2) {
   }
 }
 
+TEST(SceneFileWriting, AnOrthographicCameraComesBackInVersion2) {
+  Scene scene = four_spheres_scene();
+  scene.camera.projection = Projection::orthographic;
+  scene.camera.shorter_side = 0.1;
+  EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 2,"));
+  expect_there_and_back(scene);
+}
+
+TEST(SceneFileWriting, ATransparentPictureComesBackInVersion2) {
+  Scene scene = four_spheres_scene();
+  scene.picture.transparent = true;
+  EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 2,"));
+  expect_there_and_back(scene);
+}
+
+TEST(SceneFile, OrthographicWithoutAShorterSideShowsWhatTheAngleShows) {
+  const auto loaded = parse(R"({"bihive_scene": 2, "camera": {"eye": [0, 0, 10], "look_at": [0, 0, 0], "fov_deg": 90,
+                             "projection": "orthographic"}, "spheres": [[0,0,0,1]]})");
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->scene.camera.projection, Projection::orthographic);
+  EXPECT_NEAR(loaded->scene.camera.shorter_side, 20, 1e-12);
+}
+
+TEST(SceneFileErrors, ABadProjection) {
+  const auto with_camera = [](int version, const std::string& keys) {
+    return error_of("{\"bihive_scene\": " + std::to_string(version) +
+                    R"(, "camera": {"eye": [0, 0, 10], "look_at": [0, 0, 0], )" + keys +
+                    R"(}, "spheres": [[0,0,0,1]]})");
+  };
+  EXPECT_THAT(with_camera(1, R"("projection": "orthographic")"),
+              StartsWith("a.json: /camera/projection: expected no such key in version 1 of the format"));
+  EXPECT_THAT(with_camera(2, R"("projection": "fisheye")"),
+              StartsWith("a.json: /camera/projection: expected \"perspective\" or \"orthographic\", found"));
+  EXPECT_THAT(with_camera(2, R"("projection": "orthographic", "shorter_side": 0)"),
+              StartsWith("a.json: /camera/shorter_side: expected a number above 0"));
+  EXPECT_THAT(with_camera(2, R"("shorter_side": 3)"),
+              StartsWith("a.json: /camera/shorter_side: expected no such key without the projection orthographic"));
+}
+
 TEST(SceneFileErrors, ANewKeyNeedsItsVersion) {
   for (const char* text : {R"("lights": [{"position": [0, 0, 0], "radius": 1}])", R"("ambient_light": [1, 1, 1])",
                            R"("materials": [{"name": "a", "tint": 1}])", R"("picture": {"outline": {}})",
                            R"("picture": {"fog": {}})", R"("picture": {"light_points": 2})"})
     EXPECT_THAT(error_of(std::string(R"({"bihive_scene": 1, "spheres": [[0,0,0,1]], )") + text + "}"),
                 HasSubstr("expected no such key in version 1 of the format"));
+  EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"transparent": false}, "spheres": [[0,0,0,1]]})"),
+              StartsWith("a.json: /picture/transparent: expected no such key in version 1 of the format"));
   EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"ambient_occlusion": {}}, "spheres": [[0,0,0,1]]})"),
               StartsWith("a.json: /picture/ambient_occlusion: expected no such key in version 1 of the format"));
   EXPECT_THAT(

@@ -29,6 +29,8 @@ TEST(ViewerJson, comes_back_exactly) {
   settings.max_depth = kUnlimited;
   constexpr double kTiny = std::numeric_limits<double>::denorm_min();
   settings.camera = {{0.1, 1.0 / 3, -1e20}, {kTiny, 1e-20, 3.4028234663852886e38}, {-0.0, 1, 1e-9}, 29.999999999999996};
+  settings.camera.projection = Projection::orthographic;
+  settings.camera.shorter_side = 1.0 / 3;
   const Result<ViewerSettings> back = settings_from_json(settings_to_json(settings));
   ASSERT_TRUE(back) << back.error().to_string();
   EXPECT_EQ(back->engine, settings.engine);
@@ -42,6 +44,8 @@ TEST(ViewerJson, comes_back_exactly) {
   EXPECT_EQ(back->camera.look_at, settings.camera.look_at);
   EXPECT_EQ(back->camera.up, settings.camera.up);
   EXPECT_EQ(back->camera.fov_deg, settings.camera.fov_deg);
+  EXPECT_EQ(back->camera.projection, Projection::orthographic);
+  EXPECT_EQ(back->camera.shorter_side, 1.0 / 3);
   EXPECT_EQ(settings_to_json(*back), settings_to_json(settings));
 }
 

@@ -245,6 +245,24 @@ TEST(Viewer, a_camera_that_shows_all_does_so_at_any_size) {
   EXPECT_EQ(viewer.settings().camera.eye, moved);
 }
 
+TEST(Viewer, an_orthographic_scene_stays_orthographic) {
+  Viewer viewer;
+  viewer.resize(100, 60);
+  Scene scene = four_spheres_scene();
+  scene.camera = with_projection(scene.camera, Projection::orthographic);
+  ASSERT_TRUE(viewer.load(scene, {"four", "made", 4, 1, {}, {}}, true, true));
+  EXPECT_EQ(viewer.settings().camera, scene.camera);
+  viewer.look_from(ViewFrom::left);
+  const Camera left = viewer.settings().camera;
+  EXPECT_EQ(left.projection, Projection::orthographic);
+  EXPECT_EQ(left, frame_spheres(scene.spheres, side_of(ViewFrom::left),
+                                {scene.camera.fov_deg, Projection::orthographic}, 100, 60));
+  viewer.zoom(2, 50, 30);
+  EXPECT_NEAR(viewer.settings().camera.shorter_side, left.shorter_side / 2, 1e-9);
+  viewer.orbit(9, 5);
+  EXPECT_EQ(viewer.settings().camera.projection, Projection::orthographic);
+}
+
 TEST(Viewer, a_picture_to_be_saved_has_any_size_and_does_not_disturb) {
   Viewer viewer;
   viewer.resize(64, 36);

@@ -10,6 +10,8 @@ export interface Camera {
   look_at: [number, number, number];
   up: [number, number, number];
   fov_deg: number;
+  projection: 'perspective' | 'orthographic';
+  shorter_side: number;
 }
 
 /** As ViewerSettings of the library; a limit of the tree that is null leaves the choice to the engine. */

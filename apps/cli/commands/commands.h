@@ -13,6 +13,7 @@
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/material.h"
+#include "bihive/scene/turn.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "support/input.h"
 #include "support/values.h"
@@ -41,10 +42,16 @@ struct LookOptions {
 };
 
 /// Unset: the scene's value.
+/// The word of --background for a transparent picture.
+inline const std::string kNoBackground = "none";
+/// The word of --output for the standard output.
+inline const std::string kStandardOutput = "-";
+
 struct RenderOptions {
   InputOptions input;
-  std::string output;
+  std::string output;  ///< a path, or kStandardOutput
   std::optional<PictureSize> size;
+  std::optional<Tile> crop;  ///< not yet compared with the size
   std::optional<std::int64_t> recursion, samples;
   View view = View::shaded;
   RenderEngine engine = RenderEngine::automatic;
@@ -53,10 +60,15 @@ struct RenderOptions {
   std::optional<bool> shadows;
   LookOptions look;
   std::optional<Transfer> transfer;
-  std::optional<std::string> background;  ///< a valid colour; its meaning depends on the transfer
+  std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
+  std::optional<std::int64_t> bits;       ///< 8 or 16
+  double dots_per_inch = 0;               ///< 0: not said
   std::optional<Vec3d> eye, look_at, up;
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;
+  std::optional<Projection> projection;
+  std::optional<Turn> turn;
+  std::optional<double> zoom;  ///< above 0
   bool json = false;
 };
 void run_render(const RenderOptions& options);

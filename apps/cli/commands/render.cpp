@@ -1,6 +1,7 @@
 // bihive render: from an input to a PNG.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/simd/target.h"
+#include "commands/choose_camera.h"
 #include "commands/choose_look.h"
 #include "commands/commands.h"
 #include "commands/names.h"
@@ -24,40 +26,6 @@ namespace bihive::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-bool parallel(Vec3d a, Vec3d b) {
-  return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
-}
-
-// The scene's own camera, or one that shows everything; the user's options replace parts of it.
-Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings) {
-  const bool placed = options.eye || options.look_at || options.up;
-  if (placed && options.view_from) fail_usage("--view-from and --eye, --look-at or --up contradict each other");
-
-  const Scene& scene = input.scene;
-  Camera camera = scene.camera;
-  camera.fov_deg = options.fov_deg.value_or(camera.fov_deg);
-  if (!input.has_camera || options.view_from) {
-    const ViewFrom side = options.view_from.value_or(ViewFrom::front);
-    camera = settings.view == View::tree
-                 ? frame_tree(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px)
-                 : frame_spheres(scene.spheres, side, camera.fov_deg, settings.width_px, settings.height_px);
-  }
-  if (!placed) return camera;
-
-  // A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
-  const SphereSet::Bounds bounds = scene.spheres.bounds();
-  if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
-  camera.eye = options.eye.value_or(camera.eye);
-  camera.look_at = options.look_at.value_or(camera.look_at);
-  const Vec3d view = camera.look_at - camera.eye;
-  if (options.up)
-    camera.up = *options.up;
-  else if (parallel(camera.up, view))
-    camera.up = parallel({0, 1, 0}, view) ? Vec3d{0, 0, -1} : Vec3d{0, 1, 0};
-  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
-  return camera;
-}
 
 bool shows_reference_tree(View view) {
   return view == View::traversal || view == View::tree;
@@ -123,16 +91,24 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   json["view"] = name_of(kViews, settings.view);
   json["width_px"] = settings.width_px;
   json["height_px"] = settings.height_px;
+  if (settings.crop) json["crop"] = {settings.crop->x0, settings.crop->y0, settings.crop->x1, settings.crop->y1};
   json["samples_per_pixel"] = settings.samples_per_pixel;
   json["recursion"] = settings.recursion;
   json["shadows"] = settings.shadows;
   describe_effects(settings, scene, json);
   json["transfer"] = name_of(kTransfers, scene.picture.transfer);
   json["background"] = vector(scene.background);
+  if (settings.transparent) json["transparent"] = true;
+  if (options.bits) json["bits"] = *options.bits;
+  if (options.dots_per_inch > 0) json["dpi"] = options.dots_per_inch;
   json["camera"] = {{"eye", vector(scene.camera.eye)},
                     {"look_at", vector(scene.camera.look_at)},
                     {"up", vector(scene.camera.up)},
                     {"fov_deg", scene.camera.fov_deg}};
+  if (scene.camera.projection == Projection::orthographic) {
+    json["camera"]["projection"] = name_of(kProjections, scene.camera.projection);
+    json["camera"]["shorter_side"] = scene.camera.shorter_side;
+  }
   if (shows_reference_tree(settings.view)) {
     const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
     const BuildParameters tree = options.tree.for_reference();
@@ -226,6 +202,11 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   RenderSettings settings = settings_from(scene.picture);
   if (options.size) settings.width_px = options.size->width_px;
   if (options.size) settings.height_px = options.size->height_px;
+  settings.crop = options.crop;
+  if (options.crop && (options.crop->x1 > settings.width_px || options.crop->y1 > settings.height_px))
+    fail_usage(
+        fmt::format("--crop ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
+        "give the size of the whole picture by --size");
   settings.samples_per_pixel = static_cast<int>(options.samples.value_or(settings.samples_per_pixel));
   settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
   settings.shadows = options.shadows.value_or(settings.shadows);
@@ -233,56 +214,93 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   settings.view = options.view;
   settings.threads = static_cast<int>(options.threads);
   scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
-  if (options.background) scene.background = *colour_from(*options.background, scene.picture.transfer);
+  if (options.background) settings.transparent = *options.background == kNoBackground;
+  if (options.background && !settings.transparent)
+    scene.background = *colour_from(*options.background, scene.picture.transfer);
+  if (settings.transparent && shows_reference_tree(settings.view))
+    fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
+               "give a colour by --background, or choose another view");
   scene.camera = choose_camera(input, options, settings);
   apply_look(options.look, input);
   return settings;
+}
+
+// What the graphics processor cannot draw.
+void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings& settings) {
+  const auto refuse = [engine](const std::string& what, const std::string& without) {
+    fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + what,
+               "leave --engine out, or draw " + without);
+  };
+  if (const std::string beyond = beyond_gpu(scene, settings); settings.view == View::shaded && !beyond.empty())
+    refuse(beyond, "without it: --style plain");
+  if (settings.crop) refuse("part of a picture", "the whole picture without --crop");
+  if (settings.transparent) refuse("transparent background", "on a colour: --background white");
+}
+
+// Two views are drawn whole before they are cut.
+void check_memory_of(const RenderSettings& settings) {
+  const bool of_parts = settings.view != View::distance && settings.view != View::tree;
+  const Tile whole{0, 0, settings.width_px, settings.height_px};
+  const Tile drawn = of_parts ? drawn_pixels(settings) : whole;
+  value_or_fail(check_picture_memory(drawn.width(), drawn.height()));
+}
+
+void check_output(const RenderOptions& options) {
+  if (options.output != kStandardOutput) {
+    if (const Status status = check_writable(options.output); !status) fail(status.error());
+    return;
+  }
+  if (options.json) fail_usage("--json prints where -o - writes the picture", "write the picture into a file");
+  if (isatty(STDOUT_FILENO) != 0)
+    fail_usage("-o - would write the picture to the terminal", "send it to a program or into a file");
+}
+
+void write_picture(const std::string& output, const std::string& png) {
+  if (output == kStandardOutput) return print(png);
+  const WritingSection section;
+  if (const Status status = write_file(output, png); !status) fail(status.error());
 }
 
 }  // namespace
 
 void run_render(const RenderOptions& options) {
   const RenderEngine engine = choose_engine(options);
-  if (const Status status = check_writable(options.output); !status) fail(status.error());
+  check_output(options);
 
   // Load the scene and apply the user's options to it.
   const bool named = !options.look.style.empty();
   const Style style = is_gpu(engine) && !named ? Style{} : choose_style(options.look);
   Input input = load_input(options.input, &style, /*asked_for=*/named);
   const RenderSettings settings = apply_options(options, input);
-  if (is_gpu(engine) && settings.view == View::shaded)
-    if (const std::string beyond = beyond_gpu(input.scene, settings); !beyond.empty())
-      fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + beyond,
-                 "leave --engine out, or draw without it: --style plain");
+  if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
   const Scene& scene = input.scene;
-  value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
+  check_memory_of(settings);
   value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
 
   // Build, render, write.
   const Tracer tracer =
       value_or_fail(Tracer::build(scene.spheres, structure_of(engine), options.tree, settings.threads));
   const Drawn drawn = is_gpu(engine) ? draw_on_gpu(scene, tracer, settings) : draw_on_cpu(scene, tracer, settings);
-  const Image image = image_from_film(drawn.film, settings.view, scene.picture.transfer, settings.threads);
+  const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
+  const PngPixels image =
+      png_pixels_from_film(drawn.film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
   const ordered_json described = settings_json(options, settings, scene);
-  std::string png = value_or_fail(encode_png(image, text_chunks(scene, described)));
-  {
-    const WritingSection section;
-    if (const Status status = write_file(options.output, png); !status) fail(status.error());
-  }
+  write_picture(options.output, value_or_fail(encode_png(image, text_chunks(scene, described), options.dots_per_inch)));
+  if (options.output == kStandardOutput) return;
 
   // Print the report.
   const double mray_per_s = drawn.render_ms > 0 ? static_cast<double>(drawn.all_rays) / drawn.render_ms / 1000 : 0;
   if (!options.json) {
     print(fmt::format("{}: {} x {}, {} spheres; tree {}, picture {} ({:.3g} Mray/s of all kinds)\n", options.output,
-                      settings.width_px, settings.height_px, grouped(scene.spheres.size()),
-                      readable_ms(tracer.build_ms()), readable_ms(drawn.render_ms), mray_per_s));
+                      image.width, image.height, grouped(scene.spheres.size()), readable_ms(tracer.build_ms()),
+                      readable_ms(drawn.render_ms), mray_per_s));
     return;
   }
   ordered_json json;
   json["output"] = options.output;
   json["scene"] = scene.name;
   json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
-  json["size"] = fmt::format("{}x{}", settings.width_px, settings.height_px);
+  json["size"] = fmt::format("{}x{}", image.width, image.height);
   json["view"] = name_of(kViews, settings.view);
   json["engine"] = is_gpu(engine) ? name_of(kRenderEngines, engine) : name_of(kEngines, tracer.engine());
   json["target"] = tracer.engine() == Engine::wide ? ordered_json(active_target()) : ordered_json();

@@ -1,5 +1,6 @@
 #include "support/values.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -24,18 +25,27 @@ std::optional<T> whole(std::string_view text) {
   return value;
 }
 
+// Numbers with commas between them; empty if one is not of the type T.
+template <class T>
+std::vector<T> numbers_of(std::string_view text) {
+  std::vector<T> numbers;
+  for (bool more = true; more;) {
+    const std::size_t comma = text.find(',');
+    const std::optional<T> number = whole<T>(text.substr(0, comma));
+    if (!number) return {};
+    numbers.push_back(*number);
+    more = comma != std::string_view::npos;
+    text.remove_prefix(more ? comma + 1 : text.size());
+  }
+  return numbers;
+}
+
 // Three finite numbers with commas between them.
 std::optional<Vec3d> three_numbers(std::string_view text) {
-  Vec3d v;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t comma = axis < 2 ? text.find(',') : text.size();
-    if (comma == std::string_view::npos) return std::nullopt;
-    const std::optional<double> number = whole<double>(text.substr(0, comma));
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    v[axis] = *number;
-    text.remove_prefix(std::min(comma + 1, text.size()));
-  }
-  return v;
+  const std::vector<double> numbers = numbers_of<double>(text);
+  if (numbers.size() != 3) return std::nullopt;
+  const Vec3d v{numbers[0], numbers[1], numbers[2]};
+  return is_finite(v) ? std::optional(v) : std::nullopt;
 }
 
 std::string short_text(double value) {
@@ -83,6 +93,16 @@ Result<Vec3d> vector_from(const std::string& text) {
   return unexpected("three numbers X,Y,Z", text);
 }
 
+Result<Turn> turn_from(const std::string& text) {
+  constexpr double kMost = 360;
+  const std::vector<double> degrees = numbers_of<double>(text);
+  const bool in_range =
+      std::all_of(degrees.begin(), degrees.end(), [](double number) { return std::abs(number) <= kMost; });
+  if (in_range && (degrees.size() == 2 || degrees.size() == 3))
+    return Turn{degrees[0], degrees[1], degrees.size() == 3 ? degrees[2] : 0};
+  return unexpected("degrees AZ,EL or AZ,EL,ROLL, each from -360 to 360", text);
+}
+
 Result<PictureSize> size_from(const std::string& text) {
   constexpr int kLargest = 65535;
   const std::size_t times = text.find('x');
@@ -93,6 +113,20 @@ Result<PictureSize> size_from(const std::string& text) {
       return PictureSize{*width, *height};
   }
   return unexpected("WIDTHxHEIGHT in pixels, each from 1 to 65535", text);
+}
+
+Result<Tile> crop_from(const std::string& text) {
+  constexpr int kLargest = 65535;
+  const std::vector<int> n = numbers_of<int>(text);
+  if (n.size() == 4 && n[0] >= 0 && n[1] >= 0 && n[0] < n[2] && n[1] < n[3] && n[2] <= kLargest && n[3] <= kLargest)
+    return Tile{n[0], n[1], n[2], n[3]};
+  return unexpected("four whole numbers X0,Y0,X1,Y1 from 0 to 65535, X0 below X1 and Y0 below Y1", text);
+}
+
+Result<std::int64_t> bits_from(const std::string& text) {
+  const std::optional<std::int64_t> bits = whole<std::int64_t>(text);
+  if (bits && (*bits == 8 || *bits == 16)) return *bits;
+  return unexpected("8 or 16", text);
 }
 
 Result<Vec3d> colour_from(const std::string& text, Transfer transfer) {

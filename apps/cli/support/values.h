@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/image/film.h"
 #include "bihive/image/transfer.h"
 #include "bihive/math/vec3.h"
+#include "bihive/scene/turn.h"
 
 namespace bihive::cli {
 
@@ -30,8 +32,17 @@ Result<double> number_from(const std::string& text, double min, double max, bool
 /// "X,Y,Z", each within +-3.4e38.
 Result<Vec3d> vector_from(const std::string& text);
 
+/// "AZ,EL" or "AZ,EL,ROLL" in degrees, each within +-360.
+Result<Turn> turn_from(const std::string& text);
+
 /// "1280x720", each side 1 to 65535.
 Result<PictureSize> size_from(const std::string& text);
+
+/// "X0,Y0,X1,Y1", whole numbers from 0 to 65535 with X0 < X1 and Y0 < Y1.
+Result<Tile> crop_from(const std::string& text);
+
+/// 8 or 16.
+Result<std::int64_t> bits_from(const std::string& text);
 
 /// A name, "#rrggbb" (both as seen on the screen under the transfer), or "r,g,b" (linear, each 0 to 1).
 Result<Vec3d> colour_from(const std::string& text, Transfer transfer);

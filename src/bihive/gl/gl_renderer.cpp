@@ -79,6 +79,10 @@ class GlRenderer::Implementation {
     if (settings.view == View::traversal && !scene_.has_tree())
       return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                    "choose an engine with a tree"};
+    if (settings.crop)
+      return Error{"the graphics processor draws no part of a picture", "", 0, 0, "choose an engine of the CPU"};
+    if (settings.transparent)
+      return Error{"the graphics processor draws no transparent background", "", 0, 0, "choose an engine of the CPU"};
     GLint largest = 0;
     gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (std::max(settings.width_px, settings.height_px) > largest)

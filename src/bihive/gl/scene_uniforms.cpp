@@ -63,26 +63,32 @@ void SceneUniforms::put(GlProgram& program) const {
 Result<CameraUniforms> CameraUniforms::from(const Camera& camera, double scale, int width_px, int height_px) {
   if (Status status = check_camera(camera); !status) return status.error();
   const PixelRays rays(camera, width_px, height_px);
-  const Vec3d eye = to_double(rays.eye()) * scale;
+  const bool parallel = rays.parallel();
+  const Vec3d eye = (parallel ? rays.centre() : to_double(rays.eye())) * scale;
+  const double unit = parallel ? scale : 1;
   if (length(eye) > kFarthestEye)
     return Error{"camera: the eye is too far away from the spheres for the graphics processor's single precision", "",
                  0, 0, "choose an engine of the CPU"};
   const auto rest_of = [](Vec3d number) { return to_float(number - to_double(to_float(number))); };
   CameraUniforms uniforms;
+  uniforms.has_parallel_rays = parallel;
   uniforms.eye = to_float(eye);
+  uniforms.eye_lower = rest_of(eye);
   uniforms.forward = to_float(rays.forward());
   uniforms.forward_lower = rest_of(rays.forward());
-  uniforms.right = to_float(rays.right());
-  uniforms.right_lower = rest_of(rays.right());
-  uniforms.down = to_float(rays.down());
-  uniforms.down_lower = rest_of(rays.down());
+  uniforms.right = to_float(rays.right() * unit);
+  uniforms.right_lower = rest_of(rays.right() * unit);
+  uniforms.down = to_float(rays.down() * unit);
+  uniforms.down_lower = rest_of(rays.down() * unit);
   uniforms.half_width = static_cast<float>(rays.half_width());
   uniforms.half_height = static_cast<float>(rays.half_height());
   return uniforms;
 }
 
 void CameraUniforms::put(GlProgram& program) const {
+  program.set("has_parallel_rays", has_parallel_rays);
   program.set("eye", eye);
+  program.set("eye_lower", eye_lower);
   program.set("forward", forward);
   program.set("forward_lower", forward_lower);
   program.set("right", right);

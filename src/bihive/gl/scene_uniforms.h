@@ -25,8 +25,9 @@ struct SceneUniforms {
 };
 
 struct CameraUniforms {
-  Vec3f eye, forward, right, down;
-  Vec3f forward_lower, right_lower, down_lower;  // the rest after rounding to binary32
+  bool has_parallel_rays = false;
+  Vec3f eye, forward, right, down;                          // of parallel rays, right and down are in stored units
+  Vec3f eye_lower, forward_lower, right_lower, down_lower;  // the rest after rounding to binary32
   float half_width = 0, half_height = 0;
 
   /// Error: as check_camera(), or an eye so far away (1e15 times the extent of the spheres) that squares leave

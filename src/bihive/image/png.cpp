@@ -2,7 +2,9 @@
 
 #include <png.h>
 
+#include <cmath>
 #include <csetjmp>
+#include <cstdint>
 #include <cstring>
 
 #include "bihive/base/check.h"
@@ -43,18 +45,28 @@ void take_bytes(png_structp png, png_bytep data, png_size_t count) {
   state->position += count;
 }
 
+// The picture as libpng's functions take it: plain data only.
+struct PngRows {
+  png_uint_32 width, height;
+  int bits, colour_type;
+  const std::uint8_t* bytes;
+  std::size_t row_bytes;
+  png_uint_32 pixels_per_metre;  // 0: not said
+};
+
 // The part between setjmp and longjmp: plain pointers only. False on an error.
-bool write_picture(png_structp png, png_infop info, PngState* state, const Image* image, png_text* text, int texts) {
+bool write_picture(png_structp png, png_infop info, PngState* state, const PngRows* rows, png_text* text, int texts) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, state, append_bytes, flush_nothing);
   png_set_compression_level(png, kCompressionLevel);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image->width), static_cast<png_uint_32>(image->height), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, rows->width, rows->height, rows->bits, rows->colour_type, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (rows->pixels_per_metre > 0)
+    png_set_pHYs(png, info, rows->pixels_per_metre, rows->pixels_per_metre, PNG_RESOLUTION_METER);
   if (texts > 0) png_set_text(png, info, text, texts);
   png_write_info(png, info);
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image->width);
-  for (int y = 0; y < image->height; ++y)
-    png_write_row(png, image->rgb.data() + static_cast<std::size_t>(y) * row_bytes);
+  for (png_uint_32 y = 0; y < rows->height; ++y)
+    png_write_row(png, rows->bytes + static_cast<std::size_t>(y) * rows->row_bytes);
   png_write_end(png, info);
   return true;
 }
@@ -78,10 +90,7 @@ bool read_rows(png_structp png, png_infop info, png_bytepp rows) {
   return true;
 }
 
-}  // namespace
-
-Result<std::string> encode_png(const Image& image, const PngText& text) {
-  BIHIVE_CHECK_EQ(image.rgb.size(), 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+Result<std::string> encode_rows(const PngRows& rows, const PngText& text) {
   PngState state;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, on_error, on_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
@@ -93,10 +102,31 @@ Result<std::string> encode_png(const Image& image, const PngText& text) {
     chunks[i].text_length = text[i].second.size();
   }
   const bool written =
-      info != nullptr && write_picture(png, info, &state, &image, chunks.data(), static_cast<int>(chunks.size()));
+      info != nullptr && write_picture(png, info, &state, &rows, chunks.data(), static_cast<int>(chunks.size()));
   png_destroy_write_struct(&png, &info);
   if (!written) return Error{std::string("PNG: ") + state.message, "", 0, 0, ""};
   return std::move(state.bytes);
+}
+
+}  // namespace
+
+Result<std::string> encode_png(const Image& image, const PngText& text) {
+  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width);
+  BIHIVE_CHECK_EQ(image.rgb.size(), row_bytes * static_cast<std::size_t>(image.height));
+  return encode_rows({static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+                      PNG_COLOR_TYPE_RGB, image.rgb.data(), row_bytes, 0},
+                     text);
+}
+
+Result<std::string> encode_png(const PngPixels& pixels, const PngText& text, double dots_per_inch) {
+  BIHIVE_CHECK(pixels.channels == 3 || pixels.channels == 4);
+  BIHIVE_CHECK(pixels.bits == 8 || pixels.bits == 16);
+  BIHIVE_CHECK_EQ(pixels.bytes.size(), pixels.row_bytes() * static_cast<std::size_t>(pixels.height));
+  constexpr double kMetresPerInch = 0.0254;
+  return encode_rows({static_cast<png_uint_32>(pixels.width), static_cast<png_uint_32>(pixels.height), pixels.bits,
+                      pixels.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, pixels.bytes.data(),
+                      pixels.row_bytes(), static_cast<png_uint_32>(std::floor(dots_per_inch / kMetresPerInch + 0.5))},
+                     text);
 }
 
 Status write_png(const std::string& path, const Image& image, const PngText& text) {

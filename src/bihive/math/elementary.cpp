@@ -11,16 +11,23 @@ constexpr double kLog2E = 1.44269504088896340736;
 constexpr double kSqrtHalf = 0.70710678118654752440;
 constexpr double kPi = 3.14159265358979323846;
 
-// tan on [0, pi/4] as the quotient of the series of sine and cosine; the first terms left out are below 1e-22.
-double tan_small(double x) {
+// The series of sin(x) / x and cos(x) on [-pi/4, pi/4]; the first terms left out are below 1e-22.
+struct Series {
+  double sine_over_x = 1, cosine = 1;
+};
+Series series_of(double x) {
   const double x2 = x * x;
-  double sine = 1;
-  double cosine = 1;
+  Series series;
   for (int k = 20; k >= 2; k -= 2) {
-    sine = 1 - x2 / (k * (k + 1.0)) * sine;
-    cosine = 1 - x2 / ((k - 1.0) * k) * cosine;
+    series.sine_over_x = 1 - x2 / (k * (k + 1.0)) * series.sine_over_x;
+    series.cosine = 1 - x2 / ((k - 1.0) * k) * series.cosine;
   }
-  return x * sine / cosine;
+  return series;
+}
+
+double tan_small(double x) {
+  const Series series = series_of(x);
+  return x * series.sine_over_x / series.cosine;
 }
 
 }  // namespace
@@ -81,6 +88,35 @@ double shading_power(double x, double y) {
 double tan_deg(double degrees) {
   if (degrees <= 45) return tan_small(degrees * (kPi / 180));
   return 1 / tan_small((90 - degrees) * (kPi / 180));
+}
+
+double atan_deg(double x) {
+  if (x > 1) return 90 - atan_deg(1 / x);
+  // Halve the angle three times, so that x is at most 0.1; the first term of the series left out is below 1e-18 of it.
+  for (int i = 0; i < 3; ++i) x = x / (1 + std::sqrt(1 + x * x));
+  const double x2 = x * x;
+  double series = 1.0 / 17;
+  for (int k = 15; k >= 1; k -= 2) series = 1.0 / k - x2 * series;
+  return 8 * (180 / kPi) * (x * series);
+}
+
+SineCosine sine_cosine_deg(double degrees) {
+  // The nearest multiple of 90 degrees and the rest from -45 to 45, both exact.
+  const double turned = std::remainder(degrees, 360);
+  const double quarters = std::floor(turned / 90 + 0.5);
+  const double x = (turned - 90 * quarters) * (kPi / 180);
+  const Series series = series_of(x);
+  const double sine = x * series.sine_over_x;
+  switch (static_cast<int>(quarters) & 3) {
+    case 0:
+      return {sine, series.cosine};
+    case 1:
+      return {series.cosine, -sine};
+    case 2:
+      return {-sine, -series.cosine};
+    default:
+      return {-series.cosine, sine};
+  }
 }
 
 }  // namespace bihive

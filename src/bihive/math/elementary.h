@@ -1,5 +1,5 @@
-// Powers and tangents made of + - x / on binary64 alone, so that a picture has the same bits on every platform. The
-// system's mathematics library is not used: its last bits differ between machines.
+// Powers and functions of angless made of + - x / on binary64 alone, so that a picture has the same bits on every
+// platform. The system's mathematics library is not used: its last bits differ between machines.
 #pragma once
 
 namespace bihive {
@@ -24,5 +24,14 @@ double shading_power(double x, double y);
 
 /// tan(degrees) for 0 <= degrees < 90; relative error below 1e-14 up to 89 degrees.
 double tan_deg(double degrees);
+
+/// The angle in degrees, from 0 to 90, whose tangent is x; x >= 0. Relative error below 2e-15.
+double atan_deg(double x);
+
+/// Sine and cosine of any finite number of degrees; absolute error below 3e-16. Exact at multiples of 90 degrees.
+struct SineCosine {
+  double sine, cosine;
+};
+SineCosine sine_cosine_deg(double degrees);
 
 }  // namespace bihive

@@ -51,7 +51,8 @@ class Renderer {
         rays_(scene.camera, settings.width_px, settings.height_px),
         wave_scene_(scene),
         effects_(scene, wave_scene_, tracer, settings, rays_),
-        tiles_(tiles_of(settings.width_px, settings.height_px, tile_px(tracer, settings))),
+        drawn_(pixels_to_draw(settings)),
+        tiles_(tiles_of(drawn_, tile_px(tracer, settings))),
         counts_(tiles_.size()),
         ranges_(tiles_.size(), kNoRange),
         passes_(settings.view == View::distance ? 2 : 1) {
@@ -61,7 +62,7 @@ class Renderer {
     if (settings_.ambient_occlusion) ambient_.emplace(*settings_.ambient_occlusion, settings_.samples_per_pixel);
     for (int i = 0; i < settings_.samples_per_pixel; ++i)
       places_.push_back(sample_place(i, settings_.samples_per_pixel));
-    film_.resize(settings_.width_px, settings_.height_px);
+    film_.resize(drawn_.width(), drawn_.height(), settings_.transparent);
   }
 
   // The tiles of all passes have consecutive numbers. Runs the tiles from `first` to before `end`, all in one pass.
@@ -89,7 +90,9 @@ class Renderer {
   /// Called after the last tile.
   Rendered take() {
     Rendered rendered;
-    rendered.film = std::move(film_);
+    const bool is_whole =
+        drawn_.width() == drawn_pixels(settings_).width() && drawn_.height() == drawn_pixels(settings_).height();
+    rendered.film = is_whole ? std::move(film_) : part_of(film_, *settings_.crop);
     for (const RenderCounts& tile : counts_) {
       rendered.rays.primary += tile.primary;
       rendered.rays.shadow += tile.shadow;
@@ -101,6 +104,16 @@ class Renderer {
   }
 
  private:
+  // The range of distances is that of the whole picture.
+  static Tile pixels_to_draw(const RenderSettings& settings) {
+    const Tile whole{0, 0, settings.width_px, settings.height_px};
+    return settings.view == View::distance ? whole : drawn_pixels(settings);
+  }
+
+  PixelPlace film_corner() const {
+    return {static_cast<std::uint16_t>(drawn_.x0), static_cast<std::uint16_t>(drawn_.y0)};
+  }
+
   void report_progress() {
     const std::int64_t done = tiles_done_.fetch_add(1) + 1;
     if (!progress_) return;
@@ -173,15 +186,15 @@ class Renderer {
     const bool shaded = settings_.view == View::shaded;
     WaveIntegrator integrator(
         wave_scene_, tracer_,
-        {settings_.recursion, shaded, shaded && settings_.shadows, settings_.view == View::recursion,
-         ambient_ ? &*ambient_ : nullptr, light_points_ ? &*light_points_ : nullptr, settings_.samples_per_pixel},
+        {settings_.recursion, shaded, shaded && settings_.shadows,
+         settings_.view == View::recursion || settings_.transparent, ambient_ ? &*ambient_ : nullptr,
+         light_points_ ? &*light_points_ : nullptr, settings_.samples_per_pixel},
         cancel_);
     // Each thread has its own.
     static thread_local EffectBuffers effects;
     if (effects_.any()) effects_.find(tile, places_, cancel_, effects);
     const std::int64_t samples = settings_.samples_per_pixel;
-    Vec3d sum;
-    std::int64_t added = 0;
+    PixelSum sum;
     for_each_part(tile, [&](const std::vector<PixelPlace>& pixels, WaveBuffers& buffers, std::int64_t first) {
       const std::int64_t count = WaveIntegrator::primaries(buffers).count;
       if (shaded || settings_.view == View::recursion)
@@ -190,23 +203,44 @@ class Renderer {
         integrator.find_first_hits(buffers);
       if (cancelled()) return;
 
-      if (shaded && samples == 1 && !effects_.any())
-        return steps::put_light(buffers.sums, pixels.data() + first, count, film_);
+      if (shaded && samples == 1 && !settings_.transparent && !effects_.any())
+        return steps::put_light(buffers.sums, pixels.data() + first, count, film_corner(), film_);
 
       // Add the samples in order, then divide by their number.
       for (std::int64_t i = 0; i < count; ++i) {
         const PixelPlace& pixel = pixels[static_cast<std::size_t>((first + i) / samples)];
-        Vec3d value = sample_value(buffers, integrator, i);
-        if (effects_.any()) value = effects_.applied(tile, effects, pixel.x, pixel.y, added, value);
-        sum = sum + value;
-        if (++added < samples) continue;
-        film_.at(pixel.x, pixel.y) = to_float(sum / static_cast<double>(samples));
+        if (!settings_.transparent || hits_something(buffers, integrator, i)) {
+          Vec3d value = sample_value(buffers, integrator, i);
+          if (effects_.any()) value = effects_.applied(tile, effects, pixel.x, pixel.y, sum.samples, value);
+          sum.light = sum.light + value;
+          ++sum.counted;
+        }
+        if (++sum.samples < samples) continue;
+        put(sum, pixel);
         sum = {};
-        added = 0;
       }
     });
     counts = integrator.rays();
     counts.primary = std::int64_t{tile.x1 - tile.x0} * (tile.y1 - tile.y0) * samples;
+  }
+
+  // The samples of one pixel so far; `counted`: those that add to its light.
+  struct PixelSum {
+    Vec3d light;
+    std::int64_t counted = 0, samples = 0;
+  };
+
+  void put(const PixelSum& sum, PixelPlace pixel) {
+    const std::size_t number = film_.number_of(pixel.x - drawn_.x0, pixel.y - drawn_.y0);
+    const Vec3d light = sum.counted > 0 ? sum.light / static_cast<double>(sum.counted) : Vec3d{};
+    film_.radiance[number] = to_float(light);
+    if (settings_.transparent)
+      film_.coverage[number] = static_cast<float>(double(sum.counted) / static_cast<double>(sum.samples));
+  }
+
+  bool hits_something(const WaveBuffers& buffers, const WaveIntegrator& integrator, std::int64_t i) const {
+    const bool traced = settings_.view == View::shaded || settings_.view == View::recursion;
+    return traced ? integrator.deepest_hit()[static_cast<std::size_t>(i)] > 0 : buffers.id[i] != kNothing;
   }
 
   Vec3d sample_value(WaveBuffers& buffers, const WaveIntegrator& integrator, std::int64_t i) const {
@@ -239,6 +273,7 @@ class Renderer {
   PixelRays rays_;
   WaveScene wave_scene_;
   AfterEffects effects_;
+  Tile drawn_;                       // the film's pixels in the whole picture
   std::vector<SamplePlace> places_;  // in a pixel
   std::optional<AmbientRays> ambient_;
   std::optional<LightPointSets> light_points_;
@@ -268,11 +303,16 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
     BIHIVE_CHECK(settings.outline->step >= 0);
   }
   if (settings.fog) BIHIVE_CHECK(settings.fog->start < settings.fog->end);
+  const Tile drawn = drawn_pixels(settings);
+  BIHIVE_CHECK(drawn.x0 >= 0 && drawn.x0 < drawn.x1 && drawn.x1 <= settings.width_px);
+  BIHIVE_CHECK(drawn.y0 >= 0 && drawn.y0 < drawn.y1 && drawn.y1 <= settings.height_px);
   if (Status status = check_camera(scene.camera); !status) return status.error();
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   if (of_tree && tracer.tree() == nullptr)
     return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                  "choose the reference engine"};
+  if (of_tree && settings.transparent)
+    return Error{"this view of the tree has no transparent background", "", 0, 0, "choose another view"};
   return Done{};
 }
 

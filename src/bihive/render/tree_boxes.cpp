@@ -51,6 +51,8 @@ class Boxes {
         tree_(tree),
         unit_(world_from_stored),
         eye_(camera.eye),
+        parallel_(camera.projection == Projection::orthographic),
+        view_(camera.look_at - camera.eye),
         places_(camera, static_cast<int>(area.width()), static_cast<int>(area.height())),
         deepest_(tree_statistics(tree).depth.max) {
     const Vec3d extent = (to_double(tree.aabb.hi) - to_double(tree.aabb.lo)) * unit_;
@@ -143,8 +145,8 @@ class Boxes {
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int i = static_cast<int>(axis);
-      seen.faces_eye[2 * axis] = eye_[i] < double(box.lo[i]) * unit_;
-      seen.faces_eye[2 * axis + 1] = eye_[i] > double(box.hi[i]) * unit_;
+      seen.faces_eye[2 * axis] = parallel_ ? view_[i] > 0 : eye_[i] < double(box.lo[i]) * unit_;
+      seen.faces_eye[2 * axis + 1] = parallel_ ? view_[i] < 0 : eye_[i] > double(box.hi[i]) * unit_;
     }
     return seen;
   }
@@ -266,6 +268,8 @@ class Boxes {
   const Tree& tree_;
   double unit_;
   Vec3d eye_;
+  bool parallel_;  // rays along view_, not from the eye
+  Vec3d view_;
   PixelPlaces places_;
   std::int64_t deepest_;
   double nearest_ = 0;

@@ -44,6 +44,10 @@ TreePictureLayout tree_picture_layout(int width_px, int height_px) {
 }
 
 Camera frame_tree(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {
+  return frame_tree(spheres, side_of(from), {fov_deg, Projection::perspective}, width_px, height_px);
+}
+
+Camera frame_tree(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
   // Frame the corners of the box.
   std::vector<double> x, y, z;
   if (!spheres.empty()) {
@@ -56,7 +60,7 @@ Camera frame_tree(const SphereSet& spheres, ViewFrom from, double fov_deg, int w
   }
   const Result<SphereSet> corners = SphereSet::from_world(x, y, z, std::vector<double>(x.size(), 0.0));
   const CanvasArea part = tree_picture_layout(width_px, height_px).boxes;
-  return frame_spheres(corners ? *corners : spheres, from, fov_deg, static_cast<int>(part.width()),
+  return frame_spheres(corners ? *corners : spheres, side, lens, static_cast<int>(part.width()),
                        static_cast<int>(part.height()));
 }
 
@@ -72,6 +76,7 @@ Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, c
   relief.height_px = static_cast<int>(layout.boxes.height());
   relief.samples_per_pixel = 1;
   relief.view = View::normal;
+  relief.crop.reset();
   Result<Rendered> rendered = render(scene, tracer, relief, progress, cancel);
   if (!rendered) return rendered;
   draw_relief(canvas, rendered->film, scene.camera);
@@ -81,6 +86,7 @@ Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, c
 
   rendered->film = Film(settings.width_px, settings.height_px);
   rendered->film.radiance = canvas.take_pixels();
+  if (settings.crop) rendered->film = part_of(rendered->film, *settings.crop);
   rendered->render_ms = timer.elapsed_ms();
   return rendered;
 }

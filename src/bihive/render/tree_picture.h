@@ -38,12 +38,13 @@ struct TreePictureLayout {
 };
 TreePictureLayout tree_picture_layout(int width_px, int height_px);
 
-/// The picture of render() for View::tree. Only the size and the threads of the settings matter. The tracer must have a
-/// tree. frame_tree() gives a camera.
+/// The picture of render() for View::tree. Only the size, the crop and the threads of the settings matter. The tracer
+/// must have a tree. frame_tree() gives a camera.
 Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                      const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr);
 
 /// A camera that shows the whole box around the set in the first part of a picture of this size.
+Camera frame_tree(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px);
 Camera frame_tree(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
 
 /// Draws the boxes, blended over the canvas's content.

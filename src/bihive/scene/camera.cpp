@@ -7,6 +7,17 @@
 #include "bihive/math/elementary.h"
 
 namespace bihive {
+namespace {
+
+// The world's length of one pixel: of parallel rays, or on the plane at distance 1. The shorter side of the picture
+// spans the camera's angle or length.
+double pixel_of(const Camera& camera, int width_px, int height_px) {
+  const bool parallel = camera.projection == Projection::orthographic;
+  const double shorter_side = parallel ? camera.shorter_side : 2 * tan_deg(camera.fov_deg / 2);
+  return shorter_side / std::min(width_px, height_px);
+}
+
+}  // namespace
 
 Status check_camera(const Camera& camera) {
   const auto bad = [](const std::string& message, const std::string& hint) {
@@ -18,6 +29,8 @@ Status check_camera(const Camera& camera) {
   if (std::max({std::abs(camera.eye.x), std::abs(camera.eye.y), std::abs(camera.eye.z)}) > kLargest)
     return bad("eye must fit single precision (3.4e38)", "");
   if (!(camera.fov_deg > 0 && camera.fov_deg < 180)) return bad("fov must be above 0 and below 180 degrees", "");
+  if (camera.projection == Projection::orthographic && !(camera.shorter_side > 0 && camera.shorter_side <= kLargest))
+    return bad("the shorter side of an orthographic picture must be above 0 and fit single precision (3.4e38)", "");
   const Vec3d view = camera.look_at - camera.eye;
   if (!(length(view) > 0)) return bad("eye and look_at are the same point", "move one of them");
   if (!(length(camera.up) > 0)) return bad("up is zero", "give a direction such as 0,1,0");
@@ -27,10 +40,34 @@ Status check_camera(const Camera& camera) {
   return Done{};
 }
 
+Camera with_projection(const Camera& camera, Projection projection) {
+  Camera changed = camera;
+  changed.projection = projection;
+  if (projection == camera.projection) return changed;
+  const double distance = length(camera.look_at - camera.eye);
+  if (projection == Projection::orthographic)
+    changed.shorter_side = 2 * distance * tan_deg(camera.fov_deg / 2);
+  else
+    changed.fov_deg = 2 * atan_deg(camera.shorter_side / (2 * distance));
+  return changed;
+}
+
+Camera enlarged(const Camera& camera, double factor) {
+  Camera changed = camera;
+  if (factor == 1) return changed;
+  if (camera.projection == Projection::orthographic)
+    changed.shorter_side = camera.shorter_side / factor;
+  else
+    changed.fov_deg = 2 * atan_deg(tan_deg(camera.fov_deg / 2) / factor);
+  return changed;
+}
+
 PixelRays::PixelRays(const Camera& camera, int width_px, int height_px)
-    : eye_(to_float(camera.eye)), forward_(normalized(camera.look_at - camera.eye)) {
-  // One pixel on the plane at distance 1: the shorter side of the picture spans the angle.
-  const double pixel = 2 * tan_deg(camera.fov_deg / 2) / std::min(width_px, height_px);
+    : parallel_(camera.projection == Projection::orthographic),
+      eye_(to_float(camera.eye)),
+      centre_(camera.eye),
+      forward_(normalized(camera.look_at - camera.eye)) {
+  const double pixel = pixel_of(camera, width_px, height_px);
   const Vec3d right = normalized(cross(forward_, normalized(camera.up)));
   right_ = right * pixel;
   down_ = cross(forward_, right) * pixel;
@@ -39,16 +76,23 @@ PixelRays::PixelRays(const Camera& camera, int width_px, int height_px)
 }
 
 Ray PixelRays::at(double x_px, double y_px) const {
-  const Vec3d direction = forward_ + (x_px - half_width_) * right_ + (y_px - half_height_) * down_;
   Ray ray;
+  if (parallel_) {
+    ray.origin = to_float(centre_ + (x_px - half_width_) * right_ + (y_px - half_height_) * down_);
+    ray.direction = to_float(forward_);
+    return ray;
+  }
+  const Vec3d direction = forward_ + (x_px - half_width_) * right_ + (y_px - half_height_) * down_;
   ray.origin = eye_;
   ray.direction = to_float(normalized(direction));
   return ray;
 }
 
 PixelPlaces::PixelPlaces(const Camera& camera, int width_px, int height_px)
-    : eye_(to_float(camera.eye)), forward_(normalized(camera.look_at - camera.eye)) {
-  const double pixel = 2 * tan_deg(camera.fov_deg / 2) / std::min(width_px, height_px);
+    : parallel_(camera.projection == Projection::orthographic),
+      eye_(to_float(camera.eye)),
+      forward_(normalized(camera.look_at - camera.eye)) {
+  const double pixel = pixel_of(camera, width_px, height_px);
   const Vec3d right = normalized(cross(forward_, normalized(camera.up)));
   right_ = right / pixel;
   down_ = cross(forward_, right) / pixel;

@@ -1,4 +1,4 @@
-// A pinhole camera, and the rays through its pixels.
+// A camera, and the rays through its pixels.
 #pragma once
 
 #include "bihive/base/result.h"
@@ -7,17 +7,36 @@
 
 namespace bihive {
 
-/// World units. `fov_deg` is the full angle along the picture's shorter side, above 0 and below 180.
+/// perspective: all rays start at the eye. orthographic: all rays are parallel, and start on the plane through the eye
+/// at right angles to the view; equal spheres look equally large at any distance. What is behind that plane is not
+/// seen.
+enum class Projection { perspective, orthographic };
+
+/// World units.
 struct Camera {
   Vec3d eye{0, 0, 100};
   Vec3d look_at{0, 0, 0};
   Vec3d up{0, 1, 0};
-  double fov_deg = 30;
+  double fov_deg = 30;  ///< perspective: the full angle along the picture's shorter side, above 0 and below 180
+  Projection projection = Projection::perspective;
+  double shorter_side = 50;  ///< orthographic: the length in the world along the picture's shorter side, above 0
 };
 
-/// An error if eye and look_at coincide, up is parallel to the view or zero, a number is not finite, or the angle is
-/// out of range.
+inline bool operator==(const Camera& a, const Camera& b) {
+  return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.fov_deg == b.fov_deg &&
+         a.projection == b.projection && a.shorter_side == b.shorter_side;
+}
+
+/// An error if eye and look_at coincide, up is parallel to the view or zero, a number is not finite, or the angle or
+/// the shorter side is out of range.
 Status check_camera(const Camera& camera);
+
+/// The same camera with this projection. What is as far away as look_at keeps its size in the picture.
+Camera with_projection(const Camera& camera, Projection projection);
+
+/// The same camera with a picture `factor` times as large, above 0: it changes the angle or the shorter side. The eye
+/// stays, so nothing that was in front of it is cut off.
+Camera enlarged(const Camera& camera, double factor);
 
 /// A camera prepared for a picture of width x height pixels.
 class PixelRays {
@@ -26,12 +45,17 @@ class PixelRays {
   PixelRays(const Camera& camera, int width_px, int height_px);
 
   /// The ray through picture position (x, y) in pixels: (0, 0) is the top left corner, (0.5, 0.5) the first pixel's
-  /// centre. Its direction has length 1 up to binary32 rounding.
+  /// centre. Its direction has length 1 up to binary32 rounding. Of parallel rays, all directions have the same bits,
+  /// and each origin is rounded once.
   Ray at(double x_px, double y_px) const;
 
-  /// The vectors of at(), for code that makes many rays at once: the direction through (x, y) is that of forward + (x -
-  /// half_width) right + (y - half_height) down.
+  /// The vectors of at(), for code that makes many rays at once. Let step be (x - half_width) right + (y - half_height)
+  /// down. Rays from one eye: the direction through (x, y) is that of forward + step. Parallel rays: the origin is
+  /// centre
+  /// + step, and the direction is that of forward.
+  bool parallel() const { return parallel_; }
   Vec3f eye() const { return eye_; }
+  Vec3d centre() const { return centre_; }
   Vec3d forward() const { return forward_; }
   Vec3d right() const { return right_; }
   Vec3d down() const { return down_; }
@@ -39,8 +63,10 @@ class PixelRays {
   double half_height() const { return half_height_; }
 
  private:
+  bool parallel_;
   Vec3f eye_;
-  Vec3d forward_, right_, down_;  // right_ and down_ span one pixel on the plane at distance 1
+  Vec3d centre_;                  // the eye before it is rounded
+  Vec3d forward_, right_, down_;  // right_ and down_ span one pixel; with one eye, on the plane at distance 1
   double half_width_, half_height_;
 };
 
@@ -50,15 +76,16 @@ class PixelPlaces {
   /// The camera must pass check_camera().
   PixelPlaces(const Camera& camera, int width_px, int height_px);
 
-  /// Steps to the right and down, and the distance along the view, measured from the eye; the steps in pixels at
-  /// distance 1.
+  /// Steps to the right and down, and the distance along the view, measured from the eye; the steps in pixels, with one
+  /// eye in pixels at distance 1.
   Vec3d from_eye(Vec3d world) const;
 
   /// Picture position in pixels, as in PixelRays::at(), of a point given from the eye at a distance above 0.
-  double x_px(Vec3d point) const { return half_width_ + point.x / point.z; }
-  double y_px(Vec3d point) const { return half_height_ + point.y / point.z; }
+  double x_px(Vec3d point) const { return half_width_ + (parallel_ ? point.x : point.x / point.z); }
+  double y_px(Vec3d point) const { return half_height_ + (parallel_ ? point.y : point.y / point.z); }
 
  private:
+  bool parallel_;
   // binary32 as in PixelRays. The conversions stay apart: GCC 12 drops the rounding if it sees both at once.
   Vec3f eye_;
   Vec3d right_, down_, forward_;

@@ -12,31 +12,6 @@ namespace {
 // Free border, as a share of the picture's side.
 constexpr double kMargin = 0.04;
 
-struct Side {
-  Vec3d back;  // from look_at towards the eye
-  Vec3d up;
-};
-
-Side side_of(ViewFrom from) {
-  switch (from) {
-    case ViewFrom::front:
-      return {{0, 0, 1}, {0, 1, 0}};
-    case ViewFrom::back:
-      return {{0, 0, -1}, {0, 1, 0}};
-    case ViewFrom::left:
-      return {{-1, 0, 0}, {0, 1, 0}};
-    case ViewFrom::right:
-      return {{1, 0, 0}, {0, 1, 0}};
-    case ViewFrom::top:
-      return {{0, 1, 0}, {0, 0, -1}};
-    case ViewFrom::bottom:
-      return {{0, -1, 0}, {0, 0, 1}};
-    case ViewFrom::iso:
-      break;
-  }
-  return {normalized(Vec3d{1, 1, 1}), {0, 1, 0}};
-}
-
 // The two opposite planes through the eye that bound the picture to the left and right, or below and above. With the
 // eye at (shift, distance) along (the span's axis, back), a sphere is inside a plane when its centre is at least a
 // radius away from it:
@@ -61,10 +36,71 @@ class Span {
   double low_ = kNone, high_ = kNone;
 };
 
+// The spheres' silhouettes along one side of an orthographic picture: from low to high.
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double place, double radius) {
+    low = std::min(low, place - radius);
+    high = std::max(high, place + radius);
+  }
+  double size() const { return high > low ? high - low : 0; }
+  double middle() const { return high >= low ? low + 0.5 * (high - low) : 0; }
+};
+
+// Turns a camera that frames the set in perspective, whose `distance` from the spheres' `middle` is known, into one
+// with parallel rays.
+void frame_parallel(const SphereSet& spheres, const Side& side, Vec3d middle, double distance, int width_px,
+                    int height_px, Camera& camera) {
+  const Vec3d right = normalized(cross(side.up, side.back));
+  const Vec3d up = cross(side.back, right);
+  Extent across, along;
+  double front = 0;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const Vec3d centre = spheres.centre(id) - middle;
+    const double radius = spheres.radius(id);
+    across.add(dot(centre, right), radius);
+    along.add(dot(centre, up), radius);
+    front = std::max(front, dot(centre, side.back) + radius);
+  }
+  const double shorter = std::min(width_px, height_px);
+  const double side_length = std::max(across.size() * shorter / width_px, along.size() * shorter / height_px);
+  camera.projection = Projection::orthographic;
+  camera.shorter_side = side_length > 0 ? side_length / (1 - 2 * kMargin) : 1;
+
+  // Origins are rounded to binary32, and must not come to lie in a sphere.
+  distance = std::max(distance, front + 0.5 * camera.shorter_side);
+  const Vec3d shift = across.middle() * right + along.middle() * up;
+  camera.look_at = middle + shift;
+  camera.eye = camera.look_at + distance * side.back;
+  const double largest = std::max({std::abs(camera.eye.x), std::abs(camera.eye.y), std::abs(camera.eye.z)});
+  camera.eye = camera.eye + 0x1p-20 * largest * side.back;
+}
+
 }  // namespace
 
-Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {
-  const Side side = side_of(from);
+Side side_of(ViewFrom from) {
+  switch (from) {
+    case ViewFrom::front:
+      return {{0, 0, 1}, {0, 1, 0}};
+    case ViewFrom::back:
+      return {{0, 0, -1}, {0, 1, 0}};
+    case ViewFrom::left:
+      return {{-1, 0, 0}, {0, 1, 0}};
+    case ViewFrom::right:
+      return {{1, 0, 0}, {0, 1, 0}};
+    case ViewFrom::top:
+      return {{0, 1, 0}, {0, 0, -1}};
+    case ViewFrom::bottom:
+      return {{0, -1, 0}, {0, 0, 1}};
+    case ViewFrom::iso:
+      break;
+  }
+  return {normalized(Vec3d{1, 1, 1}), {0, 1, 0}};
+}
+
+Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
   const Vec3d right = normalized(cross(side.up, side.back));
   const Vec3d up = cross(side.back, right);
   const SphereSet::Bounds bounds = spheres.bounds();
@@ -72,7 +108,7 @@ Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, in
 
   // The tangents of the angles that the picture without its margin spans to either side.
   const double shorter = std::min(width_px, height_px);
-  const double tangent = tan_deg(fov_deg / 2) * (1 - 2 * kMargin);
+  const double tangent = tan_deg(lens.fov_deg / 2) * (1 - 2 * kMargin);
   Span across{tangent * width_px / shorter};
   Span along{tangent * height_px / shorter};
   double distance = 0;
@@ -92,8 +128,14 @@ Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, in
   camera.look_at = middle + shift;
   camera.eye = camera.look_at + distance * side.back;
   camera.up = up;
-  camera.fov_deg = fov_deg;
+  camera.fov_deg = lens.fov_deg;
+  if (lens.projection == Projection::orthographic)
+    frame_parallel(spheres, side, middle, distance, width_px, height_px, camera);
   return camera;
+}
+
+Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {
+  return frame_spheres(spheres, side_of(from), {fov_deg, Projection::perspective}, width_px, height_px);
 }
 
 PointLight light_behind(const Camera& camera) {

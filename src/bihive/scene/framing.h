@@ -13,8 +13,24 @@ namespace bihive {
 /// from -z, top from +y (with -z up), bottom from -y (with +z up), iso from (1, 1, 1).
 enum class ViewFrom { front, back, left, right, top, bottom, iso };
 
-/// The eye is as near as possible, and shifted sideways, so that every sphere lies wholly inside the picture (width x
-/// height pixels) less a margin of 4 % on each side. An empty or single-point set is seen from distance 1.
+/// A direction of view, as two unit vectors at right angles: from look_at towards the eye, and what is up.
+struct Side {
+  Vec3d back;
+  Vec3d up;
+};
+Side side_of(ViewFrom from);
+
+/// How the camera draws what it sees.
+struct Lens {
+  double fov_deg = 30;
+  Projection projection = Projection::perspective;
+};
+
+/// Every sphere lies wholly inside the picture (width x height pixels) less a margin of 4 % on each side, and the set
+/// is as large as that allows. perspective: the eye is as near as possible, and shifted sideways. orthographic: the eye
+/// is where that of the perspective is or farther away, in front of all spheres, and the shorter side is as short as
+/// possible. An empty or single-point set is seen from distance 1.
+Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px);
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
 
 /// One white light above, left of and behind the camera, at least as far from look_at as the camera is.

@@ -71,6 +71,7 @@ void take_picture(const json& value, PictureDefaults& picture) {
   take_value(value, "samples_per_pixel", picture.samples_per_pixel);
   take_value(value, "recursion", picture.recursion);
   take_value(value, "shadows", picture.shadows);
+  take_value(value, "transparent", picture.transparent);
   take_value(value, "light_points", picture.light_points);
   if (value.contains("ambient_occlusion")) picture.ambient_occlusion = ambient_from_json(value.at("ambient_occlusion"));
   if (value.contains("outline")) picture.outline = outline_from_json(value.at("outline"), picture.transfer);

@@ -1,4 +1,4 @@
-// The names by which people choose views and sides: on the command line, in saved settings, in links.
+// The names by which people choose views, sides and projections: on the command line, in saved settings, in links.
 #pragma once
 
 #include <string>
@@ -21,6 +21,8 @@ inline const Names<View> kViews{
 inline const Names<ViewFrom> kSides{{"front", ViewFrom::front}, {"back", ViewFrom::back}, {"left", ViewFrom::left},
                                     {"right", ViewFrom::right}, {"top", ViewFrom::top},   {"bottom", ViewFrom::bottom},
                                     {"iso", ViewFrom::iso}};
+inline const Names<Projection> kProjections{{"perspective", Projection::perspective},
+                                            {"orthographic", Projection::orthographic}};
 
 /// The name of a value that is in the list.
 template <class T>

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "bihive/image/film.h"
 #include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/picture_effects.h"
 #include "bihive/scene/scene.h"
@@ -24,9 +25,19 @@ struct RenderSettings {
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
+  /// The film gets coverage: samples that hit nothing add no light to their pixel. Reflected and transmitted rays see
+  /// the background as ever. Not for View::traversal and View::tree.
+  bool transparent = false;
   View view = View::shaded;
+  /// Only these pixels of the picture are drawn, with the same bits as in the whole picture: at least one, inside it.
+  std::optional<Tile> crop;
   int threads = 0;  ///< 0 = as many as the machine runs at once; for the CPU's renderer
 };
+
+/// The pixels of the whole picture that are drawn.
+inline Tile drawn_pixels(const RenderSettings& settings) {
+  return settings.crop.value_or(Tile{0, 0, settings.width_px, settings.height_px});
+}
 
 /// The defaults of a scene as settings.
 inline RenderSettings settings_from(const PictureDefaults& defaults) {
@@ -40,6 +51,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.light_points = defaults.light_points;
   settings.outline = defaults.outline;
   settings.fog = defaults.fog;
+  settings.transparent = defaults.transparent;
   return settings;
 }
 

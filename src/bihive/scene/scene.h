@@ -50,6 +50,7 @@ struct PictureDefaults {
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
+  bool transparent = false;  ///< the picture has opacity instead of a background
   Transfer transfer = Transfer::srgb;
 };
 

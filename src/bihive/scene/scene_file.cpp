@@ -76,7 +76,7 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
-    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog"})
+    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog", "transparent"})
       if (value.contains(key)) need_version(2, std::string("/picture/") + key);
     PictureDefaults& picture = loaded_.scene.picture;
     bihive::take_picture(value, picture);
@@ -143,12 +143,27 @@ class Extraction {
     camera.look_at = vector(value.at("look_at"));
     if (value.contains("up")) camera.up = vector(value.at("up"));
     camera.fov_deg = value.value("fov_deg", camera.fov_deg);
+    take_projection(value, camera);
     const Status status = check_camera(camera);
     if (status) return;
     // The path already names the camera.
     const std::string& what = status.error().message;
     const std::size_t colon = what.rfind("camera: ", 0) == 0 ? std::string_view("camera: ").size() : 0;
     fail("/camera", what.substr(colon), status.error().hint);
+  }
+
+  // Without a shorter side, the picture shows as much at look_at as the angle would.
+  void take_projection(const json& value, Camera& camera) {
+    for (const char* key : {"projection", "shorter_side"})
+      if (value.contains(key)) need_version(2, std::string("/camera/") + key);
+    const bool parallel = value.value("projection", std::string("perspective")) == "orthographic";
+    if (value.contains("shorter_side")) {
+      if (!parallel) return fail("/camera/shorter_side", "expected no such key without the projection orthographic");
+      camera.shorter_side = value.at("shorter_side").get<double>();
+      camera.projection = Projection::orthographic;
+    } else if (parallel) {
+      camera = with_projection(camera, Projection::orthographic);
+    }
   }
 
   void take_lights() {

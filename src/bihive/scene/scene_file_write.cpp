@@ -93,6 +93,12 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
 }
 
 // With its comma, or nothing.
+std::string projection_members(const Camera& camera) {
+  if (camera.projection == Projection::perspective) return "";
+  return fmt::format(", \"projection\": \"orthographic\", \"shorter_side\": {}", number(camera.shorter_side));
+}
+
+// With its comma, or nothing.
 std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
   if (!ambient) return "";
   const std::string distance =
@@ -130,7 +136,8 @@ int version_of(const Scene& scene) {
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& light) { return light.radius != 0; });
   const bool materials = std::any_of(scene.materials.begin(), scene.materials.end(), has_effects) ||
                          (scene.plane && has_effects(scene.plane->material));
-  return effects || soft || materials || has_ambient_light(scene) ? 2 : 1;
+  const bool parallel = scene.camera.projection != Projection::perspective;
+  return effects || soft || materials || has_ambient_light(scene) || parallel || picture.transparent ? 2 : 1;
 }
 
 }  // namespace
@@ -141,8 +148,9 @@ std::string scene_to_json(const Scene& scene) {
   std::string out = fmt::format("{{\n  \"bihive_scene\": {},\n", version_of(scene));
   if (!scene.name.empty()) out += "  \"name\": " + text(scene.name) + ",\n";
   if (scene.seed) out += fmt::format("  \"seed\": {},\n", *scene.seed);
-  out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}}},\n",
-                     vector(camera.eye), vector(camera.look_at), vector(camera.up), number(camera.fov_deg));
+  out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}{}}},\n",
+                     vector(camera.eye), vector(camera.look_at), vector(camera.up), number(camera.fov_deg),
+                     projection_members(camera));
   out += "  \"lights\": [";
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     out += fmt::format("{}{{\"position\": {}, \"colour\": {}{}}}", i == 0 ? "" : ", ", vector(scene.lights[i].position),
@@ -155,10 +163,11 @@ std::string scene_to_json(const Scene& scene) {
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}{}{}{}\"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}{}{}{}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
       ambient_member(picture.ambient_occlusion), light_points_member(picture.light_points),
-      outline_member(picture.outline), fog_member(picture.fog), picture.transfer == Transfer::srgb ? "srgb" : "none");
+      outline_member(picture.outline), fog_member(picture.fog), picture.transparent ? "\"transparent\": true, " : "",
+      picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

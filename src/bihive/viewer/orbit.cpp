@@ -29,14 +29,14 @@ double degrees_of(double moved_px, PictureSizePx size) {
   return std::clamp(degrees, -kMostDegrees, kMostDegrees);
 }
 
-// Right and down by one pixel at the distance of look_at.
+// Right and down by one pixel at the distance of look_at. Of parallel rays, at any distance.
 struct Steps {
   Vec3d right, down;
 };
 
 Steps steps_of(const Camera& camera, PictureSizePx size) {
   const PixelRays rays(camera, size.width, size.height);
-  const double distance = length(camera.look_at - camera.eye);
+  const double distance = rays.parallel() ? 1 : length(camera.look_at - camera.eye);
   return {distance * rays.right(), distance * rays.down()};
 }
 
@@ -103,13 +103,24 @@ DistanceLimits distance_limits(const Camera& camera, double diagonal) {
 
 Camera zoomed(const Camera& camera, double factor, Vec3d anchor, DistanceLimits limits) {
   BIHIVE_CHECK(std::isfinite(factor) && factor > 0);
-  const double distance = length(camera.look_at - camera.eye);
+  const bool parallel = camera.projection == Projection::orthographic;
+  const double distance = parallel ? camera.shorter_side : length(camera.look_at - camera.eye);
 
   // A camera beyond a limit goes no further, but may come back.
   if (factor > 1) factor = std::max(1.0, std::min(factor, distance / limits.nearest));
   if (factor < 1) factor = std::min(1.0, std::max(factor, distance / limits.farthest));
   if (factor == 1) return camera;
   Camera moved = camera;
+  if (parallel) {
+    // The eye's plane stays, so that it comes into no sphere.
+    const Vec3d forward = normalized(camera.look_at - camera.eye);
+    const Vec3d offset = anchor - camera.look_at;
+    const Vec3d shift = (1 - 1 / factor) * (offset - dot(offset, forward) * forward);
+    moved.eye = camera.eye + shift;
+    moved.look_at = camera.look_at + shift;
+    moved.shorter_side = camera.shorter_side / factor;
+    return if_good(moved, camera);
+  }
   moved.eye = anchor + (camera.eye - anchor) / factor;
   moved.look_at = anchor + (camera.look_at - anchor) / factor;
   return if_good(moved, camera);

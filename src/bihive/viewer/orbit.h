@@ -24,7 +24,7 @@ Camera panned(const Camera& camera, double dx_px, double dy_px, PictureSizePx si
 /// The point under (x, y) that is as far along the view as look_at.
 Vec3d point_under(const Camera& camera, double x_px, double y_px, PictureSizePx size);
 
-/// The allowed distances of the eye from look_at.
+/// The allowed distances of the eye from look_at; with an orthographic camera the allowed lengths of its shorter side.
 struct DistanceLimits {
   double nearest, farthest;
 };
@@ -33,8 +33,8 @@ struct DistanceLimits {
 DistanceLimits distance_limits(const Camera& camera, double diagonal);
 
 /// A factor above 1 comes closer. It divides the distances of eye and look_at from the anchor, so the anchor stays at
-/// its place in the picture. Ends at the limits; a camera beyond a limit may come back. `factor` must be finite and
-/// above 0.
+/// its place in the picture. An orthographic camera divides its shorter side instead. Ends at the limits; a camera
+/// beyond a limit may come back. `factor` must be finite and above 0.
 Camera zoomed(const Camera& camera, double factor, Vec3d anchor, DistanceLimits limits);
 
 }  // namespace bihive

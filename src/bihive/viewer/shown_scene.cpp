@@ -21,9 +21,9 @@ ShownScene::ShownScene(Scene shown, SceneFacts said, bool with_camera, bool with
 }
 
 Camera ShownScene::framed(ViewFrom side, View view, PictureSizePx size) const {
-  const double fov_deg = own_camera.fov_deg;
-  return view == View::tree ? frame_tree(scene.spheres, side, fov_deg, size.width, size.height)
-                            : frame_spheres(scene.spheres, side, fov_deg, size.width, size.height);
+  const Lens lens{own_camera.fov_deg, own_camera.projection};
+  return view == View::tree ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
+                            : frame_spheres(scene.spheres, side_of(side), lens, size.width, size.height);
 }
 
 void ShownScene::look_by(const Camera& camera) {

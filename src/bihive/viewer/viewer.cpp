@@ -21,10 +21,6 @@ Error bad_setting(const std::string& message, const std::string& hint = "") {
   return {message, "", 0, 0, hint};
 }
 
-bool same_camera(const Camera& a, const Camera& b) {
-  return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.fov_deg == b.fov_deg;
-}
-
 }  // namespace
 
 class Viewer::Implementation {
@@ -105,7 +101,7 @@ class Viewer::Implementation {
     drop_picture();
 
     // A camera that shows the whole set also shows it in the new view.
-    const bool keeps_side = framed_from_ && same_camera(settings.camera, settings_.camera);
+    const bool keeps_side = framed_from_ && settings.camera == settings_.camera;
     if (shown_ && keeps_side) settings.camera = shown_->framed(*framed_from_, settings.view, size_);
     if (shown_) {
       std::unique_ptr<SceneTrees> other_trees;

@@ -152,7 +152,9 @@ std::string settings_to_json(const ViewerSettings& settings) {
   document["camera"] = {{"eye", vector_json(settings.camera.eye)},
                         {"look_at", vector_json(settings.camera.look_at)},
                         {"up", vector_json(settings.camera.up)},
-                        {"fov_deg", settings.camera.fov_deg}};
+                        {"fov_deg", settings.camera.fov_deg},
+                        {"projection", name_of(kProjections, settings.camera.projection)},
+                        {"shorter_side", settings.camera.shorter_side}};
   return document.dump();
 }
 
@@ -175,6 +177,8 @@ Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSet
     of_camera.take("look_at", settings.camera.look_at);
     of_camera.take("up", settings.camera.up);
     of_camera.take("fov_deg", settings.camera.fov_deg);
+    of_camera.take("projection", settings.camera.projection, kProjections);
+    of_camera.take("shorter_side", settings.camera.shorter_side);
     of_camera.refuse_others();
   }
   members.refuse_others();

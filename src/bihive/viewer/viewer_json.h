@@ -10,7 +10,8 @@
 namespace bihive {
 
 /// One line: {"engine":"cpu","view":"shaded","recursion":5,"samples_per_pixel":4,"shadows":true,"max_prims":null,
-/// "max_depth":null,"camera":{"eye":[x,y,z],"look_at":[x,y,z],"up":[x,y,z],"fov_deg":30}}. Numbers come back exactly.
+/// "max_depth":null,"camera":{"eye":[x,y,z],"look_at":[x,y,z],"up":[x,y,z],"fov_deg":30,"projection":"perspective","shorter_side":50}}.
+/// Numbers come back exactly.
 std::string settings_to_json(const ViewerSettings& settings);
 
 /// A member that the document leaves out comes from `base`. A limit of the tree is a number, "unlimited" (kUnlimited),

@@ -12,34 +12,52 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-// PixelRays prepared for vectors.
+// PixelRays prepared for vectors. `start` is forward, or of parallel rays the centre.
 struct CameraLanes {
-  Lanes3 forward, right, down;
+  Lanes3 start, right, down;
   Lanes half_width, half_height;
 
-  HWY_INLINE Lanes3 direction(Lanes x, Lanes y) const {
-    const Lanes3 along_row = add(forward, multiply(hn::Sub(x, half_width), right));
-    return normalized(add(along_row, multiply(hn::Sub(y, half_height), down)));
+  HWY_INLINE Lanes3 at(Lanes x, Lanes y) const {
+    const Lanes3 along_row = add(start, multiply(hn::Sub(x, half_width), right));
+    return add(along_row, multiply(hn::Sub(y, half_height), down));
   }
 };
 
 HWY_INLINE CameraLanes camera_lanes(const PixelRays& pixels) {
-  return {all(pixels.forward()), all(pixels.right()), all(pixels.down()), all(pixels.half_width()),
-          all(pixels.half_height())};
+  return {all(pixels.parallel() ? pixels.centre() : pixels.forward()), all(pixels.right()), all(pixels.down()),
+          all(pixels.half_width()), all(pixels.half_height())};
 }
 
-HWY_INLINE void put_eye(const PixelRays& pixels, Wave& wave) {
-  const Lanes3 eye = all(to_double(pixels.eye()));
-  for (std::int64_t i = 0; i < wave.count; i += kLanes) store(eye, wave.origin, i);
+HWY_INLINE void put_everywhere(Vec3d vector, Columns3<float>& columns, std::int64_t count) {
+  const Lanes3 lanes = all(vector);
+  for (std::int64_t i = 0; i < count; i += kLanes) store(lanes, columns, i);
+}
+
+// Calls place_of(i, x, y) for the picture positions of rays i and its neighbours.
+template <class PlaceOf>
+HWY_INLINE void make_rays(const PixelRays& pixels, Wave& wave, const PlaceOf& place_of) {
+  const CameraLanes camera = camera_lanes(pixels);
+  Lanes x, y;
+  if (pixels.parallel()) {
+    put_everywhere(pixels.forward(), wave.direction, wave.count);
+    for (std::int64_t i = 0; i < wave.count; i += kLanes) {
+      place_of(i, x, y);
+      store(camera.at(x, y), wave.origin, i);
+    }
+    return;
+  }
+  put_everywhere(to_double(pixels.eye()), wave.origin, wave.count);
+  for (std::int64_t i = 0; i < wave.count; i += kLanes) {
+    place_of(i, x, y);
+    store(normalized(camera.at(x, y)), wave.direction, i);
+  }
 }
 
 void camera_rays_on_target(const PixelRays& pixels, const double* x, const double* y, Wave& wave) {
-  const CameraLanes camera = camera_lanes(pixels);
-  put_eye(pixels, wave);
-  for (std::int64_t i = 0; i < wave.count; i += kLanes) {
-    const Lanes3 direction = camera.direction(hn::LoadU(Tag(), x + i), hn::LoadU(Tag(), y + i));
-    store(direction, wave.direction, i);
-  }
+  make_rays(pixels, wave, [&](std::int64_t i, Lanes& x_px, Lanes& y_px) HWY_ATTR {
+    x_px = hn::LoadU(Tag(), x + i);
+    y_px = hn::LoadU(Tag(), y + i);
+  });
 }
 
 void pixel_rays_on_target(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave) {
@@ -48,17 +66,13 @@ void pixel_rays_on_target(const PixelRays& pixels, const PixelPlace* pixel, Samp
   constexpr hn::Rebind<std::int32_t, Tag> i32;
   constexpr hn::Rebind<std::uint32_t, Tag> u32;
   const auto* const words = reinterpret_cast<const std::uint32_t*>(pixel);
-  const CameraLanes camera = camera_lanes(pixels);
-  put_eye(pixels, wave);
-  for (std::int64_t i = 0; i < wave.count; i += kLanes) {
+  make_rays(pixels, wave, [&](std::int64_t i, Lanes& x_px, Lanes& y_px) HWY_ATTR {
     const auto both = hn::LoadU(u32, words + i);
     const auto x_of = hn::BitCast(i32, hn::And(both, hn::Set(u32, 0xFFFF)));
     const auto y_of = hn::BitCast(i32, hn::ShiftRight<16>(both));
-    const Lanes x = hn::Add(hn::PromoteTo(Tag(), x_of), all(place.x));
-    const Lanes y = hn::Add(hn::PromoteTo(Tag(), y_of), all(place.y));
-    const Lanes3 direction = camera.direction(x, y);
-    store(direction, wave.direction, i);
-  }
+    x_px = hn::Add(hn::PromoteTo(Tag(), x_of), all(place.x));
+    y_px = hn::Add(hn::PromoteTo(Tag(), y_of), all(place.y));
+  });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -75,11 +89,13 @@ namespace steps {
 
 void camera_rays(const PixelRays& pixels, const double* x, const double* y, Wave& wave) {
   ensure_target();
+  wave.has_one_origin = !pixels.parallel();
   HWY_DYNAMIC_DISPATCH(camera_rays_on_target)(pixels, x, y, wave);
 }
 
 void camera_rays(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave) {
   ensure_target();
+  wave.has_one_origin = !pixels.parallel();
   HWY_DYNAMIC_DISPATCH(pixel_rays_on_target)(pixels, pixel, place, wave);
 }
 

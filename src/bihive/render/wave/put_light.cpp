@@ -44,10 +44,15 @@ HWY_INLINE void put_block(const float (&channel)[3][kBlock], Vec3f* corner, std:
   }
 }
 
-void put_light_on_target(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film) {
+void put_light_on_target(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, PixelPlace film_corner,
+                         Film& film) {
   alignas(64) float channel[3][kBlock];
   Vec3f* const radiance = film.radiance.data();
   const auto width = static_cast<std::size_t>(film.width);
+  const auto place_of = [&](PixelPlace place) {
+    return static_cast<std::size_t>(place.y - film_corner.y) * width +
+           static_cast<std::size_t>(place.x - film_corner.x);
+  };
   for (std::int64_t first = 0; first < count; first += kBlock) {
     const std::int64_t n = std::min(kBlock, count - first);
     for (int k = 0; k < 3; ++k)
@@ -55,11 +60,10 @@ void put_light_on_target(const WaveSums& sums, const PixelPlace* pixel, std::int
         hn::Store(hn::DemoteTo(FloatHalf(), load(sums.light[k], first + i)), FloatHalf(), channel[k] + i);
     const PixelPlace* const place = pixel + first;
     if (HWY_LIKELY(n == kBlock && is_whole_block(place))) {
-      put_block(channel, radiance + place->y * width + place->x, width);
+      put_block(channel, radiance + place_of(*place), width);
       continue;
     }
-    for (std::int64_t i = 0; i < n; ++i)
-      radiance[place[i].y * width + place[i].x] = {channel[0][i], channel[1][i], channel[2][i]};
+    for (std::int64_t i = 0; i < n; ++i) radiance[place_of(place[i])] = {channel[0][i], channel[1][i], channel[2][i]};
   }
 }
 
@@ -74,9 +78,9 @@ HWY_EXPORT(put_light_on_target);
 
 namespace steps {
 
-void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film) {
+void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, PixelPlace film_corner, Film& film) {
   ensure_target();
-  HWY_DYNAMIC_DISPATCH(put_light_on_target)(sums, pixel, count, film);
+  HWY_DYNAMIC_DISPATCH(put_light_on_target)(sums, pixel, count, film_corner, film);
 }
 
 }  // namespace steps

@@ -14,8 +14,9 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, const double* t, const std::int64_t* id,
-                               WaveSums& sums) {
+template <bool kOneOrigin>
+HWY_INLINE void shade_primaries_from(const WaveScene& scene, const WavePart& part, const double* t,
+                                     const std::int64_t* id, WaveSums& sums) {
   const LongTag w;
   const Wave& wave = *part.wave;
   double* const red = sums.light[0].data();
@@ -23,6 +24,7 @@ void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, con
   double* const blue = sums.light[2].data();
   const Plane* const plane = scene.scene->plane ? &scene.scene->plane->plane : nullptr;
   const Lanes3 background = add(all(Vec3d{}), all(scene.scene->background));
+  // Of rays from one origin, the plane's height above it is the same for all.
   const Lanes3 eye = all(Vec3d{double(wave.origin[0][part.first]), double(wave.origin[1][part.first]),
                                double(wave.origin[2][part.first])});
   const Lanes plane_above = plane != nullptr ? height_above(*plane, eye) : all(0);
@@ -30,10 +32,12 @@ void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, con
   const std::int64_t count = part.count();
   for (std::int64_t k = 0; k < count; k += kLanes) {
     const std::int64_t i = first + k;
-    RayLanes rays{eye, load(wave.direction, i), hn::LoadU(Tag(), t + k), hn::LoadU(w, id + k)};
+    RayLanes rays{kOneOrigin ? eye : load(wave.origin, i), load(wave.direction, i), hn::LoadU(Tag(), t + k),
+                  hn::LoadU(w, id + k)};
     if (plane != nullptr) {
       Lanes plane_t;
-      const LaneMask hit = hits_plane(*plane, plane_above, rays, plane_t);
+      const Lanes above = kOneOrigin ? plane_above : height_above(*plane, rays.origin);
+      const LaneMask hit = hits_plane(*plane, above, rays, plane_t);
       put_plane(hit, plane_t, rays);
     }
     LaneMask found = lanes_of(hn::Ne(rays.id, hn::Set(w, kNothing)));
@@ -47,6 +51,14 @@ void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, con
     hn::StoreU(light.y, Tag(), green + i);
     hn::StoreU(light.z, Tag(), blue + i);
   }
+}
+
+void shade_primaries_on_target(const WaveScene& scene, const WavePart& part, const double* t, const std::int64_t* id,
+                               WaveSums& sums) {
+  if (part.wave->has_one_origin)
+    shade_primaries_from<true>(scene, part, t, id, sums);
+  else
+    shade_primaries_from<false>(scene, part, t, id, sums);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

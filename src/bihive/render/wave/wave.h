@@ -66,12 +66,14 @@ struct RayColumns {
 struct Wave : RayColumns {
   /// Primary rays: ray i has owner i, weight 1, leaves nothing, and is inside nothing; those columns are unused.
   bool starts_at_eye = false;
-  Column<double> weight;  ///< share of the light along the ray
+  bool has_one_origin = false;  ///< all rays start at the same point
+  Column<double> weight;        ///< share of the light along the ray
   Column<std::int64_t> owner;
 
   void reset(std::int64_t n) {
     RayColumns::reset(n);
     starts_at_eye = false;
+    has_one_origin = false;
     weight.reserve(n);
     owner.reserve(n);
   }
@@ -225,7 +227,7 @@ struct LightReceived {
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const LightReceived& received,
                      const double* visibility, WaveSums& sums);
 
-/// Both steps at once for at least one ray from one eye, without secondary rays and without shadows: the light that
+/// Both steps at once for at least one primary ray, without secondary rays and without shadows: the light that
 /// find_surfaces() and add_local_light() bring to the owners. The owners must have received nothing yet.
 void shade_primaries(const WaveScene& scene, const WavePart& rays, const double* t, const std::int64_t* id,
                      WaveSums& sums);
@@ -237,9 +239,9 @@ struct SentOn {
 };
 SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
 
-/// Rounds the light of owners 0 to count - 1 to binary32, and stores that of owner i in the film at pixel[i]. The
-/// pixels are those of order_pixels() from a multiple of 64 on.
-void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, Film& film);
+/// Rounds the light of owners 0 to count - 1 to binary32, and stores that of owner i in the film at pixel[i] -
+/// film_corner. The pixels are those of order_pixels() from a multiple of 64 on.
+void put_light(const WaveSums& sums, const PixelPlace* pixel, std::int64_t count, PixelPlace film_corner, Film& film);
 
 }  // namespace steps
 

@@ -1,0 +1,61 @@
+#include "commands/choose_camera.h"
+
+#include "bihive/render/tree_picture.h"
+#include "support/failure.h"
+
+namespace bihive::cli {
+namespace {
+
+bool parallel(Vec3d a, Vec3d b) {
+  return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
+}
+
+Camera framed(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings) {
+  return settings.view == View::tree ? frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px)
+                                     : frame_spheres(scene.spheres, side, lens, settings.width_px, settings.height_px);
+}
+
+// A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
+Camera placed(const Camera& before, const Input& input, const RenderOptions& options) {
+  Camera camera = before;
+  const SphereSet::Bounds bounds = input.scene.spheres.bounds();
+  if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
+  camera.eye = options.eye.value_or(camera.eye);
+  camera.look_at = options.look_at.value_or(camera.look_at);
+  const Vec3d view = camera.look_at - camera.eye;
+  if (options.up)
+    camera.up = *options.up;
+  else if (parallel(camera.up, view))
+    camera.up = parallel({0, 1, 0}, view) ? Vec3d{0, 0, -1} : Vec3d{0, 1, 0};
+  return camera;
+}
+
+}  // namespace
+
+Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings) {
+  const bool user_places = options.eye || options.look_at || options.up;
+  if (user_places && options.view_from) fail_usage("--view-from and --eye, --look-at or --up contradict each other");
+
+  Camera camera = input.scene.camera;
+  camera.fov_deg = options.fov_deg.value_or(camera.fov_deg);
+  const Projection projection = options.projection.value_or(camera.projection);
+  const bool fitted = !input.has_camera || options.view_from;
+  if (fitted) {
+    // The fit is for the direction after the turn. A camera that the user places is turned below.
+    Side side = side_of(options.view_from.value_or(ViewFrom::front));
+    if (options.turn && !user_places) side = turned(side, *options.turn);
+    // From an eye of the user's own, the angle decides how much is seen.
+    camera = framed(input.scene, side, {camera.fov_deg, options.eye ? Projection::perspective : projection}, settings);
+  } else if (options.fov_deg) {
+    camera.projection = Projection::perspective;
+  }
+  if (user_places) camera = placed(camera, input, options);
+  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
+  camera = with_projection(camera, projection);
+  if (options.turn && (user_places || !fitted)) camera = turned(camera, *options.turn);
+  camera = enlarged(camera, options.zoom.value_or(1));
+  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
+  return camera;
+}
+
+}  // namespace bihive::cli
