@@ -1,7 +1,6 @@
 #include "bihive/io/finish.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "bihive/base/readable.h"
