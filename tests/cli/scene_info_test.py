@@ -129,11 +129,13 @@ class Info(ProgramTest):
 
     def test_a_missing_radius_is_said_once_on_stderr(self):
         self.write("a.txt", "0 0 0\n1 1 1\n")
-        done = self.run_bihive("info", "a.txt", "--json")
+        done = self.run_bihive("info", "a.txt", "--json")  # the centres are sqrt(3) apart
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stderr, r"\Abihive: warning: [^\n]*--radius[^\n]*\n\Z")
         info = json.loads(done.stdout)
-        self.assertEqual(info["radius"], {"min": 0.5, "max": 0.5})
+        self.assertAlmostEqual(info["radius"]["min"], 3**0.5 / 2, places=6)
+        self.assertEqual(info["radius"]["max"], info["radius"]["min"])
+        self.assertIn("radii: 0.866025, half the middle distance to the nearest neighbour", info["rules"])
         self.assertEqual(len(info["warnings"]), 1)
         self.succeed("info", "a.txt", "--radius", "2")
 

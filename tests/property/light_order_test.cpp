@@ -10,18 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "bihive/bih/reference_builder.h"
-#include "bihive/bih/traversal.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/schedule/reordered_batch.h"
 #include "bihive/wide/schedule/tuning.h"
 #include "bihive/wide/trace/beams.h"
-#include "bihive/wide/wide_builder.h"
-#include "support/edge_rays.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"
 #include "support/scenes.h"
+#include "support/wide_under_test.h"
 
 namespace bihive {
 namespace {
@@ -97,9 +94,15 @@ RayBatch rays_to(Vec3d light, const test::World& world, const Box& box, bool pla
   return rays;
 }
 
-void check(const std::string& what, const WideTree& tree, const RayBatch& batch,
-           const std::vector<std::uint8_t>& expected) {
-  const RaySpan rays = batch.span();
+std::vector<std::uint8_t> hidden_by_reference(const test::WideUnderTest& tested, const RaySpan& rays) {
+  std::vector<std::uint8_t> hidden;
+  for (std::int64_t i = 0; i < rays.count; ++i) hidden.push_back(tested.truth(rays.at(i)).found() ? 1 : 0);
+  return hidden;
+}
+
+void check(const std::string& what, const test::WideUnderTest& tested, const RaySpan& rays) {
+  const WideTree& tree = tested.tree();
+  const std::vector<std::uint8_t> expected = hidden_by_reference(tested, rays);
   const auto same = [&](const char* how, const auto& ask) {
     std::vector<std::uint8_t> hidden(expected.size(), 2);
     ask(hidden.data());
@@ -138,11 +141,7 @@ TEST(LightOrder, AreAnsweredAsByTheReference) {
   for (const test::World& world : worlds) {
     if (world.size() == 0 || !test::takes_set(number++)) continue;
     ++taken;
-    const SphereSet spheres = test::sphere_set(world);
-    const Tree reference = build_reference_tree(spheres, {8, kUnlimited});
-    WideBuilder builder;
-    const auto tree = builder.build(spheres);
-    ASSERT_TRUE(tree.ok());
+    const test::WideUnderTest tested(world);
     const Box box = box_of(world);
     for (int which = 0; which < 4; ++which) {
       // Each light in some scenes only, because all of them in all scenes would take too long.
@@ -150,10 +149,7 @@ TEST(LightOrder, AreAnsweredAsByTheReference) {
       const Vec3d light = some_light(world, box, which, rng);
       const int count = which == 1 ? kFewerRays : which == 2 ? kMoreRays : kRays;
       const RayBatch rays = rays_to(light, world, box, which % 2 == 0, rng, count);
-      std::vector<std::uint8_t> expected;
-      for (std::int64_t i = 0; i < rays.size(); ++i)
-        expected.push_back(occluded(reference, spheres, rays.span().at(i)) ? 1 : 0);
-      check(world.name + ", light " + std::to_string(which), **tree, rays, expected);
+      check(world.name + ", light " + std::to_string(which), tested, rays.span());
       if (testing::Test::HasFatalFailure()) return;
     }
   }
@@ -175,33 +171,29 @@ TEST(LightOrder, AreKnownAsSuch) {
   EXPECT_FALSE(wide::converge(rays.span()));
 }
 
+// What beams do with rays from everywhere in a world to a light far away.
+struct BeamsOfWorld {
+  std::int64_t rays;
+  wide::SortedBeams done;
+};
+BeamsOfWorld beams_of(const test::World& world, SplitMix64& rng) {
+  const test::WideUnderTest tested(world);
+  const Box box = box_of(world);
+  const RayBatch rays = rays_to(some_light(world, box, 0, rng), world, box, true, rng);
+  std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.size()));
+  return {rays.size(), wide::occluded_by_sorted_beams(tested.tree(), rays.span(), {}, hidden.data())};
+}
+
 // Spheres that beams of rays meet, a ray: few spheres hide all, or each ray has its own way through many.
 TEST(LightOrder, BeamsCountTheSpheresThatTheyMeet) {
   SplitMix64 rng(66);
-  const auto met_by = [&](const test::World& world) {
-    const SphereSet spheres = test::sphere_set(world);
-    WideBuilder builder;
-    const auto tree = builder.build(spheres);
-    EXPECT_TRUE(tree.ok());
-    const Box box = box_of(world);
-    const RayBatch rays = rays_to(some_light(world, box, 0, rng), world, box, true, rng);
-    std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.size()));
-    const wide::SortedBeams done = wide::occluded_by_sorted_beams(**tree, rays.span(), {}, hidden.data());
-    return static_cast<double>(done.spheres_met) / static_cast<double>(rays.size() - done.remaining.count() + 1);
-  };
-  EXPECT_LT(met_by(test::random_world("few", 67, 40, 1, 1, 1)), wide::kMostSpheresMet);
+  const BeamsOfWorld few = beams_of(test::random_world("few", 67, 40, 1, 1, 1), rng);
+  EXPECT_LT(static_cast<double>(few.done.spheres_met),
+            static_cast<double>(few.rays - few.done.remaining.count() + 1) * wide::kMostSpheresMet);
   // 64 rays that are no neighbours: the beams are too wide, or meet many.
-  const test::World many = test::random_world("many", 68, 20000, 100, 0.1, 0.1);
-  const SphereSet spheres = test::sphere_set(many);
-  WideBuilder builder;
-  const auto tree = builder.build(spheres);
-  ASSERT_TRUE(tree.ok());
-  const Box box = box_of(many);
-  const RayBatch rays = rays_to(some_light(many, box, 0, rng), many, box, true, rng);
-  std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.size()));
-  const wide::SortedBeams done = wide::occluded_by_sorted_beams(**tree, rays.span(), {}, hidden.data());
-  EXPECT_TRUE(done.remaining.count() > rays.size() / 2 ||
-              done.spheres_met > (rays.size() - done.remaining.count()) * wide::kMostSpheresMet);
+  const BeamsOfWorld many = beams_of(test::random_world("many", 68, 20000, 100, 0.1, 0.1), rng);
+  EXPECT_TRUE(many.done.remaining.count() > many.rays / 2 ||
+              many.done.spheres_met > (many.rays - many.done.remaining.count()) * wide::kMostSpheresMet);
 }
 
 // Rays in their order of cells, and how many spheres beams of them meet, a ray.
@@ -218,12 +210,7 @@ double spheres_met(const WideTree& tree, const RaySpan& rays) {
 // From everywhere on one side of a world of small spheres. Each sphere is in the way of only one or two rays. Sorted
 // beams are narrow enough, but each beam passes a hundred spheres and more.
 TEST(LightOrder, RaysGoToTheListsWhereBeamsDoNotPay) {
-  const test::World small = test::random_world("small", 69, 120000, 100, 0.01, 0.15);
-  const SphereSet spheres = test::sphere_set(small);
-  const Tree reference = build_reference_tree(spheres, {8, kUnlimited});
-  WideBuilder builder;
-  const auto tree = builder.build(spheres);
-  ASSERT_TRUE(tree.ok());
+  const test::WideUnderTest tested(test::random_world("small", 69, 120000, 100, 0.01, 0.15));
   SplitMix64 rng(70);
   const auto from_a_square = [&](double half_side) {
     RayBatch rays;
@@ -239,18 +226,16 @@ TEST(LightOrder, RaysGoToTheListsWhereBeamsDoNotPay) {
   };
   const RayBatch rays = from_a_square(20);
   ASSERT_TRUE(wide::converge(rays.span()));
-  std::vector<std::uint8_t> expected;
-  for (std::int64_t i = 0; i < rays.size(); ++i)
-    expected.push_back(occluded(reference, spheres, rays.span().at(i)) ? 1 : 0);
+  const std::vector<std::uint8_t> expected = hidden_by_reference(tested, rays.span());
   ASSERT_GT(std::count(expected.begin(), expected.end(), 1), kRays / 50);
   std::vector<std::uint8_t> hidden(expected.size());
   for (const std::string& target : test::targets_under_test()) {
     ASSERT_TRUE(use_target(target).ok());
-    EXPECT_GT(spheres_met(**tree, rays.span()), wide::kMostSpheresMet) << target;
-    occluded(**tree, rays.span(), RayOrder::any, hidden.data());
+    EXPECT_GT(spheres_met(tested.tree(), rays.span()), wide::kMostSpheresMet) << target;
+    occluded(tested.tree(), rays.span(), RayOrder::any, hidden.data());
     EXPECT_EQ(hidden, expected) << target;
     // Closer together they pass fewer spheres.
-    EXPECT_LT(spheres_met(**tree, from_a_square(3).span()), wide::kMostSpheresMet) << target;
+    EXPECT_LT(spheres_met(tested.tree(), from_a_square(3).span()), wide::kMostSpheresMet) << target;
   }
   ASSERT_TRUE(use_target("").ok());
 }

@@ -24,7 +24,7 @@ TEST(PlainText, TakesThreeColumnsOrFour) {
   const SphereFile three = read_text("1,2,3\r\n4,5,6", "a");
   ASSERT_EQ(three.spheres.size(), 2);
   EXPECT_EQ(three.spheres.centre(1), (Vec3d{4, 5, 6}));
-  EXPECT_EQ(three.spheres.radius(1), 0.5);
+  EXPECT_EQ(three.spheres.radius(1), double(float(0.5 * std::sqrt(27.0))));
   ASSERT_EQ(three.warnings.size(), 1u);
   EXPECT_NE(three.warnings[0].find("--radius"), std::string::npos);
 }

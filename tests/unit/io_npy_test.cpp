@@ -169,8 +169,8 @@ TEST(NpySpheres, TakeThreeOrFourColumns) {
   EXPECT_EQ(four.spheres.radius(1), 0.0);
   EXPECT_TRUE(four.warnings.empty());
 
-  const SphereFile three = read_text(npy_bytes(std::vector<double>{1, 2, 3}, {1, 3}), "named_anything");
-  EXPECT_EQ(three.spheres.radius(0), 0.5);
+  const SphereFile three = read_text(npy_bytes(std::vector<double>{1, 2, 3, 1, 2, 5}, {2, 3}), "named_anything");
+  EXPECT_EQ(three.spheres.radius(0), 1);
   ASSERT_EQ(three.warnings.size(), 1u);
   EXPECT_NE(three.warnings[0].find("--radius"), std::string::npos);
 }

@@ -144,7 +144,7 @@ TEST(Pdb, GuessesTheElementFromTheNameWhereColumnsAreShort) {
   }
 }
 
-TEST(Pdb, TakesElementsInAnyCaseAndGivesUnknownOnesTheDefaultRadius) {
+TEST(Pdb, TakesElementsInAnyCaseAndGuessesTheRadiusOfUnknownOnes) {
   Atom calcium, unknown, deuterium;
   calcium.element = "Ca";
   unknown.element = " X";
@@ -153,7 +153,9 @@ TEST(Pdb, TakesElementsInAnyCaseAndGivesUnknownOnesTheDefaultRadius) {
   EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{20, 0, 1}));
   EXPECT_EQ(file.spheres.radius(1), 0.5);
   ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_EQ(file.warnings[0], "1 sphere has neither element nor radius: the radius 0.5 is used; set it with --radius");
+  EXPECT_EQ(file.warnings[0],
+            "1 sphere has neither element nor radius; each gets radius 0.5, as all centres are at one place; --radius "
+            "R sets another");
 }
 
 TEST(Pdb, TakesTheModelAskedFor) {

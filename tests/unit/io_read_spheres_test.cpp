@@ -87,7 +87,7 @@ TEST(ReadSpheres, AppliesRadiusThenScale) {
 TEST(ReadSpheres, SaysWhatItAssumedUnlessToldOtherwise) {
   EXPECT_EQ(read_text("1 2 3\n", "a").warnings,
             (std::vector<std::string>{
-                "the spheres have neither element nor radius: the radius 0.5 is used; set it with --radius"}));
+                "no radii; each sphere gets radius 0.5, as all centres are at one place; --radius R sets another"}));
   ReadOptions options;
   options.radius = 0.5;
   EXPECT_TRUE(read_text("1 2 3\n", "a", options).warnings.empty());

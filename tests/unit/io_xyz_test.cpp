@@ -31,7 +31,8 @@ TEST(Xyz, TakesOtherLabelsAsTypes) {
   EXPECT_FLOAT_EQ(static_cast<float>(file.spheres.radius(1)), 1.7f);
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_EQ(file.warnings[0],
-            "2 spheres have neither element nor radius: the radius 0.5 is used; set it with --radius");
+            "2 spheres have neither element nor radius; each gets radius 0.5, half the middle distance to the nearest "
+            "neighbour; --radius R sets another");
 
   const SphereFile numbers = read_text("2\n\n0 0 0 0\n500 1 0 0\n", "a.xyz");
   EXPECT_EQ(numbers.spheres.attributes().type, (std::vector<std::int32_t>{0, 500}));

@@ -15,7 +15,8 @@ class ByHand {
   ByHand() {
     for (WideNode& node : nodes_)
       for (int axis = 0; axis < 3; ++axis)
-        for (int slot = 0; slot < kWidth; ++slot) node.lo[axis][slot] = Aabb::kInf, node.hi[axis][slot] = -Aabb::kInf;
+        for (int slot = 0; slot < kWidth; ++slot)
+          node.lo[axis][slot] = kInfiniteFloat, node.hi[axis][slot] = -kInfiniteFloat;
     // Cubes of side 2 in a row along x: [0, 2], [2, 4] and, overlapping the second by half, [3, 5].
     put(nodes_[0], 0, 0, 2, 0);
     put(nodes_[0], 1, 2, 4, 20);

@@ -24,4 +24,8 @@ std::string readable_bytes(double bytes) {
   return unit == 0 ? fmt::format("{:.0f} bytes", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
+std::string readable_number(double value) {
+  return fmt::format("{:g}", value);
+}
+
 }  // namespace bihive

@@ -1,14 +1,13 @@
 #include "bihive/bih/reference_builder.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "bihive/math/infinity.h"
+
 namespace bihive {
 namespace {
-
-constexpr float kInf = std::numeric_limits<float>::infinity();
 
 // A clip node is made if the node's box is this many times longer than its content. Found by fitting the thesis's
 // counts of optimized nodes [Aroxa2014, Table 4.2].
@@ -30,11 +29,11 @@ struct Job {
 
 // The planes that a partition of a range found.
 struct Partition {
-  std::int64_t middle;      // first position of the right side
-  float left_clip = -kInf;  // largest upper bound on the left
-  float right_clip = kInf;  // smallest lower bound on the right
-  float lowest = kInf;      // smallest lower bound of all
-  float highest = -kInf;    // largest upper bound of all
+  std::int64_t middle;                // first position of the right side
+  float left_clip = -kInfiniteFloat;  // largest upper bound on the left
+  float right_clip = kInfiniteFloat;  // smallest lower bound on the right
+  float lowest = kInfiniteFloat;      // smallest lower bound of all
+  float highest = -kInfiniteFloat;    // largest upper bound of all
 };
 
 // The half that the latest turn of the loop found really empty.
@@ -187,8 +186,8 @@ class Builder {
       Node& above = node_at(position);
       above.kind = empty.right_is_empty ? NodeKind::one_left : NodeKind::one_right;
       above.split_axis = static_cast<std::uint8_t>(empty.axis);
-      above.left_clip = empty.right_is_empty ? empty.clip : -kInf;
-      above.right_clip = empty.right_is_empty ? kInf : empty.clip;
+      above.left_clip = empty.right_is_empty ? empty.clip : -kInfiniteFloat;
+      above.right_clip = empty.right_is_empty ? kInfiniteFloat : empty.clip;
       above.first = child;
       ++depth;
       ++tree_.empty_leaves;

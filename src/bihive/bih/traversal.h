@@ -73,6 +73,8 @@ class Slabs {
 
 /// The closest hit of a valid ray in the stored units of `spheres`; with kAnyHit some hit. A hit's t is exact as
 /// geometry/sphere.h defines it, and of equal t the smaller id wins: the same answer as brute force, bit for bit.
+// One function, though a long one: it defines the walk, so it is to be read from top to bottom, beside its twin for
+// graphics processors (gl/shaders/traversal.glsl), which has the same steps in the same order.
 template <bool kAnyHit, class Observer>
 Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Observer& observer) {
   // Test the box around everything.

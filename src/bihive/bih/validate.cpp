@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "bihive/bih/statistics.h"
+#include "bihive/math/infinity.h"
 
 namespace bihive {
 namespace {
-
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 Error wrong(const std::string& what, std::int64_t position) {
   return {"tree: node " + std::to_string(position) + ": " + what, "", 0, 0, ""};
@@ -37,15 +35,15 @@ std::vector<Visit> children_of(const Node& node, const Visit& visit) {
       narrow(children[0].promised, node.left_clip, node.right_clip);
       break;
     case NodeKind::one_left:
-      narrow(children[0].promised, -kInfinite, node.left_clip);
+      narrow(children[0].promised, -kInfiniteFloat, node.left_clip);
       break;
     case NodeKind::one_right:
-      narrow(children[0].promised, node.right_clip, kInfinite);
+      narrow(children[0].promised, node.right_clip, kInfiniteFloat);
       break;
     case NodeKind::split:
       children.push_back({node.right_child(), visit.promised, visit.depth + 1});
-      narrow(children[0].promised, -kInfinite, node.left_clip);
-      narrow(children[1].promised, node.right_clip, kInfinite);
+      narrow(children[0].promised, -kInfiniteFloat, node.left_clip);
+      narrow(children[1].promised, node.right_clip, kInfiniteFloat);
       break;
     case NodeKind::leaf:
       break;

@@ -1,7 +1,6 @@
 #include "bihive/io/detect.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "bihive/io/parse_number.h"
 #include "bihive/io/text_scanner.h"

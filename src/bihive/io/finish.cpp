@@ -1,67 +1,34 @@
 #include "bihive/io/finish.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
 #include <utility>
 
-#include "bihive/io/elements.h"
+#include "bihive/base/readable.h"
+#include "bihive/io/unknown_radii.h"
 
 namespace bihive {
 namespace {
 
-constexpr double kDefaultRadius = 0.5;
-
 // The user is told of a centre that moves by more than this share of its radius.
 constexpr double kHarmlessShift = 0.01;
 
-std::string to_text(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << value;
-  return text.str();
-}
-
-// "1 sphere has", "2 spheres have".
-std::string spheres_have(std::int64_t count) {
-  return std::to_string(count) + (count == 1 ? " sphere has" : " spheres have");
-}
-
-// Radii for a file without radii: by element, else the default.
-void guess_radii(RawSpheres& raw, bool radius_given) {
-  std::int64_t unknown = 0;
-  raw.r.resize(raw.size());
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    const double known = raw.attributes.element.empty() ? 0 : van_der_waals_radius(raw.attributes.element[i]);
-    raw.r[i] = known > 0 ? known : kDefaultRadius;
-    unknown += known > 0 ? 0 : 1;
-  }
-  if (radius_given) return;
-  const auto all = static_cast<std::int64_t>(raw.size());
-  if (unknown < all) raw.rules.push_back("radii: van der Waals, by element");
-  if (unknown > 0) {
-    raw.rules.push_back("radii: 0.5 where neither element nor radius is known");
-    raw.warnings.push_back((unknown == all ? "the spheres have" : spheres_have(unknown)) +
-                           " neither element nor radius: the radius 0.5 is used; set it with --radius");
-  }
-}
-
 Status apply_radius_options(RawSpheres& raw, const std::string& name, const ReadOptions& options) {
-  if (raw.r.empty()) guess_radii(raw, options.radius.has_value());
   if (options.radius) {
     if (const char* fault = radius_fault(*options.radius))
-      return Error{"the radius that replaces all others " + std::string(fault) + ": " + to_text(*options.radius), name,
-                   0, 0, "give --radius a number from 0"};
-    std::fill(raw.r.begin(), raw.r.end(), *options.radius);
-    raw.rules.push_back("radii: all " + to_text(*options.radius) + ", as asked for");
+      return Error{
+          "the radius that replaces all others " + std::string(fault) + ": " + readable_number(*options.radius), name,
+          0, 0, "give --radius a number from 0"};
+    raw.r.assign(raw.size(), *options.radius);
+    raw.rules.push_back("radii: all " + readable_number(*options.radius) + ", as asked for");
+  } else if (raw.r.empty()) {
+    fill_radii(raw);
   }
   if (options.radius_scale != 1) {
     if (const char* fault = radius_fault(options.radius_scale))
-      return Error{"the factor for radii " + std::string(fault) + ": " + to_text(options.radius_scale), name, 0, 0,
-                   "give --radius-scale a number from 0"};
+      return Error{"the factor for radii " + std::string(fault) + ": " + readable_number(options.radius_scale), name, 0,
+                   0, "give --radius-scale a number from 0"};
     for (double& r : raw.r) r *= options.radius_scale;
-    raw.rules.push_back("radii: multiplied by " + to_text(options.radius_scale));
+    raw.rules.push_back("radii: multiplied by " + readable_number(options.radius_scale));
   }
   return Done{};
 }
@@ -76,8 +43,8 @@ Vec3d recenter(RawSpheres& raw) {
   for (double& x : raw.x) x -= middle.x;
   for (double& y : raw.y) y -= middle.y;
   for (double& z : raw.z) z -= middle.z;
-  raw.rules.push_back("recentred: (" + to_text(middle.x) + ", " + to_text(middle.y) + ", " + to_text(middle.z) +
-                      ") subtracted from every centre");
+  raw.rules.push_back("recentred: (" + readable_number(middle.x) + ", " + readable_number(middle.y) + ", " +
+                      readable_number(middle.z) + ") subtracted from every centre");
   return middle;
 }
 
@@ -99,7 +66,7 @@ void warn_of_rounding(const RawSpheres& raw, const SphereSet& set, bool recentre
   if (moved == 0) return;
   std::string text = "rounding to single precision moves " + std::to_string(moved) + " of " +
                      std::to_string(set.size()) + " centres by more than 1 % of the radius (sphere " +
-                     std::to_string(worst) + " by " + to_text(100 * worst_share) + " %)";
+                     std::to_string(worst) + " by " + readable_number(100 * worst_share) + " %)";
   text += recentred ? "; the radii are too small for the extent" : "; --recenter makes it finer";
   warnings.push_back(text);
 }

@@ -9,7 +9,7 @@
 
 namespace bihive {
 
-/// Gives radii to spheres without radii (by element, else 0.5), applies the options, and rounds once. `name` is the
+/// Gives radii to spheres without radii (io/unknown_radii.h), applies the options, and rounds once. `name` is the
 /// file's, for messages. Errors: no spheres; a number that is not finite, out of range, or a negative radius.
 Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options);
 

@@ -13,6 +13,10 @@ Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t fr
   return {what + have, file, 0, 0, "choose one with --frame, counting from 0"};
 }
 
+std::string spheres_have(std::int64_t count) {
+  return std::to_string(count) + (count == 1 ? " sphere has" : " spheres have");
+}
+
 const char* coordinate_fault(double value) {
   if (!std::isfinite(value)) return "is not finite";
   if (!(std::abs(value) <= double(std::numeric_limits<float>::max()))) return "is beyond single precision (3.4e38)";

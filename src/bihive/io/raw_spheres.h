@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct RawSpheres {
   std::string format;  ///< as in SphereFile
   std::vector<double> x, y, z, r;
   SphereAttributes attributes;
+  std::optional<double> unknown_radius;  ///< for spheres with neither radius nor known element; >= 0
   std::int64_t frames = 1;
   std::vector<std::string> rules;     ///< what the reader did, one sentence each
   std::vector<std::string> warnings;  ///< what the user should know, one line each
@@ -26,6 +28,9 @@ struct RawSpheres {
 
 /// The error for a frame that the file does not have.
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames);
+
+/// "1 sphere has", "2 spheres have".
+std::string spheres_have(std::int64_t count);
 
 /// Why the number cannot be a coordinate ("is not finite"), or nullptr if it can.
 const char* coordinate_fault(double value);

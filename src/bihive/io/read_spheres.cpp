@@ -7,6 +7,7 @@
 #include "bihive/io/finish.h"
 #include "bihive/io/gunzip.h"
 #include "bihive/io/readers.h"
+#include "bihive/io/unknown_radii.h"
 
 namespace bihive {
 namespace {
@@ -35,6 +36,12 @@ Result<SphereFile> read_unpacked(std::string_view bytes, const std::string& name
   if (!format) return Error{"this is no file of spheres in a known format", name, 0, 0, "known are " + known_formats()};
   Result<RawSpheres> raw = read_format(*format, bytes, name, options.frame);
   if (!raw) return raw.error();
+
+  // The spheres of a film keep their size: a radius that is a guess is the first frame's. If that frame cannot tell,
+  // each frame has its own.
+  if (options.frame != 0 && !options.radius && lacks_radii(*raw))
+    if (const Result<RawSpheres> first = read_format(*format, bytes, name, 0); first && lacks_radii(*first))
+      raw->unknown_radius = radius_from_neighbours(*first);
   return finish_spheres(std::move(*raw), name, options);
 }
 

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 
+#include "bihive/math/infinity.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
 
 struct Aabb {
-  static constexpr float kInf = std::numeric_limits<float>::infinity();
-  Vec3f lo{kInf, kInf, kInf};  ///< the empty box until something is added
-  Vec3f hi{-kInf, -kInf, -kInf};
+  Vec3f lo{kInfiniteFloat, kInfiniteFloat, kInfiniteFloat};  ///< the empty box until something is added
+  Vec3f hi{-kInfiniteFloat, -kInfiniteFloat, -kInfiniteFloat};
 
   bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
   void add(const Aabb& other) {

@@ -1,6 +1,4 @@
 // Code that is compiled for every target and tells which one it is.
-#include <string>
-
 #include "bihive/simd/target.h"
 
 #undef HWY_TARGET_INCLUDE

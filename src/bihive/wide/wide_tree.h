@@ -5,9 +5,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "bihive/base/aligned_buffer.h"

@@ -5,18 +5,18 @@
 namespace bihive {
 namespace {
 
-constexpr std::size_t kBlockBytes = NodeArena::kBlockSplits * sizeof(BinarySplit);
+constexpr std::size_t kPortionBytes = NodeArena::kPortionSplits * sizeof(BinarySplit);
 constexpr std::size_t kLargestChunk = std::size_t{1} << 22;
 
-std::size_t blocks_in(const AlignedBuffer& chunk) {
-  return chunk.capacity() / kBlockBytes;
+std::size_t portions_in(const AlignedBuffer& chunk) {
+  return chunk.capacity() / kPortionBytes;
 }
 
 }  // namespace
 
-BinarySplit* NodeArena::take_block() {
+BinarySplit* NodeArena::take_portion() {
   const std::lock_guard lock(mutex_);
-  while (chunk_ < chunks_.size() && used_ == blocks_in(chunks_[chunk_])) {
+  while (chunk_ < chunks_.size() && used_ == portions_in(chunks_[chunk_])) {
     ++chunk_;
     used_ = 0;
   }
@@ -24,12 +24,12 @@ BinarySplit* NodeArena::take_block() {
     // As much again as there is, within reason.
     const auto held = static_cast<std::size_t>(allocated_bytes());
     AlignedBuffer chunk;
-    chunk.reserve(std::clamp(held, 4 * kBlockBytes, kLargestChunk));
+    chunk.reserve(std::clamp(held, 4 * kPortionBytes, kLargestChunk));
     chunks_.push_back(std::move(chunk));
     used_ = 0;
   }
   auto* const bytes = static_cast<std::byte*>(chunks_[chunk_].data());
-  return reinterpret_cast<BinarySplit*>(bytes + kBlockBytes * used_++);
+  return reinterpret_cast<BinarySplit*>(bytes + kPortionBytes * used_++);
 }
 
 void NodeArena::clear() {

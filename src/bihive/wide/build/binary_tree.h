@@ -39,22 +39,22 @@ inline float half_area(const Aabb& box) {
   return (side.x * side.y + side.y * side.z) + side.z * side.x;
 }
 
-/// Memory for splits, in blocks, kept from build to build. Any thread may take a block.
+/// Memory for splits, in portions, kept from build to build. Any thread may take a portion.
 class NodeArena {
  public:
-  static constexpr std::size_t kBlockSplits = 56;
+  static constexpr std::size_t kPortionSplits = 56;
 
   /// Throws std::bad_alloc.
-  BinarySplit* take_block();
-  /// All blocks are free again.
+  BinarySplit* take_portion();
+  /// All portions are free again.
   void clear();
   std::int64_t allocated_bytes() const;
 
  private:
   std::mutex mutex_;
   std::vector<AlignedBuffer> chunks_;
-  std::size_t chunk_ = 0;  // the one that blocks are taken from
-  std::size_t used_ = 0;   // blocks of it that are taken
+  std::size_t chunk_ = 0;  // the one that portions are taken from
+  std::size_t used_ = 0;   // portions of it that are taken
 };
 
 /// Hands out splits one by one to a single thread.
@@ -64,8 +64,8 @@ class SplitSource {
   /// Not set to anything. Throws std::bad_alloc.
   BinarySplit* next() {
     if (left_ == 0) {
-      next_ = arena_.take_block();
-      left_ = NodeArena::kBlockSplits;
+      next_ = arena_.take_portion();
+      left_ = NodeArena::kPortionSplits;
     }
     --left_;
     return next_++;

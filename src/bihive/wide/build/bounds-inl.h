@@ -10,10 +10,10 @@
 #include <hwy/highway.h>
 
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "bihive/math/aabb.h"
+#include "bihive/math/infinity.h"
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/build/split.h"
 
@@ -21,8 +21,6 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Calls step(offset, valid, whole) for each vector of a range: `valid` is true for all lanes but those after its end,
 /// and `whole` is std::true_type where it is true for all. Loads from arrays must use load(), which does not touch what
@@ -71,8 +69,8 @@ struct GrowingBox {
   HWY_INLINE GrowingBox() {
     const FloatTag d;
     for (int axis = 0; axis < 3; ++axis) {
-      lo[axis] = hn::Set(d, kInfinity);
-      hi[axis] = hn::Set(d, -kInfinity);
+      lo[axis] = hn::Set(d, kInfiniteFloat);
+      hi[axis] = hn::Set(d, -kInfiniteFloat);
     }
   }
   HWY_INLINE void add(int axis, Floats low, Floats high) {
@@ -93,7 +91,7 @@ struct GrowingBox {
     }
 #else
     const FloatTag d;
-    // Six minima at once: lanes of several vectors side by side, in every block of four.
+    // Six minima at once: lanes of several vectors side by side, in every four lanes.
     const auto two = [&](Floats a, Floats b)
                          HWY_ATTR { return hn::Min(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b)); };
     const hn::Repartition<double, FloatTag> dd;

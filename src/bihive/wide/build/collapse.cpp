@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <new>
 
 #include "bihive/base/parallel.h"
+#include "bihive/math/infinity.h"
 #include "bihive/wide/build/tuning.h"
 
 namespace bihive {
 namespace {
-
-constexpr float kInf = std::numeric_limits<float>::infinity();
 
 // The children of a wide node from left to right, and the splits between them: axis[i] is where the two sides that meet
 // between children i and i + 1 were split, and depth[i] how many splits lie above that one.
@@ -66,7 +64,7 @@ int choose_by_cost(Children& children, int slot, int slots, bool is_root) {
   const BinaryNode& left = node.split->side[0];
   const BinaryNode& right = node.split->side[1];
   int best = 1;
-  float best_cost = kInf;
+  float best_cost = kInfiniteFloat;
   for (int i = 1; i < slots; ++i) {
     const float cost = cost_in_slots(left, i) + cost_in_slots(right, slots - i);
     if (cost < best_cost) {
@@ -139,8 +137,8 @@ WideNode Collapse::make_node(const Job& job, Subtree& subtree, std::vector<Job>&
   }
   for (int i = children.count; i < kWidth; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      wide.lo[axis][i] = kInf;
-      wide.hi[axis][i] = -kInf;
+      wide.lo[axis][i] = kInfiniteFloat;
+      wide.hi[axis][i] = -kInfiniteFloat;
     }
     wide.begin[i] = begin;
   }

@@ -36,7 +36,7 @@ inline InputSummary summarize_spheres(const SphereSet& spheres, std::int64_t beg
   InputSummary summary;
   RadiusPalette& palette = summary.palette;
   GrowingBox box;
-  Floats largest = hn::Zero(d), smallest = hn::Set(d, kInfinity);
+  Floats largest = hn::Zero(d), smallest = hn::Set(d, kInfiniteFloat);
   for_lanes(end - begin, [&](std::int64_t i, FloatMask valid, auto whole) HWY_ATTR {
     for (int axis = 0; axis < 3; ++axis) {
       const Floats c = load(d, from.axis(axis) + i, valid, whole);

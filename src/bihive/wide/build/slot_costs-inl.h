@@ -36,7 +36,7 @@ HWY_INLINE void close_node(BinaryNode& node) {
   // The right side's costs behind sixteen that cannot be paid: shifted by i they stand beside the sums with i slots.
   HWY_ALIGN float shifted[2 * kWidth];
   for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
-    hn::Store(hn::Set(d, kInfinity), d, shifted + lane);
+    hn::Store(hn::Set(d, kInfiniteFloat), d, shifted + lane);
     hn::Store(right.is_leaf() ? hn::Zero(d) : hn::LoadU(d, right.split->cost + lane), d, shifted + kWidth + lane);
   }
   Floats sums[kWidth / kFloatLanes];

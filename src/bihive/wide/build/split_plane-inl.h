@@ -146,7 +146,7 @@ inline float from_ordered_bits(std::int32_t bits) {
 HWY_INLINE void neighbours(const SphereArrays& spheres, std::int64_t first, std::int64_t count, const SplitPlane& plane,
                            int last, float& below, float& above) {
   const FloatTag d;
-  Floats largest = hn::Set(d, -kInfinity), smallest = hn::Set(d, kInfinity);
+  Floats largest = hn::Set(d, -kInfiniteFloat), smallest = hn::Set(d, kInfiniteFloat);
   const Floats at = hn::Set(d, plane.at[last]);
   for_lanes(count, [&](std::int64_t i, FloatMask valid, auto whole) HWY_ATTR {
     FloatMask tied = valid;
@@ -174,7 +174,7 @@ HWY_INLINE SplitPlane plane_by_count(const SphereArrays& spheres, std::int64_t f
   plane.axis[0] = axis;
   plane.axis[1] = side[other] >= side[another] ? other : another;
   plane.axis[2] = side[other] >= side[another] ? another : other;
-  for (float& at : plane.at) at = -kInfinity;
+  for (float& at : plane.at) at = -kInfiniteFloat;
   std::int64_t low_below = 0, high_below = count;
   for (int k = 0; k < 3; ++k) {
     // At the plane `low` too few are below, at `high` too many; both are kept as integers.

@@ -30,7 +30,7 @@ struct Chunks {
   std::int64_t end(std::int64_t chunk) const { return std::min(total, (chunk + 1) * size); }
 };
 
-// Arrays in a block: four with a palette, else five, each on a cache line's border.
+// Arrays one behind the other: four with a palette, else five, each on a cache line's border.
 SphereArrays place_arrays(std::int64_t spheres, bool has_palette, AlignedBuffer& memory) {
   const auto padded = static_cast<std::size_t>(spheres + kWidth);
   const std::size_t an_array = (padded * sizeof(float) + 63) / 64 * 64;

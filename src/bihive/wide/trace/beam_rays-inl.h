@@ -33,9 +33,10 @@ constexpr std::uint32_t kNoWinner = ~std::uint32_t{0};
 struct alignas(64) BeamRays {
   float origin[3][kBeamRays];
   float direction[3][kBeamRays];
-  float s_sure[kBeamRays];          ///< hits before this are surely in the segment and nearer than the winner
-  float s_best[kBeamRays];          ///< hits beyond this are surely not the answer
-  std::uint32_t winner[kBeamRays];  ///< number of the winner so far (beam_winners-inl.h), or kNoWinner
+  float s_sure[kBeamRays];  ///< hits before this are surely in the segment and nearer than the winner
+  float s_best[kBeamRays];  ///< hits beyond this are surely not the answer
+  std::uint32_t
+      winner_number[kBeamRays];  ///< of the nearest sure hit among the Winners (beam_winners-inl.h), or kNoWinner
   /// Id of the sphere that the ray leaves, or kNoSphere. Not written unless the span says which spheres rays leave.
   std::uint32_t left_id[kBeamRays];
   float e, pad;
@@ -47,7 +48,7 @@ struct alignas(64) BeamRays {
 
 namespace beam_rays {
 
-// The block's arrays, the block's own or copies that are filled up to 64 rays.
+// The arrays of a block's rays: parts of the span's, or copies that are filled up to 64 rays.
 struct Block {
   const float* origin[3];
   const float* direction[3];

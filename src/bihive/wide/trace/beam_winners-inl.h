@@ -29,7 +29,7 @@ inline void write_misses(const HitSpan& hits, std::int64_t first, int count) {
   std::fill_n(hits.sphere_id + first, count, kNothing);
 }
 
-/// The spheres that won rays of a block, in arrays of their own: lanes say which by `BeamRays::winner`.
+/// The spheres that won rays of a block, in arrays of their own: lanes say which by `BeamRays::winner_number`.
 class Winners {
  public:
   void clear() { count_ = 0; }
@@ -47,15 +47,15 @@ class Winners {
   /// The number that the next one gets.
   std::uint32_t next() const { return static_cast<std::uint32_t>(count_); }
   bool none() const { return count_ == 0; }
-  std::uint32_t slot(std::uint32_t winner) const { return slot_[winner]; }
+  std::uint32_t slot(std::uint32_t number) const { return slot_[number]; }
 
   /// Forgets those that have lost all their rays to others, if there is no room for another.
   void make_room(BeamRays& rays) {
     if (HWY_LIKELY(count_ < kRoom)) return;
     std::uint32_t renamed[kRoom];
     std::fill_n(renamed, kRoom, kNoWinner);
-    for (std::uint32_t& winner : rays.winner)
-      if (winner != kNoWinner) renamed[winner] = 0;
+    for (const std::uint32_t number : rays.winner_number)
+      if (number != kNoWinner) renamed[number] = 0;
     count_ = 0;
     for (int old = 0; old < kRoom; ++old) {
       if (renamed[old] == kNoWinner) continue;
@@ -67,8 +67,8 @@ class Winners {
       slot_[count_] = slot_[old];
       renamed[old] = static_cast<std::uint32_t>(count_++);
     }
-    for (std::uint32_t& winner : rays.winner)
-      if (winner != kNoWinner) winner = renamed[winner];
+    for (std::uint32_t& number : rays.winner_number)
+      if (number != kNoWinner) number = renamed[number];
   }
 
   /// The winners of all lanes. A lane without one gets anything, but the id kNoWinner.
@@ -81,7 +81,7 @@ class Winners {
     const WordTag w;
     const hn::RebindToSigned<WordTag> integers;
     for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
-      const auto winner = hn::Load(w, rays.winner + lane);
+      const auto winner = hn::Load(w, rays.winner_number + lane);
       const auto missed = hn::Eq(winner, hn::Set(w, kNoWinner));
       const auto index = hn::BitCast(integers, hn::IfThenZeroElse(missed, winner));
       const auto pick = [&](auto tag, const auto* values) HWY_ATTR {

@@ -84,7 +84,7 @@ class ClosestBeam {
   HWY_INLINE void run() {
     call_.winners.clear();
     for (int lane = 0; lane < kBeamRays; lane += kFloatLanes)
-      hn::Store(hn::Set(WordTag(), kNoWinner), WordTag(), rays_.winner + lane);
+      hn::Store(hn::Set(WordTag(), kNoWinner), WordTag(), rays_.winner_number + lane);
     // A run that meets nothing ends before it begins.
     if (kByRuns)
       for (int i = 0; i < kRuns; ++i)
@@ -185,9 +185,9 @@ class ClosestBeam {
         const beam::Roots roots = bounds.of(met[v], near, best, sure_end);
         hn::Store(hn::IfThenElse(roots.sure, roots.upper, best), d, rays_.s_best + lane);
         hn::Store(hn::IfThenElse(roots.sure, roots.lower, sure_end), d, rays_.s_sure + lane);
-        const auto others = hn::Load(WordTag(), rays_.winner + lane);
+        const auto others = hn::Load(WordTag(), rays_.winner_number + lane);
         const auto wins = hn::RebindMask(WordTag(), roots.sure);
-        hn::Store(hn::IfThenElse(wins, number, others), WordTag(), rays_.winner + lane);
+        hn::Store(hn::IfThenElse(wins, number, others), WordTag(), rays_.winner_number + lane);
         won |= mask_bits(roots.sure);
         undecided |= mask_bits(hn::AndNot(roots.sure, roots.candidate)) << (v * kFloatLanes);
       }
@@ -216,9 +216,9 @@ class ClosestBeam {
       return write_winners(tree_, call_.span, first_ray_, rays_, call_.winners, call_.hits);
     // Some of the block's pairs have been decided already: the winners must be nearer.
     for (int i = 0; i < rays_.count; ++i) {
-      if (rays_.winner[i] == kNoWinner) continue;
+      if (rays_.winner_number[i] == kNoWinner) continue;
       if (!call_.has_room()) call_.decide();
-      call_.add_pair(first_ray_ + i, call_.winners.slot(rays_.winner[i]));
+      call_.add_pair(first_ray_ + i, call_.winners.slot(rays_.winner_number[i]));
     }
   }
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/trace/box_test-inl.h"

@@ -1,15 +1,14 @@
 #include "bihive/wide/wide_validate.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "bihive/math/infinity.h"
+
 namespace bihive {
 namespace {
-
-constexpr float kInf = std::numeric_limits<float>::infinity();
 
 Error wrong(const std::string& what, std::int64_t node) {
   return {"wide tree: node " + std::to_string(node) + ": " + what, "", 0, 0, ""};
@@ -56,7 +55,8 @@ const char* wrong_in(const WideNode& node, const Visit& visit) {
     if (used == (node.sphere_count(slot) == 0)) return "has an empty child, or spheres in a slot without a child";
     if (!used && node.is_leaf(slot)) return "has a leaf in a slot without a child";
     for (int axis = 0; axis < 3 && !used; ++axis)
-      if (node.lo[axis][slot] != kInf || node.hi[axis][slot] != -kInf) return "has a box in a slot without a child";
+      if (node.lo[axis][slot] != kInfiniteFloat || node.hi[axis][slot] != -kInfiniteFloat)
+        return "has a box in a slot without a child";
   }
   for (const std::uint64_t order : node.order)
     if (!is_permutation(order, node.child_count)) return "has an order that does not name every child once";

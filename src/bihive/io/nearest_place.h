@@ -1,0 +1,43 @@
+// The distance from a place to the nearest other one, exact in binary64.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// A tree of boxes above points. Every inner node parts its points at a median, so neither clusters nor points far away
+/// make it deep. Equal points lie in one leaf, so many of them make a search no longer.
+class NearestPlace {
+ public:
+  /// The points must be finite, below 1e39 in size, and at least one.
+  explicit NearestPlace(std::vector<Vec3d> points);
+
+  /// The distance to the nearest of the points that differs from `from`; infinity if none does. It is the smallest of
+  /// all distances length(point - from), bit for bit, but where their squares would underflow it is exact as well.
+  double distance_from(Vec3d from) const;
+
+ private:
+  struct Box {
+    Vec3d lo, hi;
+  };
+  // The left child of an inner node is the next node.
+  struct Node {
+    Box box;
+    std::size_t right;       // the right child of an inner node; 0 in a leaf
+    std::size_t first, end;  // the points of a leaf
+  };
+  struct Search;
+
+  void build(std::size_t first, std::size_t end);
+  Box box_of(std::size_t first, std::size_t end) const;
+  std::size_t part(std::size_t first, std::size_t end, int axis);
+  void visit(std::size_t node, Search& search) const;
+
+  std::vector<Vec3d> points_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace bihive

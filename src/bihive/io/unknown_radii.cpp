@@ -1,0 +1,86 @@
+#include "bihive/io/unknown_radii.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/base/readable.h"
+#include "bihive/io/elements.h"
+#include "bihive/io/nearest_place.h"
+
+namespace bihive {
+namespace {
+
+// Where there are no two places to take a distance from.
+constexpr double kRadiusOfOnePlace = 0.5;
+
+// More distances would move their middle by little, and each search costs a microsecond.
+constexpr std::size_t kMostSearches = 65536;
+
+// The van der Waals radius, or 0 if the sphere has no known element.
+double radius_by_element(const RawSpheres& spheres, std::size_t i) {
+  return spheres.attributes.element.empty() ? 0 : van_der_waals_radius(spheres.attributes.element[i]);
+}
+
+}  // namespace
+
+bool lacks_radii(const RawSpheres& spheres) {
+  if (!spheres.r.empty()) return false;
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    if (!(radius_by_element(spheres, i) > 0)) return true;
+  return false;
+}
+
+std::optional<double> radius_from_neighbours(const RawSpheres& spheres) {
+  const std::size_t count = spheres.size();
+  if (count == 0) return std::nullopt;
+  std::vector<Vec3d> centres(count);
+  for (std::size_t i = 0; i < count; ++i) centres[i] = {spheres.x[i], spheres.y[i], spheres.z[i]};
+  const NearestPlace nearest(std::move(centres));
+
+  const std::size_t searches = std::min(count, kMostSearches);
+  std::vector<double> distances(searches);
+  for (std::size_t k = 0; k < searches; ++k) {
+    const auto i = static_cast<std::size_t>(std::uint64_t{k} * count / searches);
+    distances[k] = nearest.distance_from({spheres.x[i], spheres.y[i], spheres.z[i]});
+    if (std::isinf(distances[k])) return std::nullopt;  // one has no other place, so none has
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>((searches - 1) / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return std::min(0.5 * *middle, double(std::numeric_limits<float>::max()));  // larger ones are no radii
+}
+
+void fill_radii(RawSpheres& spheres) {
+  const std::size_t count = spheres.size();
+  std::size_t unknown = 0;
+  spheres.r.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    spheres.r[i] = radius_by_element(spheres, i);
+    unknown += spheres.r[i] > 0 ? 0 : 1;
+  }
+  if (unknown < count) spheres.rules.push_back("radii: van der Waals, by element");
+  if (unknown == 0) return;
+
+  const bool of_first_frame = spheres.unknown_radius.has_value();
+  if (!of_first_frame) spheres.unknown_radius = radius_from_neighbours(spheres);
+  const double radius = spheres.unknown_radius.value_or(kRadiusOfOnePlace);
+  for (double& r : spheres.r)
+    if (!(r > 0)) r = radius;
+
+  const std::string number = readable_number(radius);
+  const std::string source =
+      !spheres.unknown_radius
+          ? "as all centres are at one place"
+          : std::string("half the middle distance to the nearest neighbour") + (of_first_frame ? " in frame 0" : "");
+  const bool all = unknown == count;
+  spheres.rules.push_back("radii: " + number + (all ? ", " : " where neither element nor radius is known, ") + source);
+  spheres.warnings.push_back(
+      (all ? "no radii; each sphere" : spheres_have(std::int64_t(unknown)) + " neither element nor radius; each") +
+      " gets radius " + number + ", " + source + "; --radius R sets another");
+}
+
+}  // namespace bihive

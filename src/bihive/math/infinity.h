@@ -1,0 +1,10 @@
+// The bound of what has none, in binary32.
+#pragma once
+
+#include <limits>
+
+namespace bihive {
+
+constexpr float kInfiniteFloat = std::numeric_limits<float>::infinity();
+
+}  // namespace bihive
