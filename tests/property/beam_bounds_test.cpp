@@ -156,8 +156,8 @@ TEST(BeamBounds, FrustumsKeepBoxes) {
     WideNode node = {};
     for (int axis = 0; axis < 3; ++axis)
       for (int slot = 0; slot < kWidth; ++slot) {
-        node.lo[axis][slot] = slot == 0 ? pair.centre[axis] - pair.radius : Aabb::kInf;
-        node.hi[axis][slot] = slot == 0 ? pair.centre[axis] + pair.radius : -Aabb::kInf;
+        node.lo[axis][slot] = slot == 0 ? pair.centre[axis] - pair.radius : kInfiniteFloat;
+        node.hi[axis][slot] = slot == 0 ? pair.centre[axis] + pair.radius : -kInfiniteFloat;
       }
     node.child_count = 1;
     return least_padding(pair, [&](const here::Frustum& frustum, const here::BeamRays&) {
