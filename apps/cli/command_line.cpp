@@ -216,6 +216,7 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   CLI::App& command = add_command(app, "info", "Show what an input holds and how it was read", "bihive info demo",
                                   "bihive info scenario1 --count 1000000 --radius 0.1 --json", options, request);
   add_input(command, options.input);
+  command.add_flag("--attributes", options.attributes, "List what is known of each sphere: ranges and distinct texts");
   add_tree_options(command, options.tree);
   add_input_options(command, options.input);
   add_json_flag(command, options.json);

@@ -91,9 +91,12 @@ void run_scene(const SceneOptions& options);
 struct InfoOptions {
   InputOptions input;
   TreeParameters tree;
+  bool attributes = false;  ///< only what is known of each sphere
   bool json = false;
 };
 void run_info(const InfoOptions& options);
+/// The part of `bihive info --attributes`.
+void print_attributes(const Input& input, bool as_json);
 
 struct ThesisOptions {
   std::vector<std::string> experiments;  ///< names, or "all"; empty: all

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "bihive/io/text_scanner.h"
 
 namespace bihive {
 
@@ -11,6 +14,18 @@ Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t fr
   const std::string have =
       frames == 1 ? "one only (0)" : std::to_string(frames) + " (0 to " + std::to_string(frames - 1) + ")";
   return {what + have, file, 0, 0, "choose one with --frame, counting from 0"};
+}
+
+NamedTexts printable_texts(NamedTexts column) {
+  bool all_printable = true;
+  for (const std::string& text : column.texts) all_printable = all_printable && printable(text) == text;
+  if (all_printable) return column;
+
+  // Collect them again: two texts may have become one.
+  TextCollector collector;
+  collector.reserve(column.text_of_sphere.size());
+  for (std::size_t i = 0; i < column.text_of_sphere.size(); ++i) collector.add(printable(column.of(i)));
+  return collector.take(std::move(column.name));
 }
 
 const char* coordinate_fault(double value) {

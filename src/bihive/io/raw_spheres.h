@@ -27,6 +27,9 @@ struct RawSpheres {
 /// The error for a frame that the file does not have.
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames);
 
+/// The column with a question mark in place of every control character and every byte that is no UTF-8.
+NamedTexts printable_texts(NamedTexts column);
+
 /// Why the number cannot be a coordinate ("is not finite"), or nullptr if it can.
 const char* coordinate_fault(double value);
 
