@@ -222,6 +222,16 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   add_json_flag(command, options.json);
 }
 
+void add_select(CLI::App& app, SelectOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "select", "Count and list the spheres that an expression selects",
+                                  "bihive select demo 'chain A and name CA'",
+                                  "bihive select demo 'within 5 of resname 478' --json", options, request);
+  add_input(command, options.input);
+  command.add_option("EXPRESSION", options.expression, "The selection: docs/selections.md")->type_name("")->required();
+  add_input_options(command, options.input);
+  add_json_flag(command, options.json);
+}
+
 void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
   CLI::App& command =
       add_command(app, "thesis", "Reproduce the thesis's tables and figures", "bihive thesis all --out report",
@@ -283,6 +293,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   TraceOptions trace;
   SceneOptions scene;
   InfoOptions info;
+  SelectOptions select;
   ThesisOptions thesis;
   WebOptions web;
   Request request = HelpText{"", false};
@@ -292,6 +303,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   add_trace(app, trace, request);
   add_scene(app, scene, request);
   add_info(app, info, request);
+  add_select(app, select, request);
   add_thesis(app, thesis, request);
   add_web(app, web, request);
   try {

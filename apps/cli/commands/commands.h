@@ -98,6 +98,13 @@ void run_info(const InfoOptions& options);
 /// The part of `bihive info --attributes`.
 void print_attributes(const Input& input, bool as_json);
 
+struct SelectOptions {
+  InputOptions input;
+  std::string expression;
+  bool json = false;
+};
+void run_select(const SelectOptions& options);
+
 struct ThesisOptions {
   std::vector<std::string> experiments;  ///< names, or "all"; empty: all
   std::string out;                       ///< folder
