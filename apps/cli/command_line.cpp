@@ -70,10 +70,11 @@ void add_input(CLI::App& app, InputOptions& input) {
       ->required();
 }
 
-void add_input_options(CLI::App& app, InputOptions& input) {
+void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scale = true) {
   add_generator_options(app, input);
   add_number(app, "--radius", input.radius, kLargestFloat, "R", "Radius of every sphere (scenarios: 1)");
-  add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
+  if (with_radius_scale)
+    add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
   app.add_flag("--recenter", input.recenter, "Files: move the middle of the set to the origin");
   add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
 }
@@ -108,6 +109,44 @@ void add_ambient_occlusion(CLI::App& app, AmbientOptions& ambient) {
       ->excludes(on)
       ->excludes(distance)
       ->excludes(directions);
+}
+
+// Options whose order matters: each is taken when the command line reaches it, and may occur again.
+void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
+  const auto add = [&app](const std::string& name, const std::string& type, const std::string& help, auto take) {
+    const auto taken = [name, take](const std::string& text) {
+      if (const Status status = take(text); !status) throw CLI::ValidationError(name, status.error().to_string());
+    };
+    app.add_option_function<std::string>(name, taken, help)->type_name(type)->trigger_on_parse();
+  };
+  const auto add_flag = [&app](const std::string& name, const std::string& help, auto take) {
+    app.add_flag_function(
+           name, [take](std::int64_t) { take(); }, help)
+        ->trigger_on_parse();
+  };
+  add("--select", "EXPR", "The options below are for these spheres alone (docs/selections.md); repeatable",
+      [&looks](const std::string& text) { return looks.select(text), Status(Done{}); });
+  add_flag("--hide", "Hide them from every ray", [&looks] { looks.show(false); });
+  add_flag("--show", "Show them again", [&looks] { looks.show(true); });
+  add("--colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1",
+      [&looks](const std::string& text) { return looks.colour(text); });
+  add("--colour-by", "ATTR[:MAP[:MIN,MAX[:log]]]", "Colour them by an attribute; MAP: " + std::string(kColourMapNames),
+      [&looks](const std::string& text) { return looks.colour_by(text); });
+  add("--nan-colour", "COLOUR", "--colour-by: colour of unknown numbers (grey)",
+      [&looks](const std::string& text) { return looks.set_nan_colour(text); });
+  add("--opacity", "F", "Their opacity, 0 (clear) to 1",
+      [&looks](const std::string& text) { return looks.opacity(text); });
+  add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
+      [&looks, &input](const std::string& text) -> Status {
+        if (looks.selected) return looks.radius_scale(text);
+        if (input.radius_scale) return Error{"is given more than once before a --select", "", 0, 0, ""};
+        const Result<double> factor = number_from(text, 0, kLargestFloat);
+        if (!factor) return factor.error();
+        input.radius_scale = *factor;
+        return Done{};
+      });
+  add_flag("--no-hydrogens", "Hide hydrogen", [&looks] { looks.hide_word("--no-hydrogens", "hydrogen"); });
+  add_flag("--no-water", "Hide water", [&looks] { looks.hide_word("--no-water", "water"); });
 }
 
 void add_json_flag(CLI::App& app, bool& json) {
@@ -152,7 +191,8 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);
-  add_input_options(command, options.input);
+  add_input_options(command, options.input, /*with_radius_scale=*/false);
+  add_looks(command, options.looks, options.input);
   add_json_flag(command, options.json);
 }
 

@@ -12,6 +12,7 @@
 #include "bihive/render/tracer.h"
 #include "bihive/scene/framing.h"
 #include "bihive/viewer/viewer_settings.h"
+#include "look_options.h"
 #include "support/input.h"
 #include "support/values.h"
 
@@ -31,6 +32,7 @@ struct AmbientOptions {
 
 struct RenderOptions {
   InputOptions input;
+  LookOptions looks;
   std::string output;
   std::optional<PictureSize> size;
   std::optional<std::int64_t> recursion, samples;

@@ -135,6 +135,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
   if (input.frame) json["frame"] = *input.frame;
   if (input.recenter) json["recenter"] = true;
+  if (!options.looks.words.empty()) json["looks"] = options.looks.words;
   return json;
 }
 
@@ -246,7 +247,12 @@ void run_render(const RenderOptions& options) {
   if (const Status status = check_writable(options.output); !status) fail(status.error());
 
   // Load the scene and apply the user's options to it.
-  Input input = load_input(options.input);
+  Input input = load_input(options.input, LooksOfFile::keep);
+  if (options.transfer) input.scene.picture.transfer = *options.transfer;
+  look(input, options.looks);
+  if (is_gpu(engine) && options.view == View::id && !input.scene.id_in_input.empty())
+    fail_usage("--engine " + name_of(kRenderEngines, engine) + " does not know the ids of a set with hidden spheres",
+               "leave --engine out");
   const RenderSettings settings = apply_options(options, input);
   if (is_gpu(engine) && settings.ambient_occlusion && settings.view == View::shaded)
     fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no ambient occlusion",

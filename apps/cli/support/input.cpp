@@ -62,7 +62,7 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
   return std::move(loaded->scene);
 }
 
-Input load_input(const InputOptions& options) {
+Input load_input(const InputOptions& options, LooksOfFile looks) {
   if (std::optional<Scene> scene = generated_scene(options)) {
     Input input;
     input.scene = std::move(*scene);
@@ -75,7 +75,7 @@ Input load_input(const InputOptions& options) {
   const ReadOptions reading = read_options(options);
   Input input = value_or_fail(options.input == "demo"
                                   ? built_in_scene("demo", {}, reading)
-                                  : load_scene(value_or_fail(read_file(options.input)), options.input, reading));
+                                  : load_scene(value_or_fail(read_file(options.input)), options.input, reading, looks));
   warn(input.warnings);
   return input;
 }

@@ -30,7 +30,7 @@ void check_input_options(const InputOptions& options);
 
 /// Built-in names come first: scenario1, scenario2, scenario3, four-spheres, demo. Prints warnings on stderr. Fails
 /// with kBadUsage on options that do not fit the input, and with kBadInput on an unreadable file.
-Input load_input(const InputOptions& options);
+Input load_input(const InputOptions& options, LooksOfFile looks = LooksOfFile::apply);
 
 /// The scene of a name of `bihive scene`: scenario1, scenario2, scenario3 or four-spheres; nothing for other names.
 std::optional<Scene> generated_scene(const InputOptions& options);

@@ -66,8 +66,9 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
   return generated(std::move(*scene));
 }
 
-Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  if (looks_like_scene(bytes)) return parse_scene(bytes, name, options);
+Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options,
+                               LooksOfFile looks) {
+  if (looks_like_scene(bytes)) return parse_scene(bytes, name, options, looks);
   return from_spheres(read_spheres_from_memory(bytes, name, options), name);
 }
 

@@ -25,6 +25,7 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 
 /// A scene file if the bytes look like one, else spheres of any known format, coloured by element or type. `name` is
 /// the file's, as for parse_scene() and read_spheres_from_memory().
-Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {},
+                               LooksOfFile looks = LooksOfFile::apply);
 
 }  // namespace bihive

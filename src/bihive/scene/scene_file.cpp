@@ -8,6 +8,7 @@
 
 #include "bihive/io/finish.h"
 #include "bihive/scene/colour_text.h"
+#include "bihive/scene/look_json.h"
 #include "bihive/scene/palette.h"
 #include "bihive/scene/scene_json.h"
 
@@ -20,8 +21,8 @@ using nlohmann::json;
 // everything after it does not matter.
 class Extraction {
  public:
-  Extraction(const json& document, const std::string& name, const ReadOptions& options)
-      : document_(document), name_(name), options_(options) {}
+  Extraction(const json& document, const std::string& name, const ReadOptions& options, LooksOfFile looks)
+      : document_(document), name_(name), options_(options), looks_(looks) {}
 
   Result<LoadedScene> run() {
     Scene& scene = loaded_.scene;
@@ -34,6 +35,7 @@ class Extraction {
     take_plane();
     if (document_.contains("background")) scene.background = colour(document_.at("background"));
     if (failed_.message.empty()) take_spheres();
+    if (failed_.message.empty()) take_looks();
     if (!failed_.message.empty()) return failed_;
     return std::move(loaded_);
   }
@@ -306,9 +308,24 @@ class Extraction {
       colour_spheres(scene.spheres);
   }
 
+  // Last, because they change the spheres.
+  void take_looks() {
+    if (!document_.contains("looks")) return;
+    need_version(2, "/looks");
+    for (const json& value : document_.at("looks")) loaded_.looks.push_back(look_from_json(value));
+    if (looks_ == LooksOfFile::keep || !failed_.message.empty()) return;
+    std::size_t position = 0;
+    const auto counts = apply_looks(loaded_.scene, loaded_.looks, &position);
+    if (counts) return;
+    const Error& error = counts.error();
+    const std::string place = error.column > 0 ? "/select: column " + std::to_string(error.column) : "";
+    fail("/looks/" + std::to_string(position) + place, error.message, error.hint);
+  }
+
   const json& document_;
   const std::string& name_;
   const ReadOptions& options_;
+  LooksOfFile looks_;
   LoadedScene loaded_;
   std::map<std::string, std::int32_t> position_of_material_;
   Error failed_;
@@ -316,12 +333,13 @@ class Extraction {
 
 }  // namespace
 
-Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, const ReadOptions& options) {
+Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, const ReadOptions& options,
+                                LooksOfFile looks) {
   const Result<json> document = parse_json(text, name);
   if (!document) return document.error();
   const Status status = check_against_schema(*document, name);
   if (!status) return status.error();
-  return Extraction(*document, name, options).run();
+  return Extraction(*document, name, options, looks).run();
 }
 
 bool looks_like_scene(std::string_view bytes) {

@@ -9,6 +9,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/io/read_spheres.h"
+#include "bihive/scene/looks.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
@@ -23,13 +24,18 @@ struct LoadedScene {
   std::vector<std::string> rules;     ///< what was done to its spheres, one sentence each
   Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
+  std::vector<Look> looks;  ///< the document's; done already, unless LooksOfFile::keep was asked for
 };
+
+/// Whether a document's looks are done while it is read, or kept for a caller who has more of them to add.
+enum class LooksOfFile { apply, keep };
 
 /// `name` is the file's name for messages; relative paths in the document start from its folder. The options apply to
 /// inline spheres and to a sphere file of the document alike, and replace what the document says. If only the options
 /// recentre, camera, lights and plane move along. Errors name the path inside the document (/materials/0/power) and the
 /// expected value.
-Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options);
+Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options,
+                                LooksOfFile looks = LooksOfFile::apply);
 
 /// True if the bytes look like a scene document (first character after white space is '{').
 bool looks_like_scene(std::string_view bytes);
