@@ -145,6 +145,9 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
         input.radius_scale = *factor;
         return Done{};
       });
+  app.add_option("--element-colours", looks.element_colours,
+                 "Colours of elements: jmol (usual), cpk, or a file with lines 'C #909090'")
+      ->type_name("cpk|jmol|FILE");
   add_flag("--no-hydrogens", "Hide hydrogen", [&looks] { looks.hide_word("--no-hydrogens", "hydrogen"); });
   add_flag("--no-water", "Hide water", [&looks] { looks.hide_word("--no-water", "water"); });
 }

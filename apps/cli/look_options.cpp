@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "bihive/base/write_file.h"
+#include "bihive/scene/element_colours.h"
 #include "bihive/select/selection.h"
 #include "support/failure.h"
 #include "support/messages.h"
@@ -19,6 +21,13 @@ Result<ColourChoice> colour_choice(const std::string& text) {
   if (!colour) return colour.error();
   if (text.find(',') != std::string::npos) return ColourChoice(*colour);
   return ColourChoice(text);
+}
+
+void recolour(LoadedScene& input, const std::string& choice) {
+  std::optional<ElementColours> colours = element_colours_called(choice);
+  if (!colours) colours = value_or_fail(read_element_colours(value_or_fail(read_file(choice)), choice));
+  if (const Status status = recolour_elements(input.scene, *colours); !status)
+    fail_usage("--element-colours: " + status.error().message, "leave it out");
 }
 
 }  // namespace
@@ -100,6 +109,7 @@ void LookOptions::hide_word(const std::string& option, const std::string& word) 
 }
 
 void look(LoadedScene& input, const LookOptions& options) {
+  if (!options.element_colours.empty()) recolour(input, options.element_colours);
   std::vector<Look> looks = input.looks;
   for (Look one : options.looks) {
     for (LookAction& action : one.actions)

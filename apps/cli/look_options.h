@@ -17,6 +17,7 @@ struct LookOptions {
   std::vector<std::string> of_look;  ///< for messages: the option that begins each look
   std::vector<std::string> words;    ///< the options as they were given, one each
   std::string nan_colour;            ///< empty: the default
+  std::string element_colours;       ///< "cpk", "jmol" or a file; empty: the usual ones
   bool selected = false;             ///< a --select was there
 
   /// Fails with kBadUsage on a text that is no selection, and shows the place.
@@ -36,7 +37,8 @@ struct LookOptions {
   bool has_current_ = false;
 };
 
-/// Does the input's own looks, then these. Fails with kBadUsage on a selection or action that does not fit the input.
+/// Gives elements their colours, does the input's own looks, then these. Fails with kBadInput on a file of colours that
+/// cannot be read. Fails with kBadUsage on a selection or action that does not fit the input.
 /// Warns of a --select without spheres.
 void look(LoadedScene& input, const LookOptions& options);
 

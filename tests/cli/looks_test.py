@@ -89,6 +89,28 @@ class Looks(ProgramTest):
         self.assertIn("--no-water: column 1: 'water' needs the names of residues",
                       self.run_bihive("render", "a.csv", "-o", "x.png", "--no-water").stderr)
 
+    def test_element_colours(self):
+        self.write("m.csv", "x,y,z,r,element\n-3,0,0,1,C\n0,0,0,1,O\n3,0,0,1,Fe\n")
+        usual = self.middles(name="m.csv")
+        self.assertEqual(self.middles("--element-colours", "jmol", name="m.csv"), usual)
+        cpk = self.middles("--element-colours", "cpk", name="m.csv")
+        self.assertGreater(cpk[0][0], usual[0][0])
+        self.write("colours.txt", "# mine\nc #00ff00\n\nFE blue\n")
+        green, same, blue = self.middles("--element-colours", "colours.txt", name="m.csv")
+        self.assertTrue(green[1] > 100 > green[0] and blue[2] > 100 > blue[0], (green, blue))
+        self.assertEqual(same, usual[1])
+
+    def test_bad_element_colours(self):
+        self.write("m.csv", "x,y,z,r,element\n-3,0,0,1,C\n")
+        self.write("bad.txt", "C #909090\nQq red\n")
+        self.write("bad2.txt", "C reddish\n")
+        self.write("empty.txt", "")
+        for name, message in [("bad.txt", "bad.txt:2:1: expected an element's symbol"), ("bad2.txt", "bad2.txt:1:3: expected a colour"),
+                              ("empty.txt", "no line with an element"), ("nope.txt", "nope.txt")]:
+            self.assertIn(message, self.fail_input("render", "m.csv", "-o", "x.png", "--element-colours", name))
+        self.assertIn("--element-colours: the input has no elements",
+                      self.fail_usage("render", "a.csv", "-o", "x.png", "--element-colours", "cpk"))
+
     def test_the_picture_and_the_report_tell_the_looks(self):
         report = self.succeed_json("render", "a.csv", "-o", "a.png", *VIEW, "--select", "x > 0", "--hide")
         self.assertEqual(report["spheres"], 2)

@@ -135,6 +135,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
   if (input.frame) json["frame"] = *input.frame;
   if (input.recenter) json["recenter"] = true;
+  if (!options.looks.element_colours.empty()) json["element_colours"] = options.looks.element_colours;
   if (!options.looks.words.empty()) json["looks"] = options.looks.words;
   return json;
 }
