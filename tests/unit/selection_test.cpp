@@ -106,6 +106,8 @@ TEST(Selection, TakesValuesAndRanges) {
   EXPECT_EQ(ids("index 0..1 4"), (Ids{0, 1, 4}));
   EXPECT_EQ(ids("index 0:1, 4"), (Ids{0, 1, 4}));
   EXPECT_EQ(ids("index 0 to 1 4-5"), (Ids{0, 1, 4, 5}));
+  EXPECT_EQ(ids("index 4..5 0..2 1 2..3 9..12"), ids("all")) << "ranges that overlap";
+  EXPECT_EQ(ids("index 5 0 3..3 7"), (Ids{0, 3, 5}));
   EXPECT_EQ(ids("type 2 or charge < 0"), (Ids{0, 1, 2, 3}));
   EXPECT_EQ(ids("phase solid"), (Ids{0, 1}));
   EXPECT_EQ(ids("phase Solid liquid"), (Ids{2, 3})) << "texts as they are written";
@@ -221,6 +223,17 @@ TEST(Selection, DeepAndLongTextsAreErrors) {
   EXPECT_THAT(error_in(table(), std::string(101, '(') + "all" + std::string(101, ')')).message,
               testing::HasSubstr("at most 100 deep"));
   EXPECT_THAT(error_in(table(), std::string(70000, ' ') + "all").message, testing::HasSubstr("at most 65536 bytes"));
+  EXPECT_EQ(ids(std::string(60000, '!') + "x > 1"), ids("x > 1"));
+  EXPECT_EQ(ids(std::string(60001, '!') + "x > 1"), ids("not x > 1"));
+  EXPECT_EQ(ids(std::string(60001, '-') + "x < -1"), ids("x > 1"));
+  std::string sum = "x";
+  for (int i = 0; i < 15000; ++i) sum += "+x-x";
+  EXPECT_EQ(ids(sum + " > 1"), ids("x > 1"));
+  std::string within = "not not within 0 of not within 0 of not x > 1";
+  EXPECT_EQ(ids(within), ids("x > 1"));
+  for (int i = 0; i < 98; ++i) within = "within 0 of " + within;
+  EXPECT_EQ(ids(within), ids("x > 1"));
+  EXPECT_THAT(error_in(table(), "within 0 of " + within).message, testing::HasSubstr("at most 100 times 'within'"));
   std::string many = "x > 1";
   for (int i = 0; i < 3000; ++i) many += " or x > 1";
   EXPECT_EQ(ids(many), (Ids{2, 3, 4, 5}));

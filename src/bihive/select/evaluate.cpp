@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -36,6 +37,29 @@ bool holds_between(double left, ComparisonSign sign, double right) {
       return left < right || left > right;  // NaN is unknown: neither equal nor unequal
   }
   return false;
+}
+
+using NumberRange = std::pair<double, double>;  // both ends included
+
+// The ranges of the values in ascending order; those that overlap are one.
+std::vector<NumberRange> disjoint_ranges(const std::vector<SelectionValue>& values) {
+  std::vector<NumberRange> ranges, merged;
+  for (const SelectionValue& value : values) ranges.emplace_back(value.first, value.last);
+  std::sort(ranges.begin(), ranges.end());
+  for (const NumberRange& range : ranges) {
+    if (!merged.empty() && range.first <= merged.back().second)
+      merged.back().second = std::max(merged.back().second, range.second);
+    else
+      merged.push_back(range);
+  }
+  return merged;
+}
+
+bool any_holds(const std::vector<NumberRange>& ranges, double number) {
+  // The last range that begins at the number or before it; NaN is in none.
+  const auto behind = std::upper_bound(ranges.begin(), ranges.end(), number,
+                                       [](double n, const NumberRange& range) { return n < range.first; });
+  return behind != ranges.begin() && number >= std::prev(behind)->first && number <= std::prev(behind)->second;
 }
 
 class Evaluation {
@@ -171,12 +195,9 @@ class Evaluation {
       if (value.first > value.last)
         return error(value.place, "the range " + quote(value.text) + " is empty: its first number is above its last");
     }
-    return mask_by([&](std::size_t i) {
-      const double number = attribute.number_of(spheres_, static_cast<std::int64_t>(i));
-      return std::any_of(expression.values.begin(), expression.values.end(), [number](const SelectionValue& value) {
-        return number >= value.first && number <= value.last;
-      });
-    });
+    const std::vector<NumberRange> ranges = disjoint_ranges(expression.values);
+    return mask_by(
+        [&](std::size_t i) { return any_holds(ranges, attribute.number_of(spheres_, static_cast<std::int64_t>(i))); });
   }
 
   Result<SphereMask> comparison(const Expression& expression) const {

@@ -12,12 +12,13 @@ using TextPlace = std::size_t;
 
 /// Arithmetic on numbers: `2 * x + charge`.
 struct NumberTerm {
-  enum class Kind { number, name, negative, sum, difference, product, quotient };
+  enum class Kind { number, name, negative, chain };
   Kind kind = Kind::number;
   TextPlace place = 0;
   std::string text;  ///< a number as it is written, or a name
   double number = 0;
   std::vector<NumberTerm> operands;
+  std::string signs;  ///< of a chain: + - or * / between each two operands, taken from left to right
 };
 
 /// One of the values behind a name: `CA`, `7`, `10..20`.

@@ -8,30 +8,25 @@
 namespace bihive {
 
 double ResolvedTerm::value(const SphereSet& spheres, std::int64_t id) const {
-  const auto operand = [&](std::size_t i) { return operands[i].value(spheres, id); };
-  switch (kind) {
-    case NumberTerm::Kind::number:
-      return number;
-    case NumberTerm::Kind::name:
-      return attribute.number_of(spheres, id);
-    case NumberTerm::Kind::negative:
-      return -operand(0);
-    case NumberTerm::Kind::sum:
-      return operand(0) + operand(1);
-    case NumberTerm::Kind::difference:
-      return operand(0) - operand(1);
-    case NumberTerm::Kind::product:
-      return operand(0) * operand(1);
-    case NumberTerm::Kind::quotient:
-      return operand(0) / operand(1);
+  if (kind == NumberTerm::Kind::number) return number;
+  if (kind == NumberTerm::Kind::name) return attribute.number_of(spheres, id);
+  double result = operands.front().value(spheres, id);
+  if (kind == NumberTerm::Kind::negative) return -result;
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    const double right = operands[i + 1].value(spheres, id);
+    if (signs[i] == '+') result += right;
+    if (signs[i] == '-') result -= right;
+    if (signs[i] == '*') result *= right;
+    if (signs[i] == '/') result /= right;
   }
-  return 0;
+  return result;
 }
 
 Result<ResolvedTerm> resolve_term(const NumberTerm& term, std::string_view text, const SphereSet& spheres) {
   ResolvedTerm resolved;
   resolved.kind = term.kind;
   resolved.number = term.number;
+  resolved.signs = term.signs;
   if (term.kind == NumberTerm::Kind::name) {
     resolved.attribute = find_attribute(spheres, term.text);
     if (!resolved.attribute.found())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ResolvedTerm {
   double number = 0;
   FoundAttribute attribute;
   std::vector<ResolvedTerm> operands;
+  std::string signs;
 
   /// In binary64; NaN where a number is unknown.
   double value(const SphereSet& spheres, std::int64_t id) const;

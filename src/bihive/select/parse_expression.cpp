@@ -230,32 +230,26 @@ NumberTerm term_of(const Node& node);
 
 // Operands with signs between them, from left to right.
 NumberTerm chain_of(const Node& node) {
-  NumberTerm left = term_of(*node.children.front());
-  for (std::size_t i = 1; i + 1 < node.children.size(); i += 2) {
-    const char sign = node.children[i]->string_view().front();
-    NumberTerm both;
-    both.kind = sign == '+'   ? NumberTerm::Kind::sum
-                : sign == '-' ? NumberTerm::Kind::difference
-                : sign == '*' ? NumberTerm::Kind::product
-                              : NumberTerm::Kind::quotient;
-    both.place = left.place;
-    both.operands.push_back(std::move(left));
-    both.operands.push_back(term_of(*node.children[i + 1]));
-    left = std::move(both);
+  if (node.children.size() == 1) return term_of(*node.children.front());
+  NumberTerm chain;
+  chain.kind = NumberTerm::Kind::chain;
+  chain.place = place_of(node);
+  for (std::size_t i = 0; i < node.children.size(); i += 2) {
+    if (i > 0) chain.signs += node.children[i - 1]->string_view().front();
+    chain.operands.push_back(term_of(*node.children[i]));
   }
-  return left;
+  return chain;
 }
 
+// Two minus signs are none.
 NumberTerm factor_of(const Node& node) {
   NumberTerm term = term_of(*node.children.back());
-  for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
-    NumberTerm negative;
-    negative.kind = NumberTerm::Kind::negative;
-    negative.place = place_of(node);
-    negative.operands.push_back(std::move(term));
-    term = std::move(negative);
-  }
-  return term;
+  if (node.children.size() % 2 == 1) return term;
+  NumberTerm negative;
+  negative.kind = NumberTerm::Kind::negative;
+  negative.place = place_of(node);
+  negative.operands.push_back(std::move(term));
+  return negative;
 }
 
 NumberTerm term_of(const Node& node) {
@@ -319,18 +313,21 @@ Expression comparison_of(const Node& node) {
   return made;
 }
 
-// Prefixes stand before their operand; the last one belongs closest to it.
+// Prefixes stand before their operand; the last one belongs closest to it. Two 'not' are none, so that they do not
+// nest.
 Expression operand_of(const Node& node) {
   Expression made = expression_of(*node.children.back());
+  const auto is_within = [&node](std::size_t i) { return node.children[i]->is_type<grammar::within_prefix>(); };
   for (std::size_t i = node.children.size() - 1; i-- > 0;) {
+    if (!is_within(i) && i > 0 && !is_within(i - 1)) {
+      --i;
+      continue;
+    }
     const Node& prefix = *node.children[i];
     Expression outer;
     outer.place = place_of(prefix);
-    outer.kind = Expression::Kind::negation;
-    if (prefix.is_type<grammar::within_prefix>()) {
-      outer.kind = Expression::Kind::within;
-      outer.distance = number_of(*prefix.children.front());
-    }
+    outer.kind = is_within(i) ? Expression::Kind::within : Expression::Kind::negation;
+    if (is_within(i)) outer.distance = number_of(*prefix.children.front());
     outer.operands.push_back(std::move(made));
     made = std::move(outer);
   }
@@ -357,6 +354,14 @@ TextPlace too_deep(std::string_view text) {
     if (text[i] == ')') --depth;
   }
   return text.size();
+}
+
+// The place of the 'within' beyond the most that a selection may have; text.size() if there is none.
+TextPlace too_many_within(const Node& node, int& left, std::size_t none) {
+  if (node.is_type<grammar::within_prefix>() && --left < 0) return place_of(node);
+  for (const auto& child : node.children)
+    if (const TextPlace place = too_many_within(*child, left, none); place != none) return place;
+  return none;
 }
 
 }  // namespace
@@ -386,9 +391,16 @@ Result<Expression> parse_expression(std::string_view text) {
     const auto root =
         tao::pegtl::parse_tree::parse<grammar::whole, Node, grammar::selector, tao::pegtl::nothing, Watch>(input,
                                                                                                            farthest);
-    if (root) return expression_of(*root->children.front());
-    return selection_error(text, farthest.place,
-                           "expected " + expectation(farthest.expected) + ", found " + found_at(text, farthest.place));
+    if (!root)
+      return selection_error(
+          text, farthest.place,
+          "expected " + expectation(farthest.expected) + ", found " + found_at(text, farthest.place));
+    const Node& whole = *root->children.front();
+    int within_left = kDeepestSelection;
+    if (const TextPlace place = too_many_within(whole, within_left, text.size()); place != text.size())
+      return selection_error(text, place,
+                             "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within'");
+    return expression_of(whole);
   } catch (const std::exception& e) {
     return Error{"reading the selection failed: " + std::string(e.what()), "", 0, 0, ""};
   }

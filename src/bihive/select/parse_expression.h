@@ -8,7 +8,8 @@
 
 namespace bihive {
 
-/// The longest text, and the deepest nesting of parentheses.
+/// The longest text; the deepest nesting of parentheses, and the most 'within'. So the tree is never so deep that a
+/// recursion over it could fail.
 constexpr std::size_t kLongestSelection = 65536;
 constexpr int kDeepestSelection = 100;
 
