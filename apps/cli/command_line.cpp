@@ -74,10 +74,11 @@ void add_input(CLI::App& app, InputOptions& input) {
       ->required();
 }
 
-void add_input_options(CLI::App& app, InputOptions& input) {
+void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scale = true) {
   add_generator_options(app, input);
   add_number(app, "--radius", input.radius, kLargestFloat, "R", "Radius of every sphere (scenarios: 1)");
-  add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
+  if (with_radius_scale)
+    add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
   app.add_flag("--recenter", input.recenter, "Files: move the middle of the set to the origin");
   add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
 }
@@ -114,8 +115,8 @@ void add_ambient_occlusion(CLI::App& app, AmbientOptions& ambient) {
       ->excludes(directions);
 }
 
-void add_look_options(CLI::App& app, LookOptions& look) {
-  add_value(app, "--style", look.style, "NAME|FILE", "The look: see bihive styles (files: default)",
+void add_style_options(CLI::App& app, StyleOptions& look) {
+  add_value(app, "--style", look.name, "NAME|FILE", "The look: see bihive styles (files: default)",
             [](const std::string& text) -> Result<std::string> { return text; });
   add_choice(app, "--material", look.material, named_materials(), "Of all spheres (the style's)");
   add_choice(app, "--light", look.lights, light_presets(), "The lights around the camera (the style's)");
@@ -130,6 +131,47 @@ void add_look_options(CLI::App& app, LookOptions& look) {
               return width;
             });
   add_number(app, "--fog", look.fog, 1, "F", "Share of the background where the set is deepest; 0: none (the style's)");
+}
+
+// Options whose order matters: each is taken when the command line reaches it, and may occur again.
+void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
+  const auto add = [&app](const std::string& name, const std::string& type, const std::string& help, auto take) {
+    const auto taken = [name, take](const std::string& text) {
+      if (const Status status = take(text); !status) throw CLI::ValidationError(name, status.error().to_string());
+    };
+    app.add_option_function<std::string>(name, taken, help)->type_name(type)->trigger_on_parse();
+  };
+  const auto add_flag = [&app](const std::string& name, const std::string& help, auto take) {
+    app.add_flag_function(
+           name, [take](std::int64_t) { take(); }, help)
+        ->trigger_on_parse();
+  };
+  add("--select", "EXPR", "The options below are for these spheres alone (docs/selections.md); repeatable",
+      [&looks](const std::string& text) { return looks.select(text), Status(Done{}); });
+  add_flag("--hide", "Hide them from every ray", [&looks] { looks.show(false); });
+  add_flag("--show", "Show them again", [&looks] { looks.show(true); });
+  add("--colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1",
+      [&looks](const std::string& text) { return looks.colour(text); });
+  add("--colour-by", "ATTR[:MAP[:MIN,MAX[:log]]]", "Colour them by an attribute; MAP: " + std::string(kColourMapNames),
+      [&looks](const std::string& text) { return looks.colour_by(text); });
+  add("--nan-colour", "COLOUR", "--colour-by: colour of unknown numbers (grey)",
+      [&looks](const std::string& text) { return looks.set_nan_colour(text); });
+  add("--opacity", "F", "Their opacity, 0 (clear) to 1",
+      [&looks](const std::string& text) { return looks.opacity(text); });
+  add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
+      [&looks, &input](const std::string& text) -> Status {
+        if (looks.selected) return looks.radius_scale(text);
+        if (input.radius_scale) return Error{"is given more than once before a --select", "", 0, 0, ""};
+        const Result<double> factor = number_from(text, 0, kLargestFloat);
+        if (!factor) return factor.error();
+        input.radius_scale = *factor;
+        return Done{};
+      });
+  app.add_option("--element-colours", looks.element_colours,
+                 "Colours of elements: a name, or a file with lines 'C #909090' (the style's)")
+      ->type_name("soft|jmol|cpk|FILE");
+  add_flag("--no-hydrogens", "Hide hydrogen", [&looks] { looks.hide_word("--no-hydrogens", "hydrogen"); });
+  add_flag("--no-water", "Hide water", [&looks] { looks.hide_word("--no-water", "water"); });
 }
 
 void add_json_flag(CLI::App& app, bool& json) {
@@ -160,7 +202,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_integer(command, "--samples", options.samples, 1, 4096, "Samples a pixel (files: 4, thesis's scenes: 1)");
   add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
   add_shadows(command, options.shadows);
-  add_look_options(command, options.look);
+  add_style_options(command, options.style);
   add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
   add_value(command, "--background", options.background, "COLOUR",
             "A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)",
@@ -190,7 +232,8 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);
-  add_input_options(command, options.input);
+  add_input_options(command, options.input, /*with_radius_scale=*/false);
+  add_looks(command, options.looks, options.input);
   add_json_flag(command, options.json);
 }
 
@@ -260,7 +303,18 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   CLI::App& command = add_command(app, "info", "Show what an input holds and how it was read", "bihive info demo",
                                   "bihive info scenario1 --count 1000000 --radius 0.1 --json", options, request);
   add_input(command, options.input);
+  command.add_flag("--attributes", options.attributes, "List what is known of each sphere: ranges and distinct texts");
   add_tree_options(command, options.tree);
+  add_input_options(command, options.input);
+  add_json_flag(command, options.json);
+}
+
+void add_select(CLI::App& app, SelectOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "select", "Count and list the spheres that an expression selects",
+                                  "bihive select demo 'chain A and name CA'",
+                                  "bihive select demo 'within 5 of resname 478' --json", options, request);
+  add_input(command, options.input);
+  command.add_option("EXPRESSION", options.expression, "The selection: docs/selections.md")->type_name("")->required();
   add_input_options(command, options.input);
   add_json_flag(command, options.json);
 }
@@ -327,6 +381,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   SceneOptions scene;
   InfoOptions info;
   StylesOptions styles;
+  SelectOptions select;
   ThesisOptions thesis;
   WebOptions web;
   Request request = HelpText{"", false};
@@ -337,6 +392,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   add_scene(app, scene, request);
   add_info(app, info, request);
   add_styles(app, styles, request);
+  add_select(app, select, request);
   add_thesis(app, thesis, request);
   add_web(app, web, request);
   try {

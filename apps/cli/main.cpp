@@ -32,6 +32,7 @@ struct Run {
   int operator()(const SceneOptions& options) const { return run_scene(options), kSuccess; }
   int operator()(const InfoOptions& options) const { return run_info(options), kSuccess; }
   int operator()(const StylesOptions& options) const { return run_styles(options), kSuccess; }
+  int operator()(const SelectOptions& options) const { return run_select(options), kSuccess; }
   int operator()(const ThesisOptions& options) const { return run_thesis(options), kSuccess; }
   int operator()(const WebOptions& options) const { return run_web(options), kSuccess; }
 };
@@ -45,6 +46,7 @@ int run(int argc, const char* const* argv) {
     return code;
   } catch (const Failure& failure) {
     say_error(failure.error.to_string());
+    std::fputs(failure.shown.c_str(), stderr);
     return failure.code;
   } catch (const std::bad_alloc&) {
     say_error("not enough memory");

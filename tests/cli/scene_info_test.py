@@ -60,7 +60,7 @@ class Scene(ProgramTest):
     def test_the_documents_of_the_documentation_are_scenes(self):
         with open(os.path.join(os.environ["BIHIVE_SOURCE"], "docs", "scene_format.md"), encoding="utf-8") as file:
             documents = re.findall(r"```json\n(.*?)```", file.read(), re.DOTALL)
-        self.assertEqual(len(documents), 3)
+        self.assertEqual(len(documents), 4)
         self.write("molecule.pdb", "HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O  \n")
         for document in documents:
             self.write("s.json", document)
@@ -105,6 +105,25 @@ class Info(ProgramTest):
         attributes = json.loads(done.stdout)["attributes"]
         self.assertIn({"name": "charge", "min": None, "max": None}, attributes)
         self.assertIn({"name": "mass", "min": 1, "max": 1}, attributes)
+
+    def test_attributes(self):
+        # Counted here by the columns of the format.
+        facts = self.succeed_json("info", "demo", "--attributes")
+        by_name = {fact["name"]: fact for fact in facts["attributes"]}
+        with open(os.path.join(os.environ["BIHIVE_SOURCE"], "data", "1hpv.pdb"), encoding="ascii") as file:
+            atoms = [line for line in file if line.startswith(("ATOM", "HETATM"))]
+        self.assertEqual(facts["spheres"], len(atoms))
+        self.assertEqual(by_name["resname"]["distinct"], len({line[17:20] for line in atoms}))
+        self.assertEqual(by_name["chain"]["first"], list(dict.fromkeys(line[21].strip() for line in atoms)))
+        self.assertEqual(by_name["b_factor"]["max"], max(float(line[60:66]) for line in atoms))
+        self.assertEqual((by_name["b_factor"]["kind"], by_name["b_factor"]["nan"]), ("number", 0))
+
+    def test_attributes_with_gaps(self):
+        self.write("a.csv", "x,y,z,r,charge,phase\n0,0,0,1,,wet\n9,0,0,1,nan,dry\n1,1,1,1,2,wet\n")
+        facts = self.succeed_json("info", "a.csv", "--attributes")["attributes"]
+        self.assertIn({"name": "charge", "kind": "number", "min": 2, "max": 2, "nan": 2}, facts)
+        self.assertIn({"name": "phase", "kind": "text", "distinct": 2, "first": ["wet", "dry"]}, facts)
+        self.assertRegex(self.succeed("info", "a.csv", "--attributes"), r"charge +number +2 to 2, 2 NaN")
 
     def test_reading_options(self):
         self.write("a.csv", "x,y,z,r\n10,0,0,1\n12,0,0,3\n")

@@ -6,7 +6,7 @@ import shlex
 
 from program import ProgramTest, main
 
-COMMANDS = ["render", "stats", "trace", "scene", "info"]
+COMMANDS = ["render", "stats", "trace", "scene", "info", "select"]
 
 
 class Help(ProgramTest):

@@ -29,6 +29,12 @@ inline void check_attributes(const SphereAttributes& attributes, std::size_t siz
   require(fits(attributes.element) && fits(attributes.type) && fits(attributes.colour) && fits(attributes.opacity));
   for (const NamedNumbers& column : attributes.numbers)
     require(column.values.size() == size && printable(column.name) == column.name);
+  for (const NamedTexts& column : attributes.texts) {
+    require(column.text_of_sphere.size() == size && printable(column.name) == column.name);
+    for (const std::string& text : column.texts) require(printable(text) == text);
+    for (const std::int32_t text : column.text_of_sphere)
+      require(text >= 0 && static_cast<std::size_t>(text) < column.texts.size());
+  }
   for (const Vec3f& colour : attributes.colour)
     for (int part = 0; part < 3; ++part) require(colour[part] >= 0 && colour[part] <= 1);
   for (const float opacity : attributes.opacity) require(opacity >= 0 && opacity <= 1);

@@ -71,7 +71,30 @@ TEST(Csv, TakesColumnsByName) {
   EXPECT_EQ(numbers_of(file, "charge")[0], -0.25);
   EXPECT_TRUE(std::isnan(numbers_of(file, "charge")[1])) << "a gap is no number";
   EXPECT_EQ(file.rules[0], "columns by the header: name Radius x Y z charge element type");
-  EXPECT_EQ(file.rules.back(), "columns without numbers are left out: name");
+  const NamedTexts* const names = attributes.find_texts("name");
+  ASSERT_NE(names, nullptr);
+  EXPECT_EQ(names->texts, (std::vector<std::string>{"one, first", "two"}));
+  EXPECT_EQ(names->of(1), "two");
+}
+
+TEST(Csv, KeepsTextsOnceAndCountsTheirMemory) {
+  const SphereFile file = read_text(
+      "x,y,z,r,phase,note,nothing\n"
+      "1,2,3,1,solid,,\n"
+      "2,2,3,1,solid,late,\n"
+      "3,2,3,1,liquid,late,\n",
+      "a.csv");
+  const SphereAttributes& attributes = file.spheres.attributes();
+  ASSERT_EQ(attributes.texts.size(), 2u);
+  EXPECT_EQ(attributes.texts[0].texts, (std::vector<std::string>{"solid", "liquid"}));
+  EXPECT_EQ(attributes.texts[0].text_of_sphere, (std::vector<std::int32_t>{0, 0, 1}));
+  EXPECT_EQ(attributes.texts[1].texts, (std::vector<std::string>{"", "late"})) << "a gap before the first text";
+  EXPECT_EQ(attributes.texts[1].text_of_sphere, (std::vector<std::int32_t>{0, 1, 1}));
+  EXPECT_EQ(file.rules.back(), "empty columns are left out: nothing");
+  SphereAttributes without = attributes;
+  without.texts.clear();
+  EXPECT_GE(attributes.allocated_bytes() - without.allocated_bytes(),
+            static_cast<std::int64_t>(6 * sizeof(std::int32_t) + 4 * sizeof(std::string)));
 }
 
 TEST(Csv, SeparatesBySemicolonTabOrBlanks) {

@@ -42,6 +42,28 @@ TEST(Mmcif, TakesAtomsInFileOrder) {
   EXPECT_EQ(numbers_of(file, "b_factor"), (std::vector<double>{20.5, 0, 10}));
 }
 
+TEST(Mmcif, TakesTheNamesThatSelectionsAskFor) {
+  const SphereFile file = read_text(
+      "data_T\nloop_\n_atom_site.group_PDB\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+      "_atom_site.label_comp_id\n_atom_site.auth_comp_id\n_atom_site.label_asym_id\n_atom_site.label_entity_id\n"
+      "_atom_site.label_seq_id\n_atom_site.auth_seq_id\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n"
+      "ATOM   C \"C1'\" DA . C 1 4 -3 0 0 0\n"
+      "HETATM O O HOH WAT D 2 . 77 1 0 0\n",
+      "a.cif");
+  ASSERT_EQ(file.spheres.size(), 2);
+  const SphereAttributes& attributes = file.spheres.attributes();
+  const auto texts = [&](const char* name) {
+    const NamedTexts* const column = attributes.find_texts(name);
+    return column ? std::vector<std::string>{column->of(0), column->of(1)} : std::vector<std::string>();
+  };
+  EXPECT_EQ(texts("record"), (std::vector<std::string>{"ATOM", "HETATM"}));
+  EXPECT_EQ(texts("name"), (std::vector<std::string>{"C1'", "O"}));
+  EXPECT_EQ(texts("resname"), (std::vector<std::string>{"DA", "WAT"})) << "the author's, else the label's";
+  EXPECT_EQ(texts("chain"), (std::vector<std::string>{"C", "D"}));
+  EXPECT_EQ(texts("entity"), (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{-3, 77}));
+}
+
 TEST(Mmcif, TakesTheLikeliestOfAlternateLocations) {
   const SphereFile file = read_text("data_T\n" + kTags +
                                         "ATOM C CA A A 1 ? 0 0 0 0.3 0 1 A 1\n"

@@ -55,6 +55,42 @@ TEST(Pdb, TakesPlaceElementOccupancyAndBFactor) {
   EXPECT_EQ(numbers_of(file, "occupancy"), (std::vector<double>{1, 0.5}));
   EXPECT_EQ(numbers_of(file, "b_factor"), (std::vector<double>{20.25, -1}));
   EXPECT_TRUE(file.warnings.empty());
+
+  // What selections ask for.
+  const SphereAttributes& attributes = file.spheres.attributes();
+  EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{1, 2}));
+  const auto texts = [&](const char* name) {
+    const NamedTexts* const column = attributes.find_texts(name);
+    return column ? std::vector<std::string>{column->of(0), column->of(1)} : std::vector<std::string>();
+  };
+  EXPECT_EQ(texts("chain"), (std::vector<std::string>{"A", "A"}));
+  EXPECT_EQ(texts("resname"), (std::vector<std::string>{"ALA", "HEM"}));
+  EXPECT_EQ(texts("name"), (std::vector<std::string>{"N", "FE"}));
+  EXPECT_EQ(texts("record"), (std::vector<std::string>{"ATOM", "HETATM"}));
+  EXPECT_EQ(attributes.find_texts("insertion"), nullptr) << "no atom has one";
+}
+
+TEST(Pdb, NamesStayInStepWithAlternateLocations) {
+  Atom lost, kept, other;
+  lost.alternate = "A";
+  lost.occupancy = 0.25;
+  kept.alternate = "B";
+  kept.occupancy = 0.75;
+  other.name = " CB ";
+  other.chain = " Q";
+  other.residue = "****";
+  other.insertion = "C";
+  const SphereFile file = read_text(lost.line() + kept.line() + other.line(), "a.pdb");
+  ASSERT_EQ(file.spheres.size(), 2);
+  const SphereAttributes& attributes = file.spheres.attributes();
+  EXPECT_EQ(numbers_of(file, "occupancy"), (std::vector<double>{0.75, 1}));
+  for (const NamedTexts& column : attributes.texts) ASSERT_EQ(column.text_of_sphere.size(), 2u) << column.name;
+  EXPECT_EQ(attributes.find_texts("name")->of(0), "CA");
+  EXPECT_EQ(attributes.find_texts("name")->of(1), "CB");
+  EXPECT_EQ(attributes.find_texts("chain")->of(1), "Q");
+  EXPECT_EQ(attributes.find_texts("insertion")->of(0), "");
+  EXPECT_EQ(attributes.find_texts("insertion")->of(1), "C");
+  EXPECT_TRUE(std::isnan(numbers_of(file, "resid")[1])) << "no whole number";
 }
 
 TEST(Pdb, KeepsFileOrderThoughChainsAndResiduesAreInterleaved) {

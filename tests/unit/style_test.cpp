@@ -54,7 +54,7 @@ TEST(Style, a_file_states_every_part) {
   EXPECT_EQ(style.material.tint, 0.25);
   EXPECT_EQ(style.material.glow, 0.125);
   EXPECT_EQ(style.material.colour, (Vec3d{0.1, 0.2, 0.3}));
-  EXPECT_EQ(style.element_colours, ElementColours::soft);
+  EXPECT_EQ(style.element_colours, ElementScheme::soft);
   EXPECT_EQ(style.background, (Vec3d{0, 0.5, 1}));
   EXPECT_EQ(style.lights.ambient_light, (Vec3d{1, 2, 3}));
   EXPECT_FALSE(style.lights.light_behind);
@@ -89,7 +89,7 @@ TEST(Style, a_scene_file_goes_before_the_style) {
   const Style style = style_named("studio").value();
   const std::string text =
       R"({"bihive_scene": 2, "background": [1, 0, 0], "picture": {"ambient_occlusion": {"directions": 7}}, "spheres": [[0, 0, 0, 1]]})";
-  const Scene scene = load_scene(text, "a.json", {}, &style)->scene;
+  const Scene scene = load_scene(text, "a.json", {}, LooksOfFile::apply, &style)->scene;
   EXPECT_EQ(scene.background, (Vec3d{1, 0, 0}));
   EXPECT_EQ(scene.picture.ambient_occlusion->directions, 7);
   EXPECT_EQ(scene.picture.light_points, style.picture.light_points);

@@ -29,15 +29,15 @@ bool has_effect(const Material& material) {
 
 }  // namespace
 
-Style choose_style(const LookOptions& options) {
-  const std::string& wanted = options.style.empty() ? style_names().front() : options.style;
+Style choose_style(const StyleOptions& options) {
+  const std::string& wanted = options.name.empty() ? style_names().front() : options.name;
   if (is_path(wanted)) return value_or_fail(parse_style(value_or_fail(read_file(wanted)), wanted));
   Result<Style> style = style_named(wanted);
   if (!style) fail_usage("--style: " + style.error().message, style.error().hint);
   return std::move(*style);
 }
 
-void apply_look(const LookOptions& options, Input& input) {
+void apply_look(const StyleOptions& options, Input& input) {
   Scene& scene = input.scene;
   if (options.lights || !input.has_lights) {
     const LightRig& rig = options.lights ? *options.lights : input.rig;
@@ -52,7 +52,7 @@ void apply_look(const LookOptions& options, Input& input) {
   scene.material_of_sphere.clear();
 }
 
-void apply_effects(const LookOptions& options, RenderSettings& settings) {
+void apply_effects(const StyleOptions& options, RenderSettings& settings) {
   settings.ambient_occlusion = choose_ambient(options.ambient, settings.ambient_occlusion);
   settings.light_points = static_cast<int>(options.light_points.value_or(settings.light_points));
   if (options.outline_px) {

@@ -7,14 +7,14 @@ namespace bihive::cli {
 
 /// The style that the user names, or the default one. Fails with kBadUsage on an unknown name, with kBadInput on a file
 /// that is no style.
-Style choose_style(const LookOptions& options);
+Style choose_style(const StyleOptions& options);
 
 /// The options replace parts of the scene's look, and an input without lights gets those of its rig. The camera must
 /// stand already.
-void apply_look(const LookOptions& options, Input& input);
+void apply_look(const StyleOptions& options, Input& input);
 
 /// The effects of the picture, with the user's options.
-void apply_effects(const LookOptions& options, RenderSettings& settings);
+void apply_effects(const StyleOptions& options, RenderSettings& settings);
 
 /// Whether a scene and its settings need what graphics processors do not draw; a name for it, or empty.
 std::string beyond_gpu(const Scene& scene, const RenderSettings& settings);

@@ -15,6 +15,7 @@
 #include "bihive/scene/material.h"
 #include "bihive/scene/turn.h"
 #include "bihive/viewer/viewer_settings.h"
+#include "look_options.h"
 #include "support/input.h"
 #include "support/values.h"
 
@@ -32,8 +33,8 @@ struct AmbientOptions {
 };
 
 /// Unset: the style's or the scene's value.
-struct LookOptions {
-  std::string style;  ///< a name or a path; empty: the default one
+struct StyleOptions {
+  std::string name;  ///< a name or a path; empty: the default one
   std::optional<Material> material;
   std::optional<LightRig> lights;
   AmbientOptions ambient;
@@ -49,6 +50,7 @@ inline const std::string kStandardOutput = "-";
 
 struct RenderOptions {
   InputOptions input;
+  LookOptions looks;
   std::string output;  ///< a path, or kStandardOutput
   std::optional<PictureSize> size;
   std::optional<Tile> crop;  ///< not yet compared with the size
@@ -58,7 +60,7 @@ struct RenderOptions {
   TreeParameters tree;
   std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
   std::optional<bool> shadows;
-  LookOptions look;
+  StyleOptions style;
   std::optional<Transfer> transfer;
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
   std::optional<std::int64_t> bits;       ///< 8 or 16
@@ -120,9 +122,19 @@ void run_scene(const SceneOptions& options);
 struct InfoOptions {
   InputOptions input;
   TreeParameters tree;
+  bool attributes = false;  ///< only what is known of each sphere
   bool json = false;
 };
 void run_info(const InfoOptions& options);
+/// The part of `bihive info --attributes`.
+void print_attributes(const Input& input, bool as_json);
+
+struct SelectOptions {
+  InputOptions input;
+  std::string expression;
+  bool json = false;
+};
+void run_select(const SelectOptions& options);
 
 struct ThesisOptions {
   std::vector<std::string> experiments;  ///< names, or "all"; empty: all

@@ -154,6 +154,7 @@ void print_text(const Facts& facts) {
 
 void run_info(const InfoOptions& options) {
   const Input input = load_input(options.input);
+  if (options.attributes) return print_attributes(input, options.json);
   const Facts facts(input, options.tree);
   (options.json ? print_json : print_text)(facts);
 }

@@ -121,6 +121,8 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
   if (input.frame) json["frame"] = *input.frame;
   if (input.recenter) json["recenter"] = true;
+  if (!options.looks.element_colours.empty()) json["element_colours"] = options.looks.element_colours;
+  if (!options.looks.words.empty()) json["looks"] = options.looks.words;
   return json;
 }
 
@@ -210,7 +212,7 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   settings.samples_per_pixel = static_cast<int>(options.samples.value_or(settings.samples_per_pixel));
   settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
   settings.shadows = options.shadows.value_or(settings.shadows);
-  apply_effects(options.look, settings);
+  apply_effects(options.style, settings);
   settings.view = options.view;
   settings.threads = static_cast<int>(options.threads);
   scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
@@ -221,7 +223,7 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
     fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
                "give a colour by --background, or choose another view");
   scene.camera = choose_camera(input, options, settings);
-  apply_look(options.look, input);
+  apply_look(options.style, input);
   return settings;
 }
 
@@ -268,9 +270,14 @@ void run_render(const RenderOptions& options) {
   check_output(options);
 
   // Load the scene and apply the user's options to it.
-  const bool named = !options.look.style.empty();
-  const Style style = is_gpu(engine) && !named ? Style{} : choose_style(options.look);
-  Input input = load_input(options.input, &style, /*asked_for=*/named);
+  const bool named = !options.style.name.empty();
+  const Style style = is_gpu(engine) && !named ? Style{} : choose_style(options.style);
+  Input input = load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named);
+  if (options.transfer) input.scene.picture.transfer = *options.transfer;
+  look(input, options.looks);
+  if (is_gpu(engine) && options.view == View::id && !input.scene.id_in_input.empty())
+    fail_usage("--engine " + name_of(kRenderEngines, engine) + " does not know the ids of a set with hidden spheres",
+               "leave --engine out");
   const RenderSettings settings = apply_options(options, input);
   if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
   const Scene& scene = input.scene;

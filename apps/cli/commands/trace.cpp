@@ -160,13 +160,16 @@ void run_trace(const TraceOptions& options) {
   const Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
 
   const Timer timer;
-  const Answers answers = trace(rays, tracer, options.plane ? &plane : nullptr, options);
+  Answers answers = trace(rays, tracer, options.plane ? &plane : nullptr, options);
   const double trace_ms = timer.elapsed_ms();
   if (answers.bad_rays > 0)
     warn(
         fmt::format("{} of {} rays hit nothing because they are no rays (NaN, infinite origin or direction, zero "
                     "direction, or t_min above t_max)",
                     grouped(answers.bad_rays), grouped(rays.size())));
+
+  if (!input.scene.id_in_input.empty())
+    for (std::int64_t& id : answers.id) id = options.any ? id : input_id(input.scene, id);
 
   const std::string t_bytes = npy_bytes(answers.t, {rays.size()});
   const std::string id_bytes = npy_bytes(answers.id, {rays.size()});

@@ -19,6 +19,7 @@ enum ExitCode : int {
 struct Failure {
   ExitCode code;
   Error error;
+  std::string shown{};  ///< lines below the error's own, each with its end; usually none
 };
 
 [[noreturn]] inline void fail(Error error) {

@@ -62,7 +62,7 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
   return std::move(loaded->scene);
 }
 
-Input load_input(const InputOptions& options, const Style* style, bool asked_for) {
+Input load_input(const InputOptions& options, LooksOfFile looks, const Style* style, bool asked_for) {
   if (std::optional<Scene> scene = generated_scene(options)) {
     only_for(asked_for, "--style", "files", options.input);
     Input input;
@@ -77,7 +77,7 @@ Input load_input(const InputOptions& options, const Style* style, bool asked_for
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
     const std::string bytes = value_or_fail(read_file(options.input));
-    return load_scene(bytes, options.input, reading, asked_for || !looks_like_scene(bytes) ? style : nullptr);
+    return load_scene(bytes, options.input, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);
   };
   Input input = value_or_fail(load());
   warn(input.warnings);

@@ -32,7 +32,8 @@ void check_input_options(const InputOptions& options);
 /// with kBadUsage on options that do not fit the input, and with kBadInput on an unreadable file.
 /// `style`: the look of spheres without their own; null: plain. `asked_for`: what scene files leave open takes it too,
 /// and the thesis's scenes, which leave nothing open, refuse it.
-Input load_input(const InputOptions& options, const Style* style = nullptr, bool asked_for = false);
+Input load_input(const InputOptions& options, LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr,
+                 bool asked_for = false);
 
 /// The scene of a name of `bihive scene`: scenario1, scenario2, scenario3 or four-spheres; nothing for other names.
 std::optional<Scene> generated_scene(const InputOptions& options);

@@ -94,9 +94,7 @@ SphereSet::Bounds SphereSet::bounds() const {
 
 std::int64_t SphereSet::allocated_bytes() const {
   std::int64_t bytes = bytes_of(x_) + bytes_of(y_) + bytes_of(z_) + bytes_of(r_);
-  bytes += bytes_of(attributes_.element) + bytes_of(attributes_.type) + bytes_of(attributes_.colour);
-  bytes += bytes_of(attributes_.opacity);
-  for (const NamedNumbers& column : attributes_.numbers) bytes += bytes_of(column.values);
+  bytes += attributes_.allocated_bytes();
   return bytes;
 }
 

@@ -8,30 +8,14 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/geometry/sphere_attributes.h"
 #include "bihive/math/aabb.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
-
-/// One number for each sphere under a name, like a column of a file (charge, velocity, temperature ...).
-struct NamedNumbers {
-  std::string name;
-  std::vector<double> values;
-};
-
-/// The attributes of the spheres in a file, beyond place and size. Each array is empty (not known) or has one entry for
-/// each sphere.
-struct SphereAttributes {
-  std::vector<std::uint8_t> element;  ///< atomic number; 0 = unknown
-  std::vector<std::int32_t> type;     ///< the file's own particle type
-  std::vector<Vec3f> colour;          ///< linear RGB, each in [0, 1]
-  std::vector<float> opacity;         ///< 0 (clear) to 1 (opaque)
-  std::vector<NamedNumbers> numbers;
-};
 
 class SphereSet {
  public:

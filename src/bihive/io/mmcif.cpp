@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "bihive/io/alternates.h"
+#include "bihive/io/atom_columns.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/readers.h"
@@ -34,13 +35,17 @@ enum Item {
   kLabelChain,
   kLabelSequence,
   kLabelAtom,
+  kAuthResidue,
+  kLabelResidue,
+  kEntity,
   kItems
 };
 constexpr std::string_view kItemNames[kItems] = {
     "cartn_x",      "cartn_y",           "cartn_z",        "group_pdb",
     "type_symbol",  "occupancy",         "b_iso_or_equiv", "pdbx_pdb_model_num",
     "label_alt_id", "pdbx_pdb_ins_code", "auth_asym_id",   "auth_seq_id",
-    "auth_atom_id", "label_asym_id",     "label_seq_id",   "label_atom_id"};
+    "auth_atom_id", "label_asym_id",     "label_seq_id",   "label_atom_id",
+    "auth_comp_id", "label_comp_id",     "label_entity_id"};
 
 // The grammar throws this to end with an error that has its place.
 struct Stop {
@@ -72,10 +77,7 @@ int item_of(std::string_view tag) {
 // Takes the values of _atom_site in the order in which the grammar meets them.
 class AtomSites {
  public:
-  AtomSites(const std::string& file, std::int64_t frame) : file_(file), frame_(frame) {
-    spheres_.format = "mmCIF";
-    spheres_.attributes.numbers = {{"occupancy", {}}, {"b_factor", {}}};
-  }
+  AtomSites(const std::string& file, std::int64_t frame) : file_(file), frame_(frame) { spheres_.format = "mmCIF"; }
 
   // Only the first block with atoms is read.
   void begin_block() {
@@ -124,6 +126,7 @@ class AtomSites {
     if (frame_ < 0 || frame_ >= models) return no_such_frame(file_, frame_, models);
     spheres_.frames = models;
     spheres_.rules.push_back("atoms: ATOM and HETATM of model " + std::to_string(frame_) + " (from 0)");
+    columns_of_atoms_.take(spheres_.attributes);
     alternates_.remove_from(spheres_);
     return std::move(spheres_);
   }
@@ -162,18 +165,35 @@ class AtomSites {
     spheres_.attributes.element.push_back(static_cast<std::uint8_t>(atomic_number(row[kElement].unquoted())));
     const double occupancy = row[kOccupancy].missing() ? 1 : number(row[kOccupancy], "occupancy");
     const double b_factor = row[kBFactor].missing() ? 0 : number(row[kBFactor], "B_iso_or_equiv");
-    spheres_.attributes.numbers[0].values.push_back(occupancy);
-    spheres_.attributes.numbers[1].values.push_back(b_factor);
+    columns_of_atoms_.add(names_of(row), occupancy, b_factor);
 
     // An atom site is named by its chain, residue number with insertion code, and name: the author's, else the label's.
     const std::string_view mark = row[kAlternate].unquoted();
     if (row[kAlternate].missing() || mark.empty()) return;
     const auto name = [&row](Item author, Item label) {
-      return std::string(row[row[author].missing() ? label : author].unquoted()) + ' ';
+      return std::string(chosen(row, author, label).unquoted()) + ' ';
     };
     const std::string site = name(kAuthChain, kLabelChain) + name(kAuthSequence, kLabelSequence) +
                              std::string(row[kInsertion].text) + ' ' + name(kAuthAtom, kLabelAtom);
     alternates_.add(site, mark.front(), occupancy, spheres_.size() - 1);
+  }
+
+  // The author's item, else the label's.
+  static const Value& chosen(const Row& row, Item author, Item label) {
+    return row[row[author].missing() ? label : author];
+  }
+
+  static AtomNames names_of(const Row& row) {
+    const auto text = [](const Value& value) { return value.missing() ? std::string_view() : value.unquoted(); };
+    AtomNames names;
+    names.record = lower_case(text(row[kGroup])) == "hetatm" ? "HETATM" : "ATOM";
+    names.chain = text(chosen(row, kAuthChain, kLabelChain));
+    names.residue_number = text(chosen(row, kAuthSequence, kLabelSequence));
+    names.insertion = text(row[kInsertion]);
+    names.residue = text(chosen(row, kAuthResidue, kLabelResidue));
+    names.name = text(chosen(row, kAuthAtom, kLabelAtom));
+    names.entity = text(row[kEntity]);
+    return names;
   }
 
   std::string file_;
@@ -189,6 +209,7 @@ class AtomSites {
   std::int64_t atoms_ = 0;  // of all models
   std::unordered_map<std::string, std::int64_t> model_of_name_;
   RawSpheres spheres_;
+  AtomColumns columns_of_atoms_;
   Alternates alternates_;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bihive/io/alternates.h"
+#include "bihive/io/atom_columns.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/readers.h"
@@ -44,7 +45,6 @@ class PdbReader {
  public:
   PdbReader(std::string_view text, const std::string& file, std::int64_t frame) : scanner_(text, file), frame_(frame) {
     spheres_.format = "PDB";
-    spheres_.attributes.numbers = {{"occupancy", {}}, {"b_factor", {}}};
   }
 
   Result<RawSpheres> read() {
@@ -89,10 +89,9 @@ class PdbReader {
     }
     spheres_.attributes.element.push_back(static_cast<std::uint8_t>(element_of(line)));
 
-    // Occupancy and B factor are optional.
+    // All else is optional.
     const double occupancy = optional_number(columns(line, 55, 60), 1);
-    spheres_.attributes.numbers[0].values.push_back(occupancy);
-    spheres_.attributes.numbers[1].values.push_back(optional_number(columns(line, 61, 66), 0));
+    columns_.add(names_of(line), occupancy, optional_number(columns(line, 61, 66), 0));
 
     // An atom site is named by its chain, residue number with insertion code, and name.
     const char mark = line[16];
@@ -101,6 +100,17 @@ class PdbReader {
       alternates_.add(site, mark, std::isnan(occupancy) ? 0 : occupancy, spheres_.size() - 1);
     }
     return Done{};
+  }
+
+  static AtomNames names_of(std::string_view line) {
+    AtomNames names;
+    names.record = line.substr(0, 4) == "ATOM" ? "ATOM" : "HETATM";
+    names.chain = trim(columns(line, 21, 22));
+    names.residue_number = trim(columns(line, 23, 26));
+    names.insertion = trim(columns(line, 27, 27));
+    names.residue = trim(columns(line, 18, 20));
+    names.name = trim(columns(line, 13, 16));
+    return names;
   }
 
   double optional_number(std::string_view field, double missing) {
@@ -114,6 +124,7 @@ class PdbReader {
   void finish(std::int64_t models) {
     spheres_.frames = models;
     spheres_.rules.push_back("atoms: ATOM and HETATM records of model " + std::to_string(frame_) + " (from 0)");
+    columns_.take(spheres_.attributes);
     alternates_.remove_from(spheres_);
     if (unreadable_ > 0)
       spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_unreadable_line_) + ": " +
@@ -124,6 +135,7 @@ class PdbReader {
   TextScanner scanner_;
   std::int64_t frame_;
   RawSpheres spheres_;
+  AtomColumns columns_;
   Alternates alternates_;
   std::int64_t unreadable_ = 0;
   std::int64_t first_unreadable_line_ = 0;

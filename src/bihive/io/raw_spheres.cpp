@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "bihive/io/text_scanner.h"
 
 namespace bihive {
 
@@ -15,6 +18,18 @@ Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t fr
 
 std::string spheres_have(std::int64_t count) {
   return std::to_string(count) + (count == 1 ? " sphere has" : " spheres have");
+}
+
+NamedTexts printable_texts(NamedTexts column) {
+  bool all_printable = true;
+  for (const std::string& text : column.texts) all_printable = all_printable && printable(text) == text;
+  if (all_printable) return column;
+
+  // Collect them again: two texts may have become one.
+  TextCollector collector;
+  collector.reserve(column.text_of_sphere.size());
+  for (std::size_t i = 0; i < column.text_of_sphere.size(); ++i) collector.add(printable(column.of(i)));
+  return collector.take(std::move(column.name));
 }
 
 const char* coordinate_fault(double value) {

@@ -32,6 +32,9 @@ Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t fr
 /// "1 sphere has", "2 spheres have".
 std::string spheres_have(std::int64_t count);
 
+/// The column with a question mark in place of every control character and every byte that is no UTF-8.
+NamedTexts printable_texts(NamedTexts column);
+
 /// Why the number cannot be a coordinate ("is not finite"), or nullptr if it can.
 const char* coordinate_fault(double value);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include "bihive/io/parse_number.h"
@@ -113,7 +114,7 @@ void SphereTable::reserve(std::int64_t rows, std::int64_t bytes_left) {
   const auto room = static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(rows, bytes_left / row_bytes + 1)));
   for (Column& column : columns_) {
     if (holds_labels(column.role))
-      column.label_of_row.reserve(room);
+      column.labels.reserve(room);
     else if (column.role != ColumnRole::ignored)
       column.values.reserve(room);
   }
@@ -126,7 +127,7 @@ Status SphereTable::add_row(TextScanner& scanner) {
     Column& column = columns_[i];
     if (column.role == ColumnRole::ignored) continue;
     if (holds_labels(column.role)) {
-      read_label(column, field);
+      column.labels.add(field);
     } else if (Status read = read_number(column, field, scanner); !read) {
       return read;
     }
@@ -138,7 +139,10 @@ Status SphereTable::add_row(TextScanner& scanner) {
 }
 
 Status SphereTable::read_number(Column& column, std::string_view field, const TextScanner& scanner) {
-  if (column.is_text) return Done{};
+  if (column.is_text) {
+    column.labels.add(field);
+    return Done{};
+  }
   const auto value = parse_double(field);
 
   // A later column may have gaps, and its first entry may show that it is text.
@@ -148,8 +152,8 @@ Status SphereTable::read_number(Column& column, std::string_view field, const Te
       return Done{};
     }
     if (!column.has_number) {
-      column.is_text = true;
-      column.values = {};
+      begin_text(column);
+      column.labels.add(field);
       return Done{};
     }
   }
@@ -161,16 +165,11 @@ Status SphereTable::read_number(Column& column, std::string_view field, const Te
   return Done{};
 }
 
-void SphereTable::read_label(Column& column, std::string_view field) {
-  // Neighbouring rows often have the same label.
-  if (!column.label_of_row.empty() && column.labels[std::size_t(column.label_of_row.back())] == field) {
-    column.label_of_row.push_back(column.label_of_row.back());
-    return;
-  }
-  const auto [entry, is_new] =
-      column.position_of_label.try_emplace(std::string(field), static_cast<std::int32_t>(column.labels.size()));
-  if (is_new) column.labels.emplace_back(field);
-  column.label_of_row.push_back(entry->second);
+// The first entry that is not empty is no number: the column holds texts, and empty ones so far.
+void SphereTable::begin_text(Column& column) {
+  column.is_text = true;
+  for (std::size_t row = 0; row < column.values.size(); ++row) column.labels.add("");
+  column.values = {};
 }
 
 Status SphereTable::check_width(const TextScanner& scanner) const {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "bihive/base/result.h"
@@ -27,7 +26,7 @@ enum class ColumnRole {
   blue,
   opacity,       ///< 0 (clear) to 1
   transparency,  ///< 1 - opacity
-  number,        ///< any number, kept under the column's name; a column of text is left out
+  number,        ///< any number or text, kept under the column's name
   species,       ///< an element's symbol, an atomic number (1 to 118), or any other label
   type,          ///< a whole number, or a label
 };
@@ -74,16 +73,14 @@ class SphereTable {
     // Numbers.
     std::vector<double> values;
     bool has_number = false;
+    // Labels, and columns of text.
     bool is_text = false;
-    // Labels: each row has a position in `labels`. `labels` holds each label once, in order of appearance.
-    std::vector<std::int32_t> label_of_row;
-    std::vector<std::string> labels;
-    std::unordered_map<std::string, std::int32_t> position_of_label;
+    TextCollector labels;
   };
 
   static Status read_number(Column& column, std::string_view field, const TextScanner& scanner);
-  static void read_label(Column& column, std::string_view field);
-  static std::vector<std::int32_t> types_of(const Column& column);
+  static void begin_text(Column& column);
+  static void take_types(Column& column, RawSpheres& spheres);
   Status width_error(const TextScanner& scanner, std::int64_t found) const;
   const Column* find(ColumnRole role) const;
   Column* find(ColumnRole role);
@@ -91,7 +88,7 @@ class SphereTable {
   void take_radii(RawSpheres& spheres);
   void take_elements(RawSpheres& spheres);
   void take_colours(RawSpheres& spheres);
-  void take_numbers(RawSpheres& spheres);
+  void take_columns(RawSpheres& spheres);
 
   std::vector<Column> columns_;
   bool more_fields_allowed_ = false;

@@ -55,7 +55,7 @@ RawSpheres SphereTable::take() && {
     spheres.attributes.opacity.push_back(static_cast<float>(opacity));
   for (const double transparency : take_values(ColumnRole::transparency))
     spheres.attributes.opacity.push_back(static_cast<float>(1 - transparency));
-  take_numbers(spheres);
+  take_columns(spheres);
   return spheres;
 }
 
@@ -70,19 +70,22 @@ void SphereTable::take_radii(RawSpheres& spheres) {
   }
 }
 
-// The numbers themselves if all labels are whole numbers, else 1, 2, ... in order of appearance.
-std::vector<std::int32_t> SphereTable::types_of(const Column& column) {
+// Types are the numbers themselves if all labels are whole numbers, else 1, 2, ... in order of appearance; then the
+// labels stay as texts.
+void SphereTable::take_types(Column& column, RawSpheres& spheres) {
+  const std::vector<std::string>& labels = column.labels.texts();
   std::vector<std::int32_t> type_of_label;
-  for (const std::string& label : column.labels)
+  for (const std::string& label : labels)
     if (const auto number = small_int(label)) type_of_label.push_back(*number);
-  if (type_of_label.size() != column.labels.size()) {
+  const bool numbered = type_of_label.size() == labels.size();
+  if (!numbered) {
     type_of_label.clear();
-    for (std::size_t i = 0; i < column.labels.size(); ++i) type_of_label.push_back(static_cast<std::int32_t>(i + 1));
+    for (std::size_t i = 0; i < labels.size(); ++i) type_of_label.push_back(static_cast<std::int32_t>(i + 1));
   }
-  std::vector<std::int32_t> types;
-  types.reserve(column.label_of_row.size());
-  for (const std::int32_t label : column.label_of_row) types.push_back(type_of_label[std::size_t(label)]);
-  return types;
+  std::vector<std::int32_t>& types = spheres.attributes.type;
+  types.reserve(column.labels.text_of_sphere().size());
+  for (const std::int32_t label : column.labels.text_of_sphere()) types.push_back(type_of_label[std::size_t(label)]);
+  if (!numbered) spheres.attributes.texts.push_back(printable_texts(column.labels.take("type")));
 }
 
 void SphereTable::take_elements(RawSpheres& spheres) {
@@ -90,23 +93,24 @@ void SphereTable::take_elements(RawSpheres& spheres) {
   auto& element = spheres.attributes.element;
   for (const double number : take_values(ColumnRole::atomic_number))
     element.push_back(static_cast<std::uint8_t>(number));
-  const Column* const species = find(ColumnRole::species);
+  Column* const species = find(ColumnRole::species);
   bool all_known = true;
   if (species) {
     std::vector<std::uint8_t> element_of_label;
-    for (const std::string& label : species->labels)
+    for (const std::string& label : species->labels.texts())
       element_of_label.push_back(static_cast<std::uint8_t>(atomic_number_of_label(label)));
     all_known = std::count(element_of_label.begin(), element_of_label.end(), 0) == 0;
     if (element.empty())
-      for (const std::int32_t label : species->label_of_row) element.push_back(element_of_label[std::size_t(label)]);
+      for (const std::int32_t label : species->labels.text_of_sphere())
+        element.push_back(element_of_label[std::size_t(label)]);
   }
   if (std::all_of(element.begin(), element.end(), [](std::uint8_t number) { return number == 0; })) element.clear();
 
   // Types by their own column, else by those labels that are no elements.
-  if (const Column* const type = find(ColumnRole::type)) {
-    spheres.attributes.type = types_of(*type);
+  if (Column* const type = find(ColumnRole::type)) {
+    take_types(*type, spheres);
   } else if (species && !all_known) {
-    spheres.attributes.type = types_of(*species);
+    take_types(*species, spheres);
     spheres.rules.push_back("types: from the labels in column '" + species->name + "', as not all are elements");
   }
 }
@@ -131,16 +135,18 @@ void SphereTable::take_colours(RawSpheres& spheres) {
     spheres.attributes.colour.push_back({linear(red[i]), linear(green[i]), linear(blue[i])});
 }
 
-void SphereTable::take_numbers(RawSpheres& spheres) {
+void SphereTable::take_columns(RawSpheres& spheres) {
   std::string left_out;
   for (Column& column : columns_) {
     if (column.role != ColumnRole::number) continue;
-    if (column.is_text || !column.has_number)
-      left_out += " " + column.name;
-    else
+    if (column.is_text)
+      spheres.attributes.texts.push_back(printable_texts(column.labels.take(column.name)));
+    else if (column.has_number)
       spheres.attributes.numbers.push_back({column.name, std::move(column.values)});
+    else
+      left_out += " " + column.name;
   }
-  if (!left_out.empty()) spheres.rules.push_back("columns without numbers are left out:" + left_out);
+  if (!left_out.empty()) spheres.rules.push_back("empty columns are left out:" + left_out);
 }
 
 }  // namespace bihive

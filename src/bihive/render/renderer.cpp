@@ -261,7 +261,7 @@ class Renderer {
       case View::tree:  // has no samples
         break;
     }
-    return id_colour(buffers.id[i]);
+    return id_colour(input_id(scene_, buffers.id[i]));
   }
 
   const Scene& scene_;

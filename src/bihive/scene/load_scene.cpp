@@ -26,7 +26,7 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
     apply_style(*style, loaded.scene);
     loaded.rig = style->lights;
   }
-  colour_spheres(loaded.scene.spheres, style != nullptr ? style->element_colours : ElementColours::jmol);
+  colour_spheres(loaded.scene.spheres, style != nullptr ? style->element_colours : ElementScheme::jmol);
   return loaded;
 }
 
@@ -71,8 +71,8 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 }
 
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options,
-                               const Style* style) {
-  if (looks_like_scene(bytes)) return parse_scene(bytes, name, options, style);
+                               LooksOfFile looks, const Style* style) {
+  if (looks_like_scene(bytes)) return parse_scene(bytes, name, options, looks, style);
   return from_spheres(read_spheres_from_memory(bytes, name, options), name, style);
 }
 

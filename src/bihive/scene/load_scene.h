@@ -29,6 +29,6 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 /// the file's, as for parse_scene() and read_spheres_from_memory().
 /// `style` is the look of what the bytes do not say themselves; null: plain.
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {},
-                               const Style* style = nullptr);
+                               LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr);
 
 }  // namespace bihive

@@ -69,11 +69,11 @@ std::array<Vec3f, kElements> soft_colours(std::array<Vec3f, kElements> colours) 
 
 }  // namespace
 
-Vec3f element_colour(int atomic_number, ElementColours scheme) {
+Vec3f element_colour(int atomic_number, ElementScheme scheme) {
   static const std::array<Vec3f, kElements> jmol = linear_colours(kElementColours);
   static const std::array<Vec3f, kElements> soft = soft_colours(jmol);
   const bool known = atomic_number > 0 && atomic_number < kElements;
-  return (scheme == ElementColours::jmol ? jmol : soft)[known ? static_cast<std::size_t>(atomic_number) : 0];
+  return (scheme == ElementScheme::jmol ? jmol : soft)[known ? static_cast<std::size_t>(atomic_number) : 0];
 }
 
 Vec3f type_colour(std::int32_t type) {
@@ -82,7 +82,7 @@ Vec3f type_colour(std::int32_t type) {
   return colours[static_cast<std::size_t>(remainder < 0 ? remainder + kTypes : remainder)];
 }
 
-void colour_spheres(SphereSet& spheres, ElementColours scheme) {
+void colour_spheres(SphereSet& spheres, ElementScheme scheme) {
   SphereAttributes& attributes = spheres.attributes();
   if (!attributes.colour.empty()) return;
   const std::size_t n = static_cast<std::size_t>(spheres.size());

@@ -10,17 +10,17 @@
 namespace bihive {
 
 /// jmol: the bright colours that chemists know. soft: calmer ones for printing.
-enum class ElementColours { jmol, soft };
-inline const Names<ElementColours> kElementColourNames{{"jmol", ElementColours::jmol}, {"soft", ElementColours::soft}};
+enum class ElementScheme { jmol, soft };
+inline const Names<ElementScheme> kElementSchemes{{"jmol", ElementScheme::jmol}, {"soft", ElementScheme::soft}};
 
 /// Linear RGB of a chemical element by atomic number (0 or unknown: pink).
-Vec3f element_colour(int atomic_number, ElementColours scheme = ElementColours::jmol);
+Vec3f element_colour(int atomic_number, ElementScheme scheme = ElementScheme::jmol);
 
 /// Linear RGB of a particle type: different for neighbouring numbers, the same again after eight. Any integer.
 Vec3f type_colour(std::int32_t type);
 
 /// Fills the colour attribute if it is empty: from elements if there are any, else from types. Without both it stays
 /// empty.
-void colour_spheres(SphereSet& spheres, ElementColours scheme = ElementColours::jmol);
+void colour_spheres(SphereSet& spheres, ElementScheme scheme = ElementScheme::jmol);
 
 }  // namespace bihive

@@ -58,6 +58,7 @@ struct Scene {
   SphereSet spheres;
   std::vector<Material> materials{matte_material()};  ///< at least one
   std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
+  std::vector<std::int64_t> id_in_input;              ///< of each sphere, where some are hidden; empty: its position
   std::vector<PointLight> lights;
   std::optional<ScenePlane> plane;
   Camera camera;
@@ -67,6 +68,12 @@ struct Scene {
   std::string name;                   ///< for messages and the picture's text chunks
   std::optional<std::uint64_t> seed;  ///< of a generated scene
 };
+
+/// The id by which people know a sphere: its position in the input, hidden spheres counted. Negative ids (nothing, the
+/// plane) stay what they are.
+inline std::int64_t input_id(const Scene& scene, std::int64_t id) {
+  return id < 0 || scene.id_in_input.empty() ? id : scene.id_in_input[static_cast<std::size_t>(id)];
+}
 
 /// The material of one sphere: its material from the list. A colour attribute replaces the colour. An opacity a below 1
 /// scales ambient, diffuse and specular by a, and 1 - a of the light goes straight through (index 1).

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/io/finish.h"
+#include "bihive/scene/colour_text.h"
 #include "bihive/scene/json_parts.h"
+#include "bihive/scene/look_json.h"
 #include "bihive/scene/palette.h"
 #include "bihive/scene/scene_json.h"
 
@@ -20,8 +22,9 @@ using nlohmann::json;
 // everything after it does not matter.
 class Extraction {
  public:
-  Extraction(const json& document, const std::string& name, const ReadOptions& options, const Style* style)
-      : document_(document), name_(name), options_(options), style_(style) {
+  Extraction(const json& document, const std::string& name, const ReadOptions& options, LooksOfFile looks,
+             const Style* style)
+      : document_(document), name_(name), options_(options), looks_(looks), style_(style) {
     if (style == nullptr) return;
     apply_style(*style, loaded_.scene);
     loaded_.rig = style->lights;
@@ -42,6 +45,7 @@ class Extraction {
       scene.ambient_light = colour(document_.at("ambient_light"));
     }
     if (failed_.message.empty()) take_spheres();
+    if (failed_.message.empty()) take_looks();
     if (!failed_.message.empty()) return failed_;
     return std::move(loaded_);
   }
@@ -312,12 +316,27 @@ class Extraction {
     if (states_colour)
       scene.spheres.attributes().colour.clear();
     else
-      colour_spheres(scene.spheres, style_ != nullptr ? style_->element_colours : ElementColours::jmol);
+      colour_spheres(scene.spheres, style_ != nullptr ? style_->element_colours : ElementScheme::jmol);
+  }
+
+  // Last, because they change the spheres.
+  void take_looks() {
+    if (!document_.contains("looks")) return;
+    need_version(2, "/looks");
+    for (const json& value : document_.at("looks")) loaded_.looks.push_back(look_from_json(value));
+    if (looks_ == LooksOfFile::keep || !failed_.message.empty()) return;
+    std::size_t position = 0;
+    const auto counts = apply_looks(loaded_.scene, loaded_.looks, &position);
+    if (counts) return;
+    const Error& error = counts.error();
+    const std::string place = error.column > 0 ? "/select: column " + std::to_string(error.column) : "";
+    fail("/looks/" + std::to_string(position) + place, error.message, error.hint);
   }
 
   const json& document_;
   const std::string& name_;
   const ReadOptions& options_;
+  LooksOfFile looks_;
   const Style* style_;
   LoadedScene loaded_;
   std::map<std::string, std::int32_t> position_of_material_;
@@ -327,12 +346,12 @@ class Extraction {
 }  // namespace
 
 Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, const ReadOptions& options,
-                                const Style* style) {
+                                LooksOfFile looks, const Style* style) {
   const Result<json> document = parse_json(text, name);
   if (!document) return document.error();
   const Status status = check_against_schema(*document, name);
   if (!status) return status.error();
-  return Extraction(*document, name, options, style).run();
+  return Extraction(*document, name, options, looks, style).run();
 }
 
 bool looks_like_scene(std::string_view bytes) {

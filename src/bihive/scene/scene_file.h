@@ -9,6 +9,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/io/read_spheres.h"
+#include "bihive/scene/looks.h"
 #include "bihive/scene/scene.h"
 #include "bihive/scene/style.h"
 
@@ -25,7 +26,11 @@ struct LoadedScene {
   std::vector<std::string> rules;     ///< what was done to its spheres, one sentence each
   Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
+  std::vector<Look> looks;  ///< the document's; done already, unless LooksOfFile::keep was asked for
 };
+
+/// Whether a document's looks are done while it is read, or kept for a caller who has more of them to add.
+enum class LooksOfFile { apply, keep };
 
 /// `name` is the file's name for messages; relative paths in the document start from its folder. The options apply to
 /// inline spheres and to a sphere file of the document alike, and replace what the document says. If only the options
@@ -33,7 +38,7 @@ struct LoadedScene {
 /// expected value.
 /// `style`: the look of what the document does not say; null: plain.
 Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options,
-                                const Style* style = nullptr);
+                                LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr);
 
 /// True if the bytes look like a scene document (first character after white space is '{').
 bool looks_like_scene(std::string_view bytes);

@@ -16,7 +16,7 @@ struct Style {
   std::string name;
   std::string description;  ///< one line
   Material material = matte_material();
-  ElementColours element_colours = ElementColours::jmol;
+  ElementScheme element_colours = ElementScheme::jmol;
   LightRig lights;
   Vec3d background{1, 1, 1};  ///< linear
   PictureDefaults picture;    ///< its size and transfer are of no use

@@ -63,7 +63,7 @@ Result<Style> parse_style(std::string_view text, const std::string& file) {
   }
   if (document.contains("colour")) style.material.colour = colour_from_json(document.at("colour"), Transfer::srgb);
   if (document.contains("element_colours"))
-    style.element_colours = *value_named(kElementColourNames, document.at("element_colours").get<std::string>());
+    style.element_colours = *value_named(kElementSchemes, document.at("element_colours").get<std::string>());
   if (document.contains("lights")) style.lights = light_rig(document.at("lights"));
   if (document.contains("ambient_light"))
     style.lights.ambient_light = colour_from_json(document.at("ambient_light"), Transfer::srgb);

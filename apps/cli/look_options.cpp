@@ -1,0 +1,139 @@
+#include "look_options.h"
+
+#include <utility>
+
+#include "bihive/base/write_file.h"
+#include "bihive/scene/element_colours.h"
+#include "bihive/select/selection.h"
+#include "support/failure.h"
+#include "support/messages.h"
+#include "support/selection.h"
+#include "support/values.h"
+
+namespace bihive::cli {
+namespace {
+
+constexpr double kLargestFactor = 3.4028234663852886e38;
+
+// A text that means a colour: numbers are linear, and a name or #rrggbb depends on the scene's transfer.
+Result<ColourChoice> colour_choice(const std::string& text) {
+  const Result<Vec3d> colour = colour_from(text, Transfer::none);
+  if (!colour) return colour.error();
+  if (text.find(',') != std::string::npos) return ColourChoice(*colour);
+  return ColourChoice(text);
+}
+
+void recolour(LoadedScene& input, const std::string& choice) {
+  std::optional<ElementColours> colours = element_colours_called(choice);
+  if (!colours) colours = value_or_fail(read_element_colours(value_or_fail(read_file(choice)), choice));
+  if (const Status status = recolour_elements(input.scene, *colours); !status)
+    fail_usage("--element-colours: " + status.error().message, "leave it out");
+}
+
+}  // namespace
+
+void LookOptions::add(LookAction action, const std::string& option) {
+  if (!has_current_) {
+    has_current_ = true;
+    current_ = looks.size();
+    looks.emplace_back();
+    of_look.push_back(option);
+  }
+  looks[current_].actions.push_back(std::move(action));
+}
+
+void LookOptions::select(const std::string& text) {
+  if (const Status status = check_selection(text); !status) fail_selection("--select", text, status.error());
+  selected = true;
+  has_current_ = true;
+  current_ = looks.size();
+  looks.push_back({text, {}});
+  of_look.emplace_back("--select");
+  words.push_back("--select " + text);
+}
+
+void LookOptions::show(bool shown) {
+  const std::string option = shown ? "--show" : "--hide";
+  add(SetShown{shown}, option);
+  words.push_back(option);
+}
+
+Status LookOptions::colour(const std::string& text) {
+  const Result<ColourChoice> colour = colour_choice(text);
+  if (!colour) return colour.error();
+  add(SetColour{*colour}, "--colour");
+  words.push_back("--colour " + text);
+  return Done{};
+}
+
+Status LookOptions::colour_by(const std::string& text) {
+  const Result<ColourBy> how = colour_by_from_text(text);
+  if (!how) return how.error();
+  add(*how, "--colour-by");
+  words.push_back("--colour-by " + text);
+  return Done{};
+}
+
+Status LookOptions::set_nan_colour(const std::string& text) {
+  if (const Result<ColourChoice> colour = colour_choice(text); !colour) return colour.error();
+  nan_colour = text;
+  words.push_back("--nan-colour " + text);
+  return Done{};
+}
+
+Status LookOptions::opacity(const std::string& text) {
+  const Result<double> value = number_from(text, 0, 1);
+  if (!value) return value.error();
+  add(SetOpacity{*value}, "--opacity");
+  words.push_back("--opacity " + text);
+  return Done{};
+}
+
+Status LookOptions::radius_scale(const std::string& text) {
+  const Result<double> value = number_from(text, 0, kLargestFactor);
+  if (!value) return value.error();
+  add(ScaleRadius{*value}, "--radius-scale");
+  words.push_back("--radius-scale " + text);
+  return Done{};
+}
+
+void LookOptions::hide_word(const std::string& option, const std::string& word) {
+  looks.push_back({word, {SetShown{false}}});
+  of_look.push_back(option);
+  words.push_back(option);
+  if (!has_current_) return;
+  // Later actions are for the selection from before, but come after this one.
+  looks.push_back({looks[current_].select, {}});
+  of_look.push_back(of_look[current_]);
+  current_ = looks.size() - 1;
+}
+
+void look(LoadedScene& input, const LookOptions& options) {
+  if (!options.element_colours.empty()) recolour(input, options.element_colours);
+  std::vector<Look> looks = input.looks;
+  for (Look one : options.looks) {
+    for (LookAction& action : one.actions)
+      if (auto* const how = std::get_if<ColourBy>(&action); how != nullptr && !options.nan_colour.empty())
+        how->nan_colour = *colour_choice(options.nan_colour);
+    looks.push_back(std::move(one));
+  }
+  if (looks.empty()) return;
+
+  std::size_t failed = 0;
+  const auto counts = apply_looks(input.scene, looks, &failed);
+  const std::size_t own = input.looks.size();
+  if (!counts) {
+    const Error& error = counts.error();
+    if (failed == looks.size()) fail_usage(error.message, error.hint);
+    if (failed < own) {
+      const std::string place = error.column > 0 ? "/select: column " + std::to_string(error.column) : "";
+      fail({"/looks/" + std::to_string(failed) + place + ": " + error.message, input.scene.name, 0, 0, error.hint});
+    }
+    fail_selection(options.of_look[failed - own], looks[failed].select, error);
+  }
+  for (std::size_t i = own; i < looks.size(); ++i)
+    if ((*counts)[i] == 0 && options.of_look[i - own] == "--select" && !looks[i].actions.empty())
+      warn("--select \"" + looks[i].select + "\" selects no sphere");
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,45 @@
+// The options of `bihive render` that change how selected spheres look, in the order of the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/scene/looks.h"
+
+namespace bihive::cli {
+
+/// Each function takes the value of one option when the command line reaches it. An action before any --select is for
+/// all spheres. An error says what was expected.
+struct LookOptions {
+  std::vector<Look> looks;
+  std::vector<std::string> of_look;  ///< for messages: the option that begins each look
+  std::vector<std::string> words;    ///< the options as they were given, one each
+  std::string nan_colour;            ///< empty: the default
+  std::string element_colours;       ///< "cpk", "jmol" or a file; empty: the usual ones
+  bool selected = false;             ///< a --select was there
+
+  /// Fails with kBadUsage on a text that is no selection, and shows the place.
+  void select(const std::string& text);
+  void show(bool shown);
+  Status colour(const std::string& text);
+  Status colour_by(const std::string& text);
+  Status set_nan_colour(const std::string& text);
+  Status opacity(const std::string& text);
+  Status radius_scale(const std::string& text);
+  /// --no-hydrogens and --no-water: hide what the word selects; the selection of the next actions stays.
+  void hide_word(const std::string& option, const std::string& word);
+
+ private:
+  void add(LookAction action, const std::string& option);
+  std::size_t current_ = 0;  // the look that takes actions, if there is any
+  bool has_current_ = false;
+};
+
+/// Gives elements their colours, does the input's own looks, then these. Fails with kBadInput on a file of colours that
+/// cannot be read. Fails with kBadUsage on a selection or action that does not fit the input.
+/// Warns of a --select without spheres.
+void look(LoadedScene& input, const LookOptions& options);
+
+}  // namespace bihive::cli

@@ -1,0 +1,70 @@
+#include "bihive/geometry/sphere_attributes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace bihive {
+namespace {
+
+template <class T>
+std::int64_t bytes_of_column(const std::vector<T>& column) {
+  return static_cast<std::int64_t>(column.capacity() * sizeof(T));
+}
+
+template <class Column>
+const Column* column_called(const std::vector<Column>& columns, std::string_view name) {
+  const auto found = std::find_if(columns.begin(), columns.end(), [name](const Column& c) { return c.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void TextCollector::add(std::string_view text) {
+  // Neighbouring spheres often have the same text.
+  if (!text_of_sphere_.empty() && texts_[static_cast<std::size_t>(text_of_sphere_.back())] == text) {
+    text_of_sphere_.push_back(text_of_sphere_.back());
+    return;
+  }
+  const auto [entry, is_new] =
+      position_of_text_.try_emplace(std::string(text), static_cast<std::int32_t>(texts_.size()));
+  if (is_new) texts_.emplace_back(text);
+  text_of_sphere_.push_back(entry->second);
+}
+
+NamedTexts TextCollector::take(std::string name) {
+  NamedTexts column{std::move(name), std::move(texts_), std::move(text_of_sphere_)};
+  *this = {};
+  return column;
+}
+
+const NamedNumbers* SphereAttributes::find_numbers(std::string_view name) const {
+  return column_called(numbers, name);
+}
+
+const NamedTexts* SphereAttributes::find_texts(std::string_view name) const {
+  return column_called(texts, name);
+}
+
+void SphereAttributes::keep_only(const std::vector<std::uint8_t>& kept) {
+  keep_entries(element, kept);
+  keep_entries(type, kept);
+  keep_entries(colour, kept);
+  keep_entries(opacity, kept);
+  for (NamedNumbers& column : numbers) keep_entries(column.values, kept);
+  for (NamedTexts& column : texts) keep_entries(column.text_of_sphere, kept);
+}
+
+std::int64_t SphereAttributes::allocated_bytes() const {
+  std::int64_t bytes =
+      bytes_of_column(element) + bytes_of_column(type) + bytes_of_column(colour) + bytes_of_column(opacity);
+  for (const NamedNumbers& column : numbers) bytes += bytes_of_column(column.values);
+  for (const NamedTexts& column : texts) {
+    bytes += bytes_of_column(column.text_of_sphere) + bytes_of_column(column.texts);
+    // A short text lies inside its string; only a longer one has memory of its own.
+    for (const std::string& text : column.texts)
+      if (text.capacity() > std::string().capacity()) bytes += static_cast<std::int64_t>(text.capacity() + 1);
+  }
+  return bytes;
+}
+
+}  // namespace bihive

@@ -1,0 +1,80 @@
+// What is known of spheres beyond place and size: elements, types, colours, and the named columns of their file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// One number for each sphere under a name, like a column of a file (charge, velocity, temperature ...). NaN: unknown.
+struct NamedNumbers {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// One text for each sphere under a name (chain, name of the atom ...). Each distinct text stands once in `texts`.
+struct NamedTexts {
+  std::string name;
+  std::vector<std::string> texts;            ///< distinct, in order of appearance
+  std::vector<std::int32_t> text_of_sphere;  ///< positions in `texts`
+
+  const std::string& of(std::size_t sphere) const { return texts[static_cast<std::size_t>(text_of_sphere[sphere])]; }
+};
+
+/// Collects the texts of a column one after the other, and keeps each distinct text once.
+class TextCollector {
+ public:
+  void reserve(std::size_t spheres) { text_of_sphere_.reserve(spheres); }
+  void add(std::string_view text);
+
+  const std::vector<std::string>& texts() const { return texts_; }
+  const std::vector<std::int32_t>& text_of_sphere() const { return text_of_sphere_; }
+  /// True if every text so far is empty.
+  bool all_empty() const { return texts_.empty() || (texts_.size() == 1 && texts_.front().empty()); }
+  /// The column; leaves the collector empty.
+  NamedTexts take(std::string name);
+
+ private:
+  std::vector<std::string> texts_;
+  std::vector<std::int32_t> text_of_sphere_;
+  std::unordered_map<std::string, std::int32_t> position_of_text_;
+};
+
+/// The attributes of the spheres in a file. Each array is empty (not known) or has one entry for each sphere. A number
+/// and a text may share a name: `type` of a file whose types are labels.
+struct SphereAttributes {
+  std::vector<std::uint8_t> element;  ///< atomic number; 0 = unknown
+  std::vector<std::int32_t> type;     ///< the file's own particle type
+  std::vector<Vec3f> colour;          ///< linear RGB, each in [0, 1]
+  std::vector<float> opacity;         ///< 0 (clear) to 1 (opaque)
+  std::vector<NamedNumbers> numbers;
+  std::vector<NamedTexts> texts;
+
+  /// The column of that name, or nullptr.
+  const NamedNumbers* find_numbers(std::string_view name) const;
+  const NamedTexts* find_texts(std::string_view name) const;
+
+  /// Removes the entries of all spheres whose mask is 0; the others keep their order. The mask has one entry for each
+  /// sphere.
+  void keep_only(const std::vector<std::uint8_t>& kept);
+
+  /// Bytes held by all columns, with their distinct texts.
+  std::int64_t allocated_bytes() const;
+};
+
+/// Removes the entries whose mask is 0; the others keep their order. An empty array stays empty.
+template <class T>
+void keep_entries(std::vector<T>& values, const std::vector<std::uint8_t>& kept) {
+  if (values.empty()) return;
+  std::size_t to = 0;
+  for (std::size_t from = 0; from < values.size(); ++from)
+    if (kept[from] != 0) values[to++] = values[from];
+  values.resize(to);
+}
+
+}  // namespace bihive

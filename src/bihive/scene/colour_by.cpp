@@ -1,0 +1,176 @@
+#include "bihive/scene/colour_by.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bihive/io/parse_number.h"
+#include "bihive/math/elementary.h"
+#include "bihive/scene/colour_text.h"
+#include "bihive/scene/palette.h"
+#include "bihive/select/attribute_names.h"
+
+namespace bihive {
+namespace {
+
+Error colour_by_error(const std::string& message, const std::string& hint = "") {
+  return {message, "", 0, 0, hint};
+}
+
+// Without the part up to the next colon, which it returns.
+std::string take_part(std::string& rest) {
+  const std::size_t colon = rest.find(':');
+  const std::string part = rest.substr(0, colon);
+  rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+  return part;
+}
+
+std::optional<std::pair<double, double>> range_from(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  const auto low = parse_double(std::string_view(text).substr(0, comma));
+  const auto high = parse_double(std::string_view(text).substr(comma + 1));
+  if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || !(*low < *high)) return std::nullopt;
+  return std::pair{*low, *high};
+}
+
+// A colour that looks the same under both transfers.
+Vec3f as_seen(Vec3f linear, Transfer transfer) {
+  if (transfer == Transfer::srgb) return linear;
+  for (int channel = 0; channel < 3; ++channel)
+    linear[channel] = static_cast<float>(srgb_from_linear(double(linear[channel])));
+  return linear;
+}
+
+// The place of a number in a range, 0 to 1 inside of it; NaN: unknown.
+class Scale {
+ public:
+  Scale(std::pair<double, double> range, bool logarithmic) : logarithmic_(logarithmic) {
+    low_ = along(range.first);
+    high_ = along(range.second);
+  }
+  double share(double number) const {
+    const double place = along(number);
+    if (std::isnan(place)) return place;
+    if (!(low_ < high_)) return 0.5;
+    // Halves, so that no difference overflows.
+    return (place / 2 - low_ / 2) / (high_ / 2 - low_ / 2);
+  }
+
+ private:
+  double along(double number) const {
+    if (!logarithmic_) return number;
+    if (!(number > 0)) return std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(number) ? portable_log2(number) : number;
+  }
+
+  bool logarithmic_;
+  double low_, high_;
+};
+
+// The smallest and largest finite number of the spheres in the mask; with a logarithmic scale above 0.
+std::optional<std::pair<double, double>> range_of(const SphereSet& spheres, const FoundAttribute& attribute,
+                                                  const std::vector<std::uint8_t>& mask, bool logarithmic) {
+  std::optional<std::pair<double, double>> range;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    if (mask[static_cast<std::size_t>(id)] == 0) continue;
+    const double number = attribute.number_of(spheres, id);
+    if (!std::isfinite(number) || (logarithmic && !(number > 0))) continue;
+    if (!range) range.emplace(number, number);
+    range->first = std::min(range->first, number);
+    range->second = std::max(range->second, number);
+  }
+  return range;
+}
+
+Status colour_by_number(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
+                        const std::vector<std::uint8_t>& mask, Transfer transfer, std::vector<Vec3f>& colours) {
+  if (how.range && !(how.range->first < how.range->second))
+    return colour_by_error("the range of a colour map begins below its end");
+  if (how.logarithmic && how.range && !(how.range->first > 0))
+    return colour_by_error("a logarithmic range begins above 0");
+  const Result<Vec3f> unknown = linear_colour(how.nan_colour, transfer);
+  if (!unknown) return unknown.error();
+  const auto range = how.range ? how.range : range_of(spheres, attribute, mask, how.logarithmic);
+  const Scale scale(range.value_or(std::pair{0.0, 1.0}), how.logarithmic);
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const auto i = static_cast<std::size_t>(id);
+    if (mask[i] == 0) continue;
+    const double share = scale.share(attribute.number_of(spheres, id));
+    colours[i] = std::isnan(share) ? *unknown : map_colour(how.map.value_or(ColourMap::viridis), share, transfer);
+  }
+  return Done{};
+}
+
+// A colour for each category: texts in their order of appearance, whole numbers as they are.
+Status colour_by_category(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
+                          const std::vector<std::uint8_t>& mask, Transfer transfer, std::vector<Vec3f>& colours) {
+  const Result<Vec3f> unknown = linear_colour(how.nan_colour, transfer);
+  if (!unknown) return unknown.error();
+  constexpr double kMostCategories = 1 << 30;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    if (mask[i] == 0) continue;
+    const double number = attribute.has_numbers() ? attribute.number_of(spheres, static_cast<std::int64_t>(i))
+                                                  : 1.0 + attribute.texts->text_of_sphere[i];
+    if (attribute.is_element() && !how.map)
+      colours[i] = as_seen(element_colour(static_cast<int>(number)), transfer);
+    else if (!(std::abs(number) < kMostCategories))
+      colours[i] = *unknown;
+    else
+      colours[i] = as_seen(type_colour(static_cast<std::int32_t>(std::floor(number))), transfer);
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<Vec3f> linear_colour(const ColourChoice& colour, Transfer transfer) {
+  if (const Vec3d* const linear = std::get_if<Vec3d>(&colour)) return to_float(*linear);
+  const std::string& text = std::get<std::string>(colour);
+  if (const auto known = colour_from_text(text, transfer)) return to_float(*known);
+  return colour_by_error("expected a colour, found \"" + text + "\"",
+                         "colours are #rrggbb or one of " + std::string(kColourNames));
+}
+
+Result<ColourBy> colour_by_from_text(const std::string& text) {
+  std::string rest = text;
+  ColourBy how;
+  how.attribute = take_part(rest);
+  if (how.attribute.empty()) return colour_by_error("expected the name of an attribute, found \"" + text + "\"");
+  if (const std::string map = take_part(rest); !map.empty()) {
+    how.map = colour_map_from(map);
+    if (!how.map)
+      return colour_by_error("there is no colour map \"" + map + "\"", "there are " + std::string(kColourMapNames));
+  }
+  if (const std::string range = take_part(rest); range == "log" && rest.empty()) {
+    how.logarithmic = true;
+  } else if (!range.empty()) {
+    how.range = range_from(range);
+    if (!how.range)
+      return colour_by_error("expected a range MIN,MAX of finite numbers with MIN below MAX, found \"" + range + "\"");
+  }
+  if (rest == "log") how.logarithmic = true;
+  if (!rest.empty() && rest != "log") return colour_by_error("expected \"log\" at the end, found \"" + rest + "\"");
+  if (how.logarithmic && how.range && !(how.range->first > 0))
+    return colour_by_error("a logarithmic range begins above 0, found \"" + text + "\"");
+  return how;
+}
+
+Status colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
+                 Transfer transfer, std::vector<Vec3f>& colours) {
+  BIHIVE_CHECK_EQ(mask.size(), colours.size());
+  const FoundAttribute attribute = find_attribute(spheres, how.attribute);
+  if (!attribute.found())
+    return colour_by_error("there is no attribute \"" + how.attribute + "\"",
+                           suggestion(how.attribute, attribute_names(spheres)));
+  const bool by_number = attribute.has_numbers();
+  const bool of_categories = !by_number || attribute.is_element() || attribute.number == FoundAttribute::Number::type;
+  const bool categorical = how.map ? *how.map == ColourMap::okabe_ito : of_categories && !how.range && !how.logarithmic;
+  if (!categorical && !by_number)
+    return colour_by_error("\"" + how.attribute + "\" holds texts, and this map needs numbers",
+                           "leave the map out, or take okabe-ito");
+  return categorical ? colour_by_category(spheres, how, attribute, mask, transfer, colours)
+                     : colour_by_number(spheres, how, attribute, mask, transfer, colours);
+}
+
+}  // namespace bihive

@@ -1,0 +1,41 @@
+// Colours from what is known of spheres: from a number by a map, from a text or type by category.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/geometry/sphere_set.h"
+#include "bihive/scene/colour_maps.h"
+
+namespace bihive {
+
+/// Linear RGB from 0 to 1, or a text for colour_from_text(), whose meaning depends on the scene's transfer.
+using ColourChoice = std::variant<Vec3d, std::string>;
+
+/// Error: the text is no colour.
+Result<Vec3f> linear_colour(const ColourChoice& colour, Transfer transfer);
+
+struct ColourBy {
+  std::string attribute;                           ///< a name as selections know it (docs/selections.md)
+  std::optional<ColourMap> map;                    ///< unset: by category for texts, types and elements, else viridis
+  std::optional<std::pair<double, double>> range;  ///< unset: the finite values of the coloured spheres
+  bool logarithmic = false;                        ///< the map runs along the logarithm; numbers <= 0 are unknown
+  ColourChoice nan_colour = std::string("grey");   ///< of spheres whose number is unknown (NaN)
+};
+
+/// "ATTR", "ATTR:MAP", "ATTR:MAP:MIN,MAX" or "ATTR:MAP:MIN,MAX:log"; MAP and MIN,MAX may be empty. An error says what
+/// was expected.
+Result<ColourBy> colour_by_from_text(const std::string& text);
+
+/// Sets `colours` (one for each sphere) where the mask is not 0. Numbers outside the range have the colour of its end.
+/// Error: the set lacks the attribute, no number is known, or the range has no extent that the map can show.
+Status colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
+                 Transfer transfer, std::vector<Vec3f>& colours);
+
+}  // namespace bihive

@@ -1,0 +1,37 @@
+#include "bihive/scene/look_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace bihive {
+namespace {
+
+ColourChoice colour_from_json(const nlohmann::json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return Vec3d{value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
+
+ColourBy colour_by_from_json(const nlohmann::json& value) {
+  ColourBy how;
+  how.attribute = value.at("attribute").get<std::string>();
+  if (value.contains("map")) how.map = colour_map_from(value.at("map").get<std::string>());
+  if (value.contains("range"))
+    how.range.emplace(value.at("range").at(0).get<double>(), value.at("range").at(1).get<double>());
+  how.logarithmic = value.value("log", false);
+  if (value.contains("nan_colour")) how.nan_colour = colour_from_json(value.at("nan_colour"));
+  return how;
+}
+
+}  // namespace
+
+Look look_from_json(const nlohmann::json& value) {
+  Look look;
+  look.select = value.value("select", look.select);
+  if (value.contains("show")) look.actions.emplace_back(SetShown{value.at("show").get<bool>()});
+  if (value.contains("colour")) look.actions.emplace_back(SetColour{colour_from_json(value.at("colour"))});
+  if (value.contains("colour_by")) look.actions.emplace_back(colour_by_from_json(value.at("colour_by")));
+  if (value.contains("opacity")) look.actions.emplace_back(SetOpacity{value.at("opacity").get<double>()});
+  if (value.contains("radius_scale")) look.actions.emplace_back(ScaleRadius{value.at("radius_scale").get<double>()});
+  return look;
+}
+
+}  // namespace bihive

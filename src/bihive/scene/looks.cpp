@@ -1,0 +1,149 @@
+#include "bihive/scene/looks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bihive/select/selection.h"
+
+namespace bihive {
+namespace {
+
+Error look_error(const std::string& message, const std::string& hint = "") {
+  return {message, "", 0, 0, hint};
+}
+
+// What the looks make of the spheres. Each array is empty until an action needs it.
+class LookedAt {
+ public:
+  explicit LookedAt(const Scene& scene) : scene_(scene) {}
+
+  // The mask of the spheres that the present actions are for.
+  void select(std::vector<std::uint8_t> mask) { mask_ = std::move(mask); }
+
+  Status operator()(const SetShown& action) {
+    set(shown_, std::uint8_t{1}, std::uint8_t(action.shown ? 1 : 0));
+    return Done{};
+  }
+
+  Status operator()(const SetColour& action) {
+    const Result<Vec3f> colour = linear_colour(action.colour, scene_.picture.transfer);
+    if (!colour) return colour.error();
+    take_colours();
+    for (std::size_t i = 0; i < mask_.size(); ++i)
+      if (mask_[i] != 0) colours_[i] = *colour;
+    return Done{};
+  }
+
+  Status operator()(const ColourBy& action) {
+    take_colours();
+    return colour_by(scene_.spheres, action, mask_, scene_.picture.transfer, colours_);
+  }
+
+  Status operator()(const SetOpacity& action) {
+    if (!(action.opacity >= 0 && action.opacity <= 1)) return look_error("an opacity lies between 0 and 1");
+    if (opacities_.empty()) opacities_ = scene_.spheres.attributes().opacity;
+    set(opacities_, 1.0F, static_cast<float>(action.opacity));
+    return Done{};
+  }
+
+  Status operator()(const ScaleRadius& action) {
+    if (!(action.factor >= 0) || !std::isfinite(action.factor))
+      return look_error("a factor for radii is finite and at least 0");
+    if (factors_.empty()) factors_.assign(mask_.size(), 1.0);
+    for (std::size_t i = 0; i < mask_.size(); ++i)
+      if (mask_[i] != 0) factors_[i] *= action.factor;
+    return Done{};
+  }
+
+  // Gives everything to the scene.
+  Status finish(Scene& scene) {
+    if (!shown_.empty() && std::count(shown_.begin(), shown_.end(), std::uint8_t{0}) == 0) shown_.clear();
+    Result<SphereSet> set = SphereSet();
+    const bool new_set = !shown_.empty() || !factors_.empty();
+    if (new_set) {
+      set = rebuilt(scene.spheres);
+      if (!set) return set.error();
+      if (set->empty()) return look_error("every sphere is hidden", "show some of them");
+      set->attributes() = std::move(scene.spheres.attributes());
+      if (!shown_.empty()) set->attributes().keep_only(shown_);
+    }
+    if (!shown_.empty()) {
+      keep_entries(scene.material_of_sphere, shown_);
+      keep_entries(colours_, shown_);
+      keep_entries(opacities_, shown_);
+      keep_ids(scene);
+    }
+    if (new_set) scene.spheres = std::move(*set);
+    if (!colours_.empty()) scene.spheres.attributes().colour = std::move(colours_);
+    if (!opacities_.empty()) scene.spheres.attributes().opacity = std::move(opacities_);
+    return Done{};
+  }
+
+ private:
+  template <class T>
+  void set(std::vector<T>& values, T before, T wanted) {
+    if (values.empty()) values.assign(mask_.size(), before);
+    for (std::size_t i = 0; i < mask_.size(); ++i)
+      if (mask_[i] != 0) values[i] = wanted;
+  }
+
+  // The colours as they are: the spheres' own, or those of their materials.
+  void take_colours() {
+    if (!colours_.empty()) return;
+    colours_ = scene_.spheres.attributes().colour;
+    if (!colours_.empty()) return;
+    for (std::int64_t id = 0; id < scene_.spheres.size(); ++id)
+      colours_.push_back(to_float(material_of(scene_, id).colour));
+  }
+
+  // The shown spheres with their new radii. World units in binary64 hold stored centres exactly.
+  Result<SphereSet> rebuilt(const SphereSet& spheres) const {
+    std::vector<double> x, y, z, r;
+    for (std::int64_t id = 0; id < spheres.size(); ++id) {
+      const auto i = static_cast<std::size_t>(id);
+      if (!shown_.empty() && shown_[i] == 0) continue;
+      const Vec3d centre = spheres.centre(id);
+      x.push_back(centre.x);
+      y.push_back(centre.y);
+      z.push_back(centre.z);
+      r.push_back(spheres.radius(id) * (factors_.empty() ? 1.0 : factors_[i]));
+    }
+    return SphereSet::from_world(x, y, z, r);
+  }
+
+  void keep_ids(Scene& scene) const {
+    if (scene.id_in_input.empty())
+      for (std::int64_t id = 0; id < scene_.spheres.size(); ++id) scene.id_in_input.push_back(id);
+    keep_entries(scene.id_in_input, shown_);
+  }
+
+  const Scene& scene_;
+  std::vector<std::uint8_t> mask_, shown_;
+  std::vector<Vec3f> colours_;
+  std::vector<float> opacities_;
+  std::vector<double> factors_;
+};
+
+}  // namespace
+
+Result<std::vector<std::int64_t>> apply_looks(Scene& scene, const std::vector<Look>& looks, std::size_t* failed) {
+  LookedAt looked_at(scene);
+  std::vector<std::int64_t> counts;
+  for (const Look& look : looks) {
+    if (failed != nullptr) *failed = counts.size();
+    Result<std::vector<std::uint8_t>> mask = select_spheres(scene.spheres, look.select);
+    if (!mask) return mask.error();
+    const std::int64_t count = std::count(mask->begin(), mask->end(), std::uint8_t{1});
+    looked_at.select(std::move(*mask));
+    for (const LookAction& action : look.actions)
+      if (Status status = std::visit(looked_at, action); !status) return status.error();
+    counts.push_back(count);
+  }
+  if (failed != nullptr) *failed = looks.size();
+  if (looks.empty()) return counts;
+  if (Status status = looked_at.finish(scene); !status) return status.error();
+  return counts;
+}
+
+}  // namespace bihive

@@ -1,0 +1,49 @@
+// How selected spheres look: hidden, coloured, clearer, smaller. The options of `bihive render` behind --select, and
+// the key `looks` of scene files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/scene/colour_by.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+struct SetShown {
+  bool shown;  ///< false: absent for every ray
+};
+struct SetColour {
+  ColourChoice colour;  ///< replaces the material's colour
+};
+struct SetOpacity {
+  double opacity;  ///< 0 (clear) to 1; replaces the file's
+};
+struct ScaleRadius {
+  double factor;  ///< >= 0
+};
+/// One thing to do to spheres. To add a kind (a material, an outline): one more struct here, and its case in looks.cpp.
+using LookAction = std::variant<SetShown, SetColour, ColourBy, SetOpacity, ScaleRadius>;
+
+/// Actions on the spheres of one selection, done in their order.
+struct Look {
+  std::string select = "all";  ///< docs/selections.md
+  std::vector<LookAction> actions;
+};
+
+/// Does all actions in their order; a later one replaces an earlier one, except that factors multiply. Every selection
+/// sees the spheres as they were before: hidden ones too, with their first radii and opacities. Afterwards hidden
+/// spheres have left the set; Scene::id_in_input knows the ids of the rest, and materials and attributes keep in step.
+/// Radii are rounded once.
+///
+/// Returns how many spheres each look selects. Errors: a selection's (column and line as in select_spheres()), an
+/// action's, or that every sphere is hidden. The scene is then as it was, and `failed` (if given) is the look's
+/// position; looks.size() if none is to blame.
+Result<std::vector<std::int64_t>> apply_looks(Scene& scene, const std::vector<Look>& looks,
+                                              std::size_t* failed = nullptr);
+
+}  // namespace bihive

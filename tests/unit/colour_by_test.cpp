@@ -1,0 +1,133 @@
+#include "bihive/scene/colour_by.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bihive/scene/colour_text.h"
+#include "bihive/scene/palette.h"
+#include "support/read_text.h"
+
+namespace bihive {
+namespace {
+
+using testing::HasSubstr;
+
+std::uint32_t on_screen(Vec3f linear, Transfer transfer = Transfer::srgb) {
+  std::uint32_t rgb = 0;
+  for (int channel = 0; channel < 3; ++channel) rgb = rgb * 256 + byte_from_radiance(double(linear[channel]), transfer);
+  return rgb;
+}
+
+const SphereSet& table() {
+  static const SphereFile file = test::read_text(
+      "x,y,z,r,type,heat,phase,element\n"
+      "0,0,0,1,1,1,wet,C\n"
+      "1,0,0,1,2,10,dry,O\n"
+      "2,0,0,1,9,100,wet,C\n"
+      "3,0,0,1,2,,dry,Fe\n"
+      "4,0,0,1,1,inf,hot,C\n"
+      "5,0,0,1,1,-5,hot,C\n",
+      "a.csv");
+  return file.spheres;
+}
+
+std::vector<Vec3f> coloured(const std::string& text, Transfer transfer = Transfer::srgb,
+                            std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(6, 1)) {
+  std::vector<Vec3f> colours(6, Vec3f{0.5F, 0.5F, 0.5F});
+  const Result<ColourBy> how = colour_by_from_text(text);
+  EXPECT_TRUE(how.ok()) << text;
+  const Status status = colour_by(table(), *how, mask, transfer, colours);
+  EXPECT_TRUE(status.ok()) << text << ": " << status.error().to_string();
+  return colours;
+}
+
+// Colours that the authors of the maps publish.
+TEST(ColourMaps, HaveTheirPublishedColours) {
+  const struct {
+    ColourMap map;
+    double share;
+    std::uint32_t colour;
+  } cases[] = {
+      {ColourMap::viridis, 0, 0x440154},    {ColourMap::viridis, 0.5, 0x21908C}, {ColourMap::viridis, 1, 0xFDE725},
+      {ColourMap::magma, 0, 0x000004},      {ColourMap::magma, 0.5, 0xB63779},   {ColourMap::magma, 1, 0xFCFDBF},
+      {ColourMap::cividis, 0, 0x00204D},    {ColourMap::cividis, 1, 0xFFEA46},   {ColourMap::coolwarm, 0, 0x3B4CC0},
+      {ColourMap::coolwarm, 0.5, 0xDDDDDD}, {ColourMap::coolwarm, 1, 0xB40426},
+  };
+  for (const auto& one : cases)
+    for (const Transfer transfer : {Transfer::srgb, Transfer::none})
+      EXPECT_EQ(on_screen(map_colour(one.map, one.share, transfer), transfer), one.colour) << one.share;
+  EXPECT_EQ(map_colour(ColourMap::magma, -3, Transfer::srgb), map_colour(ColourMap::magma, 0, Transfer::srgb));
+  EXPECT_EQ(map_colour(ColourMap::magma, INFINITY, Transfer::srgb), map_colour(ColourMap::magma, 1, Transfer::srgb));
+}
+
+TEST(ColourMaps, LightnessRises) {
+  for (const ColourMap map : {ColourMap::viridis, ColourMap::magma, ColourMap::cividis}) {
+    double before = -1;
+    for (int i = 0; i <= 100; ++i) {
+      const Vec3f c = map_colour(map, i / 100.0, Transfer::srgb);
+      const double luminance = 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z);
+      EXPECT_GT(luminance, before) << i;
+      before = luminance;
+    }
+  }
+}
+
+TEST(ColourBy, AFiniteRangeIsTheDefault) {
+  const auto colours = coloured("heat");
+  EXPECT_EQ(colours[5], map_colour(ColourMap::viridis, 0, Transfer::srgb)) << "-5 is least";
+  EXPECT_EQ(colours[2], map_colour(ColourMap::viridis, 1, Transfer::srgb)) << "100 is most";
+  EXPECT_EQ(colours[4], colours[2]) << "infinity has the end's colour";
+  EXPECT_EQ(on_screen(colours[3]), 0x808080u) << "unknown";
+  EXPECT_EQ(colours[0], map_colour(ColourMap::viridis, (1.0 / 2 + 5.0 / 2) / (100.0 / 2 + 5.0 / 2), Transfer::srgb));
+}
+
+TEST(ColourBy, ARangeOfOwnAndALogarithm) {
+  const auto colours = coloured("heat:magma:1,100:log");
+  EXPECT_EQ(on_screen(colours[1]), on_screen(map_colour(ColourMap::magma, 0.5, Transfer::srgb)));
+  EXPECT_EQ(on_screen(colours[5]), 0x808080u) << "no logarithm";
+  EXPECT_EQ(coloured("heat:magma:log")[0], map_colour(ColourMap::magma, 0, Transfer::srgb));
+  EXPECT_EQ(coloured("heat::5,20")[0], map_colour(ColourMap::viridis, 0, Transfer::srgb)) << "below the range";
+}
+
+TEST(ColourBy, OnlySelectedSpheresCountAndChange) {
+  const auto colours = coloured("x", Transfer::srgb, {0, 1, 1, 0, 0, 0});
+  EXPECT_EQ(colours[1], map_colour(ColourMap::viridis, 0, Transfer::srgb));
+  EXPECT_EQ(colours[2], map_colour(ColourMap::viridis, 1, Transfer::srgb));
+  EXPECT_EQ(colours[0], (Vec3f{0.5F, 0.5F, 0.5F}));
+}
+
+TEST(ColourBy, CategoriesForTextsTypesAndElements) {
+  EXPECT_EQ(coloured("phase")[0], type_colour(1));
+  EXPECT_EQ(coloured("phase")[1], type_colour(2));
+  EXPECT_EQ(coloured("phase")[5], type_colour(3));
+  EXPECT_EQ(coloured("type")[2], type_colour(9));
+  EXPECT_EQ(coloured("element")[1], element_colour(8));
+  EXPECT_EQ(coloured("heat:okabe-ito")[1], type_colour(10));
+  EXPECT_EQ(coloured("type:viridis")[2], map_colour(ColourMap::viridis, 1, Transfer::srgb)) << "numbers, if asked for";
+  EXPECT_EQ(on_screen(coloured("phase", Transfer::none)[0], Transfer::none), on_screen(type_colour(1)));
+}
+
+TEST(ColourBy, FaultsAreNamed) {
+  for (const auto& [text, message] : {std::pair{"", "expected the name of an attribute"},
+                                      {"x:jet", "there is no colour map \"jet\"; there are viridis, magma"},
+                                      {"x:magma:3", "expected a range MIN,MAX"},
+                                      {"x:magma:3,3", "expected a range MIN,MAX"},
+                                      {"x:magma:nan,3", "expected a range MIN,MAX"},
+                                      {"x:magma:0,3:log", "begins above 0"},
+                                      {"x:magma:1,3:lg", "expected \"log\" at the end, found \"lg\""},
+                                      {"x:magma:1,3:log:x", "expected \"log\" at the end"}}) {
+    const Result<ColourBy> how = colour_by_from_text(text);
+    ASSERT_FALSE(how.ok()) << text;
+    EXPECT_THAT(how.error().to_string(), HasSubstr(message));
+  }
+  std::vector<Vec3f> colours(6);
+  const Status status =
+      colour_by(table(), *colour_by_from_text("phase:magma"), std::vector<std::uint8_t>(6, 1), Transfer::srgb, colours);
+  ASSERT_FALSE(status.ok());
+  EXPECT_THAT(status.error().message, HasSubstr("holds texts, and this map needs numbers"));
+}
+
+}  // namespace
+}  // namespace bihive

@@ -1,0 +1,243 @@
+#include "bihive/select/selection.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bihive/io/bundled.h"
+#include "bihive/math/rng.h"
+#include "support/read_text.h"
+
+namespace bihive {
+namespace {
+
+using Ids = std::vector<int>;
+
+const SphereSet& protease() {
+  static const SphereFile file = test::read_text(bundled_molecule(), "1hpv.pdb");
+  return file.spheres;
+}
+
+// Six spheres on the x axis.
+const SphereSet& table() {
+  static const SphereFile file = test::read_text(
+      "x,y,z,r,type,charge,phase,element,odd name\n"
+      "0,0,0,1,1,-1,solid,C,5\n"
+      "1,0,0,1,2,,solid,h,6\n"
+      "2,0,0,2,2,2,liquid,O,7\n"
+      "3,0,0,2,3,-0.5,Solid,C,8\n"
+      "4,0,0,0.5,3,0,\"10\",Fe,9\n"
+      "5,0,0,0.5,7,1,C5',Fe,10\n",
+      "a.csv");
+  return file.spheres;
+}
+
+Ids ids_in(const SphereSet& spheres, const std::string& expression) {
+  const Result<std::vector<std::uint8_t>> mask = select_spheres(spheres, expression);
+  EXPECT_TRUE(mask.ok()) << expression << ": " << mask.error().to_string();
+  Ids ids;
+  for (std::size_t i = 0; mask.ok() && i < mask->size(); ++i)
+    if ((*mask)[i] != 0) ids.push_back(static_cast<int>(i));
+  return ids;
+}
+
+Ids ids(const std::string& expression) {
+  return ids_in(table(), expression);
+}
+
+std::size_t count_in_protease(const std::string& expression) {
+  return ids_in(protease(), expression).size();
+}
+
+Error error_in(const SphereSet& spheres, const std::string& expression) {
+  const Result<std::vector<std::uint8_t>> mask = select_spheres(spheres, expression);
+  EXPECT_FALSE(mask.ok()) << expression;
+  return mask.ok() ? Error{} : mask.error();
+}
+
+// The numbers were counted with awk on the columns of data/1hpv.pdb.
+TEST(Selection, CountsAtomsOfAMolecule) {
+  EXPECT_EQ(count_in_protease("all"), 1631u);
+  EXPECT_EQ(count_in_protease("none"), 0u);
+  EXPECT_EQ(count_in_protease("chain A"), 758u);
+  EXPECT_EQ(count_in_protease("protein"), 1516u);
+  EXPECT_EQ(count_in_protease("water"), 80u);
+  EXPECT_EQ(count_in_protease("hetero"), 115u);
+  EXPECT_EQ(count_in_protease("backbone"), 792u);
+  EXPECT_EQ(count_in_protease("nucleic"), 0u);
+  EXPECT_EQ(count_in_protease("resname 478"), 35u);
+  EXPECT_EQ(count_in_protease("within 5 of resname 478"), 138u);
+  EXPECT_EQ(count_in_protease("chain A and resid 10..20"), 81u);
+}
+
+TEST(Selection, ComparesNumbers) {
+  EXPECT_EQ(ids("x > 3"), (Ids{4, 5}));
+  EXPECT_EQ(ids("x >= 3"), (Ids{3, 4, 5}));
+  EXPECT_EQ(ids("x < 1"), (Ids{0}));
+  EXPECT_EQ(ids("x <= 1"), (Ids{0, 1}));
+  EXPECT_EQ(ids("r = 2"), (Ids{2, 3}));
+  EXPECT_EQ(ids("radius == 2"), (Ids{2, 3}));
+  EXPECT_EQ(ids("index != 0"), (Ids{1, 2, 3, 4, 5}));
+  EXPECT_EQ(ids("1 < x < 4"), (Ids{2, 3}));
+  EXPECT_EQ(ids("\"odd name\" > 8"), (Ids{4, 5}));
+  EXPECT_EQ(ids("CHARGE < 0"), (Ids{0, 3})) << "names of columns without regard to case";
+}
+
+TEST(Selection, AnUnknownNumberIsNeitherEqualNorUnequalNorInAnyRange) {
+  EXPECT_EQ(ids("charge = 2"), (Ids{2}));
+  EXPECT_EQ(ids("charge != 2"), (Ids{0, 3, 4, 5}));
+  EXPECT_EQ(ids("charge -9..9"), (Ids{0, 2, 3, 4, 5}));
+  EXPECT_EQ(ids("not charge -9..9"), (Ids{1}));
+}
+
+TEST(Selection, CalculatesWithTheUsualPrecedence) {
+  EXPECT_EQ(ids("x = 1 + 2 * 2"), (Ids{5}));
+  EXPECT_EQ(ids("x = (1 + 1) * 2"), (Ids{4}));
+  EXPECT_EQ(ids("x = 8 / 2 / 2"), (Ids{2}));
+  EXPECT_EQ(ids("x = 5 - 3 - 1"), (Ids{1}));
+  EXPECT_EQ(ids("-x < -4"), (Ids{5}));
+  EXPECT_EQ(ids("(x) > 4"), (Ids{5}));
+  EXPECT_EQ(ids("x*x>=16"), (Ids{4, 5}));
+  EXPECT_EQ(ids("x-1=3"), (Ids{4}));
+}
+
+TEST(Selection, TakesValuesAndRanges) {
+  EXPECT_EQ(ids("index 0..1 4"), (Ids{0, 1, 4}));
+  EXPECT_EQ(ids("index 0:1, 4"), (Ids{0, 1, 4}));
+  EXPECT_EQ(ids("index 0 to 1 4-5"), (Ids{0, 1, 4, 5}));
+  EXPECT_EQ(ids("index 4..5 0..2 1 2..3 9..12"), ids("all")) << "ranges that overlap";
+  EXPECT_EQ(ids("index 5 0 3..3 7"), (Ids{0, 3, 5}));
+  EXPECT_EQ(ids("type 2 or charge < 0"), (Ids{0, 1, 2, 3}));
+  EXPECT_EQ(ids("phase solid"), (Ids{0, 1}));
+  EXPECT_EQ(ids("phase Solid liquid"), (Ids{2, 3})) << "texts as they are written";
+  EXPECT_EQ(ids("phase 10"), (Ids{4})) << "a text that looks like a number";
+  EXPECT_EQ(ids("phase C5'"), (Ids{5}));
+  EXPECT_EQ(ids("phase *o*id"), (Ids{0, 1, 3}));
+  EXPECT_EQ(ids("phase \"*o*id\""), Ids{}) << "a star in quotes is a star";
+  EXPECT_EQ(ids("phase = solid"), (Ids{0, 1}));
+  EXPECT_EQ(ids("phase != 'solid'"), (Ids{2, 3, 4, 5}));
+  EXPECT_EQ(ids("element c FE"), (Ids{0, 3, 4, 5})) << "elements in any case";
+  EXPECT_EQ(ids("element 26"), (Ids{4, 5}));
+  EXPECT_EQ(ids("element = C"), (Ids{0, 3}));
+  EXPECT_EQ(ids("element > 6"), (Ids{2, 4, 5}));
+  EXPECT_EQ(ids("hydrogen"), (Ids{1}));
+}
+
+TEST(Selection, AndBindsTighterThanOrAndNotTighterThanBoth) {
+  EXPECT_EQ(ids("x = 0 or x = 1 and r = 2"), (Ids{0}));
+  EXPECT_EQ(ids("(x = 0 or x = 1) and r = 1"), (Ids{0, 1}));
+  EXPECT_EQ(ids("not x = 0 and r = 1"), (Ids{1}));
+  EXPECT_EQ(ids("not (x = 0 and r = 1)"), (Ids{1, 2, 3, 4, 5}));
+  EXPECT_EQ(ids("!x=0&&r=1||index 5"), (Ids{1, 5}));
+  EXPECT_EQ(ids("NOT x = 0 AND r = 1 | index 5"), (Ids{1, 5}));
+  EXPECT_EQ(ids("not not all"), ids("all"));
+  EXPECT_EQ(ids("within 1 of x = 0 and r = 1"), (Ids{0, 1}));
+  EXPECT_EQ(ids("not within 1 of x = 0"), (Ids{2, 3, 4, 5}));
+}
+
+TEST(Selection, TypesThatAreLabelsAreNumbersAndTexts) {
+  const SphereFile file = test::read_text("x,y,z,r,type\n0,0,0,1,Cu\n1,0,0,1,Zn\n2,0,0,1,Cu\n", "a.csv");
+  EXPECT_EQ(ids_in(file.spheres, "type Cu"), (Ids{0, 2}));
+  EXPECT_EQ(ids_in(file.spheres, "type 2"), (Ids{1}));
+}
+
+TEST(Selection, WithinAgreesWithComparingAll) {
+  SplitMix64 rng(7);
+  for (const double distance : {0.0, 0.01, 0.2, 0.5, 3.0}) {
+    std::vector<double> x, y, z, r;
+    for (int i = 0; i < 2000; ++i) {
+      // Many places occur twice, so that distance 0 finds something.
+      const double cells = i % 2 == 0 ? 8 : 1e6;
+      for (auto* axis : {&x, &y, &z}) axis->push_back(std::floor(rng.next_double() * cells) / cells);
+      r.push_back(0.01);
+    }
+    const Result<SphereSet> set = SphereSet::from_world(x, y, z, r);
+    ASSERT_TRUE(set.ok());
+    Ids expected;
+    for (int i = 0; i < 2000; ++i) {
+      bool near = false;
+      for (int j = 0; j < 40 && !near; ++j) {
+        const Vec3d d = set->stored_centre(i) - set->stored_centre(j);
+        const double limit = distance * set->scale();
+        near = d.x * d.x + d.y * d.y + d.z * d.z <= limit * limit;
+      }
+      if (near) expected.push_back(i);
+    }
+    EXPECT_EQ(ids_in(*set, "within " + std::to_string(distance) + " of index < 40"), expected) << distance;
+    EXPECT_GE(expected.size(), 40u);
+  }
+}
+
+TEST(Selection, WithinIncludesItsLimitAndItsOwnSpheres) {
+  EXPECT_EQ(ids("within 1 of index 2"), (Ids{1, 2, 3}));
+  EXPECT_EQ(ids("within 0.999 of index 2"), (Ids{2}));
+  EXPECT_EQ(ids("within 1 of none"), Ids{});
+  EXPECT_EQ(ids("within 1e300 of index 2"), ids("all"));
+}
+
+TEST(Selection, ErrorsNameThePlaceAndTheRemedy) {
+  const struct {
+    const char *expression, *column, *message;
+  } cases[] = {
+      {"chrage < 0", "1",
+       "there is no attribute 'chrage'; did you mean 'charge'? there are x, y, z, r, index, element, type"},
+      {"x > 3 and wahter", "11", "there is no word or attribute 'wahter'; did you mean 'water'?"},
+      {"x >", "4", "expected a number or the name of a number, found the end"},
+      {"x > 3 and", "10", "expected a selection such as 'chain A', 'x > 3' or 'all', found the end"},
+      {"", "1", "expected a selection such as 'chain A', 'x > 3' or 'all', found the end"},
+      {"(x > 3", "7", "')'"},
+      {"x > 3)", "6", "found ')'"},
+      {"within of all", "8", "expected a distance"},
+      {"within 5 all", "10", "expected 'of'"},
+      {"within -1 of all", "1", "at least 0"},
+      {"index 5..2", "7", "the range '5..2' is empty"},
+      {"index solid", "7", "expected a number for 'index', found 'solid'"},
+      {"phase 1..2", "7", "'phase' holds texts, and a range needs numbers"},
+      {"phase > 2", "1", "'phase' holds texts, and this comparison needs numbers"},
+      {"phase", "1", "'phase' needs values behind it"},
+      {"phase solid charge 2", "13", "'charge' stands where a value of 'phase' is expected; put 'and' or 'or'"},
+      {"water 3", "7", "'water' takes no values"},
+      {"water", "1", "'water' needs the names of residues, and the input has no 'resname'"},
+      {"element Qq", "9", "'Qq' is no element"},
+      {"phase \"solid", "7", "a quote that does not close"},
+  };
+  for (const auto& one : cases) {
+    const Error error = error_in(table(), one.expression);
+    EXPECT_THAT(error.to_string(), testing::HasSubstr(one.message)) << one.expression;
+    EXPECT_EQ(std::to_string(error.column), one.column) << one.expression << ": " << error.to_string();
+    EXPECT_EQ(error.line, 1) << one.expression;
+  }
+}
+
+TEST(Selection, TheCaretStandsBelowThePlaceInCharacters) {
+  const std::string expression = "x > 3 and\n'\xC3\xA4' > 1 and q7 = 2";
+  const Error error = error_in(table(), expression);
+  EXPECT_EQ(error.line, 2);
+  EXPECT_EQ(caret_lines(expression, error), "  '\xC3\xA4' > 1 and q7 = 2\n  ^\n");
+  EXPECT_EQ(caret_lines("\xC3\xA4 |", error_in(table(), "\xC3\xA4 |")), "  \xC3\xA4 |\n     ^\n");
+}
+
+TEST(Selection, DeepAndLongTextsAreErrors) {
+  EXPECT_EQ(ids(std::string(100, '(') + "all" + std::string(100, ')')), ids("all"));
+  EXPECT_THAT(error_in(table(), std::string(101, '(') + "all" + std::string(101, ')')).message,
+              testing::HasSubstr("at most 100 deep"));
+  EXPECT_THAT(error_in(table(), std::string(70000, ' ') + "all").message, testing::HasSubstr("at most 65536 bytes"));
+  EXPECT_EQ(ids(std::string(60000, '!') + "x > 1"), ids("x > 1"));
+  EXPECT_EQ(ids(std::string(60001, '!') + "x > 1"), ids("not x > 1"));
+  EXPECT_EQ(ids(std::string(60001, '-') + "x < -1"), ids("x > 1"));
+  std::string sum = "x";
+  for (int i = 0; i < 15000; ++i) sum += "+x-x";
+  EXPECT_EQ(ids(sum + " > 1"), ids("x > 1"));
+  std::string within = "not not within 0 of not within 0 of not x > 1";
+  EXPECT_EQ(ids(within), ids("x > 1"));
+  for (int i = 0; i < 98; ++i) within = "within 0 of " + within;
+  EXPECT_EQ(ids(within), ids("x > 1"));
+  EXPECT_THAT(error_in(table(), "within 0 of " + within).message, testing::HasSubstr("at most 100 times 'within'"));
+  std::string many = "x > 1";
+  for (int i = 0; i < 3000; ++i) many += " or x > 1";
+  EXPECT_EQ(ids(many), (Ids{2, 3, 4, 5}));
+}
+
+}  // namespace
+}  // namespace bihive
