@@ -32,7 +32,12 @@ class EffectsReference {
   /// Of the light through a place of the picture.
   Vec3d applied(double x, double y, Vec3d light) const {
     const Seen here = seen(x, y);
-    if (settings_.outline && here.id >= 0 && is_outlined(x, y, here)) light = settings_.outline->colour;
+    if (settings_.outline && here.id >= 0 && is_outlined(x, y, here)) {
+      const double pixel = length(pixels_.right()) * (pixels_.parallel() ? 1 : here.depth);
+      const double widths = scene_.spheres.radius(here.id) / (pixel * settings_.outline->width_px);
+      const auto line = static_cast<double>(static_cast<float>(std::clamp((widths - 2) / 4, 0.0, 1.0)));
+      if (line > 0) light = (1 - line) * light + line * settings_.outline->colour;
+    }
     if (!settings_.fog || here.id == kNothing) return light;
     const Fog& fog = *settings_.fog;
     const double share = farthest_ > nearest_ ? (here.depth - nearest_) / (farthest_ - nearest_) : 0;

@@ -53,7 +53,7 @@ void AfterEffects::find(const Tile& tile, const std::vector<SamplePlace>& places
         const std::int64_t at = (y - grown.y0) * row + (x - grown.x0);
         SampleEffect& effect =
             buffers.effects[static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0)) * samples + sample];
-        effect.outlined = outline_ && is_outlined(buffers, at, row);
+        effect.outline = static_cast<float>(outline_at(buffers, at, row));
         effect.fog = static_cast<float>(fog_at(buffers.depth[static_cast<std::size_t>(at)]));
       }
   }
@@ -96,14 +96,21 @@ void AfterEffects::find_depths(const Tile& grown, SamplePlace place, const Cance
   }
 }
 
-bool AfterEffects::is_outlined(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const {
+double AfterEffects::outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const {
   const std::int64_t id = buffers.id[static_cast<std::size_t>(at)];
-  if (id < 0) return false;
-  const double limit = buffers.depth[static_cast<std::size_t>(at)] + outline_->step * scene_.spheres.radius(id);
-  return std::any_of(around_.begin(), around_.end(), [&](Step step) {
+  if (!outline_ || id < 0) return 0;
+  const double depth = buffers.depth[static_cast<std::size_t>(at)];
+  const double radius = scene_.spheres.radius(id);
+  const double pixel = length(rays_.right()) * (rays_.parallel() ? 1 : depth);
+  const double lines_wide = radius / (pixel * outline_->width_px);
+  const double share = std::clamp((lines_wide - 2) / 4, 0.0, 1.0);
+  if (!(share > 0)) return 0;
+  const double limit = depth + outline_->step * radius;
+  const bool beside_deeper = std::any_of(around_.begin(), around_.end(), [&](Step step) {
     const auto beside = static_cast<std::size_t>(at + step.y * row + step.x);
     return buffers.id[beside] != id && buffers.depth[beside] > limit;
   });
+  return beside_deeper ? share : 0;
 }
 
 double AfterEffects::fog_at(double depth) const {
@@ -119,7 +126,10 @@ Vec3d AfterEffects::applied(const Tile& tile, const EffectBuffers& buffers, int 
   const std::size_t pixel = static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0));
   const std::size_t samples = buffers.effects.size() / static_cast<std::size_t>(width * (tile.y1 - tile.y0));
   const SampleEffect& effect = buffers.effects[pixel * samples + static_cast<std::size_t>(sample)];
-  if (effect.outlined) light = outline_->colour;
+  if (effect.outline > 0) {
+    const double line = double(effect.outline);
+    light = (1 - line) * light + line * outline_->colour;
+  }
   if (effect.fog > 0) {
     const double fog = double(effect.fog);
     light = (1 - fog) * light + fog * scene_.background;

@@ -15,8 +15,8 @@ namespace bihive {
 
 /// What becomes of one sample's light.
 struct SampleEffect {
-  bool outlined = false;
-  float fog = 0;  ///< the share of the background
+  float outline = 0;  ///< the share of the outline's colour
+  float fog = 0;      ///< the share of the background
 };
 
 /// Buffers that a thread keeps from tile to tile.
@@ -47,7 +47,7 @@ class AfterEffects {
 
  private:
   void find_depths(const Tile& grown, SamplePlace place, const CancelToken* cancel, EffectBuffers& buffers) const;
-  bool is_outlined(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const;
+  double outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const;
   double fog_at(double depth) const;
 
   const Scene& scene_;

@@ -58,8 +58,8 @@ std::array<Vec3f, kElements> soft_colours(std::array<Vec3f, kElements> colours) 
     for (int channel = 0; channel < 3; ++channel)
       colour[channel] = 0.85f * (0.75f * colour[channel] + 0.25f * luminance);
   }
-  colours[1] = {0.92f, 0.92f, 0.90f};   // H
-  colours[6] = {0.70f, 0.70f, 0.68f};   // C
+  colours[1] = {0.82f, 0.82f, 0.81f};   // H
+  colours[6] = {0.56f, 0.56f, 0.55f};   // C
   colours[7] = {0.24f, 0.38f, 0.76f};   // N
   colours[8] = {0.80f, 0.20f, 0.17f};   // O
   colours[15] = {0.85f, 0.45f, 0.12f};  // P

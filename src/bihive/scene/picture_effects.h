@@ -18,7 +18,9 @@ constexpr double kWidestOutlinePx = 16;
 
 /// A line along the inner edge of what stands in front of something else. A sample of a pixel lies on it if, at most
 /// `width_px` away and at the same place in its pixel, another sphere, the plane or the background is deeper by more
-/// than `step` radii of the sphere that the sample shows.
+/// than `step` radii of the sphere that the sample shows. The line fades where spheres appear small, so that it does
+/// not cover them: it is full where the radius appears at least six times as wide as the line, and gone below two
+/// times.
 struct Outline {
   double width_px = 1;    ///< 1 to kWidestOutlinePx
   double step = 2;        ///< radii, >= 0
