@@ -17,7 +17,7 @@ class Looks(ProgramTest):
 
     def middles(self, *options, name="a.csv"):
         """The pixels in the middles of the three spheres."""
-        self.succeed("render", name, "-o", "a.png", *VIEW, *options)
+        self.succeed("render", name, "-o", "a.png", *VIEW, "--style", "plain", *options)
         row = png_pixels(self.read("a.png"))[15]
         # One sphere's diameter is 2 of the 30 * 2 tan(15 degrees) = 16.08 units of 30 pixels.
         return [row[45 + round(x * 30 / 16.08)] for x in (-3, 0, 3)]

@@ -199,11 +199,11 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
     for (const Vec3f& direction : ambient.sets.of_sample(set)) {
       steps::find_ambient_rays(direction, wave);
       rays_.ambient += wave.rays.count;
-      trace_places(depth, ambient.distance, buffers);
+      const RaySpan rays = trace_places(depth, ambient.distance, buffers);
       if (cancelled()) return;
       if (scene_.scene->plane)
-        for (std::int64_t i = 0; i < wave.rays.count; ++i)
-          if (plane_hit(wave.rays.span().at(i), scene_.scene->plane->plane) < std::numeric_limits<double>::infinity())
+        for (std::int64_t i = 0; i < rays.count; ++i)
+          if (plane_hit(rays.at(i), scene_.scene->plane->plane) < std::numeric_limits<double>::infinity())
             wave.hidden[i] = 1;
       steps::add_visible(wave);
     }
@@ -212,8 +212,8 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
   }
 }
 
-// Which rays of the places does a sphere hide before t = limit?
-void WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffers) {
+// Which rays of the places does a sphere hide before t = limit? Returns these rays.
+RaySpan WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffers) {
   PlaceWave& wave = buffers.places;
   RaySpan rays = wave.rays.span();
   if (limit < std::numeric_limits<double>::infinity()) {
@@ -225,6 +225,7 @@ void WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffers)
   const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
   for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
     tracer_.occluded(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i);
+  return rays;
 }
 
 }  // namespace bihive

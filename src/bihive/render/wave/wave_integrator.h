@@ -73,7 +73,7 @@ class WaveIntegrator {
   void find_shadows(int depth, WaveBuffers& buffers);
   void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);
-  void trace_places(int depth, double limit, WaveBuffers& buffers);
+  RaySpan trace_places(int depth, double limit, WaveBuffers& buffers);
   bool is_soft(const PointLight& light) const { return settings_.light_points != nullptr && light.radius > 0; }
   bool with_shadows() const { return settings_.light && settings_.shadows; }
   bool with_ambient() const { return settings_.light && settings_.ambient != nullptr; }
