@@ -12,6 +12,8 @@
 namespace bihive {
 namespace {
 
+// Rules have the names of the written grammar in docs/selections.md.
+// NOLINTBEGIN(readability-identifier-naming)
 namespace grammar {
 using namespace tao::pegtl;  // NOLINT(google-build-using-namespace): the grammar reads as in docs/selections.md
 
@@ -99,6 +101,7 @@ using selector = parse_tree::selector<
                                   plus_sign, factor, product, sum, comparison_sign, comparison, range_value,
                                   number_value, signed_digits, plain_value, test, operand, conjunction, disjunction>>;
 }  // namespace grammar
+// NOLINTEND(readability-identifier-naming)
 
 // --- What was expected where the text does not fit ---------------------------------------------------------------
 
@@ -141,7 +144,7 @@ constexpr unsigned kExpectedBy<grammar::end_of_text> = kEnd;
 struct FarthestFailure {
   TextPlace place = 0;
   unsigned expected = kNothingSpecial;
-  std::vector<TextPlace> begun;  // of the watched rules that are being tried
+  std::vector<TextPlace> begun;  // of the kWatched rules that are being tried
 
   void begin(TextPlace at) { begun.push_back(at); }
   void succeed() { begun.pop_back(); }
@@ -157,19 +160,19 @@ struct FarthestFailure {
 
 template <class Rule>
 struct Watch : tao::pegtl::normal<Rule> {
-  static constexpr bool watched = kExpectedBy<Rule> != kNothingSpecial;
+  static constexpr bool kWatched = kExpectedBy<Rule> != kNothingSpecial;
 
   template <class Input>
   static void start(const Input& in, FarthestFailure& farthest) {
-    if constexpr (watched) farthest.begin(in.position().byte);
+    if constexpr (kWatched) farthest.begin(in.position().byte);
   }
   template <class Input>
   static void success(const Input&, FarthestFailure& farthest) {
-    if constexpr (watched) farthest.succeed();
+    if constexpr (kWatched) farthest.succeed();
   }
   template <class Input>
   static void failure(const Input&, FarthestFailure& farthest) {
-    if constexpr (watched) farthest.fail(kExpectedBy<Rule>);
+    if constexpr (kWatched) farthest.fail(kExpectedBy<Rule>);
   }
 };
 

@@ -45,6 +45,7 @@ bool takes_texts(const NumberTerm& term, const SphereSet& spheres) {
 
 std::vector<bool> texts_that_match(const std::vector<std::string>& texts, const std::vector<SelectionValue>& values) {
   std::vector<bool> answers;
+  answers.reserve(texts.size());
   for (const std::string& text : texts)
     answers.push_back(std::any_of(values.begin(), values.end(),
                                   [&text](const SelectionValue& value) { return matches(text, value); }));

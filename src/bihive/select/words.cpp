@@ -29,6 +29,7 @@ Error missing_column(std::string_view word, const std::string& column, const std
 template <class Test>
 std::vector<bool> decide(const std::vector<std::string>& texts, const Test& test) {
   std::vector<bool> answers;
+  answers.reserve(texts.size());
   for (const std::string& text : texts) answers.push_back(test(text));
   return answers;
 }
