@@ -1,7 +1,5 @@
 #include "commands/choose_look.h"
 
-#include <algorithm>
-
 #include "bihive/base/write_file.h"
 #include "support/failure.h"
 
@@ -21,10 +19,6 @@ std::optional<AmbientOcclusion> choose_ambient(const AmbientOptions& options,
 // A name has neither a folder nor an ending.
 bool is_path(const std::string& style) {
   return style.find('/') != std::string::npos || style.find('.') != std::string::npos;
-}
-
-bool has_effect(const Material& material) {
-  return material.tint != 0 || material.bands != 0 || material.glow != 0;
 }
 
 }  // namespace
@@ -72,11 +66,9 @@ std::string beyond_gpu(const Scene& scene, const RenderSettings& settings) {
   if (settings.outline) return "outlines";
   if (settings.fog) return "fog";
   const Vec3d ambient = scene.ambient_light;
-  const bool soft =
-      std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& light) { return light.radius > 0; });
-  if (soft && settings.shadows) return "soft shadows";
+  if (has_soft_light(scene) && settings.shadows) return "soft shadows";
   if (ambient.x != 1 || ambient.y != 1 || ambient.z != 1) return "ambient light of another strength";
-  if (std::any_of(scene.materials.begin(), scene.materials.end(), has_effect)) return "such materials";
+  if (has_effects(scene)) return "such materials";
   return "";
 }
 

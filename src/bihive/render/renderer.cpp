@@ -56,8 +56,7 @@ class Renderer {
         counts_(tiles_.size()),
         ranges_(tiles_.size(), kNoRange),
         passes_(settings.view == View::distance ? 2 : 1) {
-    const auto is_soft = [](const PointLight& light) { return light.radius > 0; };
-    if (settings_.shadows && std::any_of(scene.lights.begin(), scene.lights.end(), is_soft))
+    if (settings_.shadows && has_soft_light(scene))
       light_points_.emplace(settings_.light_points, settings_.samples_per_pixel);
     if (settings_.ambient_occlusion) ambient_.emplace(*settings_.ambient_occlusion, settings_.samples_per_pixel);
     for (int i = 0; i < settings_.samples_per_pixel; ++i)

@@ -21,6 +21,11 @@ struct Material {
   int bands = 0;                ///< the diffuse light is rounded to so many even steps; 0 = smooth
 };
 
+/// Whether tint, bands or glow, which are not of the thesis, change its answer.
+inline bool has_effects(const Material& material) {
+  return material.tint != 0 || material.bands != 0 || material.glow != 0;
+}
+
 /// Table 4.1.
 inline Material red_material() {
   return {{0.9, 0.3, 0.3}, 0.30, 0.30, 0.30, 0.10, 40, 0.00, 0.00};

@@ -1,6 +1,19 @@
 #include "bihive/scene/scene.h"
 
+#include <algorithm>
+
 namespace bihive {
+
+bool has_soft_light(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const PointLight& light) { return light.radius > 0; });
+}
+
+bool has_effects(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& material) { return has_effects(material); }) ||
+         (scene.plane && has_effects(scene.plane->material));
+}
 
 Material material_of(const Scene& scene, std::int64_t sphere_id) {
   const auto i = static_cast<std::size_t>(sphere_id);

@@ -75,6 +75,12 @@ inline std::int64_t input_id(const Scene& scene, std::int64_t id) {
   return id < 0 || scene.id_in_input.empty() ? id : scene.id_in_input[static_cast<std::size_t>(id)];
 }
 
+/// Whether some light throws soft shadows.
+bool has_soft_light(const Scene& scene);
+
+/// Whether a material of the list or of the plane has effects.
+bool has_effects(const Scene& scene);
+
 /// The material of one sphere: its material from the list. A colour attribute replaces the colour. An opacity a below 1
 /// scales ambient, diffuse and specular by a, and 1 - a of the light goes straight through (index 1).
 Material material_of(const Scene& scene, std::int64_t sphere_id);

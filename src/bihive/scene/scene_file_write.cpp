@@ -33,10 +33,6 @@ std::string text(const std::string& value) {
   return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-bool has_effects(const Material& m) {
-  return m.tint != 0 || m.bands != 0 || m.glow != 0;
-}
-
 // With the comma before them, or nothing.
 std::string effect_members(const Material& m) {
   if (!has_effects(m)) return "";
@@ -132,12 +128,11 @@ int version_of(const Scene& scene) {
   const PictureDefaults& picture = scene.picture;
   const bool effects =
       picture.ambient_occlusion || picture.outline || picture.fog || !light_points_member(picture.light_points).empty();
-  const bool soft =
-      std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& light) { return light.radius != 0; });
-  const bool materials = std::any_of(scene.materials.begin(), scene.materials.end(), has_effects) ||
-                         (scene.plane && has_effects(scene.plane->material));
   const bool parallel = scene.camera.projection != Projection::perspective;
-  return effects || soft || materials || has_ambient_light(scene) || parallel || picture.transparent ? 2 : 1;
+  return effects || has_soft_light(scene) || has_effects(scene) || has_ambient_light(scene) || parallel ||
+                 picture.transparent
+             ? 2
+             : 1;
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "bihive/render/wave/wave.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -89,12 +87,8 @@ HWY_EXPORT(find_surfaces_on_target);
 WaveScene::WaveScene(const Scene& drawn)
     : scene(&drawn), inverse_scale(drawn.spheres.inverse_scale()), materials(drawn.materials) {
   const SphereAttributes& attributes = drawn.spheres.attributes();
+  has_effects = bihive::has_effects(drawn);
   has_attributes = !attributes.colour.empty() || !attributes.opacity.empty();
-  const auto has_effect = [](const Material& material) {
-    return material.bands > 0 || material.tint > 0 || material.glow > 0;
-  };
-  has_effects =
-      std::any_of(materials.begin(), materials.end(), has_effect) || (drawn.plane && has_effect(drawn.plane->material));
   if (!drawn.plane) return;
   plane_material = static_cast<std::int64_t>(materials.size());
   Material material = drawn.plane->material;
