@@ -63,7 +63,9 @@ export async function shown_error(page) {
 /** What `bihive render` makes of an input: the bytes of a PNG. */
 export function native_picture(input, name, ...options) {
   const file = join(scratch, `${name}.png`);
-  execFileSync(process.env.BIHIVE, ['render', input, '-o', file, '--style', 'plain', ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
+  // The page draws the style plain. The thesis's scenes have a look of their own.
+  const style = /^(four-spheres|scenario[123])$/.test(input) ? [] : ['--style', 'plain'];
+  execFileSync(process.env.BIHIVE, ['render', input, '-o', file, ...style, ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
   return readFileSync(file);
 }
 
