@@ -118,7 +118,6 @@ void add_ambient_occlusion(CLI::App& app, AmbientOptions& ambient) {
 void add_style_options(CLI::App& app, StyleOptions& look) {
   add_value(app, "--style", look.name, "NAME|FILE", "The look: see bihive styles (files: default)",
             [](const std::string& text) -> Result<std::string> { return text; });
-  add_choice(app, "--material", look.material, named_materials(), "Of all spheres (the style's)");
   add_choice(app, "--light", look.lights, light_presets(), "The lights around the camera (the style's)");
   add_ambient_occlusion(app, look.ambient);
   add_integer(app, "--light-points", look.light_points, 1, kMostLightPoints,
@@ -158,6 +157,8 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
       [&looks](const std::string& text) { return looks.set_nan_colour(text); });
   add("--opacity", "F", "Their opacity, 0 (clear) to 1",
       [&looks](const std::string& text) { return looks.opacity(text); });
+  add("--material", list_of(named_materials()), "Their material (the style's)",
+      [&looks](const std::string& text) { return looks.material(text); });
   add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
       [&looks, &input](const std::string& text) -> Status {
         if (looks.selected) return looks.radius_scale(text);

@@ -4,6 +4,7 @@
 
 #include "bihive/base/write_file.h"
 #include "bihive/scene/element_colours.h"
+#include "bihive/scene/named_materials.h"
 #include "bihive/select/selection.h"
 #include "support/failure.h"
 #include "support/messages.h"
@@ -86,6 +87,14 @@ Status LookOptions::opacity(const std::string& text) {
   if (!value) return value.error();
   add(SetOpacity{*value}, "--opacity");
   words.push_back("--opacity " + text);
+  return Done{};
+}
+
+Status LookOptions::material(const std::string& text) {
+  const Result<Material> material = choice_from(text, named_materials());
+  if (!material) return material.error();
+  add(SetMaterial{*material}, "--material");
+  words.push_back("--material " + text);
   return Done{};
 }
 

@@ -27,6 +27,7 @@ struct LookOptions {
   Status colour_by(const std::string& text);
   Status set_nan_colour(const std::string& text);
   Status opacity(const std::string& text);
+  Status material(const std::string& text);
   Status radius_scale(const std::string& text);
   /// --no-hydrogens and --no-water: hide what the word selects; the selection of the next actions stays.
   void hide_word(const std::string& option, const std::string& word);

@@ -30,6 +30,17 @@ class Looks(ProgramTest):
         left, middle, right = self.middles("--hide", "--select", "x = 0", "--show")
         self.assertEqual([left, middle, right], [(0, 0, 0), all_three[1], (0, 0, 0)])
 
+    def test_a_material_is_for_the_selection(self):
+        before = self.middles("--colour", "red")
+        flat = self.middles("--colour", "red", "--select", "part left", "--material", "flat")
+        self.assertEqual(flat[0], (255, 0, 0))
+        self.assertNotEqual(before[0], flat[0])
+        self.assertEqual(before[1:], flat[1:])
+        self.write("s.json", json.dumps({
+            "bihive_scene": 2, "spheres": {"file": "a.csv"},
+            "looks": [{"colour": "red"}, {"select": "part left", "material": "flat"}]}))
+        self.assertEqual(self.middles(name="s.json"), flat)
+
     def test_the_order_of_the_options_counts(self):
         def is_red(pixel):
             return pixel[0] > 100 and pixel[1] < 60

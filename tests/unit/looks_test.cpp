@@ -97,6 +97,22 @@ TEST(Looks, AColourLeavesTheOthersTheColourOfTheirMaterial) {
   EXPECT_EQ(colour[2], (Vec3f{0, 0.5F, 1}));
 }
 
+TEST(Looks, AMaterialKeepsTheColoursAndStaysInStep) {
+  Scene scene = row();
+  scene.materials.resize(2);
+  scene.materials[1].colour = {1, 0, 0};
+  scene.material_of_sphere = {0, 1, 0, 1, 0};
+  Material shiny;
+  shiny.specular = 0.75;
+  apply(scene, {{"index 1 2 3", {SetMaterial{shiny}}}, {"index 2", {SetShown{false}}}});
+  ASSERT_EQ(scene.spheres.size(), 4);
+  const std::vector<Vec3d> colours{{1, 1, 1}, {1, 0, 0}, {1, 0, 0}, {1, 1, 1}};
+  for (std::int64_t id = 0; id < 4; ++id) {
+    EXPECT_EQ(material_of(scene, id).specular, id == 0 || id == 3 ? scene.materials[0].specular : 0.75) << id;
+    EXPECT_EQ(material_of(scene, id).colour, colours[static_cast<std::size_t>(id)]) << id;
+  }
+}
+
 TEST(Looks, ATextColourIsThatOfTheScreen) {
   for (const Transfer transfer : {Transfer::srgb, Transfer::none}) {
     Scene scene = row();

@@ -38,12 +38,6 @@ void apply_look(const StyleOptions& options, Input& input) {
     scene.lights = lights_around(rig, scene.camera);
     if (options.lights) scene.ambient_light = rig.ambient_light;
   }
-  if (!options.material) return;
-  // Spheres without a colour of their own keep that of their material.
-  Material material = *options.material;
-  material.colour = scene.materials.front().colour;
-  scene.materials = {material};
-  scene.material_of_sphere.clear();
 }
 
 void apply_effects(const StyleOptions& options, RenderSettings& settings) {

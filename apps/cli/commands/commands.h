@@ -12,7 +12,6 @@
 #include "bihive/render/tracer.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
-#include "bihive/scene/material.h"
 #include "bihive/scene/turn.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "look_options.h"
@@ -35,7 +34,6 @@ struct AmbientOptions {
 /// Unset: the style's or the scene's value.
 struct StyleOptions {
   std::string name;  ///< a name or a path; empty: the default one
-  std::optional<Material> material;
   std::optional<LightRig> lights;
   AmbientOptions ambient;
   std::optional<std::int64_t> light_points;

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bihive/scene/named_materials.h"
+
 namespace bihive {
 namespace {
 
@@ -30,6 +32,8 @@ Look look_from_json(const nlohmann::json& value) {
   if (value.contains("colour")) look.actions.emplace_back(SetColour{colour_from_json(value.at("colour"))});
   if (value.contains("colour_by")) look.actions.emplace_back(colour_by_from_json(value.at("colour_by")));
   if (value.contains("opacity")) look.actions.emplace_back(SetOpacity{value.at("opacity").get<double>()});
+  if (value.contains("material"))
+    look.actions.emplace_back(SetMaterial{*value_named(named_materials(), value.at("material").get<std::string>())});
   if (value.contains("radius_scale")) look.actions.emplace_back(ScaleRadius{value.at("radius_scale").get<double>()});
   return look;
 }

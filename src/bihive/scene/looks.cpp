@@ -47,6 +47,14 @@ class LookedAt {
     return Done{};
   }
 
+  Status operator()(const SetMaterial& action) {
+    take_colours();
+    if (materials_.empty()) material_of_ = scene_.material_of_sphere;
+    set(material_of_, std::int32_t{0}, static_cast<std::int32_t>(scene_.materials.size() + materials_.size()));
+    materials_.push_back(action.material);
+    return Done{};
+  }
+
   Status operator()(const ScaleRadius& action) {
     if (!(action.factor >= 0) || !std::isfinite(action.factor))
       return look_error("a factor for radii is finite and at least 0");
@@ -67,6 +75,10 @@ class LookedAt {
       if (set->empty()) return look_error("every sphere is hidden", "show some of them");
       set->attributes() = std::move(scene.spheres.attributes());
       if (!shown_.empty()) set->attributes().keep_only(shown_);
+    }
+    if (!materials_.empty()) {
+      scene.materials.insert(scene.materials.end(), materials_.begin(), materials_.end());
+      scene.material_of_sphere = std::move(material_of_);
     }
     if (!shown_.empty()) {
       keep_entries(scene.material_of_sphere, shown_);
@@ -122,6 +134,8 @@ class LookedAt {
   std::vector<std::uint8_t> mask_, shown_;
   std::vector<Vec3f> colours_;
   std::vector<float> opacities_;
+  std::vector<Material> materials_;  // behind those of the scene
+  std::vector<std::int32_t> material_of_;
   std::vector<double> factors_;
 };
 

@@ -1,5 +1,5 @@
-// How selected spheres look: hidden, coloured, clearer, smaller. The options of `bihive render` behind --select, and
-// the key `looks` of scene files.
+// How selected spheres look: hidden, coloured, clearer, smaller, of another material. The options of `bihive render`
+// behind --select, and the key `looks` of scene files.
 #pragma once
 
 #include <cstddef>
@@ -23,11 +23,14 @@ struct SetColour {
 struct SetOpacity {
   double opacity;  ///< 0 (clear) to 1; replaces the file's
 };
+struct SetMaterial {
+  Material material;  ///< its colour is not used: spheres keep theirs
+};
 struct ScaleRadius {
   double factor;  ///< >= 0
 };
-/// One thing to do to spheres. To add a kind (a material, an outline): one more struct here, and its case in looks.cpp.
-using LookAction = std::variant<SetShown, SetColour, ColourBy, SetOpacity, ScaleRadius>;
+/// One thing to do to spheres. To add a kind (an outline): one more struct here, and its case in looks.cpp.
+using LookAction = std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius>;
 
 /// Actions on the spheres of one selection, done in their order.
 struct Look {
