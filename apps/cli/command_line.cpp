@@ -130,6 +130,9 @@ void add_style_options(CLI::App& app, StyleOptions& look) {
               return width;
             });
   add_number(app, "--fog", look.fog, 1, "F", "Share of the background where the set is deepest; 0: none (the style's)");
+  add_value(app, "--exposure", look.exposure_stops, "EV", "Stops: all light times 2^EV (the style's)",
+            [](const std::string& text) { return number_from(text, -kMostExposureStops, kMostExposureStops); });
+  add_choice(app, "--tone", look.tone, kToneCurves, "Curve for light that is too bright for the picture (the style's)");
 }
 
 // Options whose order matters: each is taken when the command line reaches it, and may occur again.
@@ -200,7 +203,9 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
             "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",
             crop_from);
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
-  add_integer(command, "--samples", options.samples, 1, 4096, "Samples a pixel (files: 4, thesis's scenes: 1)");
+  add_value(command, "--samples", options.samples, "N|auto",
+            "Samples a pixel (files: 4, thesis's scenes: 1, with --aperture 64);\nauto: 4, and 16 on edges",
+            samples_from);
   add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
   add_shadows(command, options.shadows);
   add_style_options(command, options.style);
@@ -230,6 +235,10 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
             turn_from);
   add_value(command, "--zoom", options.zoom, "F", "Draw everything F times as large (1)",
             [](const std::string& text) { return number_from(text, 0, kMostZoom, /*open=*/true); });
+  add_number(command, "--aperture", options.aperture, kLargestFloat, "R",
+             "Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)");
+  add_value(command, "--focus", options.focus, "D|auto",
+            "With an aperture: so far along the view all is sharp (auto: where the camera looks at)", focus_from);
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);

@@ -12,7 +12,7 @@
 #include "bihive/render/renderer.h"
 #include "bihive/render/wave/wave_integrator.h"
 #include "bihive/scene/generators.h"
-#include "bihive/scene/sample_pattern.h"
+#include "bihive/scene/lens_pattern.h"
 #include "bihive/simd/target.h"
 #include "support/effects_reference.h"
 #include "support/effort.h"
@@ -95,6 +95,8 @@ Scene random_scene(std::uint64_t seed) {
   scene.camera.eye = chance(0.2) ? vector(5) : Vec3d{0, 0, 30};
   scene.camera.fov_deg = between(20, 100);
   if (seed % 4 == 1) scene.camera = with_projection(scene.camera, Projection::orthographic);
+  if (seed % 4 == 3) scene.camera.aperture = 0.1 * static_cast<double>(seed % 11);
+  if (seed % 8 == 3) scene.camera.focus = 20;
   return scene;
 }
 
@@ -112,14 +114,16 @@ Expected one_after_the_other(const Scene& scene, const RenderSettings& settings)
   const LightPointSets points(settings.light_points, settings.samples_per_pixel);
   Integrator integrator(scene, tracer, settings.recursion, settings.shadows, ambient ? &*ambient : nullptr, &points);
   const test::EffectsReference effects(scene, tracer, settings);
+  const std::vector<CameraSample> samples = camera_samples(settings.samples_per_pixel);
   Expected expected{Film(settings.width_px, settings.height_px), {}};
   for (int y = 0; y < settings.height_px; ++y)
     for (int x = 0; x < settings.width_px; ++x) {
       Vec3d sum;
       for (int i = 0; i < settings.samples_per_pixel; ++i) {
-        const SamplePlace place = sample_place(i, settings.samples_per_pixel);
-        const Vec3d light = integrator.radiance(pixels.at(x + place.x, y + place.y), i);
-        sum = sum + effects.applied(x + place.x, y + place.y, light);
+        const auto& [place, lens] = samples[static_cast<std::size_t>(i)];
+        Vec3d light = integrator.radiance(pixels.at(x + place.x, y + place.y, lens), i);
+        if (integrator.deepest_hit() > 0) light = toned(light, settings.tone, exposure_factor(settings.tone));
+        sum = sum + effects.applied(x + place.x, y + place.y, lens, light);
       }
       expected.film.at(x, y) = to_float(sum / settings.samples_per_pixel);
     }
@@ -164,6 +168,7 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
     settings.light_points = 1 + static_cast<int>(seed % 4);
     if (seed % 5 == 0) settings.outline = Outline{1 + 0.5 * static_cast<double>(seed % 3), 0.3, {0.2, 0, 0.1}};
     if (seed % 5 < 2) settings.fog = Fog{0.1, 0.8, 0.7};
+    if (seed % 7 < 4) settings.tone = {0.3 * static_cast<double>(seed % 6) - 0.5, static_cast<ToneCurve>(seed % 3)};
     if (seed % 3 == 0) settings.ambient_occlusion = {seed % 2 == 0 ? 3.0 : AmbientOcclusion{}.distance, 5};
     const Expected expected = one_after_the_other(scene, settings);
     for (const Engine engine : {Engine::wide, Engine::reference}) {

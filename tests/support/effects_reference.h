@@ -29,10 +29,10 @@ class EffectsReference {
     nearest_ = std::min(std::max(nearest_, 0.0), farthest_);
   }
 
-  /// Of the light through a place of the picture.
-  Vec3d applied(double x, double y, Vec3d light) const {
-    const Seen here = seen(x, y);
-    if (settings_.outline && here.id >= 0 && is_outlined(x, y, here)) {
+  /// Of the light through a place of the picture and of the lens.
+  Vec3d applied(double x, double y, LensPlace lens, Vec3d light) const {
+    const Seen here = seen(x, y, lens);
+    if (settings_.outline && here.id >= 0 && is_outlined(x, y, lens, here)) {
       const double pixel = length(pixels_.right()) * (pixels_.parallel() ? 1 : here.depth);
       const double widths = scene_.spheres.radius(here.id) / (pixel * settings_.outline->width_px);
       const auto line = static_cast<double>(static_cast<float>(std::clamp((widths - 2) / 4, 0.0, 1.0)));
@@ -53,20 +53,20 @@ class EffectsReference {
     std::int64_t id;
   };
 
-  Seen seen(double x, double y) const {
-    const Ray ray = pixels_.at(x, y);
+  Seen seen(double x, double y, LensPlace lens) const {
+    const Ray ray = pixels_.at(x, y, lens);
     const SceneHit hit = scene_hit(scene_, tracer_, ray);
     if (!hit.found()) return {std::numeric_limits<double>::infinity(), kNothing};
     return {hit.t * dot(to_double(ray.direction), pixels_.forward()), hit.id};
   }
 
-  bool is_outlined(double x, double y, Seen here) const {
+  bool is_outlined(double x, double y, LensPlace lens, Seen here) const {
     const double width = settings_.outline->width_px;
     const double limit = here.depth + settings_.outline->step * scene_.spheres.radius(here.id);
     for (int dy = -16; dy <= 16; ++dy)
       for (int dx = -16; dx <= 16; ++dx) {
         if (dx * dx + dy * dy > width * width) continue;
-        const Seen there = seen(x + dx, y + dy);
+        const Seen there = seen(x + dx, y + dy, lens);
         if (there.id != here.id && there.depth > limit) return true;
       }
     return false;

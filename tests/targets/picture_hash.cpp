@@ -3,7 +3,7 @@
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
 // molecule; recursion 1 to 5, ambient occlusion, soft shadows with effects of materials, outlines and fog, every view,
-// parallel rays, a part with opacity, the sRGB curve, shadows, several samples.
+// parallel rays, a lens, tone curves, adaptive samples, a part with opacity, the sRGB curve, shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -138,6 +138,24 @@ bool print_orthographic(bihive::Scene scene) {
   return print_hash(scene, settings, "tree orthographic") && good;
 }
 
+// Pictures with tone curves, by a lens, with more samples on edges.
+bool print_photographs(bihive::Scene scene) {
+  bihive::RenderSettings settings = bihive::settings_from(scene.picture);
+  settings.width_px = kWidthPx;
+  settings.height_px = kHeightPx;
+  settings.recursion = 2;
+  settings.tone = {0.75, bihive::ToneCurve::soft};
+  bool good = print_hash(scene, settings, "shaded with a soft tone");
+  settings.tone = {-0.5, bihive::ToneCurve::filmic};
+  settings.adaptive_samples = true;
+  good = print_hash(scene, settings, "shaded with a filmic tone and adaptive samples") && good;
+  settings.adaptive_samples = false;
+  settings.tone = {};
+  settings.samples_per_pixel = 5;
+  scene.camera.aperture = 0.02 * length(scene.camera.look_at - scene.camera.eye);
+  return print_hash(scene, settings, "shaded by a lens") && good;
+}
+
 // All pictures of one scene.
 bool print_hashes(const bihive::Scene& scene) {
   bool good = true;
@@ -161,6 +179,7 @@ bool print_hashes(const bihive::Scene& scene) {
     settings.view = view;
     good = print_hash(scene, settings, name) && good;
   }
+  good = print_photographs(scene) && good;
   return print_orthographic(scene) && good;
 }
 

@@ -406,6 +406,8 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.camera.up, b.camera.up);
   EXPECT_EQ(a.camera.fov_deg, b.camera.fov_deg);
   EXPECT_EQ(a.camera.projection, b.camera.projection);
+  EXPECT_EQ(a.camera.aperture, b.camera.aperture);
+  EXPECT_EQ(a.camera.focus, b.camera.focus);
   EXPECT_TRUE(a.camera.shorter_side == b.camera.shorter_side || a.camera.projection == Projection::perspective);
   EXPECT_EQ(a.background, b.background);
   EXPECT_EQ(a.ambient_light, b.ambient_light);
@@ -429,6 +431,9 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.picture.shadows, b.picture.shadows);
   EXPECT_EQ(a.picture.transfer, b.picture.transfer);
   EXPECT_EQ(a.picture.transparent, b.picture.transparent);
+  EXPECT_EQ(a.picture.adaptive_samples, b.picture.adaptive_samples);
+  EXPECT_EQ(a.picture.tone.exposure_stops, b.picture.tone.exposure_stops);
+  EXPECT_EQ(a.picture.tone.curve, b.picture.tone.curve);
   ASSERT_EQ(a.picture.ambient_occlusion.has_value(), b.picture.ambient_occlusion.has_value());
   if (a.picture.ambient_occlusion) {
     EXPECT_EQ(a.picture.ambient_occlusion->distance, b.picture.ambient_occlusion->distance);
@@ -527,6 +532,27 @@ TEST(SceneFileWriting, ATransparentPictureComesBackInVersion2) {
   expect_there_and_back(scene);
 }
 
+TEST(SceneFileWriting, ToneLensAndAdaptiveSamplesComeBackInVersion2) {
+  const std::vector<std::function<void(Scene&)>> changes{
+      [](Scene& scene) { scene.picture.tone.exposure_stops = -0.3; },
+      [](Scene& scene) { scene.picture.tone.curve = ToneCurve::filmic; },
+      [](Scene& scene) { scene.camera.aperture = 0.7; },
+      [](Scene& scene) {
+        scene.camera.aperture = 0.1;
+        scene.camera.focus = 12.3;
+      },
+      [](Scene& scene) {
+        scene.picture.adaptive_samples = true;
+        scene.picture.samples_per_pixel = 4;
+      }};
+  for (const auto& change : changes) {
+    Scene scene = four_spheres_scene();
+    change(scene);
+    EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 2,"));
+    expect_there_and_back(scene);
+  }
+}
+
 TEST(SceneFile, OrthographicWithoutAShorterSideShowsWhatTheAngleShows) {
   const auto loaded = parse(R"({"bihive_scene": 2, "camera": {"eye": [0, 0, 10], "look_at": [0, 0, 0], "fov_deg": 90,
                              "projection": "orthographic"}, "spheres": [[0,0,0,1]]})");
@@ -552,9 +578,13 @@ TEST(SceneFileErrors, ABadProjection) {
 }
 
 TEST(SceneFileErrors, ANewKeyNeedsItsVersion) {
-  for (const char* text : {R"("lights": [{"position": [0, 0, 0], "radius": 1}])", R"("ambient_light": [1, 1, 1])",
-                           R"("materials": [{"name": "a", "tint": 1}])", R"("picture": {"outline": {}})",
-                           R"("picture": {"fog": {}})", R"("picture": {"light_points": 2})"})
+  for (const char* text :
+       {R"("lights": [{"position": [0, 0, 0], "radius": 1}])", R"("ambient_light": [1, 1, 1])",
+        R"("materials": [{"name": "a", "tint": 1}])", R"("picture": {"outline": {}})", R"("picture": {"fog": {}})",
+        R"("picture": {"light_points": 2})", R"("picture": {"exposure": 1})", R"("picture": {"tone": "none"})",
+        R"("picture": {"samples_per_pixel": "auto"})",
+        R"("camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0], "aperture": 0})",
+        R"("camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0], "focus": 1})"})
     EXPECT_THAT(error_of(std::string(R"({"bihive_scene": 1, "spheres": [[0,0,0,1]], )") + text + "}"),
                 HasSubstr("expected no such key in version 1 of the format"));
   EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"transparent": false}, "spheres": [[0,0,0,1]]})"),

@@ -43,6 +43,7 @@ TEST(Style, a_file_states_every_part) {
       "colour": [0.1, 0.2, 0.3], "element_colours": "soft", "background": [0, 0.5, 1], "ambient_light": [1, 2, 3],
       "lights": [{"direction": [0, 2, 0], "colour": [0.5, 0.5, 0.5], "angle_deg": 20}],
       "picture": {"samples_per_pixel": 9, "recursion": 2, "shadows": false, "light_points": 3,
+                  "exposure": 0.5, "tone": "soft",
                   "ambient_occlusion": {"distance": 4, "directions": 5},
                   "outline": {"width_px": 2, "step": 1.5, "colour": [1, 0, 0]},
                   "fog": {"start": 0.25, "end": 0.75, "strength": 1}}})",
@@ -59,6 +60,8 @@ TEST(Style, a_file_states_every_part) {
   EXPECT_EQ(style.lights.ambient_light, (Vec3d{1, 2, 3}));
   EXPECT_FALSE(style.lights.light_behind);
   EXPECT_EQ(style.picture.samples_per_pixel, 9);
+  EXPECT_EQ(style.picture.tone.exposure_stops, 0.5);
+  EXPECT_EQ(style.picture.tone.curve, ToneCurve::soft);
   EXPECT_EQ(style.picture.recursion, 2);
   EXPECT_FALSE(style.picture.shadows);
   EXPECT_EQ(style.picture.light_points, 3);

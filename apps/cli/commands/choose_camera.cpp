@@ -54,6 +54,10 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   camera = with_projection(camera, projection);
   if (options.turn && (user_places || !fitted)) camera = turned(camera, *options.turn);
   camera = enlarged(camera, options.zoom.value_or(1));
+  camera.aperture = options.aperture.value_or(input.scene.camera.aperture);
+  camera.focus = options.focus.value_or(input.scene.camera.focus);
+  if (options.focus && camera.aperture == 0)
+    fail_usage("--focus changes nothing without an aperture", "give the radius of the lens by --aperture");
   if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
   return camera;
 }

@@ -53,6 +53,8 @@ void apply_effects(const StyleOptions& options, RenderSettings& settings) {
     fog.strength = *options.fog;
     settings.fog = fog.strength > 0 ? std::optional<Fog>(fog) : std::nullopt;
   }
+  settings.tone.exposure_stops = options.exposure_stops.value_or(settings.tone.exposure_stops);
+  settings.tone.curve = options.tone.value_or(settings.tone.curve);
 }
 
 std::string beyond_gpu(const Scene& scene, const RenderSettings& settings) {

@@ -38,6 +38,8 @@ struct StyleOptions {
   AmbientOptions ambient;
   std::optional<std::int64_t> light_points;
   std::optional<double> outline_px, fog;  ///< 0: none
+  std::optional<double> exposure_stops;
+  std::optional<ToneCurve> tone;
 };
 
 /// Unset: the scene's value.
@@ -52,7 +54,8 @@ struct RenderOptions {
   std::string output;  ///< a path, or kStandardOutput
   std::optional<PictureSize> size;
   std::optional<Tile> crop;  ///< not yet compared with the size
-  std::optional<std::int64_t> recursion, samples;
+  std::optional<std::int64_t> recursion;
+  std::optional<std::int64_t> samples;  ///< or kAutomaticSamples
   View view = View::shaded;
   RenderEngine engine = RenderEngine::automatic;
   TreeParameters tree;
@@ -68,7 +71,9 @@ struct RenderOptions {
   std::optional<ViewFrom> view_from;
   std::optional<Projection> projection;
   std::optional<Turn> turn;
-  std::optional<double> zoom;  ///< above 0
+  std::optional<double> zoom;      ///< above 0
+  std::optional<double> aperture;  ///< world units, at least 0
+  std::optional<double> focus;     ///< world units; 0: where the camera looks at
   bool json = false;
 };
 void run_render(const RenderOptions& options);

@@ -82,6 +82,10 @@ void describe_effects(const RenderSettings& settings, const Scene& scene, ordere
     if (light.radius > 0) json["light_points"] = settings.light_points;
   if (settings.outline) json["outline_px"] = settings.outline->width_px;
   if (settings.fog) json["fog"] = settings.fog->strength;
+  if (settings.tone.any()) {
+    json["exposure"] = settings.tone.exposure_stops;
+    json["tone"] = name_of(kToneCurves, settings.tone.curve);
+  }
 }
 
 // Everything that decides the picture, for its text chunk. Threads and engine do not.
@@ -92,7 +96,8 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   json["width_px"] = settings.width_px;
   json["height_px"] = settings.height_px;
   if (settings.crop) json["crop"] = {settings.crop->x0, settings.crop->y0, settings.crop->x1, settings.crop->y1};
-  json["samples_per_pixel"] = settings.samples_per_pixel;
+  json["samples_per_pixel"] =
+      settings.adaptive_samples ? ordered_json("auto") : ordered_json(settings.samples_per_pixel);
   json["recursion"] = settings.recursion;
   json["shadows"] = settings.shadows;
   describe_effects(settings, scene, json);
@@ -108,6 +113,10 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   if (scene.camera.projection == Projection::orthographic) {
     json["camera"]["projection"] = name_of(kProjections, scene.camera.projection);
     json["camera"]["shorter_side"] = scene.camera.shorter_side;
+  }
+  if (scene.camera.aperture > 0) {
+    json["camera"]["aperture"] = scene.camera.aperture;
+    json["camera"]["focus"] = focus_distance(scene.camera);
   }
   if (shows_reference_tree(settings.view)) {
     const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
@@ -197,6 +206,20 @@ Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings
   return drawn;
 }
 
+// The samples of a picture with --aperture and without --samples: so many places on the lens are hardly seen one by
+// one.
+constexpr int kLensSamples = 64;
+
+void choose_samples(const RenderOptions& options, RenderSettings& settings) {
+  if (options.samples) {
+    settings.adaptive_samples = *options.samples == kAutomaticSamples;
+    if (!settings.adaptive_samples) settings.samples_per_pixel = static_cast<int>(*options.samples);
+  } else if (options.aperture.value_or(0) > 0) {
+    settings.adaptive_samples = false;
+    settings.samples_per_pixel = std::max(settings.samples_per_pixel, kLensSamples);
+  }
+}
+
 // Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
 // user's options are the result.
 RenderSettings apply_options(const RenderOptions& options, Input& input) {
@@ -209,7 +232,7 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
     fail_usage(
         fmt::format("--crop ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
         "give the size of the whole picture by --size");
-  settings.samples_per_pixel = static_cast<int>(options.samples.value_or(settings.samples_per_pixel));
+  choose_samples(options, settings);
   settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
   settings.shadows = options.shadows.value_or(settings.shadows);
   apply_effects(options.style, settings);
@@ -223,6 +246,9 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
     fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
                "give a colour by --background, or choose another view");
   scene.camera = choose_camera(input, options, settings);
+  if (settings.adaptive_samples && scene.camera.aperture > 0)
+    fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
+               "give a number: --samples 64");
   apply_look(options.style, input);
   return settings;
 }
@@ -235,6 +261,10 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   };
   if (const std::string beyond = beyond_gpu(scene, settings); settings.view == View::shaded && !beyond.empty())
     refuse(beyond, "without it: --style plain");
+  if (settings.view == View::shaded && settings.tone.any())
+    refuse("exposure and tone curve", "without them: --exposure 0 --tone none");
+  if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: --samples 4");
+  if (scene.camera.aperture > 0) refuse("depth of field", "without it: --aperture 0");
   if (settings.crop) refuse("part of a picture", "the whole picture without --crop");
   if (settings.transparent) refuse("transparent background", "on a colour: --background white");
 }

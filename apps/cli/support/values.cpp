@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "bihive/bih/tree.h"
@@ -121,6 +122,21 @@ Result<Tile> crop_from(const std::string& text) {
   if (n.size() == 4 && n[0] >= 0 && n[1] >= 0 && n[0] < n[2] && n[1] < n[3] && n[2] <= kLargest && n[3] <= kLargest)
     return Tile{n[0], n[1], n[2], n[3]};
   return unexpected("four whole numbers X0,Y0,X1,Y1 from 0 to 65535, X0 below X1 and Y0 below Y1", text);
+}
+
+Result<std::int64_t> samples_from(const std::string& text) {
+  if (text == "auto") return kAutomaticSamples;
+  constexpr std::int64_t kMost = 4096;
+  const std::optional<std::int64_t> value = whole<std::int64_t>(text);
+  if (value && *value >= 1 && *value <= kMost) return *value;
+  return unexpected("a whole number from 1 to " + std::to_string(kMost) + " or \"auto\"", text);
+}
+
+Result<double> focus_from(const std::string& text) {
+  if (text == "auto") return 0.0;
+  const std::optional<double> value = whole<double>(text);
+  if (value && *value > 0 && *value <= double(std::numeric_limits<float>::max())) return *value;
+  return unexpected("a number above 0 and up to 3.4e38 or \"auto\"", text);
 }
 
 Result<std::int64_t> bits_from(const std::string& text) {

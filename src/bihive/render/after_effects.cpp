@@ -38,15 +38,15 @@ AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, cons
   }
 }
 
-void AfterEffects::find(const Tile& tile, const std::vector<SamplePlace>& places, const CancelToken* cancel,
+void AfterEffects::find(const Tile& tile, const std::vector<CameraSample>& camera_samples, const CancelToken* cancel,
                         EffectBuffers& buffers) const {
   const Tile grown{tile.x0 - border_, tile.y0 - border_, tile.x1 + border_, tile.y1 + border_};
   const std::int64_t row = grown.x1 - grown.x0;
   const std::int64_t width = tile.x1 - tile.x0;
-  const std::size_t samples = places.size();
+  const std::size_t samples = camera_samples.size();
   buffers.effects.resize(static_cast<std::size_t>(width * (tile.y1 - tile.y0)) * samples);
   for (std::size_t sample = 0; sample < samples; ++sample) {
-    find_depths(grown, places[sample], cancel, buffers);
+    find_depths(grown, camera_samples[sample], cancel, buffers);
     if (cancel != nullptr && cancel->cancelled()) return;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
@@ -60,13 +60,12 @@ void AfterEffects::find(const Tile& tile, const std::vector<SamplePlace>& places
 }
 
 // The first hits through one place of each pixel. The rays are in blocks, as the queries for many rays like them.
-void AfterEffects::find_depths(const Tile& grown, SamplePlace place, const CancelToken* cancel,
+void AfterEffects::find_depths(const Tile& grown, const CameraSample& sample, const CancelToken* cancel,
                                EffectBuffers& buffers) const {
   const std::int64_t row = grown.x1 - grown.x0;
   const std::int64_t all = row * (grown.y1 - grown.y0);
   WaveBuffers& rays = buffers.rays;
-  rays.x.reserve(all);
-  rays.y.reserve(all);
+  rays.reserve_positions(all);
   buffers.depth.resize(static_cast<std::size_t>(all));
   buffers.id.resize(static_cast<std::size_t>(all));
   buffers.place.resize(static_cast<std::size_t>(all));
@@ -75,8 +74,10 @@ void AfterEffects::find_depths(const Tile& grown, SamplePlace place, const Cance
     for (int x0 = grown.x0; x0 < grown.x1; x0 += kBlockPx)
       for (int y = y0; y < std::min(y0 + kBlockPx, grown.y1); ++y)
         for (int x = x0; x < std::min(x0 + kBlockPx, grown.x1); ++x) {
-          rays.x[count] = x + place.x;
-          rays.y[count] = y + place.y;
+          rays.x[count] = x + sample.place.x;
+          rays.y[count] = y + sample.place.y;
+          rays.lens_x[count] = sample.lens.x;
+          rays.lens_y[count] = sample.lens.y;
           buffers.place[static_cast<std::size_t>(count)] =
               static_cast<std::int32_t>((y - grown.y0) * row + (x - grown.x0));
           ++count;
@@ -85,7 +86,7 @@ void AfterEffects::find_depths(const Tile& grown, SamplePlace place, const Cance
   wave.reset(count);
   wave.count = count;
   wave.starts_at_eye = true;
-  steps::camera_rays(rays_, rays.x.data(), rays.y.data(), wave);
+  steps::camera_rays(rays_, rays.positions(), wave);
   WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel);
   integrator.find_first_hits(rays);
   for (std::int64_t i = 0; i < count; ++i) {

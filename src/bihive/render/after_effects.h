@@ -8,8 +8,8 @@
 #include "bihive/image/film.h"
 #include "bihive/render/tracer.h"
 #include "bihive/render/wave/wave_integrator.h"
+#include "bihive/scene/lens_pattern.h"
 #include "bihive/scene/render_settings.h"
-#include "bihive/scene/sample_pattern.h"
 
 namespace bihive {
 
@@ -39,14 +39,15 @@ class AfterEffects {
 
   /// Looks at the first hits of all samples of the tile and of the pixels around it, which are rays of their own also
   /// beyond the picture's edge; so each pixel is the same in every tile.
-  void find(const Tile& tile, const std::vector<SamplePlace>& places, const CancelToken* cancel,
+  void find(const Tile& tile, const std::vector<CameraSample>& samples, const CancelToken* cancel,
             EffectBuffers& buffers) const;
 
   /// The light of sample `sample` of a pixel of the tile of the last find().
   Vec3d applied(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample, Vec3d light) const;
 
  private:
-  void find_depths(const Tile& grown, SamplePlace place, const CancelToken* cancel, EffectBuffers& buffers) const;
+  void find_depths(const Tile& grown, const CameraSample& sample, const CancelToken* cancel,
+                   EffectBuffers& buffers) const;
   double outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const;
   double fog_at(double depth) const;
 

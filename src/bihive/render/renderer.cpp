@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -12,12 +13,13 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "bihive/render/after_effects.h"
+#include "bihive/render/edge_pixels.h"
 #include "bihive/render/pixel_order.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/render/views.h"
 #include "bihive/render/wave/wave_integrator.h"
-#include "bihive/scene/sample_pattern.h"
+#include "bihive/scene/lens_pattern.h"
 
 namespace bihive {
 namespace {
@@ -30,12 +32,34 @@ constexpr int kScalarTilePx = 16;
 // Outlines and fog keep something for each sample of a tile, so there are small tiles if there are many samples.
 constexpr int kSamplesOfLargeTiles = 64;
 
+// Every pixel gets so many samples first.
+int first_samples(const RenderSettings& settings) {
+  return settings.adaptive_samples ? kFewSamples : settings.samples_per_pixel;
+}
+
+bool is_adaptive(const RenderSettings& settings) {
+  return settings.adaptive_samples && settings.view == View::shaded;
+}
+
 int tile_px(const Tracer& tracer, const RenderSettings& settings) {
-  const bool small = (settings.outline || settings.fog) && settings.samples_per_pixel > kSamplesOfLargeTiles;
+  const bool small = (settings.outline || settings.fog) && first_samples(settings) > kSamplesOfLargeTiles;
   return tracer.engine() == Engine::wide && !small ? kTilePx : kScalarTilePx;
 }
 
 constexpr DistanceRange kNoRange{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+// The samples of a pixel, and the directions and points that they take.
+struct SampleSet {
+  SampleSet(const Scene& scene, const RenderSettings& settings, int count) : places(camera_samples(count)) {
+    if (settings.shadows && has_soft_light(scene)) light_points.emplace(settings.light_points, count);
+    if (settings.ambient_occlusion) ambient.emplace(*settings.ambient_occlusion, count);
+  }
+  std::int64_t count() const { return static_cast<std::int64_t>(places.size()); }
+
+  std::vector<CameraSample> places;
+  std::optional<AmbientRays> ambient;
+  std::optional<LightPointSets> light_points;
+};
 
 // The state of an unfinished picture.
 class Renderer {
@@ -55,12 +79,12 @@ class Renderer {
         tiles_(tiles_of(drawn_, tile_px(tracer, settings))),
         counts_(tiles_.size()),
         ranges_(tiles_.size(), kNoRange),
-        passes_(settings.view == View::distance ? 2 : 1) {
-    if (settings_.shadows && has_soft_light(scene))
-      light_points_.emplace(settings_.light_points, settings_.samples_per_pixel);
-    if (settings_.ambient_occlusion) ambient_.emplace(*settings_.ambient_occlusion, settings_.samples_per_pixel);
-    for (int i = 0; i < settings_.samples_per_pixel; ++i)
-      places_.push_back(sample_place(i, settings_.samples_per_pixel));
+        passes_(settings.view == View::distance || is_adaptive(settings) ? 2 : 1),
+        first_set_(scene, settings, first_samples(settings)) {
+    if (is_adaptive(settings)) {
+      second_set_.emplace(scene, settings, kManySamples);
+      edges_.resize(drawn_.width(), drawn_.height());
+    }
     film_.resize(drawn_.width(), drawn_.height(), settings_.transparent);
   }
 
@@ -68,14 +92,16 @@ class Renderer {
   void run(std::size_t first, std::size_t end) {
     const std::size_t pass = first / tiles_.size();
     const std::size_t offset = first - pass * tiles_.size();
-    // The distance view first needs the range of distances.
-    const bool finds_range = pass + 1 < passes_;
-    if (passes_ == 2 && pass == 1 && offset == 0) join_ranges();
+    // The distance view first needs the range of distances, and adaptive samples need a first picture.
+    const bool finds_range = settings_.view == View::distance && pass == 0;
+    if (pass == 1 && offset == 0) begin_second_pass();
     parallel_for(settings_.threads, static_cast<std::int64_t>(end - first), [&](std::int64_t i) {
       if (cancelled()) return;
       const std::size_t tile = offset + static_cast<std::size_t>(i);
       if (finds_range)
         find_distance_range(tile);
+      else if (pass == 1 && second_set_)
+        refine_tile(tiles_[tile], counts_[tile]);
       else
         render_tile(tiles_[tile], counts_[tile]);
       report_progress();
@@ -91,22 +117,24 @@ class Renderer {
     Rendered rendered;
     const bool is_whole =
         drawn_.width() == drawn_pixels(settings_).width() && drawn_.height() == drawn_pixels(settings_).height();
-    rendered.film = is_whole ? std::move(film_) : part_of(film_, *settings_.crop);
-    for (const RenderCounts& tile : counts_) {
-      rendered.rays.primary += tile.primary;
-      rendered.rays.shadow += tile.shadow;
-      rendered.rays.reflected += tile.reflected;
-      rendered.rays.transmitted += tile.transmitted;
-      rendered.rays.ambient += tile.ambient;
-    }
+    rendered.film = is_whole ? std::move(film_) : part_of(film_, in_film(*settings_.crop));
+    for (const RenderCounts& tile : counts_) add(tile, rendered.rays);
     return rendered;
   }
 
  private:
-  // The range of distances is that of the whole picture.
+  // The range of distances is that of the whole picture. Adaptive samples look at the pixels around each pixel.
   static Tile pixels_to_draw(const RenderSettings& settings) {
     const Tile whole{0, 0, settings.width_px, settings.height_px};
-    return settings.view == View::distance ? whole : drawn_pixels(settings);
+    if (settings.view == View::distance) return whole;
+    const Tile part = drawn_pixels(settings);
+    const int border = is_adaptive(settings) ? 1 : 0;
+    return {std::max(part.x0 - border, 0), std::max(part.y0 - border, 0), std::min(part.x1 + border, whole.x1),
+            std::min(part.y1 + border, whole.y1)};
+  }
+
+  Tile in_film(const Tile& part) const {
+    return {part.x0 - drawn_.x0, part.y0 - drawn_.y0, part.x1 - drawn_.x0, part.y1 - drawn_.y0};
   }
 
   PixelPlace film_corner() const {
@@ -121,59 +149,70 @@ class Renderer {
     if (lock.owns_lock()) progress_(static_cast<double>(done) / static_cast<double>(passes_ * tiles_.size()));
   }
 
-  // Calls use(pixels, samples, buffers, first) for parts of a tile. The samples first to first + primaries - 1 have
-  // primary rays; sample i belongs to pixel i / samples.
-  template <class Use>
-  void for_each_part(const Tile& tile, const Use& use) const {
-    // Each thread has its own, and keeps it from tile to tile and from picture to picture.
-    static thread_local WaveBuffers buffers;
+  // The pixels of a tile in the order of their rays. Each thread has its own list, and keeps it from tile to tile and
+  // from picture to picture.
+  static std::vector<PixelPlace>& pixels_of(const Tile& tile) {
     static thread_local std::vector<PixelPlace> pixels;
     order_pixels(tile, pixels);
-    const std::int64_t all = std::int64_t{tile.x1 - tile.x0} * (tile.y1 - tile.y0) * settings_.samples_per_pixel;
+    return pixels;
+  }
+
+  // Calls use(buffers, first) for parts of the first `pixel_count` pixels. The samples first to first + primaries - 1
+  // have primary rays; sample i belongs to pixel i / (samples of the set).
+  template <class Use>
+  void for_each_part(const std::vector<PixelPlace>& pixels, std::int64_t pixel_count, const SampleSet& set,
+                     const Use& use) const {
+    // Each thread has its own.
+    static thread_local WaveBuffers buffers;
+    const std::int64_t all = pixel_count * set.count();
     for (std::int64_t first = 0; first < all && !cancelled(); first += kMostRaysAtOnce) {
-      make_primaries(pixels, first, std::min(kMostRaysAtOnce, all - first), buffers);
-      use(pixels, buffers, first);
+      make_primaries(pixels, first, std::min(kMostRaysAtOnce, all - first), set, buffers);
+      use(buffers, first);
     }
   }
 
   void make_primaries(const std::vector<PixelPlace>& pixels, std::int64_t first, std::int64_t count,
-                      WaveBuffers& buffers) const {
+                      const SampleSet& set, WaveBuffers& buffers) const {
     Wave& wave = WaveIntegrator::primaries(buffers);
     wave.reset(count);
     wave.count = count;
     wave.starts_at_eye = true;
-    const std::int64_t samples = settings_.samples_per_pixel;
+    const std::int64_t samples = set.count();
     const PixelPlace* pixel = pixels.data() + first / samples;
-    if (samples == 1) return steps::camera_rays(rays_, pixel, places_[0], wave);
-    buffers.x.reserve(count);
-    buffers.y.reserve(count);
+    if (samples == 1 && !rays_.has_lens()) return steps::camera_rays(rays_, pixel, set.places[0].place, wave);
+    buffers.reserve_positions(count);
     auto sample = static_cast<std::size_t>(first % samples);
     for (std::int64_t i = 0; i < count; ++i) {
-      buffers.x[i] = pixel->x + places_[sample].x;
-      buffers.y[i] = pixel->y + places_[sample].y;
-      if (++sample < places_.size()) continue;
+      const CameraSample& at = set.places[sample];
+      buffers.x[i] = pixel->x + at.place.x;
+      buffers.y[i] = pixel->y + at.place.y;
+      buffers.lens_x[i] = at.lens.x;
+      buffers.lens_y[i] = at.lens.y;
+      if (++sample < set.places.size()) continue;
       sample = 0;
       ++pixel;
     }
-    steps::camera_rays(rays_, buffers.x.data(), buffers.y.data(), wave);
+    steps::camera_rays(rays_, buffers.positions(), wave);
   }
 
   void find_distance_range(std::size_t tile) {
-    for_each_part(tiles_[tile], [&](const auto&, WaveBuffers& buffers, std::int64_t) {
-      WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel_);
-      integrator.find_first_hits(buffers);
-      const RaySpan rays = WaveIntegrator::primaries(buffers).span();
-      for (std::int64_t i = 0; i < rays.count; ++i) {
-        const SceneHit hit{buffers.t[i], buffers.id[i]};
-        if (!hit.found()) continue;
-        const double distance = distance_of(rays.at(i), hit);
-        ranges_[tile].nearest = std::min(ranges_[tile].nearest, distance);
-        ranges_[tile].farthest = std::max(ranges_[tile].farthest, distance);
-      }
-    });
+    for_each_part(pixels_of(tiles_[tile]), pixels_in(tiles_[tile]), first_set_,
+                  [&](WaveBuffers& buffers, std::int64_t) {
+                    WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel_);
+                    integrator.find_first_hits(buffers);
+                    const RaySpan rays = WaveIntegrator::primaries(buffers).span();
+                    for (std::int64_t i = 0; i < rays.count; ++i) {
+                      const SceneHit hit{buffers.t[i], buffers.id[i]};
+                      if (!hit.found()) continue;
+                      const double distance = distance_of(rays.at(i), hit);
+                      ranges_[tile].nearest = std::min(ranges_[tile].nearest, distance);
+                      ranges_[tile].farthest = std::max(ranges_[tile].farthest, distance);
+                    }
+                  });
   }
 
-  void join_ranges() {
+  void begin_second_pass() {
+    if (second_set_) return edges_.find(film_, settings_.threads);
     range_ = kNoRange;
     for (const DistanceRange& tile : ranges_) {
       range_.nearest = std::min(range_.nearest, tile.nearest);
@@ -181,20 +220,45 @@ class Renderer {
     }
   }
 
+  static std::int64_t pixels_in(const Tile& tile) { return std::int64_t{tile.width()} * tile.height(); }
+
   void render_tile(const Tile& tile, RenderCounts& counts) {
+    draw_pixels(tile, pixels_of(tile), pixels_in(tile), first_set_, counts);
+  }
+
+  // Draws the pixels on edges once more, with more samples.
+  void refine_tile(const Tile& tile, RenderCounts& counts) {
+    const Tile wanted = drawn_pixels(settings_);
+    const Tile inside{std::max(tile.x0, wanted.x0), std::max(tile.y0, wanted.y0), std::min(tile.x1, wanted.x1),
+                      std::min(tile.y1, wanted.y1)};
+    if (inside.width() <= 0 || inside.height() <= 0) return;
+    std::vector<PixelPlace>& pixels = pixels_of(inside);
+    std::int64_t count = 0;
+    for (std::int64_t i = 0; i < pixels_in(inside); ++i) {
+      const PixelPlace pixel = pixels[static_cast<std::size_t>(i)];
+      if (edges_.at(pixel.x - drawn_.x0, pixel.y - drawn_.y0)) pixels[static_cast<std::size_t>(count++)] = pixel;
+    }
+    if (count > 0) draw_pixels(inside, pixels, count, *second_set_, counts);
+  }
+
+  // Draws the first `pixel_count` pixels of a list, which lie in the tile, and adds their rays to `counts`.
+  void draw_pixels(const Tile& tile, const std::vector<PixelPlace>& pixels, std::int64_t pixel_count,
+                   const SampleSet& set, RenderCounts& counts) {
     const bool shaded = settings_.view == View::shaded;
+    const bool toned = shaded && settings_.tone.any();
     WaveIntegrator integrator(
         wave_scene_, tracer_,
         {settings_.recursion, shaded, shaded && settings_.shadows,
-         settings_.view == View::recursion || settings_.transparent, ambient_ ? &*ambient_ : nullptr,
-         light_points_ ? &*light_points_ : nullptr, settings_.samples_per_pixel},
+         settings_.view == View::recursion || settings_.transparent || toned, set.ambient ? &*set.ambient : nullptr,
+         set.light_points ? &*set.light_points : nullptr, set.count()},
         cancel_);
     // Each thread has its own.
     static thread_local EffectBuffers effects;
-    if (effects_.any()) effects_.find(tile, places_, cancel_, effects);
-    const std::int64_t samples = settings_.samples_per_pixel;
+    if (effects_.any()) effects_.find(tile, set.places, cancel_, effects);
+    const std::int64_t samples = set.count();
+    const bool notes_edges = second_set_ && &set == &first_set_;
     PixelSum sum;
-    for_each_part(tile, [&](const std::vector<PixelPlace>& pixels, WaveBuffers& buffers, std::int64_t first) {
+    for_each_part(pixels, pixel_count, set, [&](WaveBuffers& buffers, std::int64_t first) {
       const std::int64_t count = WaveIntegrator::primaries(buffers).count;
       if (shaded || settings_.view == View::recursion)
         integrator.trace(buffers, count, first % samples);
@@ -202,6 +266,7 @@ class Renderer {
         integrator.find_first_hits(buffers);
       if (cancelled()) return;
 
+      if (toned) steps::tone_light(settings_.tone, integrator.deepest_hit().data(), count, buffers.sums);
       if (shaded && samples == 1 && !settings_.transparent && !effects_.any())
         return steps::put_light(buffers.sums, pixels.data() + first, count, film_corner(), film_);
 
@@ -213,20 +278,34 @@ class Renderer {
           if (effects_.any()) value = effects_.applied(tile, effects, pixel.x, pixel.y, sum.samples, value);
           sum.light = sum.light + value;
           ++sum.counted;
+          if (notes_edges) sum.range.add(value);
         }
         if (++sum.samples < samples) continue;
         put(sum, pixel);
+        if (notes_edges) edges_.note(pixel.x - drawn_.x0, pixel.y - drawn_.y0, sum.differs());
         sum = {};
       }
     });
-    counts = integrator.rays();
-    counts.primary = std::int64_t{tile.x1 - tile.x0} * (tile.y1 - tile.y0) * samples;
+    RenderCounts rays = integrator.rays();
+    rays.primary = pixel_count * samples;
+    add(rays, counts);
+  }
+
+  static void add(const RenderCounts& rays, RenderCounts& sum) {
+    sum.primary += rays.primary;
+    sum.shadow += rays.shadow;
+    sum.reflected += rays.reflected;
+    sum.transmitted += rays.transmitted;
+    sum.ambient += rays.ambient;
   }
 
   // The samples of one pixel so far; `counted`: those that add to its light.
   struct PixelSum {
     Vec3d light;
     std::int64_t counted = 0, samples = 0;
+    SampleRange range;  // known in the first pass of adaptive samples
+
+    bool differs() const { return range.differs() || (counted != 0 && counted != samples); }
   };
 
   void put(const PixelSum& sum, PixelPlace pixel) {
@@ -272,15 +351,15 @@ class Renderer {
   PixelRays rays_;
   WaveScene wave_scene_;
   AfterEffects effects_;
-  Tile drawn_;                       // the film's pixels in the whole picture
-  std::vector<SamplePlace> places_;  // in a pixel
-  std::optional<AmbientRays> ambient_;
-  std::optional<LightPointSets> light_points_;
+  Tile drawn_;  // the film's pixels in the whole picture
   std::vector<Tile> tiles_;
   std::vector<RenderCounts> counts_;  // of each tile
   std::vector<DistanceRange> ranges_;
   DistanceRange range_{0, 0};
   std::size_t passes_;
+  SampleSet first_set_;
+  std::optional<SampleSet> second_set_;  // of the second pass of adaptive samples
+  EdgePixels edges_;
   std::atomic<std::int64_t> tiles_done_{0};
   std::mutex progress_mutex_;
 };
@@ -301,6 +380,7 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
     BIHIVE_CHECK(settings.outline->width_px >= 1 && settings.outline->width_px <= kWidestOutlinePx);
     BIHIVE_CHECK(settings.outline->step >= 0);
   }
+  BIHIVE_CHECK(std::abs(settings.tone.exposure_stops) <= kMostExposureStops);
   if (settings.fog) BIHIVE_CHECK(settings.fog->start < settings.fog->end);
   const Tile drawn = drawn_pixels(settings);
   BIHIVE_CHECK(drawn.x0 >= 0 && drawn.x0 < drawn.x1 && drawn.x1 <= settings.width_px);

@@ -75,6 +75,7 @@ Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, c
   relief.width_px = static_cast<int>(layout.boxes.width());
   relief.height_px = static_cast<int>(layout.boxes.height());
   relief.samples_per_pixel = 1;
+  relief.adaptive_samples = false;
   relief.view = View::normal;
   relief.crop.reset();
   Result<Rendered> rendered = render(scene, tracer, relief, progress, cancel);

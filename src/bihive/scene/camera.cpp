@@ -31,6 +31,13 @@ Status check_camera(const Camera& camera) {
   if (!(camera.fov_deg > 0 && camera.fov_deg < 180)) return bad("fov must be above 0 and below 180 degrees", "");
   if (camera.projection == Projection::orthographic && !(camera.shorter_side > 0 && camera.shorter_side <= kLargest))
     return bad("the shorter side of an orthographic picture must be above 0 and fit single precision (3.4e38)", "");
+  if (!(camera.aperture >= 0 && camera.aperture <= kLargest))
+    return bad("the aperture must be at least 0 and fit single precision (3.4e38)", "");
+  if (!(camera.focus >= 0 && camera.focus <= kLargest))
+    return bad("the focus must be at least 0 and fit single precision (3.4e38)", "");
+  if (camera.projection == Projection::orthographic && camera.aperture > 0)
+    return bad("an orthographic camera has no lens, so nothing is out of focus",
+               "draw in perspective, or set the aperture to 0");
   const Vec3d view = camera.look_at - camera.eye;
   if (!(length(view) > 0)) return bad("eye and look_at are the same point", "move one of them");
   if (!(length(camera.up) > 0)) return bad("up is zero", "give a direction such as 0,1,0");
@@ -62,15 +69,26 @@ Camera enlarged(const Camera& camera, double factor) {
   return changed;
 }
 
+double focus_distance(const Camera& camera) {
+  return camera.focus > 0 ? camera.focus : length(camera.look_at - camera.eye);
+}
+
 PixelRays::PixelRays(const Camera& camera, int width_px, int height_px)
     : parallel_(camera.projection == Projection::orthographic),
+      has_lens_(!parallel_ && camera.aperture > 0),
       eye_(to_float(camera.eye)),
       centre_(camera.eye),
       forward_(normalized(camera.look_at - camera.eye)) {
   const double pixel = pixel_of(camera, width_px, height_px);
   const Vec3d right = normalized(cross(forward_, normalized(camera.up)));
   right_ = right * pixel;
-  down_ = cross(forward_, right) * pixel;
+  const Vec3d down = cross(forward_, right);
+  down_ = down * pixel;
+  lens_right_ = right * camera.aperture;
+  lens_down_ = down * camera.aperture;
+  const double tilt = camera.aperture / focus_distance(camera);
+  tilt_right_ = right * tilt;
+  tilt_down_ = down * tilt;
   half_width_ = 0.5 * width_px;
   half_height_ = 0.5 * height_px;
 }
@@ -85,6 +103,15 @@ Ray PixelRays::at(double x_px, double y_px) const {
   const Vec3d direction = forward_ + (x_px - half_width_) * right_ + (y_px - half_height_) * down_;
   ray.origin = eye_;
   ray.direction = to_float(normalized(direction));
+  return ray;
+}
+
+Ray PixelRays::at(double x_px, double y_px, LensPlace place) const {
+  if (!has_lens_) return at(x_px, y_px);
+  const Vec3d direction = forward_ + (x_px - half_width_) * right_ + (y_px - half_height_) * down_;
+  Ray ray;
+  ray.origin = to_float(centre_ + (place.x * lens_right_ + place.y * lens_down_));
+  ray.direction = to_float(normalized(direction - (place.x * tilt_right_ + place.y * tilt_down_)));
   return ray;
 }
 

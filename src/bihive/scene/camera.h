@@ -20,15 +20,18 @@ struct Camera {
   double fov_deg = 30;  ///< perspective: the full angle along the picture's shorter side, above 0 and below 180
   Projection projection = Projection::perspective;
   double shorter_side = 50;  ///< orthographic: the length in the world along the picture's shorter side, above 0
+  double aperture = 0;       ///< the radius of a thin lens, at least 0; 0 shows everything sharply. Perspective alone.
+  double focus = 0;          ///< with an aperture: so far along the view all is sharp; 0: where look_at is
 };
 
 inline bool operator==(const Camera& a, const Camera& b) {
   return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.fov_deg == b.fov_deg &&
-         a.projection == b.projection && a.shorter_side == b.shorter_side;
+         a.projection == b.projection && a.shorter_side == b.shorter_side && a.aperture == b.aperture &&
+         a.focus == b.focus;
 }
 
-/// An error if eye and look_at coincide, up is parallel to the view or zero, a number is not finite, or the angle or
-/// the shorter side is out of range.
+/// An error if eye and look_at coincide, up is parallel to the view or zero, a number is not finite, the angle, the
+/// shorter side, the aperture or the focus is out of range, or an orthographic camera has an aperture.
 Status check_camera(const Camera& camera);
 
 /// The same camera with this projection. What is as far away as look_at keeps its size in the picture.
@@ -37,6 +40,15 @@ Camera with_projection(const Camera& camera, Projection projection);
 /// The same camera with a picture `factor` times as large, above 0: it changes the angle or the shorter side. The eye
 /// stays, so nothing that was in front of it is cut off.
 Camera enlarged(const Camera& camera, double factor);
+
+/// The distance along the view that is sharp.
+double focus_distance(const Camera& camera);
+
+/// A place on the lens, in units of its radius: at most 1 from the middle; to the right and down, as the camera sees
+/// it.
+struct LensPlace {
+  double x = 0, y = 0;
+};
 
 /// A camera prepared for a picture of width x height pixels.
 class PixelRays {
@@ -49,11 +61,20 @@ class PixelRays {
   /// and each origin is rounded once.
   Ray at(double x_px, double y_px) const;
 
+  /// The ray through a place of the lens that meets the ray above in the plane of focus. Its origin is rounded once.
+  /// Without a lens it is the ray above.
+  Ray at(double x_px, double y_px, LensPlace place) const;
+
   /// The vectors of at(), for code that makes many rays at once. Let step be (x - half_width) right + (y - half_height)
   /// down. Rays from one eye: the direction through (x, y) is that of forward + step. Parallel rays: the origin is
-  /// centre
-  /// + step, and the direction is that of forward.
+  /// centre + step, and the direction is that of forward. Rays through place p of a lens: the origin is centre + p.x
+  /// lens_right + p.y lens_down, and the direction is that of forward + step - (p.x tilt_right + p.y tilt_down).
   bool parallel() const { return parallel_; }
+  bool has_lens() const { return has_lens_; }
+  Vec3d lens_right() const { return lens_right_; }
+  Vec3d lens_down() const { return lens_down_; }
+  Vec3d tilt_right() const { return tilt_right_; }
+  Vec3d tilt_down() const { return tilt_down_; }
   Vec3f eye() const { return eye_; }
   Vec3d centre() const { return centre_; }
   Vec3d forward() const { return forward_; }
@@ -63,10 +84,12 @@ class PixelRays {
   double half_height() const { return half_height_; }
 
  private:
-  bool parallel_;
+  bool parallel_, has_lens_;
   Vec3f eye_;
   Vec3d centre_;                  // the eye before it is rounded
   Vec3d forward_, right_, down_;  // right_ and down_ span one pixel; with one eye, on the plane at distance 1
+  Vec3d lens_right_, lens_down_;  // from the middle of the lens to its rim
+  Vec3d tilt_right_, tilt_down_;  // the same at distance 1, seen from the plane of focus
   double half_width_, half_height_;
 };
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bihive/scene/colour_text.h"
+#include "bihive/scene/names.h"
 
 namespace bihive {
 namespace {
@@ -68,11 +69,17 @@ void take_picture(const json& value, PictureDefaults& picture) {
   if (value.contains("transfer")) picture.transfer = value.at("transfer") == "srgb" ? Transfer::srgb : Transfer::none;
   take_value(value, "width_px", picture.width_px);
   take_value(value, "height_px", picture.height_px);
-  take_value(value, "samples_per_pixel", picture.samples_per_pixel);
+  if (value.contains("samples_per_pixel")) {
+    const json& samples = value.at("samples_per_pixel");
+    picture.adaptive_samples = samples.is_string();
+    if (samples.is_number()) picture.samples_per_pixel = samples.get<int>();
+  }
   take_value(value, "recursion", picture.recursion);
   take_value(value, "shadows", picture.shadows);
   take_value(value, "transparent", picture.transparent);
   take_value(value, "light_points", picture.light_points);
+  take_value(value, "exposure", picture.tone.exposure_stops);
+  if (value.contains("tone")) picture.tone.curve = *value_named(kToneCurves, value.at("tone").get<std::string>());
   if (value.contains("ambient_occlusion")) picture.ambient_occlusion = ambient_from_json(value.at("ambient_occlusion"));
   if (value.contains("outline")) picture.outline = outline_from_json(value.at("outline"), picture.transfer);
   if (value.contains("fog")) picture.fog = fog_from_json(value.at("fog"));

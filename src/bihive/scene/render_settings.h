@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bihive/image/film.h"
+#include "bihive/image/tone.h"
 #include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/picture_effects.h"
 #include "bihive/scene/scene.h"
@@ -15,11 +16,17 @@ namespace bihive {
 /// (render/tree_picture.h). All but `shaded` are display values.
 enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 
+constexpr int kFewSamples = 4;
+constexpr int kManySamples = 16;
+
 struct RenderSettings {
   int width_px = 1280;        ///< 1 to 65535
   int height_px = 720;        ///< 1 to 65535
   int samples_per_pixel = 4;  ///< 1 to 4096; 1 = the pixel's centre
-  int recursion = 5;          ///< 1 to 16
+  /// Then every pixel gets kFewSamples, and the pixels on edges (render/edge_pixels.h) get kManySamples instead:
+  /// each pixel is that of a picture with the one or the other number. View::shaded alone; other views get kFewSamples.
+  bool adaptive_samples = false;
+  int recursion = 5;  ///< 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
@@ -28,6 +35,9 @@ struct RenderSettings {
   /// The film gets coverage: samples that hit nothing add no light to their pixel. Reflected and transmitted rays see
   /// the background as ever. Not for View::traversal and View::tree.
   bool transparent = false;
+  /// View::shaded: of the light of all samples that hit something, before outlines and fog. So the background and the
+  /// colours of outlines and fog are on the screen what they are.
+  Tone tone;
   View view = View::shaded;
   /// Only these pixels of the picture are drawn, with the same bits as in the whole picture: at least one, inside it.
   std::optional<Tile> crop;
@@ -45,6 +55,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.width_px = defaults.width_px;
   settings.height_px = defaults.height_px;
   settings.samples_per_pixel = defaults.samples_per_pixel;
+  settings.adaptive_samples = defaults.adaptive_samples;
   settings.recursion = defaults.recursion;
   settings.shadows = defaults.shadows;
   settings.ambient_occlusion = defaults.ambient_occlusion;
@@ -52,6 +63,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.outline = defaults.outline;
   settings.fog = defaults.fog;
   settings.transparent = defaults.transparent;
+  settings.tone = defaults.tone;
   return settings;
 }
 

@@ -8,6 +8,7 @@
 
 #include "bihive/geometry/plane.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/image/tone.h"
 #include "bihive/image/transfer.h"
 #include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/camera.h"
@@ -43,14 +44,16 @@ struct ScenePlane {
 struct PictureDefaults {
   int width_px = 1280;
   int height_px = 720;
-  int samples_per_pixel = 4;  ///< 1 = the pixel's centre
-  int recursion = 5;          ///< generations of rays, 1 to 16
+  int samples_per_pixel = 4;      ///< 1 = the pixel's centre
+  bool adaptive_samples = false;  ///< more samples on edges; samples_per_pixel does not count then
+  int recursion = 5;              ///< generations of rays, 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
   bool transparent = false;  ///< the picture has opacity instead of a background
+  Tone tone;
   Transfer transfer = Transfer::srgb;
 };
 

@@ -80,8 +80,10 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
-    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog", "transparent"})
+    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog", "transparent", "exposure", "tone"})
       if (value.contains(key)) need_version(2, std::string("/picture/") + key);
+    if (value.contains("samples_per_pixel") && value.at("samples_per_pixel").is_string())
+      need_version(2, "/picture/samples_per_pixel");
     PictureDefaults& picture = loaded_.scene.picture;
     bihive::take_picture(value, picture);
     if (picture.fog && !(picture.fog->start < picture.fog->end))
@@ -148,6 +150,10 @@ class Extraction {
     if (value.contains("up")) camera.up = vector(value.at("up"));
     camera.fov_deg = value.value("fov_deg", camera.fov_deg);
     take_projection(value, camera);
+    for (const char* key : {"aperture", "focus"})
+      if (value.contains(key)) need_version(2, std::string("/camera/") + key);
+    camera.aperture = value.value("aperture", camera.aperture);
+    camera.focus = value.value("focus", camera.focus);
     const Status status = check_camera(camera);
     if (status) return;
     // The path already names the camera.

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bihive/scene/names.h"
 #include "bihive/scene/scene_file.h"
 
 namespace bihive {
@@ -94,6 +95,12 @@ std::string projection_members(const Camera& camera) {
   return fmt::format(", \"projection\": \"orthographic\", \"shorter_side\": {}", number(camera.shorter_side));
 }
 
+std::string lens_members(const Camera& camera) {
+  if (camera.aperture == 0) return "";
+  const std::string focus = camera.focus == 0 ? "" : fmt::format(", \"focus\": {}", number(camera.focus));
+  return fmt::format(", \"aperture\": {}", number(camera.aperture)) + focus;
+}
+
 // With its comma, or nothing.
 std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
   if (!ambient) return "";
@@ -118,6 +125,12 @@ std::string light_points_member(int points) {
   return points == PictureDefaults().light_points ? "" : fmt::format("\"light_points\": {}, ", points);
 }
 
+std::string tone_members(const Tone& tone) {
+  if (!tone.any()) return "";
+  return fmt::format("\"exposure\": {}, \"tone\": \"{}\", ", number(tone.exposure_stops),
+                     name_of(kToneCurves, tone.curve));
+}
+
 bool has_ambient_light(const Scene& scene) {
   const Vec3d light = scene.ambient_light;
   return light.x != 1 || light.y != 1 || light.z != 1;
@@ -129,8 +142,8 @@ int version_of(const Scene& scene) {
   const bool effects =
       picture.ambient_occlusion || picture.outline || picture.fog || !light_points_member(picture.light_points).empty();
   const bool parallel = scene.camera.projection != Projection::perspective;
-  return effects || has_soft_light(scene) || has_effects(scene) || has_ambient_light(scene) || parallel ||
-                 picture.transparent
+  return effects || picture.adaptive_samples || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
+                 has_effects(scene) || has_ambient_light(scene) || parallel || picture.transparent || picture.tone.any()
              ? 2
              : 1;
 }
@@ -143,9 +156,9 @@ std::string scene_to_json(const Scene& scene) {
   std::string out = fmt::format("{{\n  \"bihive_scene\": {},\n", version_of(scene));
   if (!scene.name.empty()) out += "  \"name\": " + text(scene.name) + ",\n";
   if (scene.seed) out += fmt::format("  \"seed\": {},\n", *scene.seed);
-  out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}{}}},\n",
+  out += fmt::format("  \"camera\": {{\"eye\": {}, \"look_at\": {}, \"up\": {}, \"fov_deg\": {}{}{}}},\n",
                      vector(camera.eye), vector(camera.look_at), vector(camera.up), number(camera.fov_deg),
-                     projection_members(camera));
+                     projection_members(camera), lens_members(camera));
   out += "  \"lights\": [";
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     out += fmt::format("{}{{\"position\": {}, \"colour\": {}{}}}", i == 0 ? "" : ", ", vector(scene.lights[i].position),
@@ -158,11 +171,12 @@ std::string scene_to_json(const Scene& scene) {
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}{}{}{}{}\"transfer\": \"{}\"}},\n",
-      picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
-      ambient_member(picture.ambient_occlusion), light_points_member(picture.light_points),
+      "\"shadows\": {}, {}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
+      picture.width_px, picture.height_px,
+      picture.adaptive_samples ? "\"auto\"" : std::to_string(picture.samples_per_pixel), picture.recursion,
+      picture.shadows, ambient_member(picture.ambient_occlusion), light_points_member(picture.light_points),
       outline_member(picture.outline), fog_member(picture.fog), picture.transparent ? "\"transparent\": true, " : "",
-      picture.transfer == Transfer::srgb ? "srgb" : "none");
+      tone_members(picture.tone), picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

@@ -16,6 +16,8 @@ ShownScene::ShownScene(Scene shown, SceneFacts said, bool with_camera, bool with
       has_camera(with_camera),
       has_lights(with_lights),
       own_camera(scene.camera) {
+  // A lens needs more samples than a picture that turns.
+  scene.camera.aperture = own_camera.aperture = 0;
   const SphereSet::Bounds bounds = scene.spheres.bounds();
   diagonal = length(bounds.hi - bounds.lo);
 }

@@ -53,10 +53,25 @@ HWY_INLINE void make_rays(const PixelRays& pixels, Wave& wave, const PlaceOf& pl
   }
 }
 
-void camera_rays_on_target(const PixelRays& pixels, const double* x, const double* y, Wave& wave) {
+HWY_INLINE void make_lens_rays(const PixelRays& pixels, const PicturePositions& positions, Wave& wave) {
+  const CameraLanes camera = camera_lanes(pixels);
+  const Lanes3 centre = all(pixels.centre());
+  const Lanes3 lens_right = all(pixels.lens_right()), lens_down = all(pixels.lens_down());
+  const Lanes3 tilt_right = all(pixels.tilt_right()), tilt_down = all(pixels.tilt_down());
+  for (std::int64_t i = 0; i < wave.count; i += kLanes) {
+    const Lanes right = hn::LoadU(Tag(), positions.lens_x + i), down = hn::LoadU(Tag(), positions.lens_y + i);
+    const Lanes3 direction = camera.at(hn::LoadU(Tag(), positions.x + i), hn::LoadU(Tag(), positions.y + i));
+    const Lanes3 tilt = add(multiply(right, tilt_right), multiply(down, tilt_down));
+    store(add(centre, add(multiply(right, lens_right), multiply(down, lens_down))), wave.origin, i);
+    store(normalized(subtract(direction, tilt)), wave.direction, i);
+  }
+}
+
+void camera_rays_on_target(const PixelRays& pixels, const PicturePositions& positions, Wave& wave) {
+  if (pixels.has_lens()) return make_lens_rays(pixels, positions, wave);
   make_rays(pixels, wave, [&](std::int64_t i, Lanes& x_px, Lanes& y_px) HWY_ATTR {
-    x_px = hn::LoadU(Tag(), x + i);
-    y_px = hn::LoadU(Tag(), y + i);
+    x_px = hn::LoadU(Tag(), positions.x + i);
+    y_px = hn::LoadU(Tag(), positions.y + i);
   });
 }
 
@@ -87,10 +102,10 @@ HWY_EXPORT(pixel_rays_on_target);
 
 namespace steps {
 
-void camera_rays(const PixelRays& pixels, const double* x, const double* y, Wave& wave) {
+void camera_rays(const PixelRays& pixels, const PicturePositions& positions, Wave& wave) {
   ensure_target();
-  wave.has_one_origin = !pixels.parallel();
-  HWY_DYNAMIC_DISPATCH(camera_rays_on_target)(pixels, x, y, wave);
+  wave.has_one_origin = !pixels.parallel() && !pixels.has_lens();
+  HWY_DYNAMIC_DISPATCH(camera_rays_on_target)(pixels, positions, wave);
 }
 
 void camera_rays(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave) {

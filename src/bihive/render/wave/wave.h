@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bihive/image/film.h"
+#include "bihive/image/tone.h"
 #include "bihive/render/pixel_order.h"
 #include "bihive/render/surface.h"
 #include "bihive/render/wave/column.h"
@@ -175,12 +176,18 @@ struct PlaceWave {
   }
 };
 
+/// Where primary rays go through the picture and the lens.
+struct PicturePositions {
+  const double *x, *y;
+  const double *lens_x, *lens_y;  ///< read if the camera has a lens
+};
+
 /// The steps. Each gives the bits of the scalar code that it names on every instruction set.
 namespace steps {
 
-/// PixelRays::at() of picture positions (x[i], y[i]) for the rays of the wave, whose count is set. Or PixelRays::at()
-/// of one place in each of several pixels; kColumnPadding other pixels must follow them.
-void camera_rays(const PixelRays& pixels, const double* x, const double* y, Wave& wave);
+/// PixelRays::at() of the positions of the rays of the wave, whose count is set. Or PixelRays::at() of one place in
+/// each of several pixels, without a lens; kColumnPadding other pixels must follow them.
+void camera_rays(const PixelRays& pixels, const PicturePositions& positions, Wave& wave);
 void camera_rays(const PixelRays& pixels, const PixelPlace* pixel, SamplePlace place, Wave& wave);
 
 /// The test of the plane in scene_hit(): if the plane is nearer than the sphere, it becomes the hit.
@@ -238,6 +245,9 @@ struct SentOn {
   std::int64_t reflected = 0, transmitted = 0;
 };
 SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
+
+/// toned() of the light of owners 0 to count - 1 that hit something: hit[owner] is not 0.
+void tone_light(const Tone& tone, const std::uint8_t* hit, std::int64_t count, WaveSums& sums);
 
 /// Rounds the light of owners 0 to count - 1 to binary32, and stores that of owner i in the film at pixel[i] -
 /// film_corner. The pixels are those of order_pixels() from a multiple of 64 on.

@@ -29,7 +29,12 @@ struct WaveBuffers {
   Column<double> visibility, limits;
   Column<double> light_facing, light_seen;  ///< of LightReceived
   WaveSums sums;
-  Column<double> x, y;  ///< picture positions of primary rays
+  Column<double> x, y, lens_x, lens_y;  ///< of primary rays
+
+  void reserve_positions(std::int64_t n) {
+    for (Column<double>* column : {&x, &y, &lens_x, &lens_y}) column->reserve(n);
+  }
+  PicturePositions positions() const { return {x.data(), y.data(), lens_x.data(), lens_y.data()}; }
 };
 
 /// The same bits as Integrator (render/integrator.h), ray for ray.
