@@ -15,7 +15,7 @@ constexpr double kGolden = 0.61803398874989484820;  // 1 / (the golden ratio)
 // The number next to n / (golden ratio) that has no divisor in common with n. Its multiples modulo n are all numbers
 // below n, and neighbours of them are far apart.
 int golden_step(int n) {
-  int step = static_cast<int>(n * kGolden + 0.5);
+  int step = static_cast<int>(std::floor(n * kGolden + 0.5));
   while (step > 1 && std::gcd(step, n) != 1) --step;
   return std::max(step, 1);
 }
