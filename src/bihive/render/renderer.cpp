@@ -182,12 +182,15 @@ class Renderer {
     if (samples == 1 && !rays_.has_lens()) return steps::camera_rays(rays_, pixel, set.places[0].place, wave);
     buffers.reserve_positions(count);
     auto sample = static_cast<std::size_t>(first % samples);
+    const bool has_lens = rays_.has_lens();
     for (std::int64_t i = 0; i < count; ++i) {
       const CameraSample& at = set.places[sample];
       buffers.x[i] = pixel->x + at.place.x;
       buffers.y[i] = pixel->y + at.place.y;
-      buffers.lens_x[i] = at.lens.x;
-      buffers.lens_y[i] = at.lens.y;
+      if (has_lens) {
+        buffers.lens_x[i] = at.lens.x;
+        buffers.lens_y[i] = at.lens.y;
+      }
       if (++sample < set.places.size()) continue;
       sample = 0;
       ++pixel;
