@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <vector>
@@ -114,6 +115,26 @@ TEST(Viewer, every_view_is_the_renderers) {
     const Image expected = rendered(viewer, Engine::reference, settings_of(viewer, 96, 64));
     EXPECT_EQ(picture_hash(viewer.image()), picture_hash(expected)) << static_cast<int>(view);
   }
+}
+
+TEST(Viewer, draws_without_lens_tone_and_adaptive_samples) {
+  const char* const format =
+      R"({"bihive_scene": 2, "camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0]%s}, "picture": {%s}, "spheres": [[0, 0, 0, 1]]})";
+  std::uint64_t hashes[2] = {};
+  const std::array<std::array<std::string, 2>, 2> parts{
+      {{"", ""}, {R"(, "aperture": 2)", R"("exposure": 1, "tone": "filmic", "samples_per_pixel": "auto")"}}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::string text = format;
+    text.replace(text.find("%s"), 2, parts[i][0]);
+    text.replace(text.find("%s"), 2, parts[i][1]);
+    Viewer viewer;
+    viewer.resize(96, 64);
+    ASSERT_TRUE(viewer.load(text, "a.json"));
+    EXPECT_EQ(viewer.settings().camera.aperture, 0);
+    settle(viewer);
+    hashes[i] = picture_hash(viewer.image());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 TEST(Viewer, moving_begins_anew_and_is_coarser_where_the_budget_is_small) {
