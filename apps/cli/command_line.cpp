@@ -238,7 +238,8 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_number(command, "--aperture", options.aperture, kLargestFloat, "R",
              "Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)");
   add_value(command, "--focus", options.focus, "D|auto",
-            "With an aperture: so far along the view all is sharp (auto: where the camera looks at)", focus_from);
+            "With an aperture: the distance that is sharp, in world units (auto: where the camera looks at)",
+            focus_from);
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);
