@@ -245,7 +245,8 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
                   "bihive view scenario2 --engine gpu --max-prims 1 --view traversal", options, request);
   add_input(command, options.input);
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
-  add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (gpu where a real one can, else cpu)");
+  add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (cpu)");
+  command.add_option("--style", options.style, "A look of bihive styles (files: default)")->type_name("NAME");
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
   add_integer(command, "--samples", options.samples, 1, kMostSamples, "Samples a pixel (files: 4, thesis's scenes: 1)");
   add_integer(command, "--recursion", options.recursion, 1, kMostRecursion, "Generations of rays (5)");

@@ -44,7 +44,7 @@ Image rendered(const Viewer& viewer, Engine engine, const RenderSettings& settin
 
 RenderSettings settings_of(const Viewer& viewer, int width, int height) {
   const ViewerSettings& of_viewer = viewer.settings();
-  RenderSettings settings;
+  RenderSettings settings = settings_from(viewer.scene().picture);
   settings.width_px = width;
   settings.height_px = height;
   settings.samples_per_pixel = of_viewer.samples_per_pixel;
@@ -269,7 +269,7 @@ TEST(Viewer, a_picture_to_be_saved_has_any_size_and_does_not_disturb) {
   ASSERT_TRUE(viewer.load_built_in("demo"));
   settle(viewer);
   const std::uint64_t before = picture_hash(viewer.image());
-  const Result<Image> picture = viewer.picture(128, 72, 1);
+  const Result<PngPixels> picture = viewer.picture(128, 72, 1);
   ASSERT_TRUE(picture);
   RenderSettings settings = settings_of(viewer, 128, 72);
   settings.samples_per_pixel = 1;
@@ -293,7 +293,7 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
   ASSERT_TRUE(viewer.load_built_in("demo"));
   settle(viewer);
   EXPECT_FALSE(viewer.advance_picture(1));
-  const Result<Image> whole = viewer.picture(300, 200, 1);
+  const Result<PngPixels> whole = viewer.picture(300, 200, 1);
   ASSERT_TRUE(whole);
 
   // Moves in the meantime do not change it.
@@ -309,7 +309,7 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
     viewer.orbit(3, 1);
   }
   EXPECT_GT(steps, 3);
-  const Result<Image> in_steps = viewer.take_picture();
+  const Result<PngPixels> in_steps = viewer.take_picture();
   ASSERT_TRUE(in_steps);
   EXPECT_EQ(picture_hash(*in_steps), picture_hash(*whole));
   EXPECT_FALSE(viewer.take_picture()) << "once";
