@@ -46,6 +46,8 @@ class NoWindow(ProgramTest):
         self.assertIn("--view tree", self.fail_usage("view", "demo", "--engine", "gpu", "--view", "tree"))
         self.assertIn("--count is for", self.fail_usage("view", "demo", "--count", "5"))
         self.assertIn("--samples:", self.fail_usage("view", "demo", "--samples", "65"))
+        self.assertIn("--style: there is no style", self.fail_usage("view", "demo", "--style", "nice"))
+        self.assertIn("--style is for files", self.fail_usage("view", "four-spheres", "--style", "studio"))
         self.assertIn("bihive view", self.succeed("view", "--help"))
 
 
@@ -67,9 +69,7 @@ class Window(ProgramTest):
         return [row[:-PANEL_PX] for row in rows], [row[-PANEL_PX:] for row in rows]
 
     def rendered(self, size, *arguments):
-        # The window draws the style plain.
-        style = ["--style", "plain"] if "demo" in arguments else []
-        self.succeed("render", *arguments, "-o", "rendered.png", "--size", size, *style)
+        self.succeed("render", *arguments, "-o", "rendered.png", "--size", size)
         return png_pixels(self.read("rendered.png"))
 
     def assert_is_panel(self, panel):
@@ -82,6 +82,16 @@ class Window(ProgramTest):
         self.assertEqual((len(picture[0]), len(picture)), (620 - PANEL_PX, 420))
         self.assertTrue(picture == self.rendered("272x420", "demo"), "the pixels differ")
         self.assert_is_panel(panel)
+
+    def test_styles_are_those_of_render(self):
+        for style in ("studio", "flat"):
+            given = ["demo", "--style", style]
+            picture, _ = self.screenshot(*given, "--size", "620x320")
+            self.assertTrue(picture == self.rendered("272x320", *given), "the pixels differ")
+
+    def test_the_graphics_processor_draws_the_style_plain(self):
+        picture, _ = self.screenshot("demo", "--style", "studio", "--size", "620x320", "--engine", "gpu")
+        self.assertLessEqual(share_off(picture, self.rendered("272x320", "demo", "--style", "plain"), 2), 0.005)
 
     def test_the_graphics_processor_shows_nearly_the_same(self):
         given = ["scenario3", "--recursion", "2"]
