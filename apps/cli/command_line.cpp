@@ -150,18 +150,18 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
   add_flag("--hide", "Hide them from every ray", [&looks] { looks.show(false); });
   add_flag("--show", "Show them again", [&looks] { looks.show(true); });
   add("--colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1",
-      [&looks](const std::string& text) { return looks.colour(text); });
+      [&looks](const std::string& text) { return looks.act("colour", text); });
   add("--colour-by", "ATTR[:MAP[:MIN,MAX[:log]]]", "Colour them by an attribute; MAP: " + std::string(kColourMapNames),
-      [&looks](const std::string& text) { return looks.colour_by(text); });
+      [&looks](const std::string& text) { return looks.act("colour-by", text); });
   add("--nan-colour", "COLOUR", "--colour-by: colour of unknown numbers (grey)",
       [&looks](const std::string& text) { return looks.set_nan_colour(text); });
   add("--opacity", "F", "Their opacity, 0 (clear) to 1",
-      [&looks](const std::string& text) { return looks.opacity(text); });
+      [&looks](const std::string& text) { return looks.act("opacity", text); });
   add("--material", list_of(named_materials()), "Their material (the style's)",
-      [&looks](const std::string& text) { return looks.material(text); });
+      [&looks](const std::string& text) { return looks.act("material", text); });
   add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
       [&looks, &input](const std::string& text) -> Status {
-        if (looks.selected) return looks.radius_scale(text);
+        if (looks.selected) return looks.act("radius-scale", text);
         if (input.radius_scale) return Error{"is given more than once before a --select", "", 0, 0, ""};
         const Result<double> factor = number_from(text, 0, kLargestFloat);
         if (!factor) return factor.error();

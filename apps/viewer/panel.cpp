@@ -53,7 +53,7 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
   wishes.look = look.draw(viewer);
   draw_picture(viewer, settings);
   draw_speed(viewer, report);
-  draw_camera(wishes);
+  draw_camera(settings, wishes);
   draw_saving(wishes);
   draw_tree(settings);
   draw_keys();
@@ -63,6 +63,7 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
   const bool changed = settings.engine != before.engine || settings.view != before.view ||
                        settings.recursion != before.recursion ||
                        settings.samples_per_pixel != before.samples_per_pixel || settings.shadows != before.shadows ||
+                       settings.camera.projection != before.camera.projection ||
                        settings.max_prims != before.max_prims || settings.max_depth != before.max_depth;
   if (changed) wishes.settings = settings;
   return wishes;
@@ -119,8 +120,15 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
   ImGui::Checkbox("##shadows", &settings.shadows);
 }
 
-void Panel::draw_camera(PanelWishes& wishes) const {
-  heading("look from");
+void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {
+  heading("camera");
+  label("projection");
+  if (ImGui::BeginCombo("##projection", name_of(kProjections, settings.camera.projection).c_str())) {
+    for (const auto& [name, projection] : kProjections)
+      if (ImGui::Selectable(name.c_str(), settings.camera.projection == projection))
+        settings.camera = with_projection(settings.camera, projection);
+    ImGui::EndCombo();
+  }
   const float space = ImGui::GetStyle().ItemSpacing.x;
   const float across = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
   int column = 0;

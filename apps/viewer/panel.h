@@ -40,7 +40,7 @@ class Panel {
   void draw_scene(const Viewer& viewer, PanelWishes& wishes) const;
   void draw_picture(const Viewer& viewer, ViewerSettings& settings) const;
   void draw_tree(ViewerSettings& settings) const;
-  void draw_camera(PanelWishes& wishes) const;
+  void draw_camera(ViewerSettings& settings, PanelWishes& wishes) const;
   void draw_speed(const Viewer& viewer, const FrameReport& report) const;
   void draw_saving(PanelWishes& wishes);
   void draw_keys() const;

@@ -65,6 +65,15 @@ TEST(ViewerJson, what_is_left_out_stays) {
   EXPECT_EQ(some->camera.eye, base.camera.eye);
 }
 
+TEST(ViewerJson, a_projection_alone_keeps_the_size) {
+  ViewerSettings base;
+  base.camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 30};
+  const Result<ViewerSettings> changed = settings_from_json(R"({"camera": {"projection": "orthographic"}})", base);
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(changed->camera, with_projection(base.camera, Projection::orthographic));
+  EXPECT_GT(changed->camera.shorter_side, 5);
+}
+
 TEST(ViewerJson, looks_come_back) {
   ViewerLook look;
   look.style = "studio";

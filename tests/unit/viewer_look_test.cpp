@@ -167,7 +167,7 @@ TEST(ViewerLook, a_bad_choice_names_its_row_and_changes_nothing) {
   expect_refused({"", "", "", {fine, fine, {"all", "colour", "blau"}}}, 2, 0, "expected #rrggbb");
   expect_refused({"", "", "", {{"all", "colour-by", "chrage"}}}, 0, 0, "charge");
   expect_refused({"", "", "", {{"all", "opacity", "2"}}}, 0, 0, "expected a number from 0 to 1, found \"2\"");
-  expect_refused({"", "", "", {{"all", "radius-scale", "-1"}}}, 0, 0, "expected a number of at least 0");
+  expect_refused({"", "", "", {{"all", "radius-scale", "-1"}}}, 0, 0, "expected a number from 0 to 3.4e38, found");
   expect_refused({"", "", "", {{"all", "material", "wood"}}}, 0, 0, "expected one of matte");
   expect_refused({"", "", "", {{"all", "paint", "red"}}}, 0, 0, "there are hide, show, colour");
   expect_refused({"", "", "", {{"all", "hide", ""}}}, 1, 0, "every sphere is hidden");

@@ -263,6 +263,36 @@ TEST(Viewer, an_orthographic_scene_stays_orthographic) {
   EXPECT_EQ(viewer.settings().camera.projection, Projection::orthographic);
 }
 
+TEST(Viewer, another_projection_still_shows_all) {
+  Viewer viewer;
+  viewer.resize(100, 60);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  const Camera before = viewer.settings().camera;
+  const auto project = [&](Projection projection) {
+    ViewerSettings settings = viewer.settings();
+    settings.camera = with_projection(settings.camera, projection);
+    ASSERT_TRUE(viewer.set(settings));
+  };
+  const auto whole = [&](ViewFrom side) {
+    return frame_spheres(viewer.scene().spheres, side_of(side), {before.fov_deg, Projection::orthographic}, 100, 60);
+  };
+  project(Projection::orthographic);
+  EXPECT_EQ(viewer.settings().camera, whole(ViewFrom::front));
+  viewer.look_from(ViewFrom::top);
+  EXPECT_EQ(viewer.settings().camera, whole(ViewFrom::top));
+  viewer.orbit(10, 0);
+  viewer.home();
+  EXPECT_EQ(viewer.settings().camera, whole(ViewFrom::front));
+  project(Projection::perspective);
+  EXPECT_EQ(viewer.settings().camera, before);
+
+  // A camera that was moved by hand keeps its place.
+  viewer.orbit(10, 0);
+  const Camera moved = viewer.settings().camera;
+  project(Projection::orthographic);
+  EXPECT_EQ(viewer.settings().camera, with_projection(moved, Projection::orthographic));
+}
+
 TEST(Viewer, a_picture_to_be_saved_has_any_size_and_does_not_disturb) {
   Viewer viewer;
   viewer.resize(64, 36);

@@ -8,7 +8,7 @@ import { link_of, state_from, state_of, type State } from './link';
 import { busy, clear_errors, fail, note } from './messages';
 import { start_panel } from './panel';
 import { listen_for_pointers } from './pointer';
-import type { EngineName, Facts, FrameReport, GpuState, Look, Settings, Source } from './protocol';
+import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Settings, Source } from './protocol';
 import { Saving } from './saving';
 import { listen_for_sources, show_source, wanted_file, wanted_source, type Wanted } from './sources';
 import { show_statistics } from './statistics';
@@ -91,7 +91,7 @@ const engine = new Engine(
   },
 );
 
-function change(changes: Partial<Settings>): void {
+function change(changes: Changes): void {
   engine.send({ type: 'set', serial: ++serial, changes });
 }
 

@@ -47,6 +47,9 @@ export interface LookFault {
   message: string;
 }
 
+/** Changes of settings; what a camera leaves out stays. */
+export type Changes = Omit<Partial<Settings>, 'camera'> & { camera?: Partial<Camera> };
+
 /** Where a scene comes from. A dropped file has no address, so that no link can bring it back. */
 export type Source =
   | { built_in: string; count?: number }
@@ -97,7 +100,7 @@ export type Move =
 export type Request =
   | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
   | { type: 'load'; id: number; source: Source; bytes: ArrayBuffer | null; name: string; settings: Partial<Settings> | null; look: Partial<Look> | null }
-  | { type: 'set'; serial: number; changes: Partial<Settings> }
+  | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
   | { type: 'move'; move: Move }

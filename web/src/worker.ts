@@ -3,7 +3,7 @@ import { BadInput, load_module, value_of, type Module, type Page } from './modul
 import { GlCanvas } from './gl_canvas';
 import { unpacked } from './gunzip';
 import { PictureRun } from './picture_run';
-import type { Answer, Facts, FrameReport, Look, Move, Request, Settings, ThesisProgress } from './protocol';
+import type { Answer, Changes, Facts, FrameReport, Look, Move, Request, Settings, ThesisProgress } from './protocol';
 
 const frame_budget_ms = 25;
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
@@ -16,7 +16,7 @@ let cpu_context: OffscreenCanvasRenderingContext2D;
 
 let has_scene = false;
 let size_px = { width: 1, height: 1 };
-let wanted_changes: Partial<Settings> | null = null;
+let wanted_changes: Changes | null = null;
 let serial = 0; // of the last request in wanted_changes
 let wanted_look: Partial<Look> | null = null;
 let look_serial = 0; // of the last request in wanted_look
@@ -185,11 +185,8 @@ function report_or_loss(now: Settings): FrameReport | null {
 async function next_frame(): Promise<void> {
   frame_pending = false;
   if (thesis || saving) return;
-  await attempt(null, () => {
-    apply_moves();
-    apply_look();
-    apply_changes();
-  });
+  // A fault of one does not keep the others from being applied.
+  for (const apply of [apply_moves, apply_look, apply_changes]) await attempt(null, apply);
   await attempt(null, () => {
     const now = settings();
     if (on_lost_gpu(now)) return;

@@ -60,7 +60,7 @@ Result<LookAction> material_action(const std::string& value) {
 
 Result<LookAction> radius_scale_action(const std::string& value) {
   const std::optional<double> factor = number_in(value, 0, double{std::numeric_limits<float>::max()});
-  if (!factor) return unexpected("a number of at least 0", value);
+  if (!factor) return unexpected("a number from 0 to 3.4e38", value);
   return LookAction(ScaleRadius{*factor});
 }
 

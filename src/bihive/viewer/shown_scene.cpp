@@ -20,8 +20,8 @@ ShownScene::ShownScene(LoadedScene loaded)
   diagonal = length(bounds.hi - bounds.lo);
 }
 
-Camera ShownScene::framed(ViewFrom side, View view, PictureSizePx size) const {
-  const Lens lens{own_camera.fov_deg, own_camera.projection};
+Camera ShownScene::framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const {
+  const Lens lens{own_camera.fov_deg, projection};
   return view == View::tree ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
                             : frame_spheres(scene.spheres, side_of(side), lens, size.width, size.height);
 }

@@ -43,7 +43,7 @@ struct ShownScene {
   ShownScene& operator=(const ShownScene&) = delete;
 
   /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree.
-  Camera framed(ViewFrom side, View view, PictureSizePx size) const;
+  Camera framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const;
   /// Whether the other scene has the same spheres but for their attributes: then these trees are right for both.
   bool same_spheres(const ShownScene& other) const;
   /// Becomes the other scene, which has the same spheres, and keeps the trees.

@@ -40,7 +40,7 @@ class Viewer::Implementation {
     ViewerSettings settings = settings_;
     take_defaults(next->scene.picture, settings);
     const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
-    settings.camera = side ? next->framed(*side, settings.view, size_) : next->own_camera;
+    settings.camera = side ? next->framed(*side, next->own_camera.projection, settings.view, size_) : next->own_camera;
     if (Status status = check_settings(settings); !status) return status.error();
     next->trees = std::make_unique<SceneTrees>(next->scene.spheres, tree_parameters(settings));
     if (Status status = make_ready(*next, *next->trees, settings, /*upload=*/true); !status) return status.error();
@@ -121,7 +121,9 @@ class Viewer::Implementation {
   Status set(ViewerSettings settings) {
     if (Status status = check_settings(settings); !status) return status;
     drop_picture();
-    const bool keeps_side = framed_from_ && settings.camera == settings_.camera;
+    // Only another projection: the camera still shows the whole set.
+    const Camera same_place = with_projection(settings_.camera, settings.camera.projection);
+    const bool keeps_side = framed_from_ && settings.camera == same_place;
     if (!shown_) {
       if (settings.engine == ViewerEngine::gpu)
         if (Status status = check_gpu(settings); !status) return status;
@@ -163,14 +165,14 @@ class Viewer::Implementation {
   void look_from(ViewFrom side) {
     if (!shown_) return;
     framed_from_ = side;
-    settings_.camera = shown_->framed(side, settings_.view, size_);
+    settings_.camera = shown_->framed(side, settings_.camera.projection, settings_.view, size_);
     steps_.moved();
   }
 
   void home() {
     if (!shown_) return;
     if (!shown_->has_camera) return look_from(ViewFrom::front);
-    move_to(shown_->own_camera);
+    move_to(with_projection(shown_->own_camera, settings_.camera.projection));
   }
 
   // --- Pictures -----------------------------------------------------------------------------------------------
@@ -276,7 +278,7 @@ class Viewer::Implementation {
     const ShownScene& scene = next ? *next : *shown_;
     const bool same_spheres = !next || shown_->same_spheres(*next);
     if (next) follow_defaults(shown_->scene.picture, next->scene.picture, settings);
-    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.view, size_);
+    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera.projection, settings.view, size_);
 
     // The trees refer to the spheres that stay.
     std::unique_ptr<SceneTrees> other_trees;

@@ -75,7 +75,8 @@ class Viewer {
 
   const ViewerSettings& settings() const;
   /// Error: out of range, a camera that sees nothing (check_camera), no graphics processor, or a view that the engine
-  /// does not have; the settings before stay. Parameters that changed rebuild the tree.
+  /// does not have; the settings before stay. Parameters that changed rebuild the tree. A camera that shows the whole
+  /// set still does so after a change of the projection alone (with_projection()).
   Status set(const ViewerSettings& settings);
   /// Size of the picture at rest. 1 to 16384 each. A camera that shows the whole set is placed anew.
   void resize(int width_px, int height_px);
@@ -85,8 +86,8 @@ class Viewer {
   /// A factor above 1 comes closer. The point under (x, y) in pixels stays at its place. Does nothing if the factor is
   /// not finite or not above 0.
   void zoom(double factor, double x_px, double y_px);
-  void look_from(ViewFrom side);  ///< the whole set in view
-  void home();                    ///< the scene's own camera, or all in view from the front
+  void look_from(ViewFrom side);  ///< the whole set in view, with the projection of the settings
+  void home();                    ///< the scene's own camera, or all in view from the front; the projection likewise
 
   // Pictures.
 

@@ -205,7 +205,12 @@ Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSet
     of_camera.take("look_at", settings.camera.look_at);
     of_camera.take("up", settings.camera.up);
     of_camera.take("fov_deg", settings.camera.fov_deg);
-    of_camera.take("projection", settings.camera.projection, kProjections);
+    Projection projection = settings.camera.projection;
+    of_camera.take("projection", projection, kProjections);
+    if (camera->is_object() && camera->contains("shorter_side"))
+      settings.camera.projection = projection;
+    else
+      settings.camera = with_projection(settings.camera, projection);
     of_camera.take("shorter_side", settings.camera.shorter_side);
     of_camera.refuse_others();
   }
