@@ -124,7 +124,9 @@ std::string LookPanel::answered(const Result<std::vector<std::int64_t>>& counts,
     row.is_fault = !counts && i == failed_row;
     row.words.clear();
     if (counts) row.words = fmt::format("{} sphere{}", (*counts)[i], (*counts)[i] == 1 ? "" : "s");
-    if (row.is_fault) row.words = counts.error().to_string();
+    if (!row.is_fault) continue;
+    const int column = counts.error().column;
+    row.words = (column > 0 ? fmt::format("column {}: ", column) : "") + counts.error().to_string();
   }
   const bool is_said = rows_sent_ && failed_row < sent_.size();
   return counts || is_said ? "" : counts.error().to_string();

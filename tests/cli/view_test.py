@@ -168,7 +168,8 @@ class Window(ProgramTest):
             if new:
                 data = self.read(new[0])
                 text = png_text(data)
-                return {"name": new[0], "size": png_size(data), "scene": text["Scene"], **json.loads(text["Settings"])}
+                picture = {"name": new[0], "size": png_size(data), "scene": text["Scene"]}
+                return {**picture, "look": json.loads(text["Look"]), **json.loads(text["Settings"])}
             time.sleep(0.05)
         self.fail("nothing was saved")
 
@@ -236,6 +237,33 @@ class Window(ProgramTest):
         self.press("q")
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
+
+    def test_a_look_of_a_selection(self):
+        """A row of the panel by pointer and keys: the button is below four lines of the panel."""
+        self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat")
+        self.assertEqual(self.saved()["look"], {"style": "flat", "element_colours": "", "background": "", "rows": []})
+
+        def enter(x, y, text):
+            self.tool("mousemove", "--window", self.window, str(x), str(y))
+            time.sleep(0.3)
+            self.tool("click", "1")
+            time.sleep(0.5)
+            self.tool("type", "--delay", "50", text)
+            self.press("Return")
+            time.sleep(0.5)
+
+        enter(520, 160, "")  # add
+        enter(450, 160, "index 1")
+        enter(610, 188, "orange")
+        self.tool("mousemove", "--window", self.window, "100", "100")
+        deadline = time.monotonic() + PATIENCE_S
+        rows = []
+        while not rows and time.monotonic() < deadline:
+            rows = self.saved()["look"]["rows"]
+        self.assertEqual(rows, [{"select": "index 1", "action": "colour", "value": "orange"}])
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
     def title(self, expected):
         """Waits until the window has that name."""
