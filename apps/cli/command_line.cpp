@@ -153,18 +153,18 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
   add_flag("--hide", "Hide them from every ray", [&looks] { looks.show(false); });
   add_flag("--show", "Show them again", [&looks] { looks.show(true); });
   add("--colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1",
-      [&looks](const std::string& text) { return looks.colour(text); });
+      [&looks](const std::string& text) { return looks.act("colour", text); });
   add("--colour-by", "ATTR[:MAP[:MIN,MAX[:log]]]", "Colour them by an attribute; MAP: " + std::string(kColourMapNames),
-      [&looks](const std::string& text) { return looks.colour_by(text); });
+      [&looks](const std::string& text) { return looks.act("colour-by", text); });
   add("--nan-colour", "COLOUR", "--colour-by: colour of unknown numbers (grey)",
       [&looks](const std::string& text) { return looks.set_nan_colour(text); });
   add("--opacity", "F", "Their opacity, 0 (clear) to 1",
-      [&looks](const std::string& text) { return looks.opacity(text); });
+      [&looks](const std::string& text) { return looks.act("opacity", text); });
   add("--material", list_of(named_materials()), "Their material (the style's)",
-      [&looks](const std::string& text) { return looks.material(text); });
+      [&looks](const std::string& text) { return looks.act("material", text); });
   add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
       [&looks, &input](const std::string& text) -> Status {
-        if (looks.selected) return looks.radius_scale(text);
+        if (looks.selected) return looks.act("radius-scale", text);
         if (input.radius_scale) return Error{"is given more than once before a --select", "", 0, 0, ""};
         const Result<double> factor = number_from(text, 0, kLargestFloat);
         if (!factor) return factor.error();
@@ -255,7 +255,8 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
                   "bihive view scenario2 --engine gpu --max-prims 1 --view traversal", options, request);
   add_input(command, options.input);
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
-  add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (gpu where a real one can, else cpu)");
+  add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (cpu)");
+  command.add_option("--style", options.style, "A look of bihive styles (files: default)")->type_name("NAME");
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
   add_integer(command, "--samples", options.samples, 1, kMostSamples, "Samples a pixel (files: 4, thesis's scenes: 1)");
   add_integer(command, "--recursion", options.recursion, 1, kMostRecursion, "Generations of rays (5)");

@@ -4,25 +4,14 @@
 
 #include "bihive/base/write_file.h"
 #include "bihive/scene/element_colours.h"
-#include "bihive/scene/named_materials.h"
+#include "bihive/scene/look_text.h"
 #include "bihive/select/selection.h"
 #include "support/failure.h"
 #include "support/messages.h"
 #include "support/selection.h"
-#include "support/values.h"
 
 namespace bihive::cli {
 namespace {
-
-constexpr double kLargestFactor = 3.4028234663852886e38;
-
-// A text that means a colour: numbers are linear, and a name or #rrggbb depends on the scene's transfer.
-Result<ColourChoice> colour_choice(const std::string& text) {
-  const Result<Vec3d> colour = colour_from(text, Transfer::none);
-  if (!colour) return colour.error();
-  if (text.find(',') != std::string::npos) return ColourChoice(*colour);
-  return ColourChoice(text);
-}
 
 void recolour(LoadedScene& input, const std::string& choice) {
   std::optional<ElementColours> colours = element_colours_called(choice);
@@ -59,50 +48,18 @@ void LookOptions::show(bool shown) {
   words.push_back(option);
 }
 
-Status LookOptions::colour(const std::string& text) {
-  const Result<ColourChoice> colour = colour_choice(text);
-  if (!colour) return colour.error();
-  add(SetColour{*colour}, "--colour");
-  words.push_back("--colour " + text);
-  return Done{};
-}
-
-Status LookOptions::colour_by(const std::string& text) {
-  const Result<ColourBy> how = colour_by_from_text(text);
-  if (!how) return how.error();
-  add(*how, "--colour-by");
-  words.push_back("--colour-by " + text);
+Status LookOptions::act(const std::string& name, const std::string& text) {
+  Result<LookAction> action = look_action_from_text(name, text);
+  if (!action) return action.error();
+  add(std::move(*action), "--" + name);
+  words.push_back("--" + name + " " + text);
   return Done{};
 }
 
 Status LookOptions::set_nan_colour(const std::string& text) {
-  if (const Result<ColourChoice> colour = colour_choice(text); !colour) return colour.error();
+  if (const Result<ColourChoice> colour = colour_choice_from_text(text); !colour) return colour.error();
   nan_colour = text;
   words.push_back("--nan-colour " + text);
-  return Done{};
-}
-
-Status LookOptions::opacity(const std::string& text) {
-  const Result<double> value = number_from(text, 0, 1);
-  if (!value) return value.error();
-  add(SetOpacity{*value}, "--opacity");
-  words.push_back("--opacity " + text);
-  return Done{};
-}
-
-Status LookOptions::material(const std::string& text) {
-  const Result<Material> material = choice_from(text, named_materials());
-  if (!material) return material.error();
-  add(SetMaterial{*material}, "--material");
-  words.push_back("--material " + text);
-  return Done{};
-}
-
-Status LookOptions::radius_scale(const std::string& text) {
-  const Result<double> value = number_from(text, 0, kLargestFactor);
-  if (!value) return value.error();
-  add(ScaleRadius{*value}, "--radius-scale");
-  words.push_back("--radius-scale " + text);
   return Done{};
 }
 
@@ -123,7 +80,7 @@ void look(LoadedScene& input, const LookOptions& options) {
   for (Look one : options.looks) {
     for (LookAction& action : one.actions)
       if (auto* const how = std::get_if<ColourBy>(&action); how != nullptr && !options.nan_colour.empty())
-        how->nan_colour = *colour_choice(options.nan_colour);
+        how->nan_colour = *colour_choice_from_text(options.nan_colour);
     looks.push_back(std::move(one));
   }
   if (looks.empty()) return;

@@ -23,12 +23,9 @@ struct LookOptions {
   /// Fails with kBadUsage on a text that is no selection, and shows the place.
   void select(const std::string& text);
   void show(bool shown);
-  Status colour(const std::string& text);
-  Status colour_by(const std::string& text);
   Status set_nan_colour(const std::string& text);
-  Status opacity(const std::string& text);
-  Status material(const std::string& text);
-  Status radius_scale(const std::string& text);
+  /// colour, colour-by, opacity, material, radius-scale.
+  Status act(const std::string& name, const std::string& text);
   /// --no-hydrogens and --no-water: hide what the word selects; the selection of the next actions stays.
   void hide_word(const std::string& option, const std::string& word);
 

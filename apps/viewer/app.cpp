@@ -27,11 +27,9 @@ App& app_of(GLFWwindow* window) {
   return *static_cast<App*>(glfwGetWindowUserPointer(window));
 }
 
-// A software driver: the CPU engine is faster.
-bool is_software(const std::string& description) {
-  for (const char* name : {"llvmpipe", "softpipe", "SwiftShader", "swrast"})
-    if (description.find(name) != std::string::npos) return true;
-  return false;
+// What the GPU engine does not draw.
+bool is_beyond_gpu(const ViewerLook& look) {
+  return (!look.style.empty() && look.style != "plain") || look.background == "none";
 }
 
 // "demo.png", or "demo-2.png" if that exists.
@@ -61,14 +59,15 @@ Status App::open() {
   // A missing graphics processor is an error only if the user asked for it.
   const Result<GlFunctions> functions = load_gl_functions(glfwGetProcAddress);
   const Status attached = functions ? viewer_.attach_gl(*functions) : Status(functions.error());
-  ViewerSettings settings = viewer_.settings();
   const ImVec2 size = picture_size();
   viewer_.resize(static_cast<int>(size.x), static_cast<int>(size.y));
+  if (!request_.style.empty()) {
+    ViewerLook look;
+    look.style = request_.style;
+    if (const auto shown = viewer_.set_look(look); !shown) return shown.error();
+  }
   if (request_.side) viewer_.look_from(*request_.side);
-  settings.camera = viewer_.settings().camera;
-  if (!request_.chooses_engine && attached && !is_software(viewer_.gl_description()))
-    settings.engine = ViewerEngine::gpu;
-  const Result<ViewerSettings> asked = settings_from_json(request_.settings, settings);
+  const Result<ViewerSettings> asked = settings_from_json(request_.settings, viewer_.settings());
   if (!asked) return asked.error();
   if (asked->engine == ViewerEngine::gpu && !attached) return attached.error();
   if (Status status = viewer_.set(*asked); !status) return status;
@@ -268,6 +267,7 @@ void App::opened(const Result<SceneFacts>& facts) {
   message_.clear();
   texture_->forget();
   panel_.table.forget();
+  panel_.look.start_anew(viewer_.look());
   const std::filesystem::path name(facts->name);
   panel_.file_name = name.stem().string() + ".png";
   glfwSetWindowTitle(window_->handle(), (name.filename().string() + " - bihive").c_str());
@@ -278,7 +278,26 @@ void App::apply(const ViewerSettings& settings) {
   if (message_is_bad_) message_.clear();
 }
 
+void App::apply(const ViewerLook& look) {
+  const bool engine_changes =
+      viewer_.settings().engine == ViewerEngine::gpu && look.style != viewer_.look().style && is_beyond_gpu(look);
+  const bool becomes_clear = viewer_.settings().engine == ViewerEngine::gpu && look.background == "none" &&
+                             viewer_.look().background != "none";
+  std::size_t failed_row = 0;
+  const Result<std::vector<std::int64_t>> counts = viewer_.set_look(look, &failed_row);
+  if (const std::string words = panel_.look.answered(counts, failed_row); !words.empty()) return say(words, true);
+  if (!counts) return;
+  if (message_is_bad_) message_.clear();
+  panel_.table.forget();
+  if (!engine_changes && !becomes_clear) return;
+  ViewerSettings settings = viewer_.settings();
+  settings.engine = ViewerEngine::cpu;
+  apply(settings);
+  say("the CPU engine draws now: the GPU engine draws the style plain, on a colour", false);
+}
+
 void App::follow(const PanelWishes& wishes) {
+  if (wishes.look) apply(*wishes.look);
   if (wishes.settings) apply(*wishes.settings);
   if (wishes.side) viewer_.look_from(*wishes.side);
   if (wishes.home) viewer_.home();
@@ -286,16 +305,25 @@ void App::follow(const PanelWishes& wishes) {
   if (wishes.save) save();
 }
 
+Result<PngPixels> App::picture_to_save() {
+  const ImVec2 shown = picture_size();
+  const PictureSizePx wanted = panel_.save_size;
+  const int width = wanted.width > 0 ? wanted.width : static_cast<int>(shown.x);
+  const int height = wanted.height > 0 ? wanted.height : static_cast<int>(shown.y);
+  return viewer_.picture(width, height, viewer_.settings().samples_per_pixel);
+}
+
 void App::save() {
-  const ImVec2 size = picture_size();
-  const Result<Image> picture =
-      viewer_.picture(static_cast<int>(size.x), static_cast<int>(size.y), viewer_.settings().samples_per_pixel);
+  const Result<PngPixels> picture = picture_to_save();
   if (!picture) return say(picture.error().to_string(), true);
   const std::string path = free_name(panel_.file_name);
   const PngText text{{"Software", "bihive " + std::string(version())},
                      {"Scene", viewer_.facts().name},
-                     {"Settings", settings_to_json(viewer_.settings())}};
-  if (Status status = write_png(path, *picture, text); !status) return say(status.error().to_string(), true);
+                     {"Settings", settings_to_json(viewer_.settings())},
+                     {"Look", viewer_look_to_json(viewer_.look())}};
+  const Result<std::string> png = encode_png(*picture, text);
+  if (!png) return say(png.error().to_string(), true);
+  if (Status status = write_file(path, *png); !status) return say(status.error().to_string(), true);
   std::error_code ignored;
   say(fmt::format("saved {} ({} x {})", std::filesystem::absolute(path, ignored).string(), picture->width,
                   picture->height),

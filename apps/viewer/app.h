@@ -47,8 +47,10 @@ class App {
   void open_built_in(const std::string& name);
   void opened(const Result<SceneFacts>& facts);
   void apply(const ViewerSettings& settings);
+  void apply(const ViewerLook& look);
   void follow(const PanelWishes& wishes);
   void save();
+  Result<PngPixels> picture_to_save();
   void say(const std::string& text, bool bad);
 
   void draw(const FrameReport& report, Image* screenshot);

@@ -4,30 +4,19 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/names.h"
 #include "theme.h"
+#include "widgets.h"
 
 namespace bihive::window {
 namespace {
 
 // A slider's range; numbers beyond it need the command line.
 constexpr int kMostPrims = 64, kMostDepth = 64;
-
-void heading(const char* text) {
-  ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y * 0.4F});
-  ImGui::Separator();
-  ImGui::TextColored(kDim, "%s", text);
-}
-
-// A label in the left column, and its control in the right one.
-void label(const char* text) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + 0.36F * ImGui::GetWindowWidth());
-  ImGui::SetNextItemWidth(-1);
-}
+constexpr int kLargestSavedPx = 65535;
 
 void slider(const char* name, int& value, int max, ImGuiSliderFlags flags = 0) {
   label(name);
@@ -60,9 +49,11 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   draw_scene(viewer, wishes);
+  heading("look");
+  wishes.look = look.draw(viewer);
   draw_picture(viewer, settings);
   draw_speed(viewer, report);
-  draw_camera(wishes);
+  draw_camera(settings, wishes);
   draw_saving(wishes);
   draw_tree(settings);
   draw_keys();
@@ -72,6 +63,7 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
   const bool changed = settings.engine != before.engine || settings.view != before.view ||
                        settings.recursion != before.recursion ||
                        settings.samples_per_pixel != before.samples_per_pixel || settings.shadows != before.shadows ||
+                       settings.camera.projection != before.camera.projection ||
                        settings.max_prims != before.max_prims || settings.max_depth != before.max_depth;
   if (changed) wishes.settings = settings;
   return wishes;
@@ -111,6 +103,8 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("%s", viewer.has_gl() ? viewer.gl_description().c_str() : "no graphics processor that can do it");
 
+  if (settings.engine == ViewerEngine::gpu) ImGui::TextColored(kDim, "GPU: the style plain, on a colour");
+
   label("view");
   if (ImGui::BeginCombo("##view", name_of(kViews, settings.view).c_str(), ImGuiComboFlags_HeightLarge)) {
     int number = 1;
@@ -126,8 +120,15 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
   ImGui::Checkbox("##shadows", &settings.shadows);
 }
 
-void Panel::draw_camera(PanelWishes& wishes) const {
-  heading("look from");
+void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {
+  heading("camera");
+  label("projection");
+  if (ImGui::BeginCombo("##projection", name_of(kProjections, settings.camera.projection).c_str())) {
+    for (const auto& [name, projection] : kProjections)
+      if (ImGui::Selectable(name.c_str(), settings.camera.projection == projection))
+        settings.camera = with_projection(settings.camera, projection);
+    ImGui::EndCombo();
+  }
   const float space = ImGui::GetStyle().ItemSpacing.x;
   const float across = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
   int column = 0;
@@ -173,6 +174,11 @@ void Panel::draw_saving(PanelWishes& wishes) {
   ImGui::InputText("##file", &file_name);
   ImGui::SameLine();
   if (ImGui::Button("save")) wishes.save = true;
+  label("pixels");
+  std::array<int, 2> size{save_size.width, save_size.height};
+  if (ImGui::InputInt2("##pixels", size.data()))
+    save_size = {std::clamp(size[0], 0, kLargestSavedPx), std::clamp(size[1], 0, kLargestSavedPx)};
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("0: as large as the picture on the screen");
 }
 
 void Panel::draw_keys() const {

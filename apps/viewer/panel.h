@@ -7,7 +7,9 @@
 #include <string>
 
 #include "bihive/scene/framing.h"
+#include "bihive/viewer/orbit.h"
 #include "bihive/viewer/viewer.h"
+#include "look_panel.h"
 #include "tree_table.h"
 
 namespace bihive::window {
@@ -15,6 +17,7 @@ namespace bihive::window {
 /// Data of one frame.
 struct PanelWishes {
   std::optional<ViewerSettings> settings;
+  std::optional<ViewerLook> look;
   std::optional<ViewFrom> side;
   std::optional<std::string> built_in;  ///< a scene to be opened
   bool home = false, save = false;
@@ -29,13 +32,15 @@ class Panel {
   PanelWishes draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale);
 
   TreeTable table;
+  LookPanel look;
   std::string file_name = "bihive.png";  ///< where pictures are saved
+  PictureSizePx save_size{0, 0};         ///< 0: as on the screen
 
  private:
   void draw_scene(const Viewer& viewer, PanelWishes& wishes) const;
   void draw_picture(const Viewer& viewer, ViewerSettings& settings) const;
   void draw_tree(ViewerSettings& settings) const;
-  void draw_camera(PanelWishes& wishes) const;
+  void draw_camera(ViewerSettings& settings, PanelWishes& wishes) const;
   void draw_speed(const Viewer& viewer, const FrameReport& report) const;
   void draw_saving(PanelWishes& wishes);
   void draw_keys() const;

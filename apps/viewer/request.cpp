@@ -28,10 +28,8 @@ Request take(const json& document) {
   }
   for (const auto& [name, side] : kSides)
     if (document.value("view_from", "") == name) request.side = side;
-  if (document.contains("settings")) {
-    request.settings = document.at("settings").dump();
-    request.chooses_engine = document.at("settings").contains("engine");
-  }
+  if (document.contains("settings")) request.settings = document.at("settings").dump();
+  request.style = document.value("style", "");
   request.screenshot = document.value("screenshot", "");
   return request;
 }

@@ -27,8 +27,8 @@ struct Request {
   int width = 1280, height = 800;  ///< of the window, in the screen's units
   std::optional<ViewFrom> side;
   std::string settings = "{}";
-  bool chooses_engine = false;  ///< the settings name one
-  std::string screenshot;       ///< not empty: a PNG of the settled window is written there, and the program ends
+  std::string style;       ///< empty: what `bihive render` takes without --style
+  std::string screenshot;  ///< not empty: a PNG of the settled window is written there, and the program ends
 };
 
 Result<Request> request_from_json(std::string_view text);

@@ -42,8 +42,9 @@ for (let i = 0; i < repetitions; ++i) {
   await context.close();
 }
 
-// One sample a pixel, turned by a key.
+// One sample a pixel in the style that both engines draw, turned by a key.
 const { context, page } = await visit();
+await and_settle(page, () => page.$eval('#style input[value=plain]', (input) => input.click()));
 await and_settle(page, () =>
   page.$eval('#samples', (input) => {
     input.value = '1';

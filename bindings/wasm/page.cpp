@@ -9,7 +9,11 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
+#include "bihive/scene/colour_maps.h"
+#include "bihive/scene/look_text.h"
+#include "bihive/scene/named_materials.h"
 #include "bihive/scene/names.h"
+#include "bihive/scene/style.h"
 #include "bihive/thesis/builtin_values.h"
 #include "bihive/thesis/frame_rates_report.h"
 #include "bihive/thesis/stated_values.h"
@@ -24,13 +28,24 @@ std::string text_of(const ordered_json& json) {
   return json.dump(-1, ' ', /*ensure_ascii=*/false, ordered_json::error_handler_t::replace);
 }
 
+ordered_json failure_json(const Error& error) {
+  return {{"error",
+           {{"message", error.message},
+            {"file", error.file},
+            {"line", error.line},
+            {"column", error.column},
+            {"hint", error.hint}}}};
+}
+
 std::string failure(const Error& error) {
-  return text_of({{"error",
-                   {{"message", error.message},
-                    {"file", error.file},
-                    {"line", error.line},
-                    {"column", error.column},
-                    {"hint", error.hint}}}});
+  return text_of(failure_json(error));
+}
+
+template <class T>
+ordered_json names_json(const Names<T>& names) {
+  ordered_json list = ordered_json::array();
+  for (const auto& named : names) list.push_back(named.first);
+  return list;
 }
 
 Result<StatedValues> stated_values() {
@@ -62,9 +77,18 @@ emscripten::val Page::room(double bytes) {
 std::string Page::loaded(const Result<SceneFacts>& facts) const {
   if (!facts) return failure(facts.error());
   ordered_json json;
-  json["facts"] = {{"name", facts->name},     {"format", facts->format}, {"spheres", facts->spheres},
-                   {"frames", facts->frames}, {"rules", facts->rules},   {"warnings", facts->warnings}};
+  json["facts"] = {{"name", facts->name},
+                   {"format", facts->format},
+                   {"spheres", facts->spheres},
+                   {"frames", facts->frames},
+                   {"rules", facts->rules},
+                   {"warnings", facts->warnings},
+                   {"takes_style", facts->takes_style},
+                   {"is_file_of_spheres", facts->is_file_of_spheres},
+                   {"has_elements", facts->has_elements},
+                   {"attributes", facts->attributes}};
   json["settings"] = ordered_json::parse(settings());
+  json["look"] = ordered_json::parse(look());
   return text_of(json);
 }
 
@@ -91,6 +115,33 @@ std::string Page::set(const std::string& changes) {
   return with_memory([&] {
     const Result<ViewerSettings> settings = settings_from_json(changes, viewer_.settings());
     return settings ? done_or(viewer_.set(*settings)) : failure(settings.error());
+  });
+}
+
+std::string Page::choices() const {
+  ordered_json json;
+  for (const std::string& name : style_names())
+    json["styles"].push_back({{"name", name}, {"description", style_named(name)->description}});
+  json["actions"] = look_action_names();
+  json["maps"] = kColourMapNames;
+  json["materials"] = names_json(named_materials());
+  return text_of(json);
+}
+
+std::string Page::look() const {
+  return viewer_look_to_json(viewer_.look());
+}
+
+std::string Page::set_look(const std::string& changes) {
+  return with_memory([&] {
+    const Result<ViewerLook> look = viewer_look_from_json(changes, viewer_.look());
+    if (!look) return failure(look.error());
+    std::size_t row = look->rows.size();
+    const Result<std::vector<std::int64_t>> counts = viewer_.set_look(*look, &row);
+    if (counts) return text_of({{"counts", *counts}});
+    ordered_json json = failure_json(counts.error());
+    json["error"]["row"] = row < look->rows.size() ? static_cast<int>(row) : -1;
+    return text_of(json);
   });
 }
 
@@ -125,23 +176,19 @@ std::string Page::frame(double budget_ms) {
   });
 }
 
-void Page::take_pixels(const Image& image) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  rgba_.resize(4 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t channel = 0; channel < 3; ++channel) rgba_[4 * i + channel] = image.rgb[3 * i + channel];
-    rgba_[4 * i + 3] = 255;
-  }
-}
-
 std::string Page::take_image() {
   const Image& image = viewer_.image();
-  take_pixels(image);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  pixels_.resize(4 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t channel = 0; channel < 3; ++channel) pixels_[4 * i + channel] = image.rgb[3 * i + channel];
+    pixels_[4 * i + 3] = 255;
+  }
   return text_of({{"width", image.width}, {"height", image.height}});
 }
 
 emscripten::val Page::pixels() const {
-  return emscripten::val(emscripten::typed_memory_view(rgba_.size(), rgba_.data()));
+  return emscripten::val(emscripten::typed_memory_view(pixels_.size(), pixels_.data()));
 }
 
 void Page::show(int width_px, int height_px) {
@@ -161,10 +208,10 @@ std::string Page::step_picture(double budget_ms) {
 
 std::string Page::take_picture() {
   return with_memory([&] {
-    const Result<Image> image = viewer_.take_picture();
-    if (!image) return failure(image.error());
-    take_pixels(*image);
-    return text_of({{"width", image->width}, {"height", image->height}});
+    Result<PngPixels> picture = viewer_.take_picture();
+    if (!picture) return failure(picture.error());
+    pixels_ = std::move(picture->bytes);
+    return text_of({{"width", picture->width}, {"height", picture->height}, {"channels", picture->channels}});
   });
 }
 
@@ -243,6 +290,9 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("orbit", &Page::orbit)
       .function("pan", &Page::pan)
       .function("zoom", &Page::zoom)
+      .function("choices", &Page::choices)
+      .function("look", &Page::look)
+      .function("set_look", &Page::set_look)
       .function("look_from", &Page::look_from)
       .function("home", &Page::home)
       .function("attach_gl", &Page::attach_gl)

@@ -38,6 +38,13 @@ class Page {
   std::string look_from(const std::string& side);
   void home() { viewer_.home(); }
 
+  // The look (viewer/viewer_json.h).
+
+  std::string choices() const;  ///< {"styles": [{"name", "description"}], "actions": [names], "maps": "a, b", "materials": [names]}
+  std::string look() const;
+  /// {"counts": [spheres of each row]}. An error has {"row": the row to blame, or -1} besides.
+  std::string set_look(const std::string& changes);
+
   // The graphics processor: WebGL2's current context.
 
   std::string attach_gl();  ///< {"description": ...}
@@ -58,7 +65,9 @@ class Page {
 
   std::string begin_picture(int width_px, int height_px, int samples_per_pixel);
   std::string step_picture(double budget_ms);  ///< {"done": 0 to 1}
-  std::string take_picture();                  ///< the finished share; as take_image()
+  /// The finished picture: {"width", "height", "channels"}, and its pixels as a view of memory. Three channels, or four
+  /// with opacity, where the colour is not multiplied by it.
+  std::string take_picture();
   void drop_picture() { viewer_.drop_picture(); }
 
   // Figure 4.4, one step for each call.
@@ -71,11 +80,10 @@ class Page {
 
  private:
   std::string loaded(const Result<SceneFacts>& facts) const;
-  void take_pixels(const Image& image);
 
   Viewer viewer_;
   std::string input_;
-  std::vector<std::uint8_t> rgba_;
+  std::vector<std::uint8_t> pixels_;
   std::optional<GlRenderer> thesis_gl_;
   std::optional<FrameRateRun> thesis_;
 };

@@ -46,6 +46,8 @@ class NoWindow(ProgramTest):
         self.assertIn("--view tree", self.fail_usage("view", "demo", "--engine", "gpu", "--view", "tree"))
         self.assertIn("--count is for", self.fail_usage("view", "demo", "--count", "5"))
         self.assertIn("--samples:", self.fail_usage("view", "demo", "--samples", "65"))
+        self.assertIn("--style: there is no style", self.fail_usage("view", "demo", "--style", "nice"))
+        self.assertIn("--style is for files", self.fail_usage("view", "four-spheres", "--style", "studio"))
         self.assertIn("bihive view", self.succeed("view", "--help"))
 
 
@@ -67,9 +69,7 @@ class Window(ProgramTest):
         return [row[:-PANEL_PX] for row in rows], [row[-PANEL_PX:] for row in rows]
 
     def rendered(self, size, *arguments):
-        # The window draws the style plain.
-        style = ["--style", "plain"] if "demo" in arguments else []
-        self.succeed("render", *arguments, "-o", "rendered.png", "--size", size, *style)
+        self.succeed("render", *arguments, "-o", "rendered.png", "--size", size)
         return png_pixels(self.read("rendered.png"))
 
     def assert_is_panel(self, panel):
@@ -82,6 +82,16 @@ class Window(ProgramTest):
         self.assertEqual((len(picture[0]), len(picture)), (620 - PANEL_PX, 420))
         self.assertTrue(picture == self.rendered("272x420", "demo"), "the pixels differ")
         self.assert_is_panel(panel)
+
+    def test_styles_are_those_of_render(self):
+        for style in ("studio", "flat"):
+            given = ["demo", "--style", style]
+            picture, _ = self.screenshot(*given, "--size", "620x320")
+            self.assertTrue(picture == self.rendered("272x320", *given), "the pixels differ")
+
+    def test_the_graphics_processor_draws_the_style_plain(self):
+        picture, _ = self.screenshot("demo", "--style", "studio", "--size", "620x320", "--engine", "gpu")
+        self.assertLessEqual(share_off(picture, self.rendered("272x320", "demo", "--style", "plain"), 2), 0.005)
 
     def test_the_graphics_processor_shows_nearly_the_same(self):
         given = ["scenario3", "--recursion", "2"]
@@ -158,7 +168,8 @@ class Window(ProgramTest):
             if new:
                 data = self.read(new[0])
                 text = png_text(data)
-                return {"name": new[0], "size": png_size(data), "scene": text["Scene"], **json.loads(text["Settings"])}
+                picture = {"name": new[0], "size": png_size(data), "scene": text["Scene"]}
+                return {**picture, "look": json.loads(text["Look"]), **json.loads(text["Settings"])}
             time.sleep(0.05)
         self.fail("nothing was saved")
 
@@ -226,6 +237,33 @@ class Window(ProgramTest):
         self.press("q")
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
+
+    def test_a_look_of_a_selection(self):
+        """A row of the panel by pointer and keys: the button is below four lines of the panel."""
+        self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat")
+        self.assertEqual(self.saved()["look"], {"style": "flat", "element_colours": "", "background": "", "rows": []})
+
+        def enter(x, y, text):
+            self.tool("mousemove", "--window", self.window, str(x), str(y))
+            time.sleep(0.3)
+            self.tool("click", "1")
+            time.sleep(0.5)
+            self.tool("type", "--delay", "50", text)
+            self.press("Return")
+            time.sleep(0.5)
+
+        enter(520, 160, "")  # add
+        enter(450, 160, "index 1")
+        enter(610, 188, "orange")
+        self.tool("mousemove", "--window", self.window, "100", "100")
+        deadline = time.monotonic() + PATIENCE_S
+        rows = []
+        while not rows and time.monotonic() < deadline:
+            rows = self.saved()["look"]["rows"]
+        self.assertEqual(rows, [{"select": "index 1", "action": "colour", "value": "orange"}])
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
     def title(self, expected):
         """Waits until the window has that name."""

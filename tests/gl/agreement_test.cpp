@@ -11,6 +11,7 @@
 #include "bihive/render/renderer.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
+#include "bihive/scene/named_materials.h"
 #include "bihive/scene/palette.h"
 #include "support/gl_picture.h"
 #include "support/hostile_sets.h"
@@ -115,6 +116,21 @@ TEST_P(Scenes, orthographic) {
   expect_agreement(compare(scene, settings), kAtDepth1);
   settings.view = View::distance;
   expect_agreement(compare(scene, settings), kAtDepth1);
+}
+
+TEST(Agreement, materials_and_ambient_light) {
+  for (const auto& [name, material] : named_materials()) {
+    SCOPED_TRACE(name);
+    Scene scene = molecule_scene();
+    scene.materials = {material};
+    scene.ambient_light = {0.5, 0.7, 1.5};
+    RenderSettings settings = settings_of(scene, 240, 150);
+    settings.recursion = 1;
+    // The borders of bands are edges of their own.
+    const Agreement agreement = compare(scene, settings);
+    if (material.bands == 0) expect_agreement(agreement, kAtDepth1);
+    EXPECT_LE(agreement.share(), kAtDepth5) << agreement.text();
+  }
 }
 
 // Red and transparent spheres in turn, seen from the front, with a light.

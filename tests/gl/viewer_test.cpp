@@ -37,6 +37,12 @@ void choose(Viewer& viewer, ViewerEngine engine) {
   ASSERT_TRUE(status) << status.error().to_string();
 }
 
+void choose_plain(Viewer& viewer) {
+  ViewerLook look;
+  look.style = "plain";
+  ASSERT_TRUE(viewer.set_look(look));
+}
+
 // The output of show() in a framebuffer as large as the picture.
 Image shown(Viewer& viewer, int width = kWidth, int height = kHeight) {
   GLuint texture = 0, framebuffer = 0;
@@ -86,6 +92,7 @@ TEST(GpuViewer, settles_at_what_the_cpu_draws) {
   EXPECT_THAT(viewer.gl_description(), HasSubstr("OpenGL"));
   for (const char* name : {"demo", "scenario1"}) {
     ASSERT_TRUE(viewer.load_built_in(name));
+    if (viewer.facts().takes_style) choose_plain(viewer);
     viewer.orbit(25, 10);
     choose(viewer, ViewerEngine::cpu);
     settle(viewer);
@@ -141,10 +148,10 @@ TEST(GpuViewer, a_picture_to_be_saved_does_not_disturb) {
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   const Image before = shown(viewer);
-  const Result<Image> same = viewer.picture(kWidth, kHeight, viewer.settings().samples_per_pixel);
+  const Result<PngPixels> same = viewer.picture(kWidth, kHeight, viewer.settings().samples_per_pixel);
   ASSERT_TRUE(same);
-  EXPECT_LE(share_off(*same, before), 0.001);
-  const Result<Image> larger = viewer.picture(2 * kWidth, 2 * kHeight, 1);
+  EXPECT_LE(share_off({same->width, same->height, same->bytes}, before), 0.001);
+  const Result<PngPixels> larger = viewer.picture(2 * kWidth, 2 * kHeight, 1);
   ASSERT_TRUE(larger);
   EXPECT_EQ(larger->width, 2 * kWidth);
   EXPECT_EQ(picture_hash(shown(viewer)), picture_hash(before));
@@ -161,7 +168,7 @@ TEST(GpuViewer, a_picture_to_be_saved_comes_in_steps_and_may_be_dropped) {
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   const Image before = shown(viewer);
-  const Result<Image> whole = viewer.picture(300, 200, 2);
+  const Result<PngPixels> whole = viewer.picture(300, 200, 2);
   ASSERT_TRUE(whole);
   ASSERT_TRUE(viewer.begin_picture(300, 200, 2));
   for (double last = 0; last < 1;) {
@@ -170,7 +177,7 @@ TEST(GpuViewer, a_picture_to_be_saved_comes_in_steps_and_may_be_dropped) {
     ASSERT_GT(*done, last);
     last = *done;
   }
-  const Result<Image> in_steps = viewer.take_picture();
+  const Result<PngPixels> in_steps = viewer.take_picture();
   ASSERT_TRUE(in_steps);
   EXPECT_EQ(picture_hash(*in_steps), picture_hash(*whole));
 
@@ -212,6 +219,46 @@ TEST(GpuViewer, a_lost_context_comes_back) {
     settle(viewer);
     EXPECT_EQ(picture_hash(shown(viewer)), picture_hash(before));
   }
+}
+
+TEST(GpuViewer, draws_the_style_plain_with_the_users_looks) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  ViewerLook plain;
+  plain.style = "plain";
+  plain.rows = {{"chain A", "colour", "orange"}, {"water", "hide", ""}};
+  ASSERT_TRUE(viewer.set_look(plain));
+  settle(viewer);
+  const Image by_cpu = viewer.image();
+
+  // Any style, and a transparent background, are kept for the CPU.
+  ViewerLook xray = plain;
+  xray.style = "xray";
+  xray.background = "none";
+  ASSERT_TRUE(viewer.set_look(xray));
+  settle(viewer);
+  const Image clear = viewer.image();
+  EXPECT_EQ(viewer.settings().recursion, 16);
+  choose(viewer, ViewerEngine::gpu);
+  EXPECT_EQ(viewer.look(), xray);
+  EXPECT_EQ(viewer.settings().recursion, 5) << "the style plain's";
+  settle(viewer);
+  EXPECT_LE(share_off(shown(viewer), by_cpu), 0.005);
+  EXPECT_EQ(viewer.picture(kWidth, kHeight, 1)->channels, 3);
+
+  // A change of the look while the graphics processor draws.
+  ViewerLook hidden = xray;
+  hidden.rows.push_back({"chain B", "hide", ""});
+  const Image before = shown(viewer);
+  ASSERT_TRUE(viewer.set_look(hidden));
+  settle(viewer);
+  EXPECT_GT(share_off(shown(viewer), before), 0.05);
+  ASSERT_TRUE(viewer.set_look(xray));
+  viewer.detach_gl(true);
+  settle(viewer);
+  EXPECT_EQ(picture_hash(viewer.image()), picture_hash(clear));
 }
 
 TEST(GpuViewer, refuses_what_it_cannot_draw_and_goes_on) {

@@ -65,6 +65,45 @@ TEST(ViewerJson, what_is_left_out_stays) {
   EXPECT_EQ(some->camera.eye, base.camera.eye);
 }
 
+TEST(ViewerJson, a_projection_alone_keeps_the_size) {
+  ViewerSettings base;
+  base.camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 30};
+  const Result<ViewerSettings> changed = settings_from_json(R"({"camera": {"projection": "orthographic"}})", base);
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(changed->camera, with_projection(base.camera, Projection::orthographic));
+  EXPECT_GT(changed->camera.shorter_side, 5);
+}
+
+TEST(ViewerJson, looks_come_back) {
+  ViewerLook look;
+  look.style = "studio";
+  look.element_colours = "cpk";
+  look.background = "none";
+  look.rows = {{"chain \"A\"", "colour", "0.1,0.2,0.3"}, {"", "hide", ""}};
+  const Result<ViewerLook> back = viewer_look_from_json(viewer_look_to_json(look));
+  ASSERT_TRUE(back) << back.error().to_string();
+  EXPECT_EQ(*back, look);
+
+  // What is left out stays; rows come as a whole.
+  const Result<ViewerLook> some = viewer_look_from_json(R"({"style": "", "rows": [{"action": "show"}]})", look);
+  ASSERT_TRUE(some);
+  EXPECT_EQ(some->style, "");
+  EXPECT_EQ(some->background, "none");
+  EXPECT_EQ(some->rows, (std::vector<LookRow>{{"", "show", ""}}));
+
+  const auto look_error = [](std::string_view json) {
+    const Result<ViewerLook> bad = viewer_look_from_json(json);
+    return bad ? "no error" : bad.error().to_string();
+  };
+  EXPECT_THAT(look_error("["), HasSubstr("look:1:"));
+  EXPECT_THAT(look_error(R"({"style": 1})"), HasSubstr("/style: expected a text, found 1"));
+  EXPECT_THAT(look_error(R"({"rows": {}})"), HasSubstr("/rows: expected an array"));
+  EXPECT_THAT(look_error(R"({"rows": [{}, 5, {}]})"), HasSubstr("/rows/1: expected an object, found 5"));
+  EXPECT_THAT(look_error(R"({"rows": [{"select": null}]})"), HasSubstr("/rows/0/select: expected a text"));
+  EXPECT_THAT(look_error(R"({"rows": [{"selects": ""}]})"), HasSubstr("/rows/0/\"selects\": unknown key"));
+  EXPECT_THAT(look_error(R"({"styles": ""})"), HasSubstr("unknown key; there are style, element_colours"));
+}
+
 TEST(ViewerJson, says_what_is_wrong_and_where) {
   EXPECT_THAT(error_of("{"), HasSubstr("settings:1:"));
   EXPECT_THAT(error_of("[]"), HasSubstr("expected an object, found []"));

@@ -45,7 +45,7 @@ Image rendered(const Viewer& viewer, Engine engine, const RenderSettings& settin
 
 RenderSettings settings_of(const Viewer& viewer, int width, int height) {
   const ViewerSettings& of_viewer = viewer.settings();
-  RenderSettings settings;
+  RenderSettings settings = settings_from(viewer.scene().picture);
   settings.width_px = width;
   settings.height_px = height;
   settings.samples_per_pixel = of_viewer.samples_per_pixel;
@@ -284,13 +284,43 @@ TEST(Viewer, an_orthographic_scene_stays_orthographic) {
   EXPECT_EQ(viewer.settings().camera.projection, Projection::orthographic);
 }
 
+TEST(Viewer, another_projection_still_shows_all) {
+  Viewer viewer;
+  viewer.resize(100, 60);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  const Camera before = viewer.settings().camera;
+  const auto project = [&](Projection projection) {
+    ViewerSettings settings = viewer.settings();
+    settings.camera = with_projection(settings.camera, projection);
+    ASSERT_TRUE(viewer.set(settings));
+  };
+  const auto whole = [&](ViewFrom side) {
+    return frame_spheres(viewer.scene().spheres, side_of(side), {before.fov_deg, Projection::orthographic}, 100, 60);
+  };
+  project(Projection::orthographic);
+  EXPECT_EQ(viewer.settings().camera, whole(ViewFrom::front));
+  viewer.look_from(ViewFrom::top);
+  EXPECT_EQ(viewer.settings().camera, whole(ViewFrom::top));
+  viewer.orbit(10, 0);
+  viewer.home();
+  EXPECT_EQ(viewer.settings().camera, whole(ViewFrom::front));
+  project(Projection::perspective);
+  EXPECT_EQ(viewer.settings().camera, before);
+
+  // A camera that was moved by hand keeps its place.
+  viewer.orbit(10, 0);
+  const Camera moved = viewer.settings().camera;
+  project(Projection::orthographic);
+  EXPECT_EQ(viewer.settings().camera, with_projection(moved, Projection::orthographic));
+}
+
 TEST(Viewer, a_picture_to_be_saved_has_any_size_and_does_not_disturb) {
   Viewer viewer;
   viewer.resize(64, 36);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   settle(viewer);
   const std::uint64_t before = picture_hash(viewer.image());
-  const Result<Image> picture = viewer.picture(128, 72, 1);
+  const Result<PngPixels> picture = viewer.picture(128, 72, 1);
   ASSERT_TRUE(picture);
   RenderSettings settings = settings_of(viewer, 128, 72);
   settings.samples_per_pixel = 1;
@@ -314,7 +344,7 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
   ASSERT_TRUE(viewer.load_built_in("demo"));
   settle(viewer);
   EXPECT_FALSE(viewer.advance_picture(1));
-  const Result<Image> whole = viewer.picture(300, 200, 1);
+  const Result<PngPixels> whole = viewer.picture(300, 200, 1);
   ASSERT_TRUE(whole);
 
   // Moves in the meantime do not change it.
@@ -330,7 +360,7 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
     viewer.orbit(3, 1);
   }
   EXPECT_GT(steps, 3);
-  const Result<Image> in_steps = viewer.take_picture();
+  const Result<PngPixels> in_steps = viewer.take_picture();
   ASSERT_TRUE(in_steps);
   EXPECT_EQ(picture_hash(*in_steps), picture_hash(*whole));
   EXPECT_FALSE(viewer.take_picture()) << "once";

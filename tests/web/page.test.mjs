@@ -104,6 +104,13 @@ test('every control changes what it says', async () => {
   const round = (camera) => JSON.stringify(camera, (_, value) => (typeof value === 'number' ? +value.toPrecision(6) : value));
   assert.equal(round((await link_state(page)).settings.camera), round(before.settings.camera));
 
+  // The projection, which still shows all.
+  await and_settle(page, () => page.selectOption('#projection', 'orthographic'));
+  const native = native_picture('demo', 'parallel', '--projection', 'orthographic', '--size', '568x600', '--samples', '1',
+    '--recursion', '2', '--view', 'normal');
+  assert.equal((await compare(page, native, await saved_picture(page, 568, 600), 0)).share, 0);
+  await and_settle(page, () => page.selectOption('#projection', 'perspective'));
+
   // Colours.
   for (const [theme, colour] of [['dark', 'rgb(16, 19, 23)'], ['light', 'rgb(244, 244, 241)']]) {
     await page.click(`#theme input[value=${theme}] + span`);

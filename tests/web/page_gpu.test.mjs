@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import {
   agreement, and_settle, compare, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
-  set_value, settled, shown_error,
+  set_value, settled, shown_error, shown_picture,
 } from './page_kit.mjs';
 import { serve } from './page_server.mjs';
 
@@ -29,18 +29,6 @@ after(async () => {
   await browser?.close();
   server?.close();
 });
-
-// The picture on the screen, without the controls over it.
-async function shown_picture(page) {
-  const covers = (visibility) =>
-    page.evaluate((value) => {
-      for (const cover of document.querySelectorAll('#stage > :not(#picture)')) cover.style.visibility = value;
-    }, visibility);
-  await covers('hidden');
-  const shown = await page.locator('#gpu_canvas').screenshot();
-  await covers('');
-  return shown;
-}
 
 const choose_gpu = (page) =>
   and_settle(page, async () => {
@@ -75,10 +63,25 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
       const saved = await saved_picture(page, 320, 200);
       assert_agreement(agreement(scene, `gpu-${scene}-${recursion}`, saved, settings), recursion, what);
       if (recursion !== 5) continue;
-      const shown = await shown_picture(page);
+      const shown = await shown_picture(page, '#gpu_canvas');
       assert_agreement(agreement(scene, `shown-${scene}`, shown, settings), recursion, `${what}, on the screen`);
     }
   }
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('the GPU engine draws the style plain, and another style brings the CPU', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
+  assert.ok(await page.isHidden('#engine_plain'));
+  await choose_gpu(page);
+  assert.match(await page.textContent('#engine_plain'), /style plain/);
+  assert.ok(await page.isVisible('#engine_plain'));
+  await and_settle(page, () => page.check('#style input[value=flat]', { force: true }));
+  await page.waitForSelector('#cpu_canvas:not([hidden])');
+  assert.ok(await page.isHidden('#engine_plain'));
+  const { settings, look } = await link_state(page);
+  assert.deepEqual([settings.engine, settings.shadows, look.style], ['cpu', false, 'flat']);
   no_complaints(complaints);
   await context.close();
 });
@@ -113,7 +116,7 @@ test('without textures of floating point the GPU engine draws the very same pict
     const mine = [];
     for (const view of ['shaded', 'distance']) {
       await and_settle(page, () => page.selectOption('#view', view));
-      mine.push(await saved_picture(page, 160, 100), await shown_picture(page));
+      mine.push(await saved_picture(page, 160, 100), await shown_picture(page, '#gpu_canvas'));
     }
     assert.equal((await link_state(page)).settings.engine, 'gpu');
     pictures.push(mine);

@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { inflateSync } from 'node:zlib';
 import { chromium } from 'playwright-core';
 
 export const folder = process.env.PAGE;
@@ -63,9 +64,7 @@ export async function shown_error(page) {
 /** What `bihive render` makes of an input: the bytes of a PNG. */
 export function native_picture(input, name, ...options) {
   const file = join(scratch, `${name}.png`);
-  // The page draws the style plain. The thesis's scenes have a look of their own.
-  const style = /^(four-spheres|scenario[123])$/.test(input) ? [] : ['--style', 'plain'];
-  execFileSync(process.env.BIHIVE, ['render', input, '-o', file, ...style, ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
+  execFileSync(process.env.BIHIVE, ['render', input, '-o', file, ...options], { stdio: ['ignore', 'ignore', 'inherit'] });
   return readFileSync(file);
 }
 
@@ -113,6 +112,48 @@ export async function compare(page, a, b, by) {
     },
     [a.toString('base64'), b.toString('base64'), by],
   );
+}
+
+/** A PNG of 8 bits as {width, height, channels, bytes}: its very numbers, as no browser gives those of clear pixels. */
+export function decoded(png) {
+  const header = { width: png.readUInt32BE(16), height: png.readUInt32BE(20), channels: { 2: 3, 6: 4 }[png[25]] };
+  assert.deepEqual([png[24], png[28]], [8, 0], '8 bits, not interlaced');
+  const parts = [];
+  for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at))
+    if (png.toString('latin1', at + 4, at + 8) === 'IDAT') parts.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
+  const packed = inflateSync(Buffer.concat(parts));
+  const row = header.width * header.channels;
+  const bytes = Buffer.alloc(row * header.height);
+  for (let y = 0; y < header.height; ++y)
+    for (let i = 0; i < row; ++i) {
+      const at = y * row + i;
+      const left = i < header.channels ? 0 : bytes[at - header.channels];
+      const up = y === 0 ? 0 : bytes[at - row];
+      const corner = y === 0 || i < header.channels ? 0 : bytes[at - row - header.channels];
+      const [a, b, c] = [Math.abs(up - corner), Math.abs(left - corner), Math.abs(left + up - 2 * corner)];
+      const paeth = a <= b && a <= c ? left : b <= c ? up : corner;
+      bytes[at] = packed[y * (row + 1) + 1 + i] + [0, left, up, (left + up) >> 1, paeth][packed[y * (row + 1)]];
+    }
+  return { ...header, bytes };
+}
+
+/** Asserts that two PNGs hold the same numbers. */
+export function assert_same_picture(png, expected, what) {
+  const [a, b] = [decoded(png), decoded(expected)];
+  assert.deepEqual([a.width, a.height, a.channels], [b.width, b.height, b.channels], what);
+  assert.ok(a.bytes.equals(b.bytes), `${what}: the numbers differ`);
+}
+
+/** The picture on the screen, without the controls over it. */
+export async function shown_picture(page, canvas) {
+  const covers = (visibility) =>
+    page.evaluate((value) => {
+      for (const cover of document.querySelectorAll('#stage > :not(#picture)')) cover.style.visibility = value;
+    }, visibility);
+  await covers('hidden');
+  const shown = await page.locator(canvas).screenshot();
+  await covers('');
+  return shown;
 }
 
 /** Moves a slider or types into a number as a user does. */

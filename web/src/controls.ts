@@ -1,9 +1,9 @@
 // The panel's controls for settings. They show the settings, and report the user's changes.
 import { element, RadioGroup } from './dom';
-import type { EngineName, Move, Settings, SideName, ViewName } from './protocol';
+import type { Camera, Changes, EngineName, Move, Settings, SideName, ViewName } from './protocol';
 
 export interface ControlActions {
-  change(changes: Partial<Settings>): void;
+  change(changes: Changes): void;
   move(move: Move): void;
 }
 
@@ -41,6 +41,7 @@ export class Controls {
   private readonly engine: RadioGroup;
   private readonly view = element<HTMLSelectElement>('view');
   private readonly shadows = element<HTMLInputElement>('shadows');
+  private readonly projection = element<HTMLSelectElement>('projection');
   private readonly recursion: Slider;
   private readonly samples: Slider;
   private readonly max_prims: Slider;
@@ -56,6 +57,9 @@ export class Controls {
     this.shadows.addEventListener('change', () => change({ shadows: this.shadows.checked }));
     this.max_prims = new Slider('max_prims', limit_words, (value) => change({ max_prims: value || null }));
     this.max_depth = new Slider('max_depth', limit_words, (value) => change({ max_depth: value || null }));
+    this.projection.addEventListener('change', () =>
+      change({ camera: { projection: this.projection.value as Camera['projection'] } }),
+    );
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-side]'))
       button.addEventListener('click', () =>
         actions.move({ kind: 'look_from', side: button.dataset['side'] as SideName }),
@@ -86,6 +90,7 @@ export class Controls {
     this.engine.value = settings.engine;
     this.view.value = settings.view;
     this.shadows.checked = settings.shadows;
+    this.projection.value = settings.camera.projection;
     this.recursion.value = settings.recursion;
     this.samples.value = settings.samples_per_pixel;
     this.max_prims.value = limit_of(settings.max_prims);

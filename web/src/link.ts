@@ -1,9 +1,10 @@
 // The whole state as a link: scene and settings in the address behind "#".
-import type { Settings, Source } from './protocol';
+import type { Look, Settings, Source } from './protocol';
 
 export interface State {
   source: Source;
   settings: Partial<Settings> | null;
+  look: Partial<Look> | null;
 }
 
 const prefix = '#state=';
@@ -23,12 +24,16 @@ function is_source(value: unknown): value is Source {
   return typeof source['url'] === 'string';
 }
 
-/** A state as a document gives it; null where it is none. The module checks the settings. */
+/** A state as a document gives it; null where it is none. The module checks settings and look. */
 export function state_from(document: unknown): State | null {
   if (typeof document !== 'object' || document === null) return null;
-  const { source, settings } = document as Record<string, unknown>;
+  const { source, settings, look } = document as Record<string, unknown>;
   if (!is_source(source)) return null;
-  return { source, settings: typeof settings === 'object' ? (settings as Partial<Settings> | null) : null };
+  return {
+    source,
+    settings: typeof settings === 'object' ? (settings as Partial<Settings> | null) : null,
+    look: typeof look === 'object' ? (look as Partial<Look> | null) : null,
+  };
 }
 
 /** That of an address; null where it has none; throws where it is damaged. */

@@ -3,11 +3,12 @@ import { Controls } from './controls';
 import { element, grouped } from './dom';
 import { Engine } from './engine';
 import { listen_for_keys } from './keyboard';
+import { LookControls } from './look';
 import { link_of, state_from, state_of, type State } from './link';
 import { busy, clear_errors, fail, note } from './messages';
 import { start_panel } from './panel';
 import { listen_for_pointers } from './pointer';
-import type { EngineName, Facts, FrameReport, GpuState, Settings, Source } from './protocol';
+import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Settings, Source } from './protocol';
 import { Saving } from './saving';
 import { listen_for_sources, show_source, wanted_file, wanted_source, type Wanted } from './sources';
 import { show_statistics } from './statistics';
@@ -23,9 +24,11 @@ const cpu_canvas = element<HTMLCanvasElement>('cpu_canvas');
 
 let source: Source = { built_in: 'demo' };
 let settings: Settings | null = null;
+let look: Look | null = null;
 let facts: Facts | null = null;
 let gpu: GpuState = { here: false, software: false, why_not: '', description: '' };
 let serial = 0;
+let look_serial = 0;
 let loading = 0; // id of the load that is awaited
 let scale = 1;
 let size = { width: 1, height: 1 };
@@ -45,6 +48,9 @@ const engine = new Engine(
       show_source(source);
       show_settings(answer.settings);
       controls.show(answer.settings);
+      look = answer.look;
+      looks.show_facts(answer.facts);
+      looks.show(look);
       for (const text of answer.notes) note(text);
     },
     failed: ({ id, message }) => {
@@ -61,6 +67,10 @@ const engine = new Engine(
     settings: (answer) => {
       show_settings(answer.settings);
       if (answer.serial === serial) controls.show(answer.settings);
+    },
+    look: (answer) => {
+      look = answer.look;
+      if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.fault);
     },
     frame: (answer) => {
       show_settings(answer.settings);
@@ -81,11 +91,15 @@ const engine = new Engine(
   },
 );
 
-function change(changes: Partial<Settings>): void {
+function change(changes: Changes): void {
   engine.send({ type: 'set', serial: ++serial, changes });
 }
 
 const controls = new Controls({ change, move: (move) => engine.send({ type: 'move', move }) });
+const looks = new LookControls((changes) => {
+  picture.dataset['settled'] = 'false';
+  engine.send({ type: 'look', serial: ++look_serial, changes });
+});
 const saving = new Saving({
   draw: (width_px, height_px) => {
     const id = engine.new_id();
@@ -108,6 +122,7 @@ function device_words(): string {
 
 function show_settings(now: Settings): void {
   settings = now;
+  element('engine_plain').hidden = now.engine !== 'gpu';
 }
 
 function show_engine(name: EngineName): void {
@@ -157,7 +172,7 @@ function show_frame(report: FrameReport, width: number, height: number): void {
 
 // Actions of the user.
 
-async function open(what: Promise<Wanted>, name: string, wanted: Partial<Settings> | null = null): Promise<void> {
+async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'source'> | null = null): Promise<void> {
   const id = (loading = engine.new_id());
   clear_errors();
   picture.dataset['settled'] = 'false';
@@ -165,7 +180,8 @@ async function open(what: Promise<Wanted>, name: string, wanted: Partial<Setting
   try {
     const { source: from, bytes, name: called } = await what;
     if (id !== loading) return; // another one was asked for meanwhile
-    engine.send({ type: 'load', id, source: from, bytes, name: called, settings: wanted }, bytes ? [bytes] : []);
+    const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
+    engine.send({ type: 'load', id, source: from, bytes, name: called, ...state }, bytes ? [bytes] : []);
   } catch (error) {
     busy(null);
     show_source(source);
@@ -173,7 +189,7 @@ async function open(what: Promise<Wanted>, name: string, wanted: Partial<Setting
   }
 }
 
-const open_source = (from: Source, wanted: Partial<Settings> | null = null) =>
+const open_source = (from: Source, wanted: Omit<State, 'source'> | null = null) =>
   open(wanted_source(from), 'built_in' in from ? from.built_in : 'url' in from ? from.url : from.file, wanted);
 const open_file = (file: File) => open(wanted_file(file), file.name);
 
@@ -195,7 +211,7 @@ function watch_size(): void {
 async function copy_link(): Promise<void> {
   if (!settings) return;
   const is_file = 'file' in source;
-  const link = link_of({ source: is_file ? { built_in: 'demo' } : source, settings });
+  const link = link_of({ source: is_file ? { built_in: 'demo' } : source, settings, look });
   history.replaceState(null, '', link);
   const words = is_file ? `The file ${(source as { file: string }).file} itself is not in it.` : '';
   try {
@@ -213,7 +229,7 @@ async function first_state(): Promise<State> {
   const started = await fetch(new URL('start.json', document.baseURI))
     .then((response) => (response.ok ? response.json() : null))
     .catch(() => null);
-  return state_from(started) ?? { source: { built_in: 'demo' }, settings: null };
+  return state_from(started) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 }
 
 async function start(): Promise<void> {
@@ -245,7 +261,7 @@ async function start(): Promise<void> {
   const open_state = async () => {
     try {
       const state = await first_state();
-      await open_source(state.source, state.settings);
+      await open_source(state.source, state);
     } catch (error) {
       const opened = open_source({ built_in: 'demo' });
       fail((error as Error).message);

@@ -6,6 +6,8 @@ export interface Page {
   load_built_in(name: string, count: number): string;
   settings(): string;
   set(changes: string): string;
+  look(): string;
+  set_look(changes: string): string;
   resize(width_px: number, height_px: number): void;
   orbit(dx_px: number, dy_px: number): void;
   pan(dx_px: number, dy_px: number): void;
@@ -54,16 +56,25 @@ interface Failure {
   line: number;
   column: number;
   hint: string;
+  row?: number;
 }
 
 /** What is wrong with what the user gave; the page shows its message. */
-export class BadInput extends Error {}
+export class BadInput extends Error {
+  /** `row`: the row of a look that is to blame, or -1. */
+  constructor(
+    message: string,
+    readonly row = -1,
+  ) {
+    super(message);
+  }
+}
 
 /** An answer of the module as a value; throws BadInput where it is an error, saying what was wrong and where. */
 export function value_of<T>(answer: string): T {
   const value = JSON.parse(answer) as T & { error?: Failure };
   if (!value.error) return value;
-  const { message, file, line, column, hint } = value.error;
+  const { message, file, line, column, hint, row } = value.error;
   const place = [file, line > 0 ? `line ${line}` : '', column > 0 ? `column ${column}` : ''].filter(Boolean).join(', ');
-  throw new BadInput(`${place ? `${place}: ` : ''}${message}${hint ? `; ${hint}` : ''}`);
+  throw new BadInput(`${place ? `${place}: ` : ''}${message}${hint ? `; ${hint}` : ''}`, row);
 }

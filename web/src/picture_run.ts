@@ -1,4 +1,5 @@
 // In the worker: draws a picture to be saved in steps. Messages are read between two steps, so a cancel takes effect.
+import { png_of } from './png';
 import { value_of, type BadInput, type Page } from './module';
 
 const step_ms = 50;
@@ -9,9 +10,10 @@ export interface PictureSize {
   samples_per_pixel: number;
 }
 
-interface Size {
+interface Drawn {
   width: number;
   height: number;
+  channels: 3 | 4;
 }
 
 export class PictureRun {
@@ -20,7 +22,6 @@ export class PictureRun {
 
   constructor(
     private readonly page: Page,
-    private readonly image_data: (width: number, height: number) => ImageData,
     private readonly progress: (done: number) => void,
   ) {}
 
@@ -36,10 +37,8 @@ export class PictureRun {
       if (this.reason) throw this.reason;
       return null;
     }
-    const { width, height } = value_of<Size>(this.page.take_picture());
-    const canvas = new OffscreenCanvas(width, height);
-    canvas.getContext('2d')!.putImageData(this.image_data(width, height), 0, 0);
-    return canvas.convertToBlob({ type: 'image/png' });
+    const { width, height, channels } = value_of<Drawn>(this.page.take_picture());
+    return png_of(this.page.pixels(), width, height, channels);
   }
 
   /** Ends it before the next step; with a reason it is an error. */

@@ -26,6 +26,30 @@ export interface Settings {
   camera: Camera;
 }
 
+/** One action on selected spheres: as the options of `bihive render` behind --select. */
+export interface LookRow {
+  select: string; // empty: all
+  action: string;
+  value: string;
+}
+
+/** As ViewerLook of the library; an empty text leaves the choice to the input, or to its style. */
+export interface Look {
+  style: string;
+  element_colours: string;
+  background: string;
+  rows: LookRow[];
+}
+
+/** Why a look was refused. `row`: the row to blame, or -1. */
+export interface LookFault {
+  row: number;
+  message: string;
+}
+
+/** Changes of settings; what a camera leaves out stays. */
+export type Changes = Omit<Partial<Settings>, 'camera'> & { camera?: Partial<Camera> };
+
 /** Where a scene comes from. A dropped file has no address, so that no link can bring it back. */
 export type Source =
   | { built_in: string; count?: number }
@@ -39,6 +63,10 @@ export interface Facts {
   frames: number;
   rules: string[];
   warnings: string[];
+  takes_style: boolean;
+  is_file_of_spheres: boolean;
+  has_elements: boolean;
+  attributes: string[];
 }
 
 export interface FrameReport {
@@ -71,8 +99,9 @@ export type Move =
 /** To the worker. `id` comes back with the answer. */
 export type Request =
   | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
-  | { type: 'load'; id: number; source: Source; bytes: ArrayBuffer | null; name: string; settings: Partial<Settings> | null }
-  | { type: 'set'; serial: number; changes: Partial<Settings> }
+  | { type: 'load'; id: number; source: Source; bytes: ArrayBuffer | null; name: string; settings: Partial<Settings> | null; look: Partial<Look> | null }
+  | { type: 'set'; serial: number; changes: Changes }
+  | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
   | { type: 'move'; move: Move }
   | { type: 'picture'; id: number; width_px: number; height_px: number }
@@ -83,11 +112,12 @@ export type Request =
 /** From the worker. `serial`: of the last request to set something that is in these settings. */
 export type Answer =
   | { type: 'ready'; version: string; threads: number; gpu: GpuState }
-  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; notes: string[] }
+  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; notes: string[] }
   | { type: 'failed'; id: number | null; message: string }
   | { type: 'note'; message: string }
   | { type: 'gpu'; gpu: GpuState }
   | { type: 'settings'; serial: number; settings: Settings }
+  | { type: 'look'; serial: number; look: Look; counts: number[]; fault: LookFault | null }
   | { type: 'frame'; report: FrameReport; serial: number; settings: Settings; width_px: number; height_px: number }
   | { type: 'statistics'; json: string }
   | { type: 'picture_progress'; done: number }

@@ -3,7 +3,7 @@ import { BadInput, load_module, value_of, type Module, type Page } from './modul
 import { GlCanvas } from './gl_canvas';
 import { unpacked } from './gunzip';
 import { PictureRun } from './picture_run';
-import type { Answer, Facts, FrameReport, Move, Request, Settings, ThesisProgress } from './protocol';
+import type { Answer, Changes, Facts, FrameReport, Look, Move, Request, Settings, ThesisProgress } from './protocol';
 
 const frame_budget_ms = 25;
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
@@ -16,8 +16,10 @@ let cpu_context: OffscreenCanvasRenderingContext2D;
 
 let has_scene = false;
 let size_px = { width: 1, height: 1 };
-let wanted_changes: Partial<Settings> | null = null;
+let wanted_changes: Changes | null = null;
 let serial = 0; // of the last request in wanted_changes
+let wanted_look: Partial<Look> | null = null;
+let look_serial = 0; // of the last request in wanted_look
 let moves: Move[] = [];
 let statistics_wanted = false;
 let frame_pending = false;
@@ -32,6 +34,10 @@ function send(answer: Answer): void {
 
 function settings(): Settings {
   return JSON.parse(page.settings()) as Settings;
+}
+
+function look(): Look {
+  return JSON.parse(page.look()) as Look;
 }
 
 // Runs a request of the user; an exception becomes a message.
@@ -118,6 +124,33 @@ function apply_changes(): void {
   if ('max_prims' in changes || 'max_depth' in changes) statistics_wanted = true;
 }
 
+// A look that the GPU engine cannot draw.
+const is_beyond_gpu = ({ style, background }: Partial<Look>) => (style && style !== 'plain') || background === 'none';
+
+// A fault of one row is shown below it; any other fault is an error of the page.
+function apply_look(): void {
+  if (!wanted_look) return;
+  const changes = wanted_look;
+  wanted_look = null;
+  let counts: number[] = [];
+  let fault: BadInput | null = null;
+  try {
+    ({ counts } = value_of<{ counts: number[] }>(page.set_look(JSON.stringify(changes))));
+    if (settings().engine === 'gpu' && is_beyond_gpu(changes)) {
+      value_of(page.set(JSON.stringify({ engine: 'cpu' })));
+      send({ type: 'note', message: 'The CPU engine draws now: the GPU engine draws the style plain, on a colour.' });
+    }
+  } catch (error) {
+    if (!(error instanceof BadInput)) throw error;
+    fault = error;
+  } finally {
+    const words = fault && { row: fault.row, message: fault.message };
+    send({ type: 'look', serial: look_serial, look: look(), counts, fault: words });
+  }
+  if (fault && fault.row < 0) throw fault;
+  statistics_wanted = true;
+}
+
 function show_cpu_image(): void {
   const { width, height } = value_of<{ width: number; height: number }>(page.take_image());
   if (width === 0 || height === 0) return;
@@ -152,10 +185,8 @@ function report_or_loss(now: Settings): FrameReport | null {
 async function next_frame(): Promise<void> {
   frame_pending = false;
   if (thesis || saving) return;
-  await attempt(null, () => {
-    apply_moves();
-    apply_changes();
-  });
+  // A fault of one does not keep the others from being applied.
+  for (const apply of [apply_moves, apply_look, apply_changes]) await attempt(null, apply);
   await attempt(null, () => {
     const now = settings();
     if (on_lost_gpu(now)) return;
@@ -182,24 +213,30 @@ interface Loaded {
   settings: Settings;
 }
 
-let engine_chosen = false;
-
-// The settings of a link, or of the scene. The engine is the user's choice, at first the faster one. Returns the
-// message of a setting that failed.
-function choose_settings(wanted: Partial<Settings>): string[] {
+// The look and the settings of a link, or of the scene. The engine is the user's choice, at first the one that draws
+// every style. Returns the messages of what failed.
+function choose(wanted_settings: Partial<Settings>, wanted: Partial<Look> | null): string[] {
   const notes: string[] = [];
-  if (!engine_chosen && !wanted.engine && gl.here && !gl.software) wanted = { ...wanted, engine: 'gpu' };
-  engine_chosen = true;
-  if (wanted.engine === 'gpu') {
+  if (wanted) {
+    try {
+      value_of(page.set_look(JSON.stringify(wanted)));
+    } catch (error) {
+      notes.push(`The look does not fit this scene and was left out: ${(error as Error).message}`);
+    }
+  }
+  let { engine, ...others } = wanted_settings;
+  if (engine === 'gpu') {
     try {
       ensure_gl();
     } catch (error) {
-      wanted = { ...wanted, engine: 'cpu' };
+      engine = 'cpu';
       notes.push((error as Error).message);
     }
   }
   try {
-    value_of(page.set(JSON.stringify(wanted)));
+    // The engine first, because it may bring a look with other values along.
+    if (engine) value_of(page.set(JSON.stringify({ engine })));
+    value_of(page.set(JSON.stringify(others)));
   } catch (error) {
     notes.push(`Some settings do not fit this scene and were left out: ${(error as Error).message}`);
   }
@@ -217,9 +254,11 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   }
   saving?.cancel();
   moves = [];
+  wanted_look = null;
   has_scene = true;
-  const notes = [...loaded.facts.warnings, ...choose_settings(request.settings ?? {})];
-  send({ type: 'loaded', id: request.id, source: request.source, facts: loaded.facts, settings: settings(), notes });
+  const { id, source } = request;
+  const notes = [...loaded.facts.warnings, ...choose(request.settings ?? {}, request.look)];
+  send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), notes });
   statistics_wanted = true;
   ask_for_frame();
 }
@@ -228,8 +267,9 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
 async function picture(request: Request & { type: 'picture' }): Promise<void> {
   if (!has_scene || thesis || saving) throw new BadInput('There is no picture to be saved just now');
   apply_moves();
+  apply_look();
   apply_changes();
-  saving = new PictureRun(page, image_data, (done) => send({ type: 'picture_progress', done }));
+  saving = new PictureRun(page, (done) => send({ type: 'picture_progress', done }));
   try {
     const { samples_per_pixel } = settings();
     send({ type: 'picture', picture: await saving.draw({ ...request, samples_per_pixel }) });
@@ -299,6 +339,10 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
     case 'set':
       wanted_changes = { ...wanted_changes, ...request.changes };
       serial = request.serial;
+      return ask_for_frame();
+    case 'look':
+      wanted_look = { ...wanted_look, ...request.changes };
+      look_serial = request.serial;
       return ask_for_frame();
     case 'resize':
       size_px = { width: request.width_px, height: request.height_px };

@@ -61,10 +61,7 @@ std::string beyond_gpu(const Scene& scene, const RenderSettings& settings) {
   if (settings.ambient_occlusion) return "ambient occlusion";
   if (settings.outline) return "outlines";
   if (settings.fog) return "fog";
-  const Vec3d ambient = scene.ambient_light;
   if (has_soft_light(scene) && settings.shadows) return "soft shadows";
-  if (ambient.x != 1 || ambient.y != 1 || ambient.z != 1) return "ambient light of another strength";
-  if (has_effects(scene)) return "such materials";
   return "";
 }
 

@@ -93,6 +93,7 @@ struct ViewOptions {
   std::optional<bool> shadows;
   TreeParameters tree;
   std::optional<ViewFrom> view_from;
+  std::string style;       ///< a name; empty: as `bihive render`
   std::string screenshot;  ///< empty: none
 };
 /// Becomes bihive-view, the program with the window; returns only by a Failure.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bihive/scene/style.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "commands/commands.h"
 #include "commands/names.h"
@@ -36,6 +37,7 @@ ordered_json request_of(const ViewOptions& options) {
   if (input.recenter) request["recenter"] = true;
   if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
+  if (!options.style.empty()) request["style"] = options.style;
   if (!options.screenshot.empty()) request["screenshot"] = options.screenshot;
 
   const auto limit = [](std::int64_t value) {
@@ -53,6 +55,14 @@ ordered_json request_of(const ViewOptions& options) {
   return request;
 }
 
+void check_style(const ViewOptions& options) {
+  if (options.style.empty()) return;
+  if (const Result<Style> style = style_named(options.style); !style)
+    fail_usage("--style: " + style.error().message, "see bihive styles");
+  const std::string& input = options.input.input;
+  if (is_built_in_scene(input) && input != "demo") fail_usage("--style is for files, not for " + input);
+}
+
 }  // namespace
 
 void run_view(const ViewOptions& options) {
@@ -60,6 +70,7 @@ void run_view(const ViewOptions& options) {
     fail_usage("--view tree is drawn by the CPU, and --engine gpu is not",
                "leave --engine out, or choose --engine cpu");
   check_input_options(options.input);
+  check_style(options);
   const std::string request = request_of(options).dump(-1, ' ', false, ordered_json::error_handler_t::ignore);
 
   // The program lies beside this one, or in the PATH of the shell.

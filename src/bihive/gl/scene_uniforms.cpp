@@ -21,7 +21,8 @@ float length_of(double stored) {
 SceneUniforms::SceneUniforms(const Scene& scene, const Tree* tree, const SceneTextures& textures)
     : sphere_count(static_cast<int>(textures.sphere_count)),
       light_count(static_cast<int>(textures.light_count)),
-      background(to_float(scene.background)) {
+      background(to_float(scene.background)),
+      ambient_light(to_float(scene.ambient_light)) {
   if (tree != nullptr && !tree->aabb.empty()) {
     tree_lo = tree->aabb.lo;
     tree_hi = tree->aabb.hi;
@@ -47,6 +48,7 @@ void SceneUniforms::put(GlProgram& program) const {
   program.set("sphere_count", sphere_count);
   program.set("light_count", light_count);
   program.set("background", background);
+  program.set("ambient_light", ambient_light);
   program.set("tree_lo", tree_lo);
   program.set("tree_hi", tree_hi);
   program.set("has_plane", has_plane);

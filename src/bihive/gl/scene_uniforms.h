@@ -13,7 +13,7 @@ namespace bihive {
 /// Plane, checker, background, bounds and counts.
 struct SceneUniforms {
   int sphere_count = 0, light_count = 0;
-  Vec3f background, tree_lo, tree_hi;
+  Vec3f background, ambient_light{1, 1, 1}, tree_lo, tree_hi;
   bool has_plane = false, has_checker = false;
   Vec3f plane_normal, plane_u, plane_v, second_colour;
   float plane_offset = 0, checker_size = 1, fade_distance = 0;

@@ -12,13 +12,13 @@
 namespace bihive {
 namespace {
 
-constexpr int kTexelsOfLook = 3;
+constexpr int kTexelsOfLook = 4;
 constexpr std::int64_t kMostSpheresOfLeaf = (std::int64_t{1} << 27) - 1;
 
 // Lights farther away shine from the same direction, but the squares of their distances would leave binary32.
 constexpr double kFarthestLight = 1e15;
 
-using Look = std::array<float, 12>;
+using Look = std::array<float, std::size_t{4} * kTexelsOfLook>;
 
 struct HashOfLook {
   std::size_t operator()(const Look& look) const {
@@ -57,6 +57,10 @@ Look look_of(const Material& m) {
           number(m.power),
           number(m.transmissive),
           number(m.refraction_index),
+          number(m.tint),
+          number(m.glow),
+          number(m.bands),
+          0,
           0,
           0};
 }
@@ -114,7 +118,7 @@ Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texe
     return too_many("different looks", packed.look_count, most_texels / kTexelsOfLook);
   reserve(packed.looks, packed.look_count * kTexelsOfLook);
   for (std::size_t i = 0; i < looks.size(); ++i)
-    std::copy(looks[i].begin(), looks[i].end(), packed.looks.channels.begin() + std::ptrdiff_t(12 * i));
+    std::copy(looks[i].begin(), looks[i].end(), packed.looks.channels.begin() + std::ptrdiff_t(4 * kTexelsOfLook * i));
   return Done{};
 }
 
@@ -204,7 +208,7 @@ Node unpack_node(const SceneTextures& textures, std::int64_t position) {
 }
 
 Material unpack_look(const SceneTextures& textures, std::int64_t look) {
-  const float* const in = &textures.looks.channels[static_cast<std::size_t>(12 * look)];
+  const float* const in = &textures.looks.channels[static_cast<std::size_t>(4 * kTexelsOfLook * look)];
   Material material;
   material.colour = {double(in[0]), double(in[1]), double(in[2])};
   material.ambient = double(in[3]);
@@ -214,6 +218,9 @@ Material unpack_look(const SceneTextures& textures, std::int64_t look) {
   material.power = double(in[7]);
   material.transmissive = double(in[8]);
   material.refraction_index = double(in[9]);
+  material.tint = double(in[10]);
+  material.glow = double(in[11]);
+  material.bands = static_cast<int>(in[12]);
   return material;
 }
 

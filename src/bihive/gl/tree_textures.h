@@ -8,8 +8,9 @@
 //   sphere_info  RG32UI   a texel a sphere: id, look
 //   nodes        RG32UI   two texels a node: the bits of left_clip, right_clip;
 //                         kind (bits 0-2), split_axis (bits 3-4), sphere_count (bits 5-31); first
-//   looks        RGBA32F  three texels a look: colour, ambient; diffuse, reflective, specular, power; transmissive,
-//                         refraction_index, 0, 0. Look 0 is the plane's; of the others no two are equal.
+//   looks        RGBA32F  four texels a look: colour, ambient; diffuse, reflective, specular, power; transmissive,
+//                         refraction_index, tint, glow; bands, 0, 0, 0. Look 0 is the plane's; of the others no two are
+//                         equal.
 //   lights       RGBA32F  two texels a light: position, 0; colour, 0
 #pragma once
 

@@ -22,11 +22,11 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
   loaded.rules = std::move(file->rules);
   loaded.warnings = std::move(file->warnings);
   loaded.recentred_by = file->recentred_by;
-  if (style != nullptr) {
-    apply_style(*style, loaded.scene);
-    loaded.rig = style->lights;
-  }
-  colour_spheres(loaded.scene.spheres, style != nullptr ? style->element_colours : ElementScheme::jmol);
+  loaded.has_scheme_colours = loaded.scene.spheres.attributes().colour.empty();
+  if (style != nullptr)
+    restyle(loaded, *style);
+  else
+    colour_spheres(loaded.scene.spheres);
   return loaded;
 }
 
@@ -40,6 +40,13 @@ LoadedScene generated(Scene scene) {
 }
 
 }  // namespace
+
+void restyle(LoadedScene& loaded, const Style& style) {
+  apply_style(style, loaded.scene);
+  loaded.rig = style.lights;
+  if (loaded.has_scheme_colours) loaded.scene.spheres.attributes().colour.clear();
+  colour_spheres(loaded.scene.spheres, style.element_colours);
+}
 
 bool is_built_in_scene(const std::string& name) {
   return std::find(kBuiltInScenes.begin(), kBuiltInScenes.end(), name) != kBuiltInScenes.end();

@@ -18,8 +18,9 @@ namespace bihive {
 /// A scene, and the facts of its origin for the user.
 struct LoadedScene {
   Scene scene;
-  bool has_camera = false;  ///< false: the caller places the camera
-  bool has_lights = false;  ///< false: the caller places the lights of `rig`
+  bool has_camera = false;          ///< false: the caller places the camera
+  bool has_lights = false;          ///< false: the caller places the lights of `rig`
+  bool has_scheme_colours = false;  ///< a style's scheme coloured the spheres, not their file
   LightRig rig;
   std::string format = "scene file";  ///< or "built-in", or a sphere file's format (scene/load_scene.h)
   std::int64_t frames = 1;            ///< frames or models in the document's sphere file

@@ -1,13 +1,35 @@
 #include "bihive/viewer/picture_steps.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
+
+#include "bihive/viewer/shown_image.h"
 
 namespace bihive {
 namespace {
 
 // A picture of a moving scene may overrun the budget by this factor; otherwise it might never be shown.
 constexpr double kMostBudgets = 4;
+
+// Of a picture on the way to the final one: enough for the right brightness. Some edges of single shadows show.
+constexpr int kQuickDirections = 8;
+constexpr int kQuickLightPoints = 2;
+
+// Whether the picture has soft light, outlines or fog, which take more rays.
+bool has_slow_parts(const Scene& scene, const RenderSettings& settings) {
+  return settings.view == View::shaded && (settings.ambient_occlusion || settings.outline || settings.fog ||
+                                           (has_soft_light(scene) && settings.shadows));
+}
+
+// The same picture with fewer rays. An outline keeps its width on the screen; a thinner one than a pixel is left out.
+void make_quick(RenderSettings& settings, int divisor) {
+  if (settings.ambient_occlusion)
+    settings.ambient_occlusion->directions = std::min(settings.ambient_occlusion->directions, kQuickDirections);
+  settings.light_points = std::min(settings.light_points, kQuickLightPoints);
+  if (settings.outline) settings.outline->width_px /= divisor;
+  if (settings.outline && settings.outline->width_px < 1) settings.outline.reset();
+}
 
 // Pixels of a picture of that step.
 std::int64_t pixels_of(PictureStep step, PictureSizePx size) {
@@ -41,7 +63,9 @@ Result<FrameReport> PictureSteps::frame(const PictureSubject& subject, double bu
   }
   const StepShare share = share_of_step(step_, subject.settings.samples_per_pixel);
   report.settled = at_rest();
-  report.done = report.settled ? 1 : share.before + share.own * done_of_step(subject);
+  // A quick step of full size comes before the full one, and counts as its beginning.
+  const double own = quick_ && is_last(step_, subject) ? 0 : share.own;
+  report.done = report.settled ? 1 : share.before + own * done_of_step(subject);
   report.divisor = step_.divisor;
   report.frame_ms = timer.elapsed_ms();
   report.fps = rate_.fps();
@@ -57,12 +81,12 @@ Status PictureSteps::go_on(const PictureSubject& subject, double budget_ms, bool
     restart_ = false;
     settled_ = false;
     moving_ = true;
-    step_ = {divisor_for(size.width, size.height, cost(subject), budget_ms), 1};
-    if (Status status = begin_step(subject); !status) return status;
+    const PictureStep first{divisor_for(size.width, size.height, cost(subject), budget_ms), 1};
+    if (Status status = begin_step(subject, first); !status) return status;
   } else if (!begun_) {
     moving_ = false;
-    step_ = finer_step(step_, subject.settings.samples_per_pixel);
-    if (Status status = begin_step(subject); !status) return status;
+    const PictureStep next = finer_step(step_, subject.settings.samples_per_pixel);
+    if (Status status = begin_step(subject, next); !status) return status;
   }
 
   const Timer timer;
@@ -78,14 +102,19 @@ Status PictureSteps::go_on(const PictureSubject& subject, double budget_ms, bool
   return Done{};
 }
 
-Status PictureSteps::begin_step(const PictureSubject& subject) {
+Status PictureSteps::begin_step(const PictureSubject& subject, PictureStep step) {
   ShownScene& shown = subject.shown;
+  step_ = step;
   shown.look_by(subject.settings.camera);
   spent_ms_ = 0;
   shown_samples_ = 0;
   begun_ = true;
-  const RenderSettings settings = render_settings(subject.settings, divided(subject.size.width, step_.divisor),
-                                                  divided(subject.size.height, step_.divisor), step_.samples);
+  RenderSettings settings =
+      render_settings(subject.settings, shown.scene.picture, divided(subject.size.width, step_.divisor),
+                      divided(subject.size.height, step_.divisor), step_.samples);
+  slow_parts_ = has_slow_parts(shown.scene, settings);
+  quick_ = slow_parts_ && (moving_ || !is_last(step_, subject));
+  if (quick_) make_quick(settings, step_.divisor);
   if (subject.settings.engine == ViewerEngine::gpu)
     return subject.gpu->begin(shown.scene, /*new_lights=*/!shown.has_lights, settings);
   const Result<const Tracer*> tracer = shown.trees->needed_by(subject.settings);
@@ -100,9 +129,9 @@ Status PictureSteps::begin_step(const PictureSubject& subject) {
 void PictureSteps::take_cpu(const PictureSubject& subject, bool& drawn) {
   if (!picture_->finished()) return;
   Rendered rendered = picture_->take();
-  image_ = image_from_film(rendered.film, subject.settings.view, subject.shown.scene.picture.transfer);
+  image_ = image_to_show(rendered.film, subject.settings.view, subject.shown.scene.picture.transfer);
   const RenderCounts& rays = rendered.rays;
-  const auto all = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.transmitted);
+  const auto all = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient);
   if (rendered.render_ms > 0) mray_per_s_ = all / rendered.render_ms / 1000;
   film_ = std::move(rendered.film);
   picture_.reset();
@@ -131,9 +160,11 @@ Status PictureSteps::take_gpu(const PictureSubject& subject, bool& drawn) {
 }
 
 void PictureSteps::finish_step(const PictureSubject& subject) {
-  if (step_.samples == 1) cost(subject).measured(spent_ms_, pixels_of(step_, subject.size));
+  // Moving pictures have one sample a pixel, and are quick.
+  const bool last = is_last(step_, subject);
+  if (step_.samples == 1 && quick_ == slow_parts_) cost(subject).measured(spent_ms_, pixels_of(step_, subject.size));
   begun_ = false;
-  settled_ = step_ == PictureStep{1, subject.settings.samples_per_pixel};
+  settled_ = last && !quick_;
 }
 
 double PictureSteps::done_of_step(const PictureSubject& subject) const {

@@ -45,10 +45,13 @@ class PictureSteps {
 
  private:
   Status go_on(const PictureSubject& subject, double budget_ms, bool& drawn);
-  Status begin_step(const PictureSubject& subject);
+  Status begin_step(const PictureSubject& subject, PictureStep step);
   void take_cpu(const PictureSubject& subject, bool& drawn);
   Status take_gpu(const PictureSubject& subject, bool& drawn);
   void finish_step(const PictureSubject& subject);
+  bool is_last(PictureStep step, const PictureSubject& subject) const {
+    return step == PictureStep{1, subject.settings.samples_per_pixel};
+  }
   double done_of_step(const PictureSubject& subject) const;
   PictureCost& cost(const PictureSubject& subject) {
     return costs_[subject.settings.engine == ViewerEngine::gpu ? 1 : 0];
@@ -57,7 +60,9 @@ class PictureSteps {
   // The unfinished picture.
   bool restart_ = false;  // something has changed since the step was begun
   bool settled_ = true;
-  bool moving_ = false;  // the step is the first after a change
+  bool moving_ = false;      // the step is the first after a change
+  bool slow_parts_ = false;  // the picture has soft light, outlines or fog
+  bool quick_ = false;       // the step has fewer rays for soft light than the final picture
   bool begun_ = false;
   PictureStep step_;
   std::optional<SlicedPicture> picture_;  // on the CPU

@@ -37,12 +37,13 @@ double PictureToSave::done() const {
   return gpu_ != nullptr ? gpu_->renderer().done() : sliced_->done();
 }
 
-Result<Image> PictureToSave::take() {
+Result<PngPixels> PictureToSave::take() {
   BIHIVE_CHECK(finished());
-  if (gpu_ == nullptr) return image_from_film(sliced_->take().film, view_, transfer_);
+  const Transfer curve = view_ == View::shaded ? transfer_ : Transfer::none;
+  if (gpu_ == nullptr) return png_pixels_from_film(sliced_->take().film, curve, 8);
   const Result<GlRenderer::Picture> picture = gpu_->renderer().read();
   if (!picture) return picture.error();
-  return image_from_film(picture->film, view_, transfer_);
+  return png_pixels_from_film(picture->film, curve, 8);
 }
 
 }  // namespace bihive

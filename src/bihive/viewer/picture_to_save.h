@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "bihive/base/result.h"
-#include "bihive/image/image.h"
+#include "bihive/image/png_pixels.h"
 #include "bihive/image/transfer.h"
 #include "bihive/render/renderer.h"
 #include "bihive/scene/render_settings.h"
@@ -25,8 +25,8 @@ class PictureToSave {
   Status advance(double budget_ms);
   bool finished() const;
   double done() const;  ///< share of the picture, 0 to 1; 1 at the end
-  /// Returns the finished picture, once: display values.
-  Result<Image> take();
+  /// Returns the finished picture, once: display values of 8 bits, with opacity if its background is transparent.
+  Result<PngPixels> take();
 
  private:
   PictureToSave(View view, Transfer transfer) : view_(view), transfer_(transfer) {}

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bihive/scene/camera.h"
+#include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/scene.h"
@@ -21,25 +22,33 @@ struct SceneFacts {
   std::string name, format;
   std::int64_t spheres = 0, frames = 1;
   std::vector<std::string> rules, warnings;  ///< as io/read_spheres.h
+  bool takes_style = false;                  ///< false: the scene has a look of its own
+  bool is_file_of_spheres = false;           ///< a style makes all of its look
+  bool has_elements = false;
+  std::vector<std::string> attributes{};  ///< names for selections and colours
 };
 SceneFacts facts_of(const LoadedScene& loaded);
 
 /// Never moved in memory: its trees refer to its spheres.
 struct ShownScene {
   Scene scene;  ///< at least one sphere
-  SceneFacts facts;
   bool has_camera = false, has_lights = false;
+  LightRig rig;         ///< the lights of a scene without its own
   Camera own_camera;    ///< if it has one
   double diagonal = 0;  ///< of the spheres' box
   std::unique_ptr<SceneTrees> trees;
 
-  ShownScene(Scene shown, SceneFacts said, bool with_camera, bool with_lights);
+  explicit ShownScene(LoadedScene loaded);
   ShownScene(const ShownScene&) = delete;
   ShownScene& operator=(const ShownScene&) = delete;
 
   /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree.
-  Camera framed(ViewFrom side, View view, PictureSizePx size) const;
-  /// Uses this camera from now on. A scene without lights of its own is lit from behind the camera.
+  Camera framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const;
+  /// Whether the other scene has the same spheres but for their attributes: then these trees are right for both.
+  bool same_spheres(const ShownScene& other) const;
+  /// Becomes the other scene, which has the same spheres, and keeps the trees.
+  void take_look_of(ShownScene&& other);
+  /// Uses this camera from now on. The lights of a scene without its own turn with the camera.
   void look_by(const Camera& camera);
 };
 

@@ -6,11 +6,11 @@
 
 #include "bihive/base/check.h"
 #include "bihive/render/memory.h"
-#include "bihive/scene/load_scene.h"
 #include "bihive/viewer/gpu_pictures.h"
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/picture_steps.h"
 #include "bihive/viewer/picture_to_save.h"
+#include "bihive/viewer/scene_input.h"
 
 namespace bihive {
 namespace {
@@ -27,24 +27,20 @@ class Viewer::Implementation {
  public:
   // --- The scene ----------------------------------------------------------------------------------------------
 
-  Result<SceneFacts> load(Result<LoadedScene> loaded) {
-    if (!loaded) return loaded.error();
-    SceneFacts facts = facts_of(*loaded);
-    return load(std::move(loaded->scene), std::move(facts), loaded->has_camera, loaded->has_lights);
-  }
-
-  Result<SceneFacts> load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights) {
-    if (scene.spheres.empty()) return bad_setting("the scene has no spheres");
-    auto next = std::make_unique<ShownScene>(std::move(scene), std::move(facts), has_camera, has_lights);
+  Result<SceneFacts> load(Result<SceneInput> input) {
+    if (!input) return input.error();
+    if (input->facts().spheres == 0) return bad_setting("the scene has no spheres");
+    ViewerLook look;
+    if (input->facts().is_file_of_spheres) look.style = look_.style;
+    Result<SceneInput::Looked> looked = input->looked_at(look, settings_.engine == ViewerEngine::gpu);
+    if (!looked) return looked.error();
+    auto next = std::make_unique<ShownScene>(std::move(looked->loaded));
 
     // A new scene brings these settings along; the others stay.
     ViewerSettings settings = settings_;
-    const PictureDefaults& picture = next->scene.picture;
-    settings.recursion = std::clamp(picture.recursion, 1, kMostRecursion);
-    settings.samples_per_pixel = std::clamp(picture.samples_per_pixel, 1, kMostSamples);
-    settings.shadows = picture.shadows;
-    const std::optional<ViewFrom> side = has_camera ? std::nullopt : std::optional(ViewFrom::front);
-    settings.camera = side ? next->framed(*side, settings.view, size_) : next->own_camera;
+    take_defaults(next->scene.picture, settings);
+    const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
+    settings.camera = side ? next->framed(*side, next->own_camera.projection, settings.view, size_) : next->own_camera;
     if (Status status = check_settings(settings); !status) return status.error();
     next->trees = std::make_unique<SceneTrees>(next->scene.spheres, tree_parameters(settings));
     if (Status status = make_ready(*next, *next->trees, settings, /*upload=*/true); !status) return status.error();
@@ -52,21 +48,43 @@ class Viewer::Implementation {
     drop_picture();
     steps_.drop_step();
     shown_ = std::move(next);
+    input_ = std::move(*input);
+    look_ = look;
     settings_ = settings;
     framed_from_ = side;
     steps_.forget_image();
     if (gpu_) gpu_->forget();
     steps_.start_anew();
-    return shown_->facts;
+    return input_->facts();
   }
 
   const SceneFacts& facts() const {
     static const SceneFacts kNone;
-    return shown_ ? shown_->facts : kNone;
+    return input_ ? input_->facts() : kNone;
   }
   const Scene& scene() const {
     static const Scene kNone;
     return shown_ ? shown_->scene : kNone;
+  }
+
+  // --- The look -----------------------------------------------------------------------------------------------
+
+  const ViewerLook& look() const { return look_; }
+
+  Result<std::vector<std::int64_t>> set_look(const ViewerLook& look, std::size_t* failed_row) {
+    if (failed_row != nullptr) *failed_row = look.rows.size();
+    if (!input_) return bad_setting("there is no scene yet");
+    Result<SceneInput::Looked> looked = input_->looked_at(look, settings_.engine == ViewerEngine::gpu, failed_row);
+    if (!looked) return looked.error();
+    if (failed_row != nullptr) *failed_row = look.rows.size();
+    drop_picture();
+    ViewerSettings settings = settings_;
+    auto next = std::make_unique<ShownScene>(std::move(looked->loaded));
+    if (Status status = show(std::move(next), settings, framed_from_.has_value()); !status) return status.error();
+    look_ = look;
+    settings_ = settings;
+    steps_.start_anew();
+    return std::move(looked->counts);
   }
 
   // --- The graphics processor ---------------------------------------------------------------------------------
@@ -85,6 +103,10 @@ class Viewer::Implementation {
     if (lost) gpu_->abandon();
     gpu_.reset();
     if (settings_.engine != ViewerEngine::gpu) return;
+    // The GPU engine has drawn plainly. If the memory is too small for the look, the plain picture stays.
+    ViewerSettings settings = settings_;
+    settings.engine = ViewerEngine::cpu;
+    if (set(settings)) return;
     settings_.engine = ViewerEngine::cpu;
     steps_.start_anew();
   }
@@ -99,21 +121,23 @@ class Viewer::Implementation {
   Status set(ViewerSettings settings) {
     if (Status status = check_settings(settings); !status) return status;
     drop_picture();
-
-    // A camera that shows the whole set also shows it in the new view.
-    const bool keeps_side = framed_from_ && settings.camera == settings_.camera;
-    if (shown_ && keeps_side) settings.camera = shown_->framed(*framed_from_, settings.view, size_);
-    if (shown_) {
-      std::unique_ptr<SceneTrees> other_trees;
-      if (!same_tree(settings, settings_))
-        other_trees = std::make_unique<SceneTrees>(shown_->scene.spheres, tree_parameters(settings));
-      const bool upload = other_trees || settings_.engine != ViewerEngine::gpu;
-      SceneTrees& trees = other_trees ? *other_trees : *shown_->trees;
-      if (Status status = make_ready(*shown_, trees, settings, upload); !status) return status;
-      steps_.drop_step();
-      if (other_trees) shown_->trees = std::move(other_trees);
-    } else if (settings.engine == ViewerEngine::gpu) {
-      if (Status status = check_gpu(settings); !status) return status;
+    // Only another projection: the camera still shows the whole set.
+    const Camera same_place = with_projection(settings_.camera, settings.camera.projection);
+    const bool keeps_side = framed_from_ && settings.camera == same_place;
+    if (!shown_) {
+      if (settings.engine == ViewerEngine::gpu)
+        if (Status status = check_gpu(settings); !status) return status;
+    } else {
+      // The engines draw different looks of a scene.
+      std::unique_ptr<ShownScene> next;
+      if (settings.engine != settings_.engine) {
+        if (settings.engine == ViewerEngine::gpu)
+          if (Status status = check_gpu(settings); !status) return status;
+        Result<SceneInput::Looked> looked = input_->looked_at(look_, settings.engine == ViewerEngine::gpu);
+        if (!looked) return looked.error();
+        next = std::make_unique<ShownScene>(std::move(looked->loaded));
+      }
+      if (Status status = show(std::move(next), settings, keeps_side); !status) return status;
     }
     if (!keeps_side) framed_from_.reset();
     settings_ = settings;
@@ -141,14 +165,14 @@ class Viewer::Implementation {
   void look_from(ViewFrom side) {
     if (!shown_) return;
     framed_from_ = side;
-    settings_.camera = shown_->framed(side, settings_.view, size_);
+    settings_.camera = shown_->framed(side, settings_.camera.projection, settings_.view, size_);
     steps_.moved();
   }
 
   void home() {
     if (!shown_) return;
     if (!shown_->has_camera) return look_from(ViewFrom::front);
-    move_to(shown_->own_camera);
+    move_to(with_projection(shown_->own_camera, settings_.camera.projection));
   }
 
   // --- Pictures -----------------------------------------------------------------------------------------------
@@ -178,7 +202,8 @@ class Viewer::Implementation {
     drop_picture();
     steps_.drop_step();
     shown_->look_by(settings_.camera);
-    Result<PictureToSave> picture = begun_to_save(render_settings(settings_, width_px, height_px, samples_per_pixel));
+    Result<PictureToSave> picture =
+        begun_to_save(render_settings(settings_, shown_->scene.picture, width_px, height_px, samples_per_pixel));
     if (!picture) return picture.error();
     to_save_ = std::move(*picture);
     return Done{};
@@ -193,16 +218,16 @@ class Viewer::Implementation {
     return to_save_->done();
   }
 
-  Result<Image> take_picture() {
+  Result<PngPixels> take_picture() {
     if (!to_save_ || !to_save_->finished()) return bad_setting("no picture to be saved is finished");
-    Result<Image> image = to_save_->take();
+    Result<PngPixels> image = to_save_->take();
     drop_picture();
     return image;
   }
 
   void drop_picture() { to_save_.reset(); }
 
-  Result<Image> picture(int width_px, int height_px, int samples_per_pixel) {
+  Result<PngPixels> picture(int width_px, int height_px, int samples_per_pixel) {
     if (Status status = begin_picture(width_px, height_px, samples_per_pixel); !status) return status.error();
     for (;;) {
       const Result<double> done = advance_picture(kSliceMs);
@@ -226,6 +251,48 @@ class Viewer::Implementation {
     if (!gpu_) return bad_setting("there is no graphics processor", "choose the CPU engine");
     if (settings.view == View::tree)
       return bad_setting("the graphics processor does not draw the tree itself", "choose the CPU engine");
+    return Done{};
+  }
+
+  // The samples, recursion and shadows of a scene's own picture.
+  static void take_defaults(const PictureDefaults& picture, ViewerSettings& settings) {
+    settings.recursion = std::clamp(picture.recursion, 1, kMostRecursion);
+    settings.samples_per_pixel = std::clamp(picture.samples_per_pixel, 1, kMostSamples);
+    settings.shadows = picture.shadows;
+  }
+
+  // The same for another look: what the user has changed stays.
+  static void follow_defaults(const PictureDefaults& before, const PictureDefaults& now, ViewerSettings& settings) {
+    ViewerSettings old, next;
+    take_defaults(before, old);
+    take_defaults(now, next);
+    if (settings.recursion == old.recursion) settings.recursion = next.recursion;
+    if (settings.samples_per_pixel == old.samples_per_pixel) settings.samples_per_pixel = next.samples_per_pixel;
+    if (settings.shadows == old.shadows) settings.shadows = next.shadows;
+  }
+
+  // Makes everything ready for these settings and, if there is one, for the next look of the scene; then shows it.
+  // `settings` gets the look's defaults, and with `keeps_side` the camera that shows the whole set. After an Error
+  // nothing has changed.
+  Status show(std::unique_ptr<ShownScene> next, ViewerSettings& settings, bool keeps_side) {
+    const ShownScene& scene = next ? *next : *shown_;
+    const bool same_spheres = !next || shown_->same_spheres(*next);
+    if (next) follow_defaults(shown_->scene.picture, next->scene.picture, settings);
+    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera.projection, settings.view, size_);
+
+    // The trees refer to the spheres that stay.
+    std::unique_ptr<SceneTrees> other_trees;
+    const SphereSet& spheres = same_spheres ? shown_->scene.spheres : next->scene.spheres;
+    if (!same_spheres || !same_tree(settings, settings_))
+      other_trees = std::make_unique<SceneTrees>(spheres, tree_parameters(settings));
+    SceneTrees& trees = other_trees ? *other_trees : *shown_->trees;
+    const bool upload = next || other_trees || settings_.engine != ViewerEngine::gpu;
+    if (Status status = make_ready(scene, trees, settings, upload); !status) return status;
+
+    steps_.drop_step();
+    if (next && same_spheres) shown_->take_look_of(std::move(*next));
+    if (!same_spheres) shown_ = std::move(next);
+    if (other_trees) shown_->trees = std::move(other_trees);
     return Done{};
   }
 
@@ -267,7 +334,9 @@ class Viewer::Implementation {
     return point_under(camera, x_px, y_px, size_);
   }
 
-  std::unique_ptr<ShownScene> shown_;
+  std::optional<SceneInput> input_;
+  ViewerLook look_;
+  std::unique_ptr<ShownScene> shown_;  // the input in this look
   std::unique_ptr<GpuPictures> gpu_;
   ViewerSettings settings_;
   PictureSizePx size_{1280, 720};
@@ -281,19 +350,26 @@ Viewer::~Viewer() = default;
 
 Result<SceneFacts> Viewer::load_built_in(const std::string& name, const ScenarioParameters& parameters,
                                          const ReadOptions& options) {
-  return implementation_->load(built_in_scene(name, parameters, options));
+  return implementation_->load(SceneInput::built_in(name, parameters, options));
 }
 Result<SceneFacts> Viewer::load(std::string_view bytes, const std::string& name, const ReadOptions& options) {
-  return implementation_->load(load_scene(bytes, name, options));
+  return implementation_->load(SceneInput::file(bytes, name, options));
 }
 Result<SceneFacts> Viewer::load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights) {
-  return implementation_->load(std::move(scene), std::move(facts), has_camera, has_lights);
+  return implementation_->load(SceneInput::made(std::move(scene), std::move(facts), has_camera, has_lights));
 }
 const SceneFacts& Viewer::facts() const {
   return implementation_->facts();
 }
 const Scene& Viewer::scene() const {
   return implementation_->scene();
+}
+
+const ViewerLook& Viewer::look() const {
+  return implementation_->look();
+}
+Result<std::vector<std::int64_t>> Viewer::set_look(const ViewerLook& look, std::size_t* failed_row) {
+  return implementation_->set_look(look, failed_row);
 }
 
 Status Viewer::attach_gl(const GlFunctions& functions) {
@@ -349,13 +425,13 @@ Status Viewer::begin_picture(int width_px, int height_px, int samples_per_pixel)
 Result<double> Viewer::advance_picture(double budget_ms) {
   return implementation_->advance_picture(budget_ms);
 }
-Result<Image> Viewer::take_picture() {
+Result<PngPixels> Viewer::take_picture() {
   return implementation_->take_picture();
 }
 void Viewer::drop_picture() {
   implementation_->drop_picture();
 }
-Result<Image> Viewer::picture(int width_px, int height_px, int samples_per_pixel) {
+Result<PngPixels> Viewer::picture(int width_px, int height_px, int samples_per_pixel) {
   return implementation_->picture(width_px, height_px, samples_per_pixel);
 }
 std::string Viewer::statistics_json() const {

@@ -5,6 +5,7 @@
 // and finer up to every pixel and all samples.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,12 +17,14 @@
 #include "bihive/gl/functions.h"
 #include "bihive/gl/gl_renderer.h"
 #include "bihive/image/image.h"
+#include "bihive/image/png_pixels.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/scene.h"
 #include "bihive/viewer/frame_report.h"
 #include "bihive/viewer/shown_scene.h"
+#include "bihive/viewer/viewer_look.h"
 #include "bihive/viewer/viewer_settings.h"
 
 namespace bihive {
@@ -34,8 +37,9 @@ class Viewer {
   Viewer& operator=(const Viewer&) = delete;
 
   // The scene. After an Error the scene before stays, with everything else. A new scene brings its own camera and
-  // picture defaults (samples, recursion, shadows); engine, view and parameters of the tree stay. A scene without
-  // lights is lit from behind the camera, also when the camera moves, as `bihive render` does.
+  // picture defaults (samples, recursion, shadows); engine, view and parameters of the tree stay. Of the look the style
+  // stays from one file of spheres to the next; everything else of it begins anew. The lights of a scene without its
+  // own turn with the camera, as in `bihive render`.
 
   /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres". The parameters are the scenarios', the options the
   /// demo's.
@@ -47,6 +51,16 @@ class Viewer {
   Result<SceneFacts> load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
   const SceneFacts& facts() const;  ///< empty before the first scene
   const Scene& scene() const;       ///< without spheres before the first
+
+  // The look. The picture is what `bihive render` draws with the same choices; the GPU engine draws the style plain on
+  // a colour, whatever was chosen, and keeps the choice for the other engine.
+
+  const ViewerLook& look() const;
+  /// Another style brings its own samples, recursion and shadows. A camera that shows the whole set is placed anew.
+  /// Returns how many spheres each row selects. Errors: an unknown style, colour or action, a style for a scene that
+  /// has a look of its own, a selection's (with its column), an attribute that the scene lacks, or that every sphere is
+  /// hidden; the look before stays. `failed_row` (if given) is then the row to blame; rows.size() if none is.
+  Result<std::vector<std::int64_t>> set_look(const ViewerLook& look, std::size_t* failed_row = nullptr);
 
   // The graphics processor. Its context must be current in every call while one is attached.
 
@@ -61,7 +75,8 @@ class Viewer {
 
   const ViewerSettings& settings() const;
   /// Error: out of range, a camera that sees nothing (check_camera), no graphics processor, or a view that the engine
-  /// does not have; the settings before stay. Parameters that changed rebuild the tree.
+  /// does not have; the settings before stay. Parameters that changed rebuild the tree. A camera that shows the whole
+  /// set still does so after a change of the projection alone (with_projection()).
   Status set(const ViewerSettings& settings);
   /// Size of the picture at rest. 1 to 16384 each. A camera that shows the whole set is placed anew.
   void resize(int width_px, int height_px);
@@ -71,8 +86,8 @@ class Viewer {
   /// A factor above 1 comes closer. The point under (x, y) in pixels stays at its place. Does nothing if the factor is
   /// not finite or not above 0.
   void zoom(double factor, double x_px, double y_px);
-  void look_from(ViewFrom side);  ///< the whole set in view
-  void home();                    ///< the scene's own camera, or all in view from the front
+  void look_from(ViewFrom side);  ///< the whole set in view, with the projection of the settings
+  void home();                    ///< the scene's own camera, or all in view from the front; the projection likewise
 
   // Pictures.
 
@@ -81,7 +96,8 @@ class Viewer {
   /// next call continues it. Before the first scene it is settled. Error: not enough memory, or an error of the
   /// graphics processor.
   Result<FrameReport> frame(double budget_ms);
-  /// The last picture of the CPU engine, `divisor` times smaller than the requested size; display values.
+  /// The last picture of the CPU engine, `divisor` times smaller than the requested size; display values. A transparent
+  /// background is shown as grey checks.
   const Image& image() const;
   /// The last picture of the GPU engine, stretched to the viewport. Draws nothing if there is none. The framebuffer
   /// must have one sample a pixel (no antialiasing).
@@ -94,11 +110,12 @@ class Viewer {
   /// Draws for about `budget_ms`; returns the finished share, 1 at the end. Error: no picture is in the making (any
   /// more), or an error of the graphics processor.
   Result<double> advance_picture(double budget_ms);
-  /// The finished picture. Error: it is not finished, or an error of the graphics processor.
-  Result<Image> take_picture();
+  /// The finished picture, of 8 bits, with opacity if the look's background is "none". Error: it is not finished, or an
+  /// error of the graphics processor.
+  Result<PngPixels> take_picture();
   void drop_picture();
   /// The whole picture at once.
-  Result<Image> picture(int width_px, int height_px, int samples_per_pixel);
+  Result<PngPixels> picture(int width_px, int height_px, int samples_per_pixel);
 
   /// Both trees' statistics for the current parameters as in `bihive stats --json`, with the bytes and the build time.
   /// Builds the trees that are not built yet. {"error": "..."} without a scene, or if memory is too small for a tree.

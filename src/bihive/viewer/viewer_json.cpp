@@ -65,6 +65,13 @@ class Members {
     value = member->get<double>();
   }
 
+  void take(const char* key, std::string& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (!member->is_string()) return fail(key, "a text", *member);
+    value = member->get<std::string>();
+  }
+
   void take(const char* key, Vec3d& value) {
     const json* member = find(key);
     if (member == nullptr) return;
@@ -130,6 +137,27 @@ class Members {
   std::vector<std::string> known_;
 };
 
+// The rows of a look.
+void take_rows(Members& members, std::vector<LookRow>& rows, Error& error) {
+  const json* const list = members.find("rows");
+  if (list == nullptr) return;
+  rows.clear();
+  if (!list->is_array()) {
+    error = {"/rows: expected an array", "", 0, 0, ""};
+    return;
+  }
+  for (const json& value : *list) {
+    LookRow row;
+    Members of_row(value, "/rows/" + std::to_string(rows.size()), error);
+    of_row.take("select", row.select);
+    of_row.take("action", row.action);
+    of_row.take("value", row.value);
+    of_row.refuse_others();
+    if (!error.message.empty()) return;
+    rows.push_back(std::move(row));
+  }
+}
+
 ordered_json vector_json(Vec3d v) {
   return {v.x, v.y, v.z};
 }
@@ -177,13 +205,44 @@ Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSet
     of_camera.take("look_at", settings.camera.look_at);
     of_camera.take("up", settings.camera.up);
     of_camera.take("fov_deg", settings.camera.fov_deg);
-    of_camera.take("projection", settings.camera.projection, kProjections);
+    Projection projection = settings.camera.projection;
+    of_camera.take("projection", projection, kProjections);
+    if (camera->is_object() && camera->contains("shorter_side"))
+      settings.camera.projection = projection;
+    else
+      settings.camera = with_projection(settings.camera, projection);
     of_camera.take("shorter_side", settings.camera.shorter_side);
     of_camera.refuse_others();
   }
   members.refuse_others();
   if (!error.message.empty()) return error;
   return settings;
+}
+
+std::string viewer_look_to_json(const ViewerLook& look) {
+  ordered_json document;
+  document["style"] = look.style;
+  document["element_colours"] = look.element_colours;
+  document["background"] = look.background;
+  document["rows"] = ordered_json::array();
+  for (const LookRow& row : look.rows)
+    document["rows"].push_back({{"select", row.select}, {"action", row.action}, {"value", row.value}});
+  return document.dump(-1, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace);
+}
+
+Result<ViewerLook> viewer_look_from_json(std::string_view text, const ViewerLook& base) {
+  const Result<json> document = parse_json(text, "look");
+  if (!document) return document.error();
+  ViewerLook look = base;
+  Error error;
+  Members members(*document, "", error);
+  members.take("style", look.style);
+  members.take("element_colours", look.element_colours);
+  members.take("background", look.background);
+  take_rows(members, look.rows, error);
+  members.refuse_others();
+  if (!error.message.empty()) return error;
+  return look;
 }
 
 }  // namespace bihive

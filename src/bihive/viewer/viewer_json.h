@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bihive/base/result.h"
+#include "bihive/viewer/viewer_look.h"
 #include "bihive/viewer/viewer_settings.h"
 
 namespace bihive {
@@ -15,9 +16,18 @@ namespace bihive {
 std::string settings_to_json(const ViewerSettings& settings);
 
 /// A member that the document leaves out comes from `base`. A limit of the tree is a number, "unlimited" (kUnlimited),
-/// or null, which leaves the choice to the engine.
+/// or null, which leaves the choice to the engine. Another projection without a shorter side keeps what is as far away
+/// as look_at at its size.
 /// Error: not JSON, an unknown key, a wrong type, a number out of range; the message begins with the place
 /// ("/camera/eye: ..."). Whether the camera sees anything is not checked here: Viewer::set() checks it.
 Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSettings& base = {});
+
+/// One line: {"style":"studio","element_colours":"","background":"none","rows":[{"select":"chain A","action":"colour",
+/// "value":"red"}]}.
+std::string viewer_look_to_json(const ViewerLook& look);
+
+/// A member that the document leaves out comes from `base`. Errors as above. Whether the scene has such spheres and
+/// attributes is not checked here: Viewer::set_look() checks it.
+Result<ViewerLook> viewer_look_from_json(std::string_view json, const ViewerLook& base = {});
 
 }  // namespace bihive

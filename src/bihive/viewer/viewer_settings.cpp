@@ -28,8 +28,12 @@ bool needs_reference_tree(const ViewerSettings& settings) {
   return settings.engine == ViewerEngine::gpu || settings.view == View::traversal || settings.view == View::tree;
 }
 
-RenderSettings render_settings(const ViewerSettings& settings, int width_px, int height_px, int samples_per_pixel) {
-  RenderSettings picture;
+RenderSettings render_settings(const ViewerSettings& settings, const PictureDefaults& defaults, int width_px,
+                               int height_px, int samples_per_pixel) {
+  const bool gpu = settings.engine == ViewerEngine::gpu;
+  const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
+  RenderSettings picture = gpu ? RenderSettings{} : settings_from(defaults);
+  if (of_tree) picture.transparent = false;
   picture.width_px = width_px;
   picture.height_px = height_px;
   picture.samples_per_pixel = samples_per_pixel;

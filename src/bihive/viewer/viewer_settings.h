@@ -39,7 +39,8 @@ bool same_tree(const ViewerSettings& a, const ViewerSettings& b);
 TreeParameters tree_parameters(const ViewerSettings& settings);
 /// The engine or the view walks the reference tree, not the wide one.
 bool needs_reference_tree(const ViewerSettings& settings);
-/// For a picture of that size.
-RenderSettings render_settings(const ViewerSettings& settings, int width_px, int height_px, int samples_per_pixel);
+/// For a picture of that size with the effects of `defaults`; the GPU engine draws none of them.
+RenderSettings render_settings(const ViewerSettings& settings, const PictureDefaults& defaults, int width_px,
+                               int height_px, int samples_per_pixel);
 
 }  // namespace bihive

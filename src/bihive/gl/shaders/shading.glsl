@@ -2,6 +2,8 @@
 #include "elementary"
 #include "surface"
 
+uniform vec3 ambient_light;
+
 // A ray that starts on the surface.
 Ray ray_from(Surface surface, vec3 direction, bool inside) {
   Ray ray = make_ray(surface.origin, direction);
@@ -15,6 +17,15 @@ Ray ray_from(Surface surface, vec3 direction, bool inside) {
 
 vec3 mirrored(Surface surface) {
   return surface.incoming - (2.0 * dot(surface.incoming, surface.normal)) * surface.normal;
+}
+
+float in_bands(float facing, float bands) {
+  return floor(facing * bands + 0.5) / bands;
+}
+
+// The colour of a highlight in white light.
+vec3 tinted(Material material) {
+  return vec3(1.0 - material.tint) + material.tint * material.colour;
 }
 
 vec3 local_light(Surface surface, bool shadows, inout int shadow_rays) {
@@ -38,13 +49,16 @@ vec3 local_light(Surface surface, bool shadows, inout int shadow_rays) {
       if (occluded(shadow)) continue;
     }
 
-    diffuse += (surface.material.diffuse * facing) * colour;
+    float share = surface.material.bands > 0.0 ? in_bands(facing, surface.material.bands) : facing;
+    diffuse += (surface.material.diffuse * share) * colour;
     vec3 mirrored_light = (2.0 * facing) * surface.normal - to_light;
     float highlight = -dot(mirrored_light, surface.incoming);
     if (highlight > 0.0)
       specular += (surface.material.specular * portable_pow(highlight, surface.material.power)) * colour;
   }
-  return surface.material.colour * (surface.material.ambient + diffuse) + specular;
+  if (surface.material.tint > 0.0) specular *= tinted(surface.material);
+  vec3 light = surface.material.ambient * ambient_light + diffuse + surface.material.glow;
+  return surface.material.colour * light + specular;
 }
 
 Ray reflected_ray(Surface surface) {

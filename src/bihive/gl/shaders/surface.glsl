@@ -18,6 +18,9 @@ struct Material {
   float power;
   float transmissive;
   float refraction_index;
+  float tint;
+  float glow;
+  float bands;
 };
 
 struct Surface {
@@ -31,10 +34,11 @@ struct Surface {
 };
 
 Material material_of(int look) {
-  vec4 a = texelFetch(looks, texel(3 * look), 0);
-  vec4 b = texelFetch(looks, texel(3 * look + 1), 0);
-  vec4 c = texelFetch(looks, texel(3 * look + 2), 0);
-  return Material(a.xyz, a.w, b.x, b.y, b.z, b.w, c.x, c.y);
+  vec4 a = texelFetch(looks, texel(4 * look), 0);
+  vec4 b = texelFetch(looks, texel(4 * look + 1), 0);
+  vec4 c = texelFetch(looks, texel(4 * look + 2), 0);
+  vec4 d = texelFetch(looks, texel(4 * look + 3), 0);
+  return Material(a.xyz, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x);
 }
 
 // The number of whole squares along an axis of the plane. Close to an edge the ray itself decides: the edges of a

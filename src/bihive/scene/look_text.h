@@ -1,0 +1,24 @@
+// Looks as a person writes them: the options of `bihive render` behind --select, each with the text of its value.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/scene/looks.h"
+
+namespace bihive {
+
+/// hide, show, colour, colour-by, opacity, material, radius-scale: the options' names.
+const std::vector<std::string>& look_action_names();
+
+/// The action of that name. `value`: as behind the option; hide and show have none and ignore it. Error: there is no
+/// such action, or the value is none for it; the message says what was expected.
+Result<LookAction> look_action_from_text(std::string_view name, const std::string& value);
+
+/// A text that means a colour: a name, "#rrggbb", or "r,g,b" (linear, each 0 to 1). Names and #rrggbb stay texts,
+/// because their light depends on the scene's transfer.
+Result<ColourChoice> colour_choice_from_text(const std::string& text);
+
+}  // namespace bihive

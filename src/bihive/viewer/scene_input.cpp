@@ -1,0 +1,146 @@
+#include "bihive/viewer/scene_input.h"
+
+#include <utility>
+
+#include "bihive/scene/colour_text.h"
+#include "bihive/scene/element_colours.h"
+#include "bihive/scene/look_text.h"
+#include "bihive/select/attribute_names.h"
+
+namespace bihive {
+namespace {
+
+constexpr const char* kNoBackground = "none";
+
+Error look_error(const std::string& message, const std::string& hint) {
+  return {message, "", 0, 0, hint};
+}
+
+Status recolour(Scene& scene, const std::string& scheme) {
+  const std::optional<ElementColours> colours = element_colours_called(scheme);
+  if (!colours) return look_error("there are no element colours \"" + scheme + "\"", "there are soft, jmol and cpk");
+  return recolour_elements(scene, *colours);
+}
+
+Status set_background(Scene& scene, const std::string& background) {
+  scene.picture.transparent = background == kNoBackground;
+  if (scene.picture.transparent) return Done{};
+  const Result<ColourChoice> choice = colour_choice_from_text(background);
+  if (!choice) return look_error("background: " + choice.error().message, "or \"none\" for a transparent one");
+  // As --background does: numbers are light, texts what the screen shows.
+  if (const auto* light = std::get_if<Vec3d>(&*choice))
+    scene.background = *light;
+  else
+    scene.background = *colour_from_text(background, scene.picture.transfer);
+  return Done{};
+}
+
+Result<Look> look_of(const LookRow& row) {
+  Result<LookAction> action = look_action_from_text(row.action, row.value);
+  if (!action) return action.error();
+  return Look{row.select.empty() ? "all" : row.select, {std::move(*action)}};
+}
+
+}  // namespace
+
+SceneInput::SceneInput(Kind kind, LoadedScene loaded) : kind_(kind), loaded_(std::move(loaded)) {
+  facts_ = facts_of(loaded_);
+  facts_.takes_style = kind != Kind::own;
+  facts_.is_file_of_spheres = kind == Kind::spheres;
+  facts_.attributes = attribute_names(loaded_.scene.spheres);
+  facts_.has_elements = !loaded_.scene.spheres.attributes().element.empty();
+}
+
+Result<SceneInput> SceneInput::built_in(const std::string& name, const ScenarioParameters& parameters,
+                                        const ReadOptions& options) {
+  Result<LoadedScene> loaded = built_in_scene(name, parameters, options);
+  if (!loaded) return loaded.error();
+  return SceneInput(name == "demo" ? Kind::spheres : Kind::own, std::move(*loaded));
+}
+
+Result<SceneInput> SceneInput::file(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  Result<LoadedScene> loaded = load_scene(bytes, name, options, LooksOfFile::keep);
+  if (!loaded) return loaded.error();
+  const bool document = looks_like_scene(bytes);
+  SceneInput input(document ? Kind::document : Kind::spheres, std::move(*loaded));
+  if (document) input.bytes_ = bytes;
+  input.name_ = name;
+  input.options_ = options;
+  return input;
+}
+
+SceneInput SceneInput::made(Scene scene, SceneFacts facts, bool has_camera, bool has_lights) {
+  LoadedScene loaded;
+  loaded.scene = std::move(scene);
+  loaded.has_camera = has_camera;
+  loaded.has_lights = has_lights;
+  loaded.format = facts.format;
+  loaded.frames = facts.frames;
+  loaded.rules = std::move(facts.rules);
+  loaded.warnings = std::move(facts.warnings);
+  SceneInput input(Kind::own, std::move(loaded));
+  input.facts_.name = std::move(facts.name);
+  input.facts_.spheres = facts.spheres;
+  return input;
+}
+
+Result<LoadedScene> SceneInput::in_style(const std::string& style, bool plain) const {
+  if (kind_ == Kind::own) {
+    if (!style.empty()) return look_error("this scene has a look of its own", "styles are for files");
+    return loaded_;
+  }
+  // A scene file keeps its own look unless a style is asked for.
+  if (kind_ == Kind::document && (style.empty() || plain)) return loaded_;
+  const Result<Style> named = style_named(plain ? "plain" : style.empty() ? style_names().front() : style);
+  if (!named) return named.error();
+  if (kind_ == Kind::document) return load_scene(bytes_, name_, options_, LooksOfFile::keep, &*named);
+  LoadedScene loaded = loaded_;
+  restyle(loaded, *named);
+  return loaded;
+}
+
+// The scene file's own looks, then the rows. All selections see the spheres as they were read.
+Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, const ViewerLook& look,
+                                                       std::size_t* failed_row) const {
+  std::vector<Look> looks = loaded.looks;
+  const std::size_t own = looks.size();
+  for (std::size_t row = 0; row < look.rows.size(); ++row) {
+    Result<Look> next = look_of(look.rows[row]);
+    if (!next) {
+      if (failed_row != nullptr) *failed_row = row;
+      return next.error();
+    }
+    looks.push_back(std::move(*next));
+  }
+  std::size_t failed = 0;
+  Result<std::vector<std::int64_t>> counts = apply_looks(loaded.scene, looks, &failed);
+  if (counts) return std::vector<std::int64_t>(counts->begin() + static_cast<std::ptrdiff_t>(own), counts->end());
+  if (failed >= own) {
+    if (failed_row != nullptr) *failed_row = failed - own;
+    return counts.error();
+  }
+  const Error& error = counts.error();
+  const std::string place = error.column > 0 ? "/select: column " + std::to_string(error.column) : "";
+  return Error{"/looks/" + std::to_string(failed) + place + ": " + error.message, name_, 0, 0, error.hint};
+}
+
+Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, bool plain, std::size_t* failed_row) const {
+  if (failed_row != nullptr) *failed_row = look.rows.size();
+  if (!look.style.empty())
+    if (const Result<Style> known = style_named(look.style); !known) return known.error();
+  Result<LoadedScene> loaded = in_style(look.style, plain);
+  if (!loaded) return loaded.error();
+  Looked looked{std::move(*loaded), {}};
+  Scene& scene = looked.loaded.scene;
+  if (!look.background.empty())
+    if (Status status = set_background(scene, look.background); !status) return status.error();
+  if (plain) scene.picture.transparent = false;
+  if (!look.element_colours.empty())
+    if (Status status = recolour(scene, look.element_colours); !status) return status.error();
+  Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row);
+  if (!counts) return counts.error();
+  looked.counts = std::move(*counts);
+  return looked;
+}
+
+}  // namespace bihive

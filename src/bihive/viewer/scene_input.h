@@ -1,0 +1,55 @@
+// An input as it was read, from which every look of the user is made anew.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/viewer/shown_scene.h"
+#include "bihive/viewer/viewer_look.h"
+
+namespace bihive {
+
+class SceneInput {
+ public:
+  // Errors as those of built_in_scene() and load_scene().
+  static Result<SceneInput> built_in(const std::string& name, const ScenarioParameters& parameters,
+                                     const ReadOptions& options);
+  static Result<SceneInput> file(std::string_view bytes, const std::string& name, const ReadOptions& options);
+  /// A scene from elsewhere: it has a look of its own and takes no style.
+  static SceneInput made(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
+
+  const SceneFacts& facts() const { return facts_; }
+
+  /// A scene, and how many spheres each row of the look selects.
+  struct Looked {
+    LoadedScene loaded;
+    std::vector<std::int64_t> counts;
+  };
+  /// As `bihive render` with these options makes it. `plain`: in the style plain and opaque, for an engine that draws
+  /// nothing else. Errors: no such style, colour or action, a style for a scene that takes none, a selection's (column
+  /// as in select_spheres()), or that every sphere is hidden. `failed_row` (if given) is then the row to blame;
+  /// look.rows.size() if none is.
+  Result<Looked> looked_at(const ViewerLook& look, bool plain, std::size_t* failed_row = nullptr) const;
+
+ private:
+  // spheres: a style makes all of the look. document: a scene file, read again for each style. own: takes no style.
+  enum class Kind { spheres, document, own };
+
+  SceneInput(Kind kind, LoadedScene loaded);
+  Result<LoadedScene> in_style(const std::string& style, bool plain) const;
+  Result<std::vector<std::int64_t>> do_looks(LoadedScene& loaded, const ViewerLook& look,
+                                             std::size_t* failed_row) const;
+
+  Kind kind_;
+  LoadedScene loaded_;  // its own looks are not done yet
+  SceneFacts facts_;
+  std::string bytes_, name_;  // of a document
+  ReadOptions options_;
+};
+
+}  // namespace bihive

@@ -1,0 +1,35 @@
+// How the user wants the spheres to look: what --style, --element-colours, --background and --select with the options
+// behind it are for `bihive render`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace bihive {
+
+/// One action on selected spheres, as texts that the user may still have to mend.
+struct LookRow {
+  std::string select;  ///< docs/selections.md; empty: all
+  std::string action;  ///< one of look_action_names()
+  std::string value;   ///< as behind the option; empty for hide and show
+
+  friend bool operator==(const LookRow& a, const LookRow& b) {
+    return a.select == b.select && a.action == b.action && a.value == b.value;
+  }
+};
+
+/// Plain data; viewer/viewer_json.h turns it into JSON, for links and saved states.
+struct ViewerLook {
+  std::string style;            ///< one of style_names(); empty: what `bihive render` takes without --style
+  std::string element_colours;  ///< "soft", "jmol" or "cpk"; empty: the style's
+  std::string background;       ///< a colour, or "none": transparent; empty: the style's
+  std::vector<LookRow> rows;    ///< done one after the other, behind the looks of a scene file
+
+  friend bool operator==(const ViewerLook& a, const ViewerLook& b) {
+    return a.style == b.style && a.element_colours == b.element_colours && a.background == b.background &&
+           a.rows == b.rows;
+  }
+  friend bool operator!=(const ViewerLook& a, const ViewerLook& b) { return !(a == b); }
+};
+
+}  // namespace bihive

@@ -1,0 +1,266 @@
+// The looks of the viewer: the pictures that `bihive render` draws with the same choices.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "bihive/render/renderer.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/camera_lights.h"
+#include "bihive/scene/colour_text.h"
+#include "bihive/scene/element_colours.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/scene/look_text.h"
+#include "bihive/viewer/viewer.h"
+
+namespace bihive {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr int kWidth = 96, kHeight = 64;
+
+constexpr const char* kThree = "x,y,z,r,charge\n0,0,0,1,-1\n2.5,0,0,1,0\n0,2.5,1,1,1\n";
+
+void settle(Viewer& viewer) {
+  for (int i = 0; i < 100000; ++i) {
+    const Result<FrameReport> report = viewer.frame(20);
+    ASSERT_TRUE(report) << report.error().to_string();
+    if (report->settled) return;
+  }
+  FAIL() << "never settled";
+}
+
+std::uint64_t shown(Viewer& viewer) {
+  settle(viewer);
+  return picture_hash(viewer.image());
+}
+
+// The picture of `bihive render` of a scene in a style, in front of the viewer's camera; by the library's own parts.
+std::uint64_t rendered(LoadedScene loaded, const Camera& camera, const std::vector<Look>& looks = {}) {
+  Scene& scene = loaded.scene;
+  for (const Look& look : looks) loaded.looks.push_back(look);
+  EXPECT_TRUE(apply_looks(scene, loaded.looks));
+  scene.camera = camera;
+  if (!loaded.has_lights) scene.lights = lights_around(loaded.rig, camera);
+  RenderSettings settings = settings_from(scene.picture);
+  settings.width_px = kWidth;
+  settings.height_px = kHeight;
+  const Result<Tracer> tracer = Tracer::build(scene.spheres, Engine::wide);
+  const Result<Rendered> picture = render(scene, *tracer, settings);
+  return picture_hash(image_from_film(picture->film, View::shaded, scene.picture.transfer));
+}
+
+LoadedScene demo_in(const std::string& style) {
+  const Style named = *style_named(style);
+  return *built_in_scene("demo", {}, {}, &named);
+}
+
+Look look_of(const std::string& select, const std::string& action, const std::string& value) {
+  return {select, {*look_action_from_text(action, value)}};
+}
+
+TEST(ViewerLook, every_style_is_the_programs) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  EXPECT_EQ(viewer.look(), ViewerLook{});
+  EXPECT_EQ(shown(viewer), rendered(demo_in("default"), viewer.settings().camera)) << "without a choice";
+  for (const std::string& style : style_names()) {
+    ViewerLook look;
+    look.style = style;
+    ASSERT_TRUE(viewer.set_look(look)) << style;
+    EXPECT_EQ(viewer.settings().recursion, style_named(style)->picture.recursion) << style;
+    EXPECT_EQ(viewer.settings().shadows, style_named(style)->picture.shadows) << style;
+    EXPECT_EQ(shown(viewer), rendered(demo_in(style), viewer.settings().camera)) << style;
+  }
+
+  // Another file keeps the style, from any side.
+  ASSERT_TRUE(viewer.load(kThree, "three.csv"));
+  EXPECT_EQ(viewer.look().style, style_names().back());
+  viewer.orbit(20, 10);
+  const Style style = *style_named(style_names().back());
+  EXPECT_EQ(shown(viewer),
+            rendered(*load_scene(kThree, "three.csv", {}, LooksOfFile::keep, &style), viewer.settings().camera));
+}
+
+TEST(ViewerLook, what_the_user_changed_stays_when_the_style_changes) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  ViewerSettings settings = viewer.settings();
+  settings.recursion = 2;
+  ASSERT_TRUE(viewer.set(settings));
+  ViewerLook look;
+  look.style = "xray";
+  ASSERT_TRUE(viewer.set_look(look));
+  EXPECT_EQ(viewer.settings().recursion, 2);
+  EXPECT_FALSE(viewer.settings().shadows) << "not touched: the style's";
+}
+
+TEST(ViewerLook, rows_are_done_in_order_and_counted) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load(kThree, "three.csv"));
+  EXPECT_THAT(viewer.facts().attributes, testing::Contains("charge"));
+  EXPECT_TRUE(viewer.facts().takes_style);
+  EXPECT_FALSE(viewer.facts().has_elements);
+  ViewerLook look;
+  look.rows = {{"", "colour-by", "charge:coolwarm"},
+               {"charge > 0", "opacity", "0.5"},
+               {"charge < 0", "material", "metal"},
+               {"index 1", "colour", "orange"},
+               {"index 1", "radius-scale", "0.5"}};
+  const Result<std::vector<std::int64_t>> counts = viewer.set_look(look);
+  ASSERT_TRUE(counts) << counts.error().to_string();
+  EXPECT_THAT(*counts, ElementsAre(3, 1, 1, 1, 1));
+  std::vector<Look> looks;
+  for (const LookRow& row : look.rows)
+    looks.push_back(look_of(row.select.empty() ? "all" : row.select, row.action, row.value));
+  const Style style = *style_named("default");
+  const LoadedScene file = *load_scene(kThree, "three.csv", {}, LooksOfFile::keep, &style);
+  EXPECT_EQ(shown(viewer), rendered(file, viewer.settings().camera, looks));
+
+  // Without the change of a radius the trees stay; hiding makes others, and the camera shows what is left.
+  look.rows = {{"index 1", "colour", "#ff0000"}};
+  ASSERT_TRUE(viewer.set_look(look));
+  EXPECT_EQ(shown(viewer), rendered(file, viewer.settings().camera, {look_of("index 1", "colour", "#ff0000")}));
+  const Camera before = viewer.settings().camera;
+  look.rows = {{"index 1", "hide", ""}};
+  ASSERT_TRUE(viewer.set_look(look));
+  EXPECT_EQ(viewer.scene().spheres.size(), 2);
+  EXPECT_FALSE(viewer.settings().camera == before);
+  EXPECT_EQ(shown(viewer), rendered(file, viewer.settings().camera, {look_of("index 1", "hide", "")}));
+
+  // No rows: as in the beginning.
+  ASSERT_TRUE(viewer.set_look({}));
+  EXPECT_EQ(viewer.settings().camera, before);
+  EXPECT_EQ(shown(viewer), rendered(file, before));
+}
+
+TEST(ViewerLook, a_bad_choice_names_its_row_and_changes_nothing) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  EXPECT_FALSE(viewer.set_look({})) << "no scene yet";
+  ASSERT_TRUE(viewer.load(kThree, "three.csv"));
+  ViewerLook good;
+  good.rows = {{"", "colour", "red"}};
+  ASSERT_TRUE(viewer.set_look(good));
+  const std::uint64_t before = shown(viewer);
+  const auto expect_refused = [&](const ViewerLook& look, std::size_t row, int column, const char* words) {
+    std::size_t failed = 99;
+    const Result<std::vector<std::int64_t>> counts = viewer.set_look(look, &failed);
+    ASSERT_FALSE(counts) << words;
+    EXPECT_EQ(failed, row) << words;
+    EXPECT_EQ(counts.error().column, column) << words;
+    EXPECT_THAT(counts.error().to_string(), HasSubstr(words));
+  };
+  const LookRow fine{"", "show", ""};
+  expect_refused({"nice", "", "", {}}, 0, 0, "there is no style \"nice\"");
+  expect_refused({"", "pink", "", {fine}}, 1, 0, "soft, jmol and cpk");
+  expect_refused({"", "cpk", "", {fine}}, 1, 0, "the input has no elements");
+  expect_refused({"", "", "blau", {fine}}, 1, 0, "background: expected #rrggbb");
+  expect_refused({"", "", "", {fine, {"chrage > 0", "hide", ""}}}, 1, 1, "did you mean 'charge'?");
+  expect_refused({"", "", "", {{"index 0 and", "hide", ""}}}, 0, 12, "expected");
+  expect_refused({"", "", "", {fine, fine, {"all", "colour", "blau"}}}, 2, 0, "expected #rrggbb");
+  expect_refused({"", "", "", {{"all", "colour-by", "chrage"}}}, 0, 0, "charge");
+  expect_refused({"", "", "", {{"all", "opacity", "2"}}}, 0, 0, "expected a number from 0 to 1, found \"2\"");
+  expect_refused({"", "", "", {{"all", "radius-scale", "-1"}}}, 0, 0, "expected a number from 0 to 3.4e38, found");
+  expect_refused({"", "", "", {{"all", "material", "wood"}}}, 0, 0, "expected one of matte");
+  expect_refused({"", "", "", {{"all", "paint", "red"}}}, 0, 0, "there are hide, show, colour");
+  expect_refused({"", "", "", {{"all", "hide", ""}}}, 1, 0, "every sphere is hidden");
+  EXPECT_EQ(viewer.look(), good);
+  EXPECT_TRUE(viewer.frame(1)->settled) << "nothing was started anew";
+  EXPECT_EQ(picture_hash(viewer.image()), before);
+}
+
+TEST(ViewerLook, a_scene_file_keeps_what_it_says) {
+  const std::string text = R"({"bihive_scene": 2, "background": "black",
+    "spheres": [[0, 0, 0, 1], [2, 0, 0, 1]], "looks": [{"select": "index 1", "colour": "red"}]})";
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load(text, "two.json"));
+  EXPECT_EQ(shown(viewer), rendered(*load_scene(text, "two.json", {}, LooksOfFile::keep), viewer.settings().camera));
+  ViewerLook look;
+  look.style = "studio";
+  look.rows = {{"index 0", "colour", "blue"}};
+  ASSERT_TRUE(viewer.set_look(look));
+  const Style studio = *style_named("studio");
+  EXPECT_EQ(shown(viewer), rendered(*load_scene(text, "two.json", {}, LooksOfFile::keep, &studio),
+                                    viewer.settings().camera, {look_of("index 0", "colour", "blue")}));
+
+  // A scene with a look of its own takes no style, but takes looks.
+  ASSERT_TRUE(viewer.load_built_in("four-spheres"));
+  EXPECT_EQ(viewer.look(), ViewerLook{});
+  EXPECT_FALSE(viewer.facts().takes_style);
+  EXPECT_THAT(viewer.set_look(look).error().to_string(), HasSubstr("a look of its own"));
+  look.style = "";
+  EXPECT_TRUE(viewer.set_look(look));
+}
+
+TEST(ViewerLook, element_colours_and_background) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  EXPECT_TRUE(viewer.facts().has_elements);
+  ViewerLook look;
+  look.element_colours = "cpk";
+  look.background = "#204060";
+  ASSERT_TRUE(viewer.set_look(look));
+  LoadedScene expected = demo_in("default");
+  ASSERT_TRUE(recolour_elements(expected.scene, *element_colours_called("cpk")));
+  expected.scene.background = *colour_from_text("#204060", Transfer::srgb);
+  EXPECT_EQ(shown(viewer), rendered(expected, viewer.settings().camera));
+
+  // Transparent: the saved picture has opacity, the screen shows checks.
+  look.background = "none";
+  ASSERT_TRUE(viewer.set_look(look));
+  const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, 4);
+  ASSERT_TRUE(saved);
+  ASSERT_EQ(saved->channels, 4);
+  EXPECT_EQ(saved->bytes[3], 0) << "the corner is clear";
+  settle(viewer);
+  EXPECT_EQ(viewer.image().rgb[0], 235);
+  EXPECT_EQ(viewer.image().rgb[3 * 12], 205);
+  ASSERT_TRUE(viewer.set_look({}));
+  EXPECT_EQ(viewer.picture(kWidth, kHeight, 4)->channels, 3);
+
+  // Views of the tree have no transparent background.
+  ASSERT_TRUE(viewer.set_look(look));
+  ViewerSettings settings = viewer.settings();
+  settings.view = View::tree;
+  ASSERT_TRUE(viewer.set(settings));
+  EXPECT_EQ(viewer.picture(kWidth, kHeight, 1)->channels, 3);
+}
+
+TEST(ViewerLook, a_moving_picture_with_one_sample_is_still_the_programs_at_rest) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  ViewerSettings settings = viewer.settings();
+  settings.samples_per_pixel = 1;
+  ASSERT_TRUE(viewer.set(settings));
+  double done = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const Result<FrameReport> report = viewer.frame(1000);
+    ASSERT_TRUE(report);
+    EXPECT_GE(report->done, done);
+    done = report->done;
+    if (report->settled) break;
+  }
+  LoadedScene expected = demo_in("default");
+  expected.scene.picture.samples_per_pixel = 1;
+  EXPECT_EQ(picture_hash(viewer.image()), rendered(expected, viewer.settings().camera));
+}
+
+TEST(LookText, light_may_be_three_numbers) {
+  EXPECT_EQ(std::get<Vec3d>(*colour_choice_from_text("0.5,0,1")), (Vec3d{0.5, 0, 1}));
+  EXPECT_EQ(std::get<std::string>(*colour_choice_from_text("orange")), "orange");
+  for (const char* bad : {"", "1,2,3", "0,0", "0,0,0,0", "0,0,", "a,b,c", "#12345"})
+    EXPECT_FALSE(colour_choice_from_text(bad)) << bad;
+}
+
+}  // namespace
+}  // namespace bihive
