@@ -4,7 +4,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/io/bundled.h"
-#include "bihive/scene/palette.h"
+#include "bihive/scene/default_colours.h"
 
 namespace bihive {
 namespace {
@@ -19,6 +19,7 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
   loaded.scene.name = name;
   loaded.format = file->format;
   loaded.frames = file->frames;
+  loaded.assemblies = std::move(file->assemblies);
   loaded.rules = std::move(file->rules);
   loaded.warnings = std::move(file->warnings);
   loaded.recentred_by = file->recentred_by;
@@ -26,7 +27,7 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
     apply_style(*style, loaded.scene);
     loaded.rig = style->lights;
   }
-  colour_spheres(loaded.scene.spheres, style != nullptr ? style->element_colours : ElementScheme::jmol);
+  take_default_colours(loaded.scene, loaded.format, style);
   return loaded;
 }
 
