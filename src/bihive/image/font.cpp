@@ -45,7 +45,7 @@ Glyph read_glyph(OutlineReader& reader, double unit) {
     for (OutlinePoint& point : contour) {
       const int x_and_flag = reader.signed_number();
       point.on_curve = (x_and_flag & 1) != 0;
-      point.x = (x_and_flag - (point.on_curve ? 1 : 0)) / 2 / unit;
+      point.x = 0.5 * (x_and_flag - (point.on_curve ? 1 : 0)) / unit;
       point.y = reader.signed_number() / unit;
     }
   }

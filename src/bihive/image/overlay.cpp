@@ -46,7 +46,7 @@ void cover(PixelNumbers pixel, bool with_opacity, Vec3d colour, double opacity) 
 
 void blend(PngPixels& pixels, const Tile& part, const CoverageMask& mask, Vec3d colour, double opacity) {
   BIHIVE_CHECK(pixels.width == part.width() && pixels.height == part.height());
-  const auto pixel_bytes = static_cast<std::size_t>(pixels.channels * (pixels.bits / 8));
+  const auto pixel_bytes = static_cast<std::size_t>(pixels.channels) * static_cast<std::size_t>(pixels.bits / 8);
   const int x_end = std::min(mask.pixels.x1, part.x1);
   const int y_end = std::min(mask.pixels.y1, part.y1);
   for (int y = std::max(mask.pixels.y0, part.y0); y < y_end; ++y)
