@@ -122,7 +122,8 @@ class AssemblyTables {
   void take(Fields& row) {
     const std::string gen = "_pdbx_struct_assembly_gen.";
     if (const auto id = row.find(gen + "assembly_id"); id != row.end())
-      assemblies_.parts.push_back({id->second, row[gen + "oper_expression"], list_of(row[gen + "asym_id_list"])});
+      assemblies_.parts.push_back(
+          {printable(id->second), row[gen + "oper_expression"], list_of(row[gen + "asym_id_list"])});
     const std::string operators = "_pdbx_struct_oper_list.";
     if (const auto id = row.find(operators + "id"); id != row.end()) {
       AssemblyOperator made;
@@ -146,6 +147,7 @@ class AssemblyTables {
       else if (c != ' ' && c != '\n' && c != '\r' && c != '\t')
         items.back() += c;
     }
+    for (std::string& item : items) item = printable(item);
     return items;
   }
 
@@ -220,7 +222,7 @@ class AtomSites {
     columns_of_atoms_.take(spheres_.attributes);
     spheres_.assemblies = assemblies_.finish();
     if (!spheres_.assemblies.parts.empty())
-      spheres_.attributes.texts.push_back(label_chains_.take(std::string(kAssemblyChains)));
+      spheres_.attributes.texts.push_back(printable_texts(label_chains_.take(std::string(kAssemblyChains))));
     alternates_.remove_from(spheres_);
     return std::move(spheres_);
   }

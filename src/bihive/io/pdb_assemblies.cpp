@@ -34,7 +34,7 @@ void PdbAssemblies::add_line(std::string_view line) {
   const std::string_view text = line.size() > kTextColumn ? trim(line.substr(kTextColumn)) : std::string_view();
   if (begins_with(text, kBiomolecule)) {
     end_part();
-    part_.assembly = trim(text.substr(kBiomolecule.size()));
+    part_.assembly = printable(trim(text.substr(kBiomolecule.size())));
   } else if (begins_with(text, kApply)) {
     end_part();
     add_chains(text.substr(kApply.size()));
@@ -48,7 +48,8 @@ void PdbAssemblies::add_line(std::string_view line) {
 void PdbAssemblies::add_chains(std::string_view list) {
   while (!list.empty()) {
     const std::size_t comma = list.find(',');
-    if (const std::string_view chain = trim(list.substr(0, comma)); !chain.empty()) part_.chains.emplace_back(chain);
+    if (const std::string_view chain = trim(list.substr(0, comma)); !chain.empty())
+      part_.chains.push_back(printable(chain));
     list = comma == std::string_view::npos ? std::string_view() : list.substr(comma + 1);
   }
 }
