@@ -80,6 +80,12 @@ void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scal
   if (with_radius_scale)
     add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
   app.add_flag("--recenter", input.recenter, "Files: move the middle of the set to the origin");
+  add_value(app, "--assembly", input.assembly, "ID",
+            "PDB, mmCIF: copy the chains as this biological assembly says, e.g.\n--assembly 1; bihive info lists them",
+            [](const std::string& text) -> Result<std::string> {
+              if (text.empty()) return Error{"expected the id of an assembly, found an empty text", "", 0, 0, ""};
+              return text;
+            });
   add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
 }
 
@@ -133,6 +139,17 @@ void add_style_options(CLI::App& app, StyleOptions& look) {
   add_value(app, "--exposure", look.exposure_stops, "EV", "Stops: all light times 2^EV (the style's)",
             [](const std::string& text) { return number_from(text, -kMostExposureStops, kMostExposureStops); });
   add_choice(app, "--tone", look.tone, kToneCurves, "Curve for light that is too bright for the picture (the style's)");
+}
+
+void add_labels(CLI::App& app, LabelOptions& labels) {
+  app.add_flag("--legend", labels.legend, "Say what the colours mean: a colour bar, or names");
+  app.add_flag("--scale-bar", labels.scale_bar, "Show a round length; for --projection orthographic");
+  app.add_flag("--axes", labels.axes, "Show the directions of x, y and z");
+  app.add_option("--title", labels.title, "Write this at the top")->type_name("TEXT");
+  app.add_option("--length-unit", labels.length_unit,
+                 "Unit behind the scale bar's number (PDB, mmCIF: \u00C5; else none)")
+      ->type_name("TEXT");
+  app.add_flag("--no-labels", labels.none, "None of the labels that the scene file or the style asks for");
 }
 
 // Options whose order matters: each is taken when the command line reaches it, and may occur again.
@@ -245,6 +262,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_thread_options(command, options.tree, options.threads);
   add_input_options(command, options.input, /*with_radius_scale=*/false);
   add_looks(command, options.looks, options.input);
+  add_labels(command, options.labels);
   add_json_flag(command, options.json);
 }
 

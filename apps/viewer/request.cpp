@@ -21,6 +21,7 @@ Request take(const json& document) {
   }
   request.reading.radius_scale = document.value("radius_scale", request.reading.radius_scale);
   request.reading.recenter = document.value("recenter", false);
+  request.reading.assembly = document.value("assembly", "");
   request.reading.frame = document.value("frame", request.reading.frame);
   if (document.contains("size")) {
     request.width = document.at("size").at(0).get<int>();

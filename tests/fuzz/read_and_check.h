@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bihive/io/read_spheres.h"
 #include "bihive/io/readers.h"
@@ -54,6 +55,19 @@ void read_raw(Reader reader, const std::uint8_t* data, std::size_t size) {
     for (const double value : *axis) require(std::isfinite(value));
   for (const double r : raw->r) require(r >= 0 && std::isfinite(r));
   check_attributes(raw->attributes, raw->size());
+
+  // The assemblies that the file states, if they are few.
+  const std::vector<std::string> ids = raw->assemblies.ids();
+  for (std::size_t i = 0; i < ids.size() && i < 3; ++i) {
+    require(printable(ids[i]) == ids[i]);
+    RawSpheres copied = *raw;
+    if (const Status status = expand_assembly(copied, ids[i], "fuzz"); !status) {
+      check_error(status.error());
+      continue;
+    }
+    require(copied.size() > 0 && copied.y.size() == copied.size() && copied.z.size() == copied.size());
+    check_attributes(copied.attributes, copied.size());
+  }
 }
 
 /// The whole way from bytes to a sphere set. The first byte chooses the options.

@@ -3,7 +3,7 @@
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
 // molecule; recursion 1 to 5, ambient occlusion, soft shadows with effects of materials, outlines and fog, every view,
-// parallel rays, a lens, tone curves, adaptive samples, a part with opacity, the sRGB curve, shadows, several samples.
+// parallel rays, labels, a lens, tone curves, adaptive samples, a part with opacity, the sRGB curve, shadows, several samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -13,10 +13,12 @@
 #include "bihive/image/png_pixels.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/read_spheres.h"
+#include "bihive/render/draw_labels.h"
 #include "bihive/render/renderer.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
+#include "bihive/scene/looks.h"
 #include "bihive/scene/palette.h"
 #include "support/effort.h"
 
@@ -84,7 +86,9 @@ bool print_hash(const bihive::Scene& scene, const bihive::RenderSettings& wanted
         return false;
       }
       const bihive::Transfer curve = settings.view == View::shaded ? scene.picture.transfer : bihive::Transfer::none;
-      const std::uint64_t hash = bihive::picture_hash(bihive::png_pixels_from_film(rendered->film, curve, 8));
+      bihive::PngPixels pixels = bihive::png_pixels_from_film(rendered->film, curve, 8);
+      bihive::draw_labels(pixels, scene, settings);
+      const std::uint64_t hash = bihive::picture_hash(pixels);
       std::printf("%s view %s recursion %d samples %d engine %s threads %d: %016" PRIx64 "\n", scene.name.c_str(),
                   view_name, settings.recursion, settings.samples_per_pixel, engine_name, threads, hash);
       if (!have_first) first = hash;
@@ -119,6 +123,23 @@ bihive::RenderSettings look_settings(bihive::RenderSettings settings) {
   settings.outline = bihive::Outline{1.5, 0.5, {0.1, 0, 0}};
   settings.fog = bihive::Fog{0.2, 0.9, 0.5};
   return settings;
+}
+
+// With every label, whole and in part; the two are different pictures with lines of their own.
+bool print_labels(bihive::Scene scene) {
+  bihive::ColourBy by_height;
+  by_height.attribute = "y";
+  if (!bihive::apply_looks(scene, {{"all", {by_height}}})) return false;
+  scene.camera = bihive::with_projection(scene.camera, bihive::Projection::orthographic);
+  bihive::RenderSettings settings = bihive::settings_from(scene.picture);
+  settings.width_px = kWidthPx;
+  settings.height_px = kHeightPx;
+  settings.recursion = 1;
+  settings.labels = {true, true, true, "\u00C5ngstr\u00F6m \u03B2\u00B2", "nm"};
+  bool good = print_hash(scene, settings, "shaded with labels");
+  settings.transparent = true;
+  settings.crop = bihive::Tile{20, 3, 90, 70};
+  return print_hash(scene, settings, "shaded with labels transparent part") && good;
 }
 
 // Pictures with parallel rays: shaded in one step, shaded with all that follows, and the tree's views.
@@ -180,7 +201,8 @@ bool print_hashes(const bihive::Scene& scene) {
     good = print_hash(scene, settings, name) && good;
   }
   good = print_photographs(scene) && good;
-  return print_orthographic(scene) && good;
+  good = print_orthographic(scene) && good;
+  return print_labels(scene) && good;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::vector<Vec3f> coloured(const std::string& text, Transfer transfer = Transfe
   std::vector<Vec3f> colours(6, Vec3f{0.5F, 0.5F, 0.5F});
   const Result<ColourBy> how = colour_by_from_text(text);
   EXPECT_TRUE(how.ok()) << text;
-  const Status status = colour_by(table(), *how, mask, transfer, colours);
+  const auto status = colour_by(table(), *how, mask, transfer, colours);
   EXPECT_TRUE(status.ok()) << text << ": " << status.error().to_string();
   return colours;
 }
@@ -123,7 +123,7 @@ TEST(ColourBy, FaultsAreNamed) {
     EXPECT_THAT(how.error().to_string(), HasSubstr(message));
   }
   std::vector<Vec3f> colours(6);
-  const Status status =
+  const auto status =
       colour_by(table(), *colour_by_from_text("phase:magma"), std::vector<std::uint8_t>(6, 1), Transfer::srgb, colours);
   ASSERT_FALSE(status.ok());
   EXPECT_THAT(status.error().message, HasSubstr("holds texts, and this map needs numbers"));

@@ -42,6 +42,12 @@ struct StyleOptions {
   std::optional<ToneCurve> tone;
 };
 
+/// Labels are added to those of the scene and its style; `none` leaves out theirs.
+struct LabelOptions {
+  bool legend = false, scale_bar = false, axes = false, none = false;
+  std::optional<std::string> title, length_unit;
+};
+
 /// Unset: the scene's value.
 /// The word of --background for a transparent picture.
 inline const std::string kNoBackground = "none";
@@ -62,6 +68,7 @@ struct RenderOptions {
   std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
   std::optional<bool> shadows;
   StyleOptions style;
+  LabelOptions labels;
   std::optional<Transfer> transfer;
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
   std::optional<std::int64_t> bits;       ///< 8 or 16

@@ -98,6 +98,7 @@ void print_json(const Facts& facts) {
                                   {"min", attribute.known() ? ordered_json(attribute.min) : ordered_json()},
                                   {"max", attribute.known() ? ordered_json(attribute.max) : ordered_json()}});
   json["frames"] = facts.input.frames;
+  json["assemblies"] = facts.input.assemblies;
   json["rules"] = facts.input.rules;
   json["warnings"] = facts.input.warnings;
   json["recentred_by"] = vector(facts.input.recentred_by);
@@ -139,6 +140,7 @@ void print_text(const Facts& facts) {
   for (const Range& attribute : facts.attributes)
     row(attribute.name, attribute.known() ? interval(attribute.min, attribute.max) : "unknown");
   row("frames", grouped(facts.input.frames));
+  if (!facts.input.assemblies.empty()) row("assemblies", fmt::format("{}", fmt::join(facts.input.assemblies, ", ")));
   for (const std::string& rule : facts.input.rules) row("read as", rule);
   const Vec3d shift = facts.input.recentred_by;
   if (shift != Vec3d{}) row("recentred by", fmt::format("{}, {}, {}", shift.x, shift.y, shift.z));

@@ -10,10 +10,12 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
+#include "bihive/render/draw_labels.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/simd/target.h"
 #include "commands/choose_camera.h"
+#include "commands/choose_labels.h"
 #include "commands/choose_look.h"
 #include "commands/commands.h"
 #include "commands/names.h"
@@ -88,6 +90,16 @@ void describe_effects(const RenderSettings& settings, const Scene& scene, ordere
   }
 }
 
+void describe_labels(const Labels& labels, ordered_json& json) {
+  if (!labels.any()) return;
+  ordered_json& object = json["labels"];
+  if (labels.legend) object["legend"] = true;
+  if (labels.scale_bar) object["scale_bar"] = true;
+  if (labels.axes) object["axes"] = true;
+  if (!labels.title.empty()) object["title"] = labels.title;
+  if (labels.length_unit) object["length_unit"] = *labels.length_unit;
+}
+
 // Everything that decides the picture, for its text chunk. Threads and engine do not.
 ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene) {
   const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
@@ -104,6 +116,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   json["transfer"] = name_of(kTransfers, scene.picture.transfer);
   json["background"] = vector(scene.background);
   if (settings.transparent) json["transparent"] = true;
+  describe_labels(settings.labels, json);
   if (options.bits) json["bits"] = *options.bits;
   if (options.dots_per_inch > 0) json["dpi"] = options.dots_per_inch;
   json["camera"] = {{"eye", vector(scene.camera.eye)},
@@ -130,6 +143,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
   if (input.frame) json["frame"] = *input.frame;
   if (input.recenter) json["recenter"] = true;
+  if (!input.assembly.empty()) json["assembly"] = input.assembly;
   if (!options.looks.element_colours.empty()) json["element_colours"] = options.looks.element_colours;
   if (!options.looks.words.empty()) json["looks"] = options.looks.words;
   return json;
@@ -250,6 +264,7 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
     fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
                "give a number: --samples 64");
   apply_look(options.style, input);
+  choose_labels(options.labels, scene, settings);
   return settings;
 }
 
@@ -319,8 +334,9 @@ void run_render(const RenderOptions& options) {
       value_or_fail(Tracer::build(scene.spheres, structure_of(engine), options.tree, settings.threads));
   const Drawn drawn = is_gpu(engine) ? draw_on_gpu(scene, tracer, settings) : draw_on_cpu(scene, tracer, settings);
   const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
-  const PngPixels image =
+  PngPixels image =
       png_pixels_from_film(drawn.film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
+  draw_labels(image, scene, settings, options.dots_per_inch);
   const ordered_json described = settings_json(options, settings, scene);
   write_picture(options.output, value_or_fail(encode_png(image, text_chunks(scene, described), options.dots_per_inch)));
   if (options.output == kStandardOutput) return;

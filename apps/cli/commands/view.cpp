@@ -35,6 +35,7 @@ ordered_json request_of(const ViewOptions& options) {
   put(request, "radius_scale", input.radius_scale);
   put(request, "frame", input.frame);
   if (input.recenter) request["recenter"] = true;
+  if (!input.assembly.empty()) request["assembly"] = input.assembly;
   if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
   if (!options.style.empty()) request["style"] = options.style;

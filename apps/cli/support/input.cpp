@@ -20,6 +20,7 @@ void refuse_file_options(const InputOptions& options) {
   only_for(options.radius_scale.has_value(), "--radius-scale", "files", options.input);
   only_for(options.recenter, "--recenter", "files", options.input);
   only_for(options.frame.has_value(), "--frame", "files", options.input);
+  only_for(!options.assembly.empty(), "--assembly", "PDB and mmCIF files", options.input);
 }
 
 // Made by the program, not read.
@@ -33,6 +34,7 @@ ReadOptions read_options(const InputOptions& options) {
   reading.radius_scale = options.radius_scale.value_or(1);
   reading.recenter = options.recenter;
   reading.frame = options.frame.value_or(0);
+  reading.assembly = options.assembly;
   return reading;
 }
 

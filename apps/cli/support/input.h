@@ -20,6 +20,7 @@ struct InputOptions {
   std::optional<double> radius_scale;
   std::optional<std::int64_t> frame;
   bool recenter = false;
+  std::string assembly = "";  ///< an id; empty: not asked for
 };
 
 /// Coloured, at least one sphere; its warnings were already printed on stderr.

@@ -16,6 +16,11 @@ int atomic_number(std::string_view symbol) {
   return gemmi::Element(text).atomic_number();
 }
 
+std::string element_symbol(int atomic_number) {
+  if (atomic_number < 1 || atomic_number > 118) return "";
+  return gemmi::Element(atomic_number).name();
+}
+
 double van_der_waals_radius(int atomic_number) {
   if (atomic_number < 1 || atomic_number > 118) return 0;
   return double(gemmi::Element(atomic_number).vdw_r());

@@ -1,12 +1,16 @@
 // Chemical elements: symbols, atomic numbers, van der Waals radii.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace bihive {
 
 /// The atomic number, 1 to 118, of a symbol in upper or lower case ("C", "cl", "FE"; D is hydrogen), or 0.
 int atomic_number(std::string_view symbol);
+
+/// "C", "Cl"; empty if the number is not 1 to 118.
+std::string element_symbol(int atomic_number);
 
 /// Van der Waals radius in Angstrom, from gemmi's table; 0 if the number is not 1 to 118.
 double van_der_waals_radius(int atomic_number);

@@ -97,6 +97,7 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   file.spheres.attributes() = std::move(raw.attributes);
   file.format = std::move(raw.format);
   file.frames = raw.frames;
+  file.assemblies = raw.assemblies.ids();
   file.rules = std::move(raw.rules);
   file.warnings = std::move(raw.warnings);
   file.recentred_by = recentred_by;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <gemmi/cif.hpp>
 #include <iterator>
+#include <limits>
 #include <unordered_map>
 
 #include "bihive/io/alternates.h"
@@ -74,6 +75,90 @@ int item_of(std::string_view tag) {
   return static_cast<int>(found - std::begin(kItemNames));
 }
 
+// Takes the two categories that state assemblies.
+class AssemblyTables {
+ public:
+  void begin_loop() {
+    fields_.clear();
+    column_ = 0;
+    row_.clear();
+    ours_ = false;
+  }
+  void add_loop_tag(std::string_view tag) {
+    fields_.push_back(field_of(tag));
+    ours_ = ours_ || !fields_.back().empty();
+  }
+  void add_loop_value(std::string_view value) {
+    if (!ours_) return;
+    row_[fields_[column_]] = gemmi::cif::as_string(std::string(value));
+    if (++column_ < fields_.size()) return;
+    column_ = 0;
+    take(row_);
+  }
+  void add_pair_tag(std::string_view tag) { pair_field_ = field_of(tag); }
+  void add_pair_value(std::string_view value) {
+    if (!pair_field_.empty()) pairs_[pair_field_] = gemmi::cif::as_string(std::string(value));
+  }
+  void clear() {
+    pairs_.clear();
+    assemblies_ = {};
+  }
+  Assemblies finish() {
+    take(pairs_);
+    return std::move(assemblies_);
+  }
+
+ private:
+  using Fields = std::unordered_map<std::string, std::string>;
+
+  // The tag in lower case if it is one of ours, else nothing.
+  static std::string field_of(std::string_view tag) {
+    const std::string lower = lower_case(tag);
+    const bool ours =
+        lower.rfind("_pdbx_struct_assembly_gen.", 0) == 0 || lower.rfind("_pdbx_struct_oper_list.", 0) == 0;
+    return ours ? lower : "";
+  }
+
+  void take(Fields& row) {
+    const std::string gen = "_pdbx_struct_assembly_gen.";
+    if (const auto id = row.find(gen + "assembly_id"); id != row.end())
+      assemblies_.parts.push_back(
+          {printable(id->second), row[gen + "oper_expression"], list_of(row[gen + "asym_id_list"])});
+    const std::string operators = "_pdbx_struct_oper_list.";
+    if (const auto id = row.find(operators + "id"); id != row.end()) {
+      AssemblyOperator made;
+      made.id = id->second;
+      for (std::size_t i = 0; i < 12; ++i) {
+        const std::string number = std::to_string(i / 4 + 1);
+        const std::string key =
+            i % 4 == 3 ? "vector[" + number + "]" : "matrix[" + number + "][" + std::to_string(i % 4 + 1) + "]";
+        made.rows[i] = parse_double(row[operators + key]).value_or(std::numeric_limits<double>::quiet_NaN());
+      }
+      assemblies_.operators.push_back(made);
+    }
+  }
+
+  // "A,B,C", with blanks or line breaks in between.
+  static std::vector<std::string> list_of(const std::string& text) {
+    std::vector<std::string> items(1);
+    for (const char c : text) {
+      if (c == ',')
+        items.emplace_back();
+      else if (c != ' ' && c != '\n' && c != '\r' && c != '\t')
+        items.back() += c;
+    }
+    for (std::string& item : items) item = printable(item);
+    return items;
+  }
+
+  std::vector<std::string> fields_;  // of the loop; empty texts for all others
+  std::size_t column_ = 0;
+  bool ours_ = false;
+  Fields row_, pairs_;
+  std::string pair_field_;
+  Assemblies assemblies_;
+};
+
 // Takes the values of _atom_site in the order in which the grammar meets them.
 class AtomSites {
  public:
@@ -84,6 +169,7 @@ class AtomSites {
     add_atom(pair_row_);
     pair_row_ = {};
     done_ = done_ || atoms_ > 0;
+    if (!done_) assemblies_.clear();
   }
 
   void begin_loop() {
@@ -91,12 +177,15 @@ class AtomSites {
     column_ = 0;
     row_ = {};
     ours_ = false;
+    assemblies_.begin_loop();
   }
   void add_loop_tag(std::string_view tag) {
+    assemblies_.add_loop_tag(tag);
     columns_.push_back(item_of(tag));
     ours_ = ours_ || columns_.back() != kItems;
   }
   void add_loop_value(const Value& value) {
+    if (!done_) assemblies_.add_loop_value(value.text);
     if (!ours_) return;
     const int item = columns_[column_];
     if (item != kItems) row_[static_cast<std::size_t>(item)] = value;
@@ -112,8 +201,12 @@ class AtomSites {
   }
 
   // A single atom may stand outside a loop, as pairs of tag and value.
-  void add_pair_tag(std::string_view tag) { pair_item_ = item_of(tag); }
+  void add_pair_tag(std::string_view tag) {
+    pair_item_ = item_of(tag);
+    assemblies_.add_pair_tag(tag);
+  }
   void add_pair_value(const Value& value) {
+    if (!done_) assemblies_.add_pair_value(value.text);
     if (pair_item_ != kItems) pair_row_[static_cast<std::size_t>(pair_item_)] = value;
   }
 
@@ -127,6 +220,9 @@ class AtomSites {
     spheres_.frames = models;
     spheres_.rules.push_back("atoms: ATOM and HETATM of model " + std::to_string(frame_) + " (from 0)");
     columns_of_atoms_.take(spheres_.attributes);
+    spheres_.assemblies = assemblies_.finish();
+    if (!spheres_.assemblies.parts.empty())
+      spheres_.attributes.texts.push_back(printable_texts(label_chains_.take(std::string(kAssemblyChains))));
     alternates_.remove_from(spheres_);
     return std::move(spheres_);
   }
@@ -166,6 +262,9 @@ class AtomSites {
     const double occupancy = row[kOccupancy].missing() ? 1 : number(row[kOccupancy], "occupancy");
     const double b_factor = row[kBFactor].missing() ? 0 : number(row[kBFactor], "B_iso_or_equiv");
     columns_of_atoms_.add(names_of(row), occupancy, b_factor);
+
+    const Value& label_chain = chosen(row, kLabelChain, kAuthChain);
+    label_chains_.add(label_chain.missing() ? std::string_view() : label_chain.unquoted());
 
     // An atom site is named by its chain, residue number with insertion code, and name: the author's, else the label's.
     const std::string_view mark = row[kAlternate].unquoted();
@@ -211,6 +310,8 @@ class AtomSites {
   RawSpheres spheres_;
   AtomColumns columns_of_atoms_;
   Alternates alternates_;
+  TextCollector label_chains_;
+  AssemblyTables assemblies_;
 };
 
 // The actions for the rules of the grammar.

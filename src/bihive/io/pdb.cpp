@@ -8,6 +8,7 @@
 #include "bihive/io/atom_columns.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/parse_number.h"
+#include "bihive/io/pdb_assemblies.h"
 #include "bihive/io/readers.h"
 #include "bihive/io/text_scanner.h"
 
@@ -58,6 +59,8 @@ class PdbReader {
         in_model = true;
         if (models - 1 != frame_) continue;
         if (Status atom = read_atom(); !atom) return atom.error();
+      } else if (record == "REMARK" && columns(scanner_.line(), 8, 10) == "350") {
+        assemblies_.add_line(scanner_.line());
       } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
         in_model = false;
       }
@@ -125,6 +128,7 @@ class PdbReader {
     spheres_.frames = models;
     spheres_.rules.push_back("atoms: ATOM and HETATM records of model " + std::to_string(frame_) + " (from 0)");
     columns_.take(spheres_.attributes);
+    spheres_.assemblies = assemblies_.take();
     alternates_.remove_from(spheres_);
     if (unreadable_ > 0)
       spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_unreadable_line_) + ": " +
@@ -137,6 +141,7 @@ class PdbReader {
   RawSpheres spheres_;
   AtomColumns columns_;
   Alternates alternates_;
+  PdbAssemblies assemblies_;
   std::int64_t unreadable_ = 0;
   std::int64_t first_unreadable_line_ = 0;
 };

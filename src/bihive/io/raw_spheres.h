@@ -8,6 +8,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/io/assemblies.h"
 
 namespace bihive {
 
@@ -19,6 +20,7 @@ struct RawSpheres {
   std::vector<double> x, y, z, r;
   SphereAttributes attributes;
   std::optional<double> unknown_radius;  ///< for spheres with neither radius nor known element; >= 0
+  Assemblies assemblies;
   std::int64_t frames = 1;
   std::vector<std::string> rules;     ///< what the reader did, one sentence each
   std::vector<std::string> warnings;  ///< what the user should know, one line each

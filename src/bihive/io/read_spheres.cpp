@@ -1,5 +1,6 @@
 #include "bihive/io/read_spheres.h"
 
+#include <algorithm>
 #include <exception>
 
 #include "bihive/base/write_file.h"
@@ -36,6 +37,12 @@ Result<SphereFile> read_unpacked(std::string_view bytes, const std::string& name
   if (!format) return Error{"this is no file of spheres in a known format", name, 0, 0, "known are " + known_formats()};
   Result<RawSpheres> raw = read_format(*format, bytes, name, options.frame);
   if (!raw) return raw.error();
+  if (!options.assembly.empty())
+    if (Status status = expand_assembly(*raw, options.assembly, name); !status) return status.error();
+  std::vector<NamedTexts>& texts = raw->attributes.texts;
+  texts.erase(std::remove_if(texts.begin(), texts.end(),
+                             [](const NamedTexts& column) { return column.name == kAssemblyChains; }),
+              texts.end());
 
   // The spheres of a film keep their size: a radius that is a guess is the first frame's. If that frame cannot tell,
   // each frame has its own.

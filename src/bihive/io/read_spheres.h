@@ -20,15 +20,17 @@ struct ReadOptions {
   double radius_scale = 1;       ///< multiplies every radius, after `radius`; >= 0
   bool recenter = false;         ///< subtract the middle of the set's centres in binary64 before rounding
   std::int64_t frame = 0;        ///< 0-based frame or model
+  std::string assembly = "";     ///< id of a biological assembly in a PDB or mmCIF file; empty: the atoms as they are
 };
 
 struct SphereFile {
-  SphereSet spheres;                  ///< at least one sphere, in file order
-  std::string format;                 ///< "PDB", "mmCIF", "XYZ", "LAMMPS dump", "CSV", "NPY"
-  std::int64_t frames = 1;            ///< frames or models in the file
-  std::vector<std::string> rules;     ///< what the reader did, a sentence each ("radii: van der Waals, by element")
-  std::vector<std::string> warnings;  ///< what the user should know, one line each
-  Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
+  SphereSet spheres;                    ///< at least one sphere, in file order
+  std::string format;                   ///< "PDB", "mmCIF", "XYZ", "LAMMPS dump", "CSV", "NPY"
+  std::int64_t frames = 1;              ///< frames or models in the file
+  std::vector<std::string> rules;       ///< what the reader did, a sentence each ("radii: van der Waals, by element")
+  std::vector<std::string> warnings;    ///< what the user should know, one line each
+  std::vector<std::string> assemblies;  ///< ids of the biological assemblies that the file states
+  Vec3d recentred_by;                   ///< subtracted from every centre; 0 without `recenter`
 };
 
 /// Never throws. An error names file, and line and column if they are known.

@@ -12,12 +12,12 @@ namespace bihive {
 // sets lie between each other: set i starts a part of a step lower and is turned as the sample places are.
 DirectionSets::DirectionSets(int directions, int samples_per_pixel) {
   const double golden = (3 - std::sqrt(5.0)) / 2;  // of a whole turn
-  const Turn step = turn_by(golden);
+  const Rotation step = turn_by(golden);
   const int sets = std::min(samples_per_pixel, kMostDirectionSets);
   for (int i = 0; i < sets; ++i) {
     const SamplePlace place = sample_place(i, sets);
     std::vector<Vec3f>& set = sets_.emplace_back();
-    Turn turn = turn_by(place.y);
+    Rotation turn = turn_by(place.y);
     for (int k = 0; k < directions; ++k) {
       const double z = 1 - 2 * (k + place.x) / directions;
       const double radius = std::sqrt(std::max(0.0, 1 - z * z));

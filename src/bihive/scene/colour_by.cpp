@@ -83,28 +83,32 @@ std::optional<std::pair<double, double>> range_of(const SphereSet& spheres, cons
   return range;
 }
 
-Status colour_by_number(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
-                        const std::vector<std::uint8_t>& mask, Transfer transfer, std::vector<Vec3f>& colours) {
+Result<ColourBy> colour_by_number(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
+                                  const std::vector<std::uint8_t>& mask, Transfer transfer,
+                                  std::vector<Vec3f>& colours) {
   if (how.range && !(how.range->first < how.range->second))
     return colour_by_error("the range of a colour map begins below its end");
   if (how.logarithmic && how.range && !(how.range->first > 0))
     return colour_by_error("a logarithmic range begins above 0");
   const Result<Vec3f> unknown = linear_colour(how.nan_colour, transfer);
   if (!unknown) return unknown.error();
-  const auto range = how.range ? how.range : range_of(spheres, attribute, mask, how.logarithmic);
-  const Scale scale(range.value_or(std::pair{0.0, 1.0}), how.logarithmic);
+  ColourBy done = how;
+  done.map = how.map.value_or(ColourMap::viridis);
+  if (!done.range) done.range = range_of(spheres, attribute, mask, how.logarithmic).value_or(std::pair{0.0, 1.0});
+  const Scale scale(*done.range, how.logarithmic);
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     const auto i = static_cast<std::size_t>(id);
     if (mask[i] == 0) continue;
     const double share = scale.share(attribute.number_of(spheres, id));
-    colours[i] = std::isnan(share) ? *unknown : map_colour(how.map.value_or(ColourMap::viridis), share, transfer);
+    colours[i] = std::isnan(share) ? *unknown : map_colour(*done.map, share, transfer);
   }
-  return Done{};
+  return done;
 }
 
 // A colour for each category: texts in their order of appearance, whole numbers as they are.
-Status colour_by_category(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
-                          const std::vector<std::uint8_t>& mask, Transfer transfer, std::vector<Vec3f>& colours) {
+Result<ColourBy> colour_by_category(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
+                                    const std::vector<std::uint8_t>& mask, Transfer transfer,
+                                    std::vector<Vec3f>& colours) {
   const Result<Vec3f> unknown = linear_colour(how.nan_colour, transfer);
   if (!unknown) return unknown.error();
   constexpr double kMostCategories = 1 << 30;
@@ -119,10 +123,16 @@ Status colour_by_category(const SphereSet& spheres, const ColourBy& how, const F
     else
       colours[i] = as_seen(type_colour(static_cast<std::int32_t>(std::floor(number))), transfer);
   }
-  return Done{};
+  ColourBy done = how;
+  done.range.reset();
+  return done;
 }
 
 }  // namespace
+
+double place_in_range(std::pair<double, double> range, bool logarithmic, double number) {
+  return Scale(range, logarithmic).share(number);
+}
 
 Result<Vec3f> linear_colour(const ColourChoice& colour, Transfer transfer) {
   if (const Vec3d* const linear = std::get_if<Vec3d>(&colour)) return to_float(*linear);
@@ -156,8 +166,8 @@ Result<ColourBy> colour_by_from_text(const std::string& text) {
   return how;
 }
 
-Status colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
-                 Transfer transfer, std::vector<Vec3f>& colours) {
+Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
+                           Transfer transfer, std::vector<Vec3f>& colours) {
   BIHIVE_CHECK_EQ(mask.size(), colours.size());
   const FoundAttribute attribute = find_attribute(spheres, how.attribute);
   if (!attribute.found())

@@ -34,8 +34,13 @@ struct ColourBy {
 Result<ColourBy> colour_by_from_text(const std::string& text);
 
 /// Sets `colours` (one for each sphere) where the mask is not 0. Numbers outside the range have the colour of its end.
-/// Error: the set lacks the attribute, no number is known, or the range has no extent that the map can show.
-Status colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
-                 Transfer transfer, std::vector<Vec3f>& colours);
+/// Returns what was done: of a continuous map, its name and its range, also where `how` left them open; of categories,
+/// no range. Error: the set lacks the attribute, no number is known, or the range has no extent that the map can show.
+Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
+                           Transfer transfer, std::vector<Vec3f>& colours);
+
+/// The place of a number in a range, 0 to 1 inside of it; 0.5 if the range has no extent. NaN: unknown, or not above 0
+/// on a logarithmic scale.
+double place_in_range(std::pair<double, double> range, bool logarithmic, double number);
 
 }  // namespace bihive

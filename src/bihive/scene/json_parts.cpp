@@ -80,6 +80,11 @@ void take_picture(const json& value, PictureDefaults& picture) {
   take_value(value, "light_points", picture.light_points);
   take_value(value, "exposure", picture.tone.exposure_stops);
   if (value.contains("tone")) picture.tone.curve = *value_named(kToneCurves, value.at("tone").get<std::string>());
+  take_value(value, "legend", picture.labels.legend);
+  take_value(value, "scale_bar", picture.labels.scale_bar);
+  take_value(value, "axes", picture.labels.axes);
+  take_value(value, "title", picture.labels.title);
+  if (value.contains("length_unit")) picture.labels.length_unit = value.at("length_unit").get<std::string>();
   if (value.contains("ambient_occlusion")) picture.ambient_occlusion = ambient_from_json(value.at("ambient_occlusion"));
   if (value.contains("outline")) picture.outline = outline_from_json(value.at("outline"), picture.transfer);
   if (value.contains("fog")) picture.fog = fog_from_json(value.at("fog"));

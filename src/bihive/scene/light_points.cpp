@@ -12,14 +12,14 @@ namespace bihive {
 // [0, 1] and even angles a and b, whose steps are powers of the plastic number, the golden ratio of two dimensions.
 LightPointSets::LightPointSets(int points, int samples_per_pixel) {
   constexpr double kPlastic = 1.32471795724474602596;  // the real root of x^3 = x + 1
-  const Turn step_a = turn_by(1 / kPlastic);
-  const Turn step_b = turn_by(1 / (kPlastic * kPlastic));
+  const Rotation step_a = turn_by(1 / kPlastic);
+  const Rotation step_b = turn_by(1 / (kPlastic * kPlastic));
   const int sets = std::min(samples_per_pixel, kMostPointSets);
   for (int i = 0; i < sets; ++i) {
     const SamplePlace place = sample_place(i, sets);
     std::vector<Vec3d>& set = sets_.emplace_back();
-    Turn a = turn_by(place.y);
-    Turn b = turn_by(place.x);
+    Rotation a = turn_by(place.y);
+    Rotation b = turn_by(place.x);
     for (int k = 0; k < points; ++k) {
       const double u = (k + place.x) / points;
       const double radius = std::sqrt(u);

@@ -4,7 +4,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/io/bundled.h"
-#include "bihive/scene/palette.h"
+#include "bihive/scene/default_colours.h"
 
 namespace bihive {
 namespace {
@@ -19,6 +19,7 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
   loaded.scene.name = name;
   loaded.format = file->format;
   loaded.frames = file->frames;
+  loaded.assemblies = std::move(file->assemblies);
   loaded.rules = std::move(file->rules);
   loaded.warnings = std::move(file->warnings);
   loaded.recentred_by = file->recentred_by;
@@ -26,7 +27,7 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
   if (style != nullptr)
     restyle(loaded, *style);
   else
-    colour_spheres(loaded.scene.spheres);
+    take_default_colours(loaded.scene, loaded.format, nullptr);
   return loaded;
 }
 
@@ -45,7 +46,9 @@ void restyle(LoadedScene& loaded, const Style& style) {
   apply_style(style, loaded.scene);
   loaded.rig = style.lights;
   if (loaded.has_scheme_colours) loaded.scene.spheres.attributes().colour.clear();
-  colour_spheres(loaded.scene.spheres, style.element_colours);
+  loaded.scene.coloured_by.clear();
+  loaded.scene.coloured_by_of_sphere.clear();
+  take_default_colours(loaded.scene, loaded.format, &style);
 }
 
 bool is_built_in_scene(const std::string& name) {

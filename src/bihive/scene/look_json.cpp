@@ -12,6 +12,8 @@ ColourChoice colour_from_json(const nlohmann::json& value) {
   return Vec3d{value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
 }
 
+}  // namespace
+
 ColourBy colour_by_from_json(const nlohmann::json& value) {
   ColourBy how;
   how.attribute = value.at("attribute").get<std::string>();
@@ -22,8 +24,6 @@ ColourBy colour_by_from_json(const nlohmann::json& value) {
   if (value.contains("nan_colour")) how.nan_colour = colour_from_json(value.at("nan_colour"));
   return how;
 }
-
-}  // namespace
 
 Look look_from_json(const nlohmann::json& value) {
   Look look;

@@ -7,7 +7,8 @@
 
 namespace bihive {
 
-/// The schema has accepted the value.
+/// Both: the schema has accepted the value.
+ColourBy colour_by_from_json(const nlohmann::json& value);
 Look look_from_json(const nlohmann::json& value);
 
 }  // namespace bihive

@@ -32,12 +32,17 @@ class LookedAt {
     take_colours();
     for (std::size_t i = 0; i < mask_.size(); ++i)
       if (mask_[i] != 0) colours_[i] = *colour;
+    set_meaning(-1);
     return Done{};
   }
 
   Status operator()(const ColourBy& action) {
     take_colours();
-    return colour_by(scene_.spheres, action, mask_, scene_.picture.transfer, colours_);
+    const Result<ColourBy> done = colour_by(scene_.spheres, action, mask_, scene_.picture.transfer, colours_);
+    if (!done) return done.error();
+    set_meaning(static_cast<std::int32_t>(scene_.coloured_by.size() + meanings_.size()));
+    meanings_.push_back(*done);
+    return Done{};
   }
 
   Status operator()(const SetOpacity& action) {
@@ -80,8 +85,13 @@ class LookedAt {
       scene.materials.insert(scene.materials.end(), materials_.begin(), materials_.end());
       scene.material_of_sphere = std::move(material_of_);
     }
+    if (!meaning_of_.empty()) {
+      scene.coloured_by.insert(scene.coloured_by.end(), meanings_.begin(), meanings_.end());
+      scene.coloured_by_of_sphere = std::move(meaning_of_);
+    }
     if (!shown_.empty()) {
       keep_entries(scene.material_of_sphere, shown_);
+      keep_entries(scene.coloured_by_of_sphere, shown_);
       keep_entries(colours_, shown_);
       keep_entries(opacities_, shown_);
       keep_ids(scene);
@@ -98,6 +108,12 @@ class LookedAt {
     if (values.empty()) values.assign(mask_.size(), before);
     for (std::size_t i = 0; i < mask_.size(); ++i)
       if (mask_[i] != 0) values[i] = wanted;
+  }
+
+  // What the colours of the present spheres mean: a position in the scene's list, then in meanings_.
+  void set_meaning(std::int32_t meaning) {
+    if (meaning_of_.empty()) meaning_of_ = scene_.coloured_by_of_sphere;
+    set(meaning_of_, std::int32_t{scene_.coloured_by.empty() ? -1 : 0}, meaning);
   }
 
   // The colours as they are: the spheres' own, or those of their materials.
@@ -136,6 +152,8 @@ class LookedAt {
   std::vector<float> opacities_;
   std::vector<Material> materials_;  // behind those of the scene
   std::vector<std::int32_t> material_of_;
+  std::vector<ColourBy> meanings_;  // behind those of the scene
+  std::vector<std::int32_t> meaning_of_;
   std::vector<double> factors_;
 };
 

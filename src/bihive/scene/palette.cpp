@@ -82,17 +82,19 @@ Vec3f type_colour(std::int32_t type) {
   return colours[static_cast<std::size_t>(remainder < 0 ? remainder + kTypes : remainder)];
 }
 
-void colour_spheres(SphereSet& spheres, ElementScheme scheme) {
+std::string_view colour_spheres(SphereSet& spheres, ElementScheme scheme) {
   SphereAttributes& attributes = spheres.attributes();
-  if (!attributes.colour.empty()) return;
+  if (!attributes.colour.empty()) return "";
   const std::size_t n = static_cast<std::size_t>(spheres.size());
   if (!attributes.element.empty()) {
     attributes.colour.resize(n);
     for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = element_colour(attributes.element[i], scheme);
-  } else if (!attributes.type.empty()) {
-    attributes.colour.resize(n);
-    for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = type_colour(attributes.type[i]);
+    return "element";
   }
+  if (attributes.type.empty()) return "";
+  attributes.colour.resize(n);
+  for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = type_colour(attributes.type[i]);
+  return "type";
 }
 
 }  // namespace bihive

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/math/vec3.h"
@@ -20,7 +21,7 @@ Vec3f element_colour(int atomic_number, ElementScheme scheme = ElementScheme::jm
 Vec3f type_colour(std::int32_t type);
 
 /// Fills the colour attribute if it is empty: from elements if there are any, else from types. Without both it stays
-/// empty.
-void colour_spheres(SphereSet& spheres, ElementScheme scheme = ElementScheme::jmol);
+/// empty. Returns the attribute that it took ("element", "type"), or an empty text.
+std::string_view colour_spheres(SphereSet& spheres, ElementScheme scheme = ElementScheme::jmol);
 
 }  // namespace bihive

@@ -32,6 +32,7 @@ struct RenderSettings {
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
+  Labels labels;  ///< for draw_labels() (render/draw_labels.h); a film has none
   /// The film gets coverage: samples that hit nothing add no light to their pixel. Reflected and transmitted rays see
   /// the background as ever. Not for View::traversal and View::tree.
   bool transparent = false;
@@ -64,6 +65,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.fog = defaults.fog;
   settings.transparent = defaults.transparent;
   settings.tone = defaults.tone;
+  settings.labels = defaults.labels;
   return settings;
 }
 

@@ -12,6 +12,8 @@
 #include "bihive/image/transfer.h"
 #include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/camera.h"
+#include "bihive/scene/colour_by.h"
+#include "bihive/scene/labels.h"
 #include "bihive/scene/material.h"
 #include "bihive/scene/picture_effects.h"
 
@@ -54,6 +56,7 @@ struct PictureDefaults {
   std::optional<Fog> fog;
   bool transparent = false;  ///< the picture has opacity instead of a background
   Tone tone;
+  Labels labels;
   Transfer transfer = Transfer::srgb;
 };
 
@@ -62,6 +65,12 @@ struct Scene {
   std::vector<Material> materials{matte_material()};  ///< at least one
   std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
   std::vector<std::int64_t> id_in_input;              ///< of each sphere, where some are hidden; empty: its position
+  /// What the spheres' colours mean, as colour_by() returned it: their elements, types or numbers. Nothing else depends
+  /// on it than the legend (scene/legend.h).
+  std::vector<ColourBy> coloured_by;
+  /// Positions in `coloured_by`, -1: the colour has no meaning. Empty: all have the first, if there is one.
+  std::vector<std::int32_t> coloured_by_of_sphere;
+  std::string length_unit;  ///< of the input's format ("Å"); empty: unknown
   std::vector<PointLight> lights;
   std::optional<ScenePlane> plane;
   Camera camera;

@@ -8,9 +8,9 @@
 
 #include "bihive/io/finish.h"
 #include "bihive/scene/colour_text.h"
+#include "bihive/scene/default_colours.h"
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/look_json.h"
-#include "bihive/scene/palette.h"
 #include "bihive/scene/scene_json.h"
 
 namespace bihive {
@@ -80,7 +80,8 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
-    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog", "transparent", "exposure", "tone"})
+    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog", "transparent", "exposure", "tone", "legend",
+                            "scale_bar", "axes", "title", "length_unit"})
       if (value.contains(key)) need_version(2, std::string("/picture/") + key);
     if (value.contains("samples_per_pixel") && value.at("samples_per_pixel").is_string())
       need_version(2, "/picture/samples_per_pixel");
@@ -234,6 +235,8 @@ class Extraction {
     if (options_.frame != 0)
       return fail("/spheres",
                   "there is no frame " + std::to_string(options_.frame) + ": the spheres are in the document");
+    if (!options_.assembly.empty())
+      return fail("/spheres", "there is no assembly \"" + options_.assembly + "\": the spheres are in the document");
     // Go through all of them. A sphere without colour, opacity or material gets the default.
     const std::size_t n = values.size();
     RawSpheres raw;
@@ -282,6 +285,7 @@ class Extraction {
     Scene& scene = loaded_.scene;
     scene.spheres = std::move(file.spheres);
     loaded_.frames = file.frames;
+    loaded_.assemblies = std::move(file.assemblies);
     loaded_.rules = std::move(file.rules);
     loaded_.recentred_by = file.recentred_by;
     for (const std::string& warning : file.warnings) loaded_.warnings.push_back(name_of_file + warning);
@@ -299,6 +303,10 @@ class Extraction {
     options.radius_scale *= value.value("radius_scale", 1.0);
     const bool recentred_by_document = value.value("recenter", false);
     options.recenter = options.recenter || recentred_by_document;
+    if (value.contains("assembly")) {
+      need_version(2, "/spheres/assembly");
+      if (options.assembly.empty()) options.assembly = value.at("assembly").get<std::string>();
+    }
     if (options.frame == 0) options.frame = value.value("frame", std::int64_t{0});
 
     // A relative path starts from the document's folder.
@@ -309,6 +317,7 @@ class Extraction {
     if (!file) return fail("/spheres/file", file.error().to_string());
 
     // A camera stands where the document's own spheres are, so it moves along if the caller moves those.
+    const std::string format = file->format;
     keep(std::move(*file), path + ": ", options.recenter && !recentred_by_document);
 
     // The material: if it states a colour, all spheres have that colour; otherwise those of the file, by element or by
@@ -322,7 +331,7 @@ class Extraction {
     if (states_colour)
       scene.spheres.attributes().colour.clear();
     else
-      colour_spheres(scene.spheres, style_ != nullptr ? style_->element_colours : ElementScheme::jmol);
+      take_default_colours(scene, format, style_);
   }
 
   // Last, because they change the spheres.

@@ -22,10 +22,11 @@ struct LoadedScene {
   bool has_lights = false;          ///< false: the caller places the lights of `rig`
   bool has_scheme_colours = false;  ///< a style's scheme coloured the spheres, not their file
   LightRig rig;
-  std::string format = "scene file";  ///< or "built-in", or a sphere file's format (scene/load_scene.h)
-  std::int64_t frames = 1;            ///< frames or models in the document's sphere file
-  std::vector<std::string> rules;     ///< what was done to its spheres, one sentence each
-  Vec3d recentred_by;                 ///< subtracted from every centre; 0 without `recenter`
+  std::string format = "scene file";    ///< or "built-in", or a sphere file's format (scene/load_scene.h)
+  std::int64_t frames = 1;              ///< frames or models in the document's sphere file
+  std::vector<std::string> assemblies;  ///< of its sphere file: as SphereFile::assemblies
+  std::vector<std::string> rules;       ///< what was done to its spheres, one sentence each
+  Vec3d recentred_by;                   ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
   std::vector<Look> looks;  ///< the document's; done already, unless LooksOfFile::keep was asked for
 };

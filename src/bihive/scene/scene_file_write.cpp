@@ -121,6 +121,16 @@ std::string fog_member(const std::optional<Fog>& fog) {
                      number(fog->end), number(fog->strength));
 }
 
+std::string labels_members(const Labels& labels) {
+  std::string members;
+  if (labels.legend) members += "\"legend\": true, ";
+  if (labels.scale_bar) members += "\"scale_bar\": true, ";
+  if (labels.axes) members += "\"axes\": true, ";
+  if (!labels.title.empty()) members += "\"title\": " + text(labels.title) + ", ";
+  if (labels.length_unit) members += "\"length_unit\": " + text(*labels.length_unit) + ", ";
+  return members;
+}
+
 std::string light_points_member(int points) {
   return points == PictureDefaults().light_points ? "" : fmt::format("\"light_points\": {}, ", points);
 }
@@ -143,7 +153,8 @@ int version_of(const Scene& scene) {
       picture.ambient_occlusion || picture.outline || picture.fog || !light_points_member(picture.light_points).empty();
   const bool parallel = scene.camera.projection != Projection::perspective;
   return effects || picture.adaptive_samples || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
-                 has_effects(scene) || has_ambient_light(scene) || parallel || picture.transparent || picture.tone.any()
+                 has_effects(scene) || has_ambient_light(scene) || parallel || picture.transparent ||
+                 picture.tone.any() || !labels_members(picture.labels).empty()
              ? 2
              : 1;
 }
@@ -171,12 +182,12 @@ std::string scene_to_json(const Scene& scene) {
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}{}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px,
       picture.adaptive_samples ? "\"auto\"" : std::to_string(picture.samples_per_pixel), picture.recursion,
       picture.shadows, ambient_member(picture.ambient_occlusion), light_points_member(picture.light_points),
       outline_member(picture.outline), fog_member(picture.fog), picture.transparent ? "\"transparent\": true, " : "",
-      tone_members(picture.tone), picture.transfer == Transfer::srgb ? "srgb" : "none");
+      tone_members(picture.tone), labels_members(picture.labels), picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

@@ -1,12 +1,14 @@
 // A look that fits any input: a material, colours, lights that stand around the camera, and effects.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/scene/camera_lights.h"
+#include "bihive/scene/colour_by.h"
 #include "bihive/scene/palette.h"
 #include "bihive/scene/scene.h"
 
@@ -17,6 +19,8 @@ struct Style {
   std::string description;  ///< one line
   Material material = matte_material();
   ElementScheme element_colours = ElementScheme::jmol;
+  /// Of spheres without element, type and own colour, if they have the attribute. Unset: the material's colour.
+  std::optional<ColourBy> colour_by;
   LightRig lights;
   Vec3d background{1, 1, 1};  ///< linear
   PictureDefaults picture;    ///< its size and transfer are of no use

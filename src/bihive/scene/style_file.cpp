@@ -5,6 +5,7 @@
 
 #include "bihive/scene/builtin_styles.h"
 #include "bihive/scene/json_parts.h"
+#include "bihive/scene/look_json.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/scene_json.h"
 #include "bihive/scene/style.h"
@@ -64,6 +65,7 @@ Result<Style> parse_style(std::string_view text, const std::string& file) {
   if (document.contains("colour")) style.material.colour = colour_from_json(document.at("colour"), Transfer::srgb);
   if (document.contains("element_colours"))
     style.element_colours = *value_named(kElementSchemes, document.at("element_colours").get<std::string>());
+  if (document.contains("colour_by")) style.colour_by = colour_by_from_json(document.at("colour_by"));
   if (document.contains("lights")) style.lights = light_rig(document.at("lights"));
   if (document.contains("ambient_light"))
     style.lights.ambient_light = colour_from_json(document.at("ambient_light"), Transfer::srgb);

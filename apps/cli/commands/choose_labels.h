@@ -1,0 +1,15 @@
+// What bihive render writes on a picture.
+#pragma once
+
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+#include "commands/commands.h"
+
+namespace bihive::cli {
+
+/// Adds the user's labels to those of the scene and its style in `settings`. The camera must stand already. Fails with
+/// kBadUsage on a label that the user asks for and the picture cannot have; leaves out one of the scene's or style's,
+/// with a warning.
+void choose_labels(const LabelOptions& options, const Scene& scene, RenderSettings& settings);
+
+}  // namespace bihive::cli

@@ -1,0 +1,25 @@
+// The last step of a picture: legend, scale bar, axes and title over its finished pixels.
+#pragma once
+
+#include "bihive/base/result.h"
+#include "bihive/image/png_pixels.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// Error: the scale bar of a perspective picture, a legend where colours have no meaning or the view does not show
+/// them. Costs little: ask before the picture is made.
+Status check_labels(const Scene& scene, const RenderSettings& settings);
+
+/// Draws settings.labels over the pixels that settings.crop (or the whole picture) holds. check_labels() must succeed.
+/// Letters grow with the picture's shorter side; with `dots_per_inch` above 0 they have 8 points in print, within
+/// limits. They are dark on light backgrounds and light on dark ones, and stand in a seam of the background's colour
+/// (white, where the background is transparent), so that they are readable above spheres and on any page.
+/// The pixels depend on nothing but the arguments, and a crop's equal those of the whole picture.
+void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings, double dots_per_inch = 0);
+
+/// The world's length of one pixel of an orthographic picture.
+double length_of_pixel(const Camera& camera, int width_px, int height_px);
+
+}  // namespace bihive

@@ -1,0 +1,112 @@
+#include "bihive/scene/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bihive/io/elements.h"
+#include "bihive/select/attribute_names.h"
+
+namespace bihive {
+namespace {
+
+// The names of an attribute's categories, as colour_by() tells them apart.
+class CategoryNames {
+ public:
+  CategoryNames(const SphereSet& spheres, const FoundAttribute& attribute) : spheres_(spheres), attribute_(attribute) {}
+
+  // Rises in the order of the legend; NaN: unknown.
+  double place(std::int64_t id) const {
+    if (attribute_.is_element()) {
+      const double number = attribute_.number_of(spheres_, id);
+      return number > 0 ? number : std::nan("");
+    }
+    return attribute_.has_numbers() ? std::floor(attribute_.number_of(spheres_, id)) : text_of(id);
+  }
+  std::string name(std::int64_t id) const {
+    const double number = place(id);
+    if (std::isnan(number)) return "unknown";
+    if (attribute_.is_element()) return element_symbol(static_cast<int>(number));
+    if (attribute_.texts == nullptr) return fmt::format("{}", number);
+    const std::string& text = attribute_.texts->of(static_cast<std::size_t>(id));
+    return text.empty() ? "(none)" : text;
+  }
+
+ private:
+  double text_of(std::int64_t id) const { return attribute_.texts->text_of_sphere[static_cast<std::size_t>(id)]; }
+
+  const SphereSet& spheres_;
+  FoundAttribute attribute_;
+};
+
+// Collects the spheres of one key.
+class KeyCollector {
+ public:
+  KeyCollector(const Scene& scene, const ColourBy& how)
+      : scene_(scene),
+        how_(how),
+        attribute_(find_attribute(scene.spheres, how.attribute)),
+        names_(scene.spheres, attribute_) {}
+
+  void add(std::int64_t id) {
+    if (!attribute_.found()) return;
+    used_ = true;
+    if (how_.range &&
+        !std::isnan(place_in_range(*how_.range, how_.logarithmic, attribute_.number_of(scene_.spheres, id))))
+      return;
+    const double place = how_.range ? std::nan("") : names_.place(id);
+    // The order of NaN is none.
+    const auto [position, is_new] = entries_.try_emplace({std::isnan(place), std::isnan(place) ? 0 : place});
+    if (!is_new) return;
+    const Vec3f colour = scene_.spheres.attributes().colour[static_cast<std::size_t>(id)];
+    position->second = {how_.range ? "unknown" : names_.name(id),
+                        screen_colour(to_double(colour), scene_.picture.transfer)};
+  }
+
+  bool used() const { return used_; }
+  LegendKey key() const {
+    LegendKey key;
+    key.title = how_.attribute;
+    if (how_.range) key.scale = {how_.map.value_or(ColourMap::viridis), *how_.range, how_.logarithmic};
+    for (const auto& [place, entry] : entries_) key.entries.push_back(entry);
+    return key;
+  }
+
+ private:
+  const Scene& scene_;
+  const ColourBy& how_;
+  FoundAttribute attribute_;
+  CategoryNames names_;
+  bool used_ = false;
+  std::map<std::pair<bool, double>, LegendEntry> entries_;  // the unknown one last
+};
+
+}  // namespace
+
+std::vector<LegendKey> legend_of(const Scene& scene) {
+  if (scene.coloured_by.empty() || scene.spheres.attributes().colour.empty()) return {};
+  std::vector<KeyCollector> collectors;
+  collectors.reserve(scene.coloured_by.size());
+  for (const ColourBy& how : scene.coloured_by) collectors.emplace_back(scene, how);
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+    const std::int32_t key =
+        scene.coloured_by_of_sphere.empty() ? 0 : scene.coloured_by_of_sphere[static_cast<std::size_t>(id)];
+    if (key >= 0) collectors[static_cast<std::size_t>(key)].add(id);
+  }
+  std::vector<LegendKey> keys;
+  for (const KeyCollector& collector : collectors)
+    if (collector.used()) keys.push_back(collector.key());
+  return keys;
+}
+
+Vec3d screen_colour(Vec3d linear, Transfer transfer) {
+  for (int channel = 0; channel < 3; ++channel) {
+    const double clamped = std::clamp(linear[channel], 0.0, 1.0);
+    linear[channel] = transfer == Transfer::srgb ? srgb_from_linear(clamped) : clamped;
+  }
+  return linear;
+}
+
+}  // namespace bihive

@@ -1,0 +1,42 @@
+// What a legend says: the meaning of the spheres' colours, from what coloured them (Scene::coloured_by).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/scene/colour_maps.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// A continuous map and its range.
+struct LegendScale {
+  ColourMap map = ColourMap::viridis;
+  std::pair<double, double> range;
+  bool logarithmic = false;
+};
+
+/// A colour of the screen, each value from 0 to 1, and its name.
+struct LegendEntry {
+  std::string name;
+  Vec3d colour;
+};
+
+/// One attribute by which spheres are coloured.
+struct LegendKey {
+  std::string title;                 ///< the attribute's name
+  std::optional<LegendScale> scale;  ///< unset: categories
+  std::vector<LegendEntry> entries;  ///< categories; of a scale: the colour of unknown numbers, if there are any
+};
+
+/// A key for each attribute that colours at least one sphere, in the order of Scene::coloured_by. Categories are those
+/// of the spheres that are there: elements and numbers from low to high, texts in the input's order. Costs a pass over
+/// all spheres.
+std::vector<LegendKey> legend_of(const Scene& scene);
+
+/// The value of the screen for linear light under a transfer, 0 to 1.
+Vec3d screen_colour(Vec3d linear, Transfer transfer);
+
+}  // namespace bihive
