@@ -14,8 +14,8 @@ constexpr double kBackgroundDepth = std::numeric_limits<double>::infinity();
 }  // namespace
 
 AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, const Tracer& tracer,
-                           const RenderSettings& settings, const PixelRays& rays)
-    : scene_(scene), wave_scene_(wave_scene), tracer_(tracer), rays_(rays) {
+                           const RenderSettings& settings, const PixelRays& rays, const Transparency* transparency)
+    : scene_(scene), wave_scene_(wave_scene), tracer_(tracer), rays_(rays), transparency_(transparency) {
   if (settings.view != View::shaded) return;
   outline_ = settings.outline;
   fog_ = settings.fog;
@@ -86,7 +86,7 @@ void AfterEffects::find_depths(const Tile& grown, SamplePlace place, const Cance
   wave.count = count;
   wave.starts_at_eye = true;
   steps::camera_rays(rays_, rays.x.data(), rays.y.data(), wave);
-  WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel);
+  WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false, nullptr, nullptr, 1, transparency_}, cancel);
   integrator.find_first_hits(rays);
   for (std::int64_t i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(buffers.place[static_cast<std::size_t>(i)]);

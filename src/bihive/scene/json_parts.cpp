@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bihive/scene/colour_text.h"
+#include "bihive/scene/names.h"
 
 namespace bihive {
 namespace {
@@ -72,6 +73,8 @@ void take_picture(const json& value, PictureDefaults& picture) {
   take_value(value, "recursion", picture.recursion);
   take_value(value, "shadows", picture.shadows);
   take_value(value, "transparent", picture.transparent);
+  if (value.contains("opacity_rule"))
+    picture.opacity_rule = *value_named(kOpacityRules, value.at("opacity_rule").get_ref<const std::string&>());
   take_value(value, "light_points", picture.light_points);
   if (value.contains("ambient_occlusion")) picture.ambient_occlusion = ambient_from_json(value.at("ambient_occlusion"));
   if (value.contains("outline")) picture.outline = outline_from_json(value.at("outline"), picture.transfer);

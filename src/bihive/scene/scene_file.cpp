@@ -80,7 +80,7 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
-    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog", "transparent"})
+    for (const char* key : {"ambient_occlusion", "light_points", "opacity_rule", "outline", "fog", "transparent"})
       if (value.contains(key)) need_version(2, std::string("/picture/") + key);
     PictureDefaults& picture = loaded_.scene.picture;
     bihive::take_picture(value, picture);

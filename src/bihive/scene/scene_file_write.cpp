@@ -118,6 +118,10 @@ std::string light_points_member(int points) {
   return points == PictureDefaults().light_points ? "" : fmt::format("\"light_points\": {}, ", points);
 }
 
+std::string opacity_member(OpacityRule rule) {
+  return rule == PictureDefaults().opacity_rule ? "" : "\"opacity_rule\": \"" + name_of(kOpacityRules, rule) + "\", ";
+}
+
 bool has_ambient_light(const Scene& scene) {
   const Vec3d light = scene.ambient_light;
   return light.x != 1 || light.y != 1 || light.z != 1;
@@ -127,7 +131,8 @@ bool has_ambient_light(const Scene& scene) {
 int version_of(const Scene& scene) {
   const PictureDefaults& picture = scene.picture;
   const bool effects =
-      picture.ambient_occlusion || picture.outline || picture.fog || !light_points_member(picture.light_points).empty();
+      picture.ambient_occlusion || picture.outline || picture.fog ||
+      !light_points_member(picture.light_points).empty() || !opacity_member(picture.opacity_rule).empty();
   const bool parallel = scene.camera.projection != Projection::perspective;
   return effects || has_soft_light(scene) || has_effects(scene) || has_ambient_light(scene) || parallel ||
                  picture.transparent
@@ -158,9 +163,9 @@ std::string scene_to_json(const Scene& scene) {
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}{}{}{}{}\"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
-      ambient_member(picture.ambient_occlusion), light_points_member(picture.light_points),
+      ambient_member(picture.ambient_occlusion), opacity_member(picture.opacity_rule), light_points_member(picture.light_points),
       outline_member(picture.outline), fog_member(picture.fog), picture.transparent ? "\"transparent\": true, " : "",
       picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
