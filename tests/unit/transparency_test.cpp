@@ -81,7 +81,8 @@ TEST(Transparency, layers_need_no_recursion) {
 }
 
 TEST(Transparency, the_nearest_layer_comes_first) {
-  const Scene scene = scene_of({{{0, 0, -4}, 1, 0.25F, {0, 1, 0}}, {{0, 0, 0}, 1, 0.5F, {1, 0, 0}}, {{0, 0, -8}, 1, 1, {0, 0, 1}}});
+  const Scene scene =
+      scene_of({{{0, 0, -4}, 1, 0.25F, {0, 1, 0}}, {{0, 0, 0}, 1, 0.5F, {1, 0, 0}}, {{0, 0, -8}, 1, 1, {0, 0, 1}}});
   const Vec3d light = light_along(scene, {0, 0, 10}, kAhead);
   EXPECT_EQ(light.x, 0.5);
   EXPECT_EQ(light.y, 0.5 * 0.25);

@@ -150,18 +150,23 @@ void walk(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Answ
   }
 }
 
+/// The answer of a walk that looks for the closest hit, or for any.
+template <bool kAnyHit>
+struct NearestAnswer {
+  Hit best;
+
+  bool take(double t, std::int64_t id) {
+    best.keep_nearer(t, id);
+    return kAnyHit && best.found();
+  }
+  double limit() const { return best.t; }
+};
+
 /// The closest hit of a valid ray in the stored units of `spheres`; with kAnyHit some hit. A hit's t is exact as
 /// geometry/sphere.h defines it, and of equal t the smaller id wins: the same answer as brute force, bit for bit.
 template <bool kAnyHit, class Observer>
 Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Observer& observer) {
-  struct Nearest {
-    Hit best;
-    bool take(double t, std::int64_t id) {
-      best.keep_nearer(t, id);
-      return kAnyHit && best.found();
-    }
-    double limit() const { return best.t; }
-  } nearest;
+  NearestAnswer<kAnyHit> nearest;
   walk(tree, spheres, ray, nearest, observer);
   return nearest.best;
 }

@@ -224,7 +224,8 @@ class Renderer {
     counts.primary = std::int64_t{tile.x1 - tile.x0} * (tile.y1 - tile.y0) * samples;
   }
 
-  // The samples of one pixel so far; `covered`: those that add to its light, partly where the background shines through.
+  // The samples of one pixel so far; `covered`: those that add to its light, partly where the background shines
+  // through.
   struct PixelSum {
     Vec3d light;
     double covered = 0;

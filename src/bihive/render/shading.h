@@ -28,8 +28,8 @@ LightShare soft_light_share(const PointLight& light, const LightPaths& paths, co
                             const std::vector<Vec3d>& points, std::int64_t& shadow_rays);
 
 /// colour x (glow + ambient x visibility x ambient light + sum of diffuse x light x N.L) + tint of sum of specular x
-/// light x (R.V)^power. The sums go over the lights in scene order that are in front of the surface, with `shadows` each
-/// times what arrives from it. Adds the traced shadow rays to the count. `light_points`: null if no light has a
+/// light x (R.V)^power. The sums go over the lights in scene order that are in front of the surface, with `shadows`
+/// each times what arrives from it. Adds the traced shadow rays to the count. `light_points`: null if no light has a
 /// radius or there are no shadows; else a light with a radius gives the mean of its points to the diffuse term, and its
 /// share to its centre's highlight.
 Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,

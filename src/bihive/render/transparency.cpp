@@ -127,9 +127,19 @@ void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t
   opaque_.tracer->occluded(opaque_.rays_here(rays, leaves), order, hidden);
 }
 
-void TransparentSpheres::crosses(const RaySpan& rays, RayOrder order, std::uint8_t* crossing) const {
-  static thread_local std::vector<std::int64_t> leaves;
-  transparent_.tracer->occluded(transparent_.rays_here(rays, leaves), order, crossing);
+void TransparentSpheres::find_crossings(const RaySpan& rays, std::vector<RayHit>& found) const {
+  if (const WideTree* tree = transparent_.tracer->wide_tree()) {
+    static thread_local std::vector<std::int64_t> leaves;
+    all_hits(*tree, transparent_.rays_here(rays, leaves), found);
+    for (RayHit& hit : found) hit.sphere_id = transparent_.ids[static_cast<std::size_t>(hit.sphere_id)];
+    return;
+  }
+  found.clear();
+  std::vector<Crossing> of_ray;
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    find_crossings(rays.at(i), of_ray);
+    for (const Crossing& crossing : of_ray) found.push_back({i, crossing.t, crossing.id});
+  }
 }
 
 Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engine engine, int threads) {

@@ -46,11 +46,11 @@ class TransparentSpheres {
   /// through, in the order of the crossings.
   double share(const Ray& ray) const;
 
-  /// Many rays at a time. Each ray's answer goes to its place. crosses: 1 where share() is not known without a look at
-  /// the crossings; hides: 1 behind an opaque sphere.
+  /// Many rays at a time. Each ray's answer goes to its place, all crossings to one list: by ray, t and id. hides: 1
+  /// behind an opaque sphere.
   void closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
   void hides(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
-  void crosses(const RaySpan& rays, RayOrder order, std::uint8_t* crossing) const;
+  void find_crossings(const RaySpan& rays, std::vector<RayHit>& found) const;
 
  private:
   // One part of the set, with its own ids.

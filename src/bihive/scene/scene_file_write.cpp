@@ -130,9 +130,9 @@ bool has_ambient_light(const Scene& scene) {
 // The oldest version of the format that has all that the scene needs.
 int version_of(const Scene& scene) {
   const PictureDefaults& picture = scene.picture;
-  const bool effects =
-      picture.ambient_occlusion || picture.outline || picture.fog ||
-      !light_points_member(picture.light_points).empty() || !opacity_member(picture.opacity_rule).empty();
+  const bool effects = picture.ambient_occlusion || picture.outline || picture.fog ||
+                       !light_points_member(picture.light_points).empty() ||
+                       !opacity_member(picture.opacity_rule).empty();
   const bool parallel = scene.camera.projection != Projection::perspective;
   return effects || has_soft_light(scene) || has_effects(scene) || has_ambient_light(scene) || parallel ||
                  picture.transparent
@@ -165,9 +165,9 @@ std::string scene_to_json(const Scene& scene) {
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
       "\"shadows\": {}, {}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px, picture.samples_per_pixel, picture.recursion, picture.shadows,
-      ambient_member(picture.ambient_occlusion), opacity_member(picture.opacity_rule), light_points_member(picture.light_points),
-      outline_member(picture.outline), fog_member(picture.fog), picture.transparent ? "\"transparent\": true, " : "",
-      picture.transfer == Transfer::srgb ? "srgb" : "none");
+      ambient_member(picture.ambient_occlusion), opacity_member(picture.opacity_rule),
+      light_points_member(picture.light_points), outline_member(picture.outline), fog_member(picture.fog),
+      picture.transparent ? "\"transparent\": true, " : "", picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

@@ -226,7 +226,7 @@ void add_visible(PlaceWave& wave);
 struct LightReceived {
   std::int64_t surfaces = 0;             ///< entries of a row
   const std::uint8_t* hidden = nullptr;  ///< a row for each light, 1 if a sphere hides the light; null: no shadows
-  const double* share = nullptr;  ///< a row for each light, what arrives of one that is not hidden; null: all
+  const double* share = nullptr;         ///< a row for each light, what arrives of one that is not hidden; null: all
   /// A row for each light with a radius, of LightShare; null: no shadows, or no light has a radius.
   const double* facing = nullptr;
   const double* seen = nullptr;

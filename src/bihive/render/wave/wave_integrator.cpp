@@ -73,24 +73,18 @@ bool WaveIntegrator::find_crossings(const WavePart& rays, int depth, WaveBuffers
   steps::hit_plane(scene_, rays, buffers.t.data(), buffers.id.data());
   CrossingBuffers& found = buffers.crossings[static_cast<std::size_t>(depth - 1)];
   const auto count = static_cast<std::size_t>(rays.count());
-  found.crosses.resize(count);
   RaySpan span = rays.span();
   span.t_max = buffers.t.data();
-  to_eye()->crosses(span, rays.wave->starts_at_eye ? RayOrder::blocks : RayOrder::any, found.crosses.data());
-  if (std::find(found.crosses.begin(), found.crosses.end(), 1) == found.crosses.end()) return false;
+  to_eye()->find_crossings(span, found.crossings);
+  if (found.crossings.empty()) return false;
 
   found.end.assign(buffers.t.data(), buffers.t.data() + count);
   found.end_id.assign(buffers.id.data(), buffers.id.data() + count);
-  found.first.assign(1, 0);
-  found.crossings.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (found.crosses[i] != 0) {
-      to_eye()->find_crossings(span.at(static_cast<std::int64_t>(i)), found.of_ray);
-      for (const Crossing& crossing : found.of_ray)
-        if (crossing.t < found.end[i]) found.crossings.push_back(crossing);
-    }
-    found.first.push_back(found.crossings.size());
-  }
+  const auto at_end = [&](const RayHit& hit) { return !(hit.t < found.end[static_cast<std::size_t>(hit.ray)]); };
+  found.crossings.erase(std::remove_if(found.crossings.begin(), found.crossings.end(), at_end), found.crossings.end());
+  found.first.assign(count + 1, 0);
+  for (const RayHit& hit : found.crossings) ++found.first[static_cast<std::size_t>(hit.ray) + 1];
+  for (std::size_t i = 0; i < count; ++i) found.first[i + 1] += found.first[i];
   return true;
 }
 
@@ -100,8 +94,7 @@ void WaveIntegrator::trace_layers(const WavePart& rays, int depth, WaveBuffers& 
   const CrossingBuffers& found = buffers.crossings[static_cast<std::size_t>(depth - 1)];
   // An owner may receive light several times.
   if (buffers.sums.empty) {
-    for (int channel = 0; channel < 3; ++channel)
-      std::fill_n(buffers.sums.light[channel].data(), rays.count(), 0.0);
+    for (int channel = 0; channel < 3; ++channel) std::fill_n(buffers.sums.light[channel].data(), rays.count(), 0.0);
     buffers.sums.empty = false;
     if (settings_.depth) coverage_.assign(static_cast<std::size_t>(rays.count()), 1.0);
   }
@@ -109,7 +102,8 @@ void WaveIntegrator::trace_layers(const WavePart& rays, int depth, WaveBuffers& 
     return rays.wave->starts_at_eye ? rays.first + i : rays.wave->owner[rays.first + i];
   };
   const auto surfaces = [&](std::int64_t first, std::int64_t end) {
-    const std::size_t crossings = found.first[static_cast<std::size_t>(end)] - found.first[static_cast<std::size_t>(first)];
+    const std::size_t crossings =
+        found.first[static_cast<std::size_t>(end)] - found.first[static_cast<std::size_t>(first)];
     return static_cast<std::int64_t>(crossings) + end - first;
   };
   for (std::int64_t first = 0; first < rays.count() && !cancelled();) {
@@ -152,9 +146,10 @@ void WaveIntegrator::put_layers(const WavePart& rays, const CrossingBuffers& fou
       buffers.t[to] = t;
       buffers.id[to] = id;
     };
-    for (std::size_t c = found.first[static_cast<std::size_t>(k)]; c < found.first[static_cast<std::size_t>(k) + 1]; ++c) {
-      add(found.crossings[c].t, found.crossings[c].id);
-      weight = weight * to_eye()->passing(found.crossings[c].id);
+    for (std::size_t c = found.first[static_cast<std::size_t>(k)]; c < found.first[static_cast<std::size_t>(k) + 1];
+         ++c) {
+      add(found.crossings[c].t, found.crossings[c].sphere_id);
+      weight = weight * to_eye()->passing(found.crossings[c].sphere_id);
     }
     // The background behind what a primary ray crosses is left out where the picture gets opacity instead.
     const std::int64_t end_id = found.end_id[static_cast<std::size_t>(k)];
@@ -332,15 +327,23 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
 // What of the light arrives at the ends of rays? `share` is written only where there are transparent spheres.
 void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, double* share) const {
   if (to_light() == nullptr) return tracer_.occluded(rays, order, hidden);
-  static thread_local std::vector<std::uint8_t> crosses;
-  crosses.resize(static_cast<std::size_t>(rays.count));
+  static thread_local std::vector<double> ends;
+  static thread_local std::vector<RayHit> crossings;
   to_light()->hides(rays, order, hidden);
-  to_light()->crosses(rays, order, crosses.data());
+
+  // Rays that are hidden anyway get an end before their start, so they cross nothing.
+  ends.resize(static_cast<std::size_t>(rays.count));
   for (std::int64_t i = 0; i < rays.count; ++i) {
-    const bool partly = hidden[i] == 0 && crosses[static_cast<std::size_t>(i)] != 0;
-    share[i] = partly ? to_light()->share(rays.at(i)) : 1;
-    if (share[i] == 0) hidden[i] = 1;
+    const double end = rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<double>::infinity();
+    ends[static_cast<std::size_t>(i)] = hidden[i] != 0 ? -1 : end;
   }
+  RaySpan open = rays;
+  open.t_max = ends.data();
+  to_light()->find_crossings(open, crossings);
+  std::fill_n(share, rays.count, 1.0);
+  for (const RayHit& hit : crossings) share[hit.ray] = share[hit.ray] * to_light()->passing(hit.sphere_id);
+  for (std::int64_t i = 0; i < rays.count; ++i)
+    if (share[i] == 0) hidden[i] = 1;
 }
 
 // Which rays of the places does a sphere hide before t = limit? Returns these rays.

@@ -19,12 +19,10 @@ constexpr std::int64_t kMostRaysAtOnce = 32768;
 
 /// The surfaces that the rays of one generation meet, where there are transparent spheres.
 struct CrossingBuffers {
-  std::vector<std::uint8_t> crosses;    ///< of each ray
-  std::vector<double> end;              ///< of each ray: where it ends
-  std::vector<std::int64_t> end_id;     ///< what ends it
-  std::vector<Crossing> crossings;      ///< ray after ray
-  std::vector<std::size_t> first;       ///< of each ray, in `crossings`; and their number
-  std::vector<Crossing> of_ray;
+  std::vector<double> end;           ///< of each ray: where it ends
+  std::vector<std::int64_t> end_id;  ///< what ends it
+  std::vector<RayHit> crossings;     ///< ray after ray
+  std::vector<std::size_t> first;    ///< of each ray, in `crossings`; and their number
 };
 
 /// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation,
