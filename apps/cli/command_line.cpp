@@ -128,6 +128,8 @@ void add_style_options(CLI::App& app, StyleOptions& look) {
   add_ambient_occlusion(app, look.ambient);
   add_integer(app, "--light-points", look.light_points, 1, kMostLightPoints,
               "Soft shadows: points of each light, a sample (the style's)");
+  add_choice(app, "--opacity-rule", look.opacity_rule, kOpacityRules,
+             "Light straight through a sphere counts its opacity (the style's)");
   add_value(app, "--outline", look.outline_px, "PX", "Width of outlines, 1 to 16; 0: none (the style's)",
             [](const std::string& text) -> Result<double> {
               Result<double> width = number_from(text, 0, kWidestOutlinePx);

@@ -1,5 +1,8 @@
 // bihive-frames: how long whole pictures take, for docs/performance.md. Prints one JSON object.
 //   bihive-frames pictures THREADS REPETITIONS FOLDER   s1 s2 s3 at 1024 x 1024, depth 5, shadows; Tachyon in turn
+//   bihive-frames occlusion THREADS REPETITIONS FOLDER MOLECULE
+//                                                       ambient occlusion: the molecule, a million spheres; Tachyon in
+//                                                       turn
 //   bihive-frames thesis THREADS REPETITIONS            the thesis's nine configurations of Figure 4.4
 //   bihive-frames rebuild THREADS REPETITIONS           spheres that move: a new tree for every frame
 #include <fmt/format.h>
@@ -13,7 +16,11 @@
 #include "bihive/image/png.h"
 #include "bihive/math/quartiles.h"
 #include "bihive/math/rng.h"
+#include "bihive/scene/camera_lights.h"
+#include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/scene/style.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
 #include "frames/frame.h"
@@ -29,7 +36,7 @@ using nlohmann::ordered_json;
 
 struct Wish {
   int threads, repetitions;
-  std::string folder;
+  std::string folder, molecule;
 };
 
 ordered_json described(const Wish& wish) {
@@ -38,35 +45,59 @@ ordered_json described(const Wish& wish) {
 }
 
 ordered_json counts(const RenderCounts& rays) {
-  return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"reflected", rays.reflected}};
+  return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"reflected", rays.reflected}, {"ambient", rays.ambient}};
 }
 
-// Whole pictures, in turn with Tachyon's. Both first draw one picture that does not count; both pictures stay in the
-// folder.
+// One picture, in turn with Tachyon's. Both first draw one that does not count; both pictures stay in the folder.
+ordered_json beside_tachyon(const Scene& scene, const RenderSettings& settings, const std::string& name,
+                            const Wish& wish) {
+  const std::string file = wish.folder + "/" + name;
+  const Tachyon tachyon = cli::value_or_fail(Tachyon::start(scene, settings, file + ".dat"));
+  cli::value_or_fail(tachyon.render_ms(file + "_tachyon.png"));
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
+  FrameTimes ours, warm;
+  std::vector<double> theirs;
+  add_frame(scene, tracer, settings, warm);
+  for (int i = 0; i < wish.repetitions; ++i) {
+    add_frame(scene, tracer, settings, ours);
+    theirs.push_back(cli::value_or_fail(tachyon.render_ms()));
+  }
+  const Image image =
+      image_from_film(render(scene, tracer, settings).value().film, settings.view, scene.picture.transfer);
+  const std::string png = cli::value_or_fail(encode_png(image, {}));
+  if (const Status status = write_file(file + "_bihive.png", png); !status) cli::fail(status.error());
+  return {{"spheres", scene.spheres.size()},        {"rays", counts(ours.rays)}, {"build_ms", tracer.build_ms()},
+          {"render_ms", ours.render_ms()},          {"all_ms", ours.all_ms()},   {"tachyon_ms", median(theirs)},
+          {"ratio", median(theirs) / ours.all_ms()}};
+}
+
 ordered_json pictures(const Wish& wish) {
   ordered_json json = described(wish);
-  for (const char* name : {"s1", "s2", "s3"}) {
-    const Scene scene = *synthetic_scene(name);
-    const RenderSettings settings = whole_picture(wish.threads);
-    const Tachyon tachyon = cli::value_or_fail(Tachyon::start(scene, settings, wish.folder + "/" + name + ".dat"));
-    cli::value_or_fail(tachyon.render_ms(wish.folder + "/" + name + "_tachyon.png"));
-    const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
-    FrameTimes ours, warm;
-    std::vector<double> theirs;
-    add_frame(scene, tracer, settings, warm);
-    for (int i = 0; i < wish.repetitions; ++i) {
-      add_frame(scene, tracer, settings, ours);
-      theirs.push_back(cli::value_or_fail(tachyon.render_ms()));
-    }
-    const Image image =
-        image_from_film(render(scene, tracer, settings).value().film, settings.view, scene.picture.transfer);
-    const std::string png = cli::value_or_fail(encode_png(image, {}));
-    if (const Status status = write_file(wish.folder + "/" + name + "_bihive.png", png); !status)
-      cli::fail(status.error());
-    json["scenes"][name] = {
-        {"spheres", scene.spheres.size()},        {"rays", counts(ours.rays)}, {"build_ms", tracer.build_ms()},
-        {"render_ms", ours.render_ms()},          {"all_ms", ours.all_ms()},   {"tachyon_ms", median(theirs)},
-        {"ratio", median(theirs) / ours.all_ms()}};
+  for (const char* name : {"s1", "s2", "s3"})
+    json["scenes"][name] = beside_tachyon(*synthetic_scene(name), whole_picture(wish.threads), name, wish);
+  return json;
+}
+
+// Pictures in the default style. Of the 128 directions a place has some 64 before it, as many as Tachyon is told to ask
+// along. Both look to any distance. Tachyon throws hard shadows, and draws neither outlines nor fog.
+ordered_json occlusion(const Wish& wish) {
+  const Style style = style_named(style_names().front()).value();
+  const std::string bytes = cli::value_or_fail(read_file(wish.molecule));
+  LoadedScene molecule =
+      cli::value_or_fail(load_scene(bytes, wish.molecule, ReadOptions{}, LooksOfFile::apply, &style));
+  Scene million = *synthetic_scene("u1e6");
+  million.plane.reset();
+  apply_style(style, million);
+
+  ordered_json json = described(wish);
+  for (const auto& [name, scene] : {std::pair<std::string, Scene*>{"1tii", &molecule.scene}, {"u1e6", &million}}) {
+    RenderSettings settings = settings_from(scene->picture);
+    settings.threads = wish.threads;
+    settings.ambient_occlusion = AmbientOcclusion{};
+    settings.ambient_occlusion->directions = 128;
+    scene->camera = frame_spheres(scene->spheres, ViewFrom::front, 30, settings.width_px, settings.height_px);
+    scene->lights = lights_around(style.lights, scene->camera);
+    json["scenes"][name] = beside_tachyon(*scene, settings, name, wish);
   }
   return json;
 }
@@ -137,14 +168,21 @@ ordered_json rebuild(const Wish& wish) {
 
 int run(int argc, const char* const* argv) {
   const std::string what = argc > 1 ? argv[1] : "";
-  const Wish wish{argc > 2 ? std::atoi(argv[2]) : 0, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : ""};
-  const bool known = (what == "pictures" && argc == 5) || ((what == "thesis" || what == "rebuild") && argc == 4);
+  const Wish wish{argc > 2 ? std::atoi(argv[2]) : 0, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "",
+                  argc > 5 ? argv[5] : ""};
+  const bool known = (what == "pictures" && argc == 5) || (what == "occlusion" && argc == 6) ||
+                     ((what == "thesis" || what == "rebuild") && argc == 4);
   if (!known || wish.threads < 1 || wish.repetitions < 1) {
-    cli::say_error("usage: bihive-frames pictures THREADS REPETITIONS FOLDER | thesis|rebuild THREADS REPETITIONS");
+    cli::say_error(
+        "usage: bihive-frames pictures THREADS REPETITIONS FOLDER | occlusion THREADS REPETITIONS FOLDER MOLECULE | "
+        "thesis|rebuild THREADS REPETITIONS");
     return cli::kBadUsage;
   }
   try {
-    const ordered_json json = what == "pictures" ? pictures(wish) : what == "thesis" ? thesis(wish) : rebuild(wish);
+    const ordered_json json = what == "pictures"    ? pictures(wish)
+                              : what == "occlusion" ? occlusion(wish)
+                              : what == "thesis"    ? thesis(wish)
+                                                    : rebuild(wish);
     cli::print(json.dump(2) + "\n");
     cli::finish_output();
     return cli::kSuccess;

@@ -30,6 +30,9 @@ AMBIENT = {"s1": (3, 2), "mol": (5, 3), "u1e5": (2.5, 2), "u1e6": (4, 3)}
 BYTES = (19, 16.5)  # a sphere, at most
 AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4, "mirror2": 1.4, "mirror3": 1.4}
 PICTURE = (4, 8)  # times as fast as Tachyon
+# The same with ambient occlusion.
+OCCLUSION = {"1tii": (8, 16), "u1e6": (4, 8)}
+FILE_TO_PNG_S = 0.5  # a molecule of 5,684 atoms without any option, as an aim
 THESIS_FPS = (240, 500)
 WASM = 4  # times the native time, at most
 PAGE_MB = 2  # a visitor's download, compressed with gzip, at most

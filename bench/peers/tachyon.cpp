@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "bihive/base/write_file.h"
 #include "bihive/math/elementary.h"
@@ -18,10 +19,29 @@ std::string place(Vec3d v) {
   return fmt::format("{:.9g} {:.9g} {:.9g}", -v.x, v.y, v.z);
 }
 
-std::string texture(const std::string& name, const Material& m) {
+// With ambient occlusion Tachyon's light from everywhere takes the place of the ambient term.
+std::string texture(const std::string& name, const Material& m, const RenderSettings& settings) {
   return fmt::format(
       "TexDef {} Ambient {} Diffuse {} Specular {} Opacity 1 Phong Plastic {} Phong_size {} Color {} {} {} TexFunc 0\n",
-      name, m.ambient, m.diffuse, m.reflective, m.specular, m.power, m.colour.x, m.colour.y, m.colour.z);
+      name, settings.ambient_occlusion ? 0 : m.ambient, m.diffuse, m.reflective, m.specular, m.power, m.colour.x,
+      m.colour.y, m.colour.z);
+}
+
+// The spheres, with a texture for each colour.
+std::string spheres_in_its_language(const Scene& scene, const RenderSettings& settings) {
+  std::map<std::array<double, 3>, std::string> textures;
+  std::string text;
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+    const Material material = material_of(scene, id);
+    std::string& name = textures[{material.colour.x, material.colour.y, material.colour.z}];
+    if (name.empty()) {
+      name = fmt::format("ball{}", textures.size());
+      text += texture(name, material, settings);
+    }
+    text += fmt::format("Sphere Center {} Rad {:.9g} {}\n", place(scene.spheres.centre(id)), scene.spheres.radius(id),
+                        name);
+  }
+  return text;
 }
 
 std::string in_its_language(const Scene& scene, const RenderSettings& settings) {
@@ -37,16 +57,12 @@ std::string in_its_language(const Scene& scene, const RenderSettings& settings) 
   for (const PointLight& light : scene.lights)
     text += fmt::format("Light Center {} Rad 0.001 Color {} {} {}\n", place(light.position), light.colour.x,
                         light.colour.y, light.colour.z);
-  text += texture("ball", scene.materials.front());
   if (scene.plane) {
-    text += texture("ground", scene.plane->material);
+    text += texture("ground", scene.plane->material, settings);
     text += fmt::format("Plane Center {} Normal {} ground\n", place(scene.plane->plane.point),
                         place(scene.plane->plane.normal));
   }
-  for (std::int64_t id = 0; id < scene.spheres.size(); ++id)
-    text +=
-        fmt::format("Sphere Center {} Rad {:.9g} ball\n", place(scene.spheres.centre(id)), scene.spheres.radius(id));
-  return text + "End_Scene\n";
+  return text + spheres_in_its_language(scene, settings) + "End_Scene\n";
 }
 
 // The output of a program; nothing if it does not end with 0.
@@ -68,8 +84,13 @@ Result<Tachyon> Tachyon::start(const Scene& scene, const RenderSettings& setting
   if (Result<std::string> version = output_of("command -v tachyon"); !version) return version.error();
   if (const Status status = write_file(path, in_its_language(scene, settings)); !status) return status.error();
   Tachyon tachyon;
-  tachyon.command_ = fmt::format("tachyon '{}' -numthreads {} {} +V", path, settings.threads,
-                                 settings.shadows ? "-fullshade -shade_phong" : "-mediumshade -shade_phong");
+  tachyon.command_ = fmt::format("tachyon '{}' -numthreads {} {} -aasamples {} +V", path, settings.threads,
+                                 settings.shadows ? "-fullshade -shade_phong" : "-mediumshade -shade_phong",
+                                 settings.samples_per_pixel - 1);
+  // Its directions are those of the half before the surface.
+  if (settings.ambient_occlusion)
+    tachyon.command_ += fmt::format(" -add_skylight {} -skylight_samples {}", scene.ambient_light.x,
+                                    settings.ambient_occlusion->directions / 2);
   return tachyon;
 }
 

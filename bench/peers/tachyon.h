@@ -11,8 +11,9 @@ namespace bihive::bench {
 
 class Tachyon {
  public:
-  /// Writes the scene to `path`: spheres, plane (without its checker), lights, camera. Error: no such program, or the
-  /// file cannot be written.
+  /// Writes the scene to `path`: spheres, plane (without its checker), lights (without radii), camera. Samples and
+  /// ambient occlusion without a distance are those of `settings`; a surface has as many occlusion rays as face it in
+  /// the mean of ours. Error: no such program, or the file cannot be written.
   static Result<Tachyon> start(const Scene& scene, const RenderSettings& settings, const std::string& path);
 
   /// Milliseconds of one picture, without reading the scene, making its grid, and writing a file. `picture`: the path

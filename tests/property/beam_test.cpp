@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,7 +35,20 @@ struct Expected {
   std::vector<double> t;
   std::vector<std::int64_t> id;
   std::vector<std::uint8_t> hidden;
+  std::vector<RayHit> all;  // hits, by ray, t and id
 };
+
+// Sphere by sphere.
+void add_all_hits(const SphereSet& spheres, const Ray& ray, std::int64_t number, std::vector<RayHit>& all) {
+  if (!is_valid(ray)) return;
+  const ScaledRay scaled(ray, spheres);
+  const auto first = static_cast<std::ptrdiff_t>(all.size());
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const double t = sphere_hit(scaled, spheres.stored_centre(id), spheres.stored_radius(id));
+    if (t < std::numeric_limits<double>::infinity()) all.push_back({number, t, id});
+  }
+  std::stable_sort(all.begin() + first, all.end(), [](const RayHit& a, const RayHit& b) { return a.t < b.t; });
+}
 
 Expected by_reference(const SphereSet& spheres, const RaySpan& rays) {
   const Tree tree = build_reference_tree(spheres, {8, kUnlimited});
@@ -44,6 +58,7 @@ Expected by_reference(const SphereSet& spheres, const RaySpan& rays) {
     expected.t.push_back(hit.t);
     expected.id.push_back(hit.sphere_id);
     expected.hidden.push_back(occluded(tree, spheres, rays.at(i)) ? 1 : 0);
+    add_all_hits(spheres, rays.at(i), i, expected.all);
   }
   return expected;
 }
@@ -68,6 +83,17 @@ void check(const test::World& world, const std::string& kind, const SphereSet& s
           << world.name << ", " << kind << ", " << target << ", ray " << i << ": " << test::text_of(ray);
       ASSERT_EQ(hidden[i], expected.hidden[i])
           << world.name << ", " << kind << ", " << target << ", ray " << i << ": " << test::text_of(ray);
+    }
+    std::vector<RayHit> all{{1, 2, 3}};
+    all_hits(tree, rays, all);
+    ASSERT_EQ(all.size(), expected.all.size()) << world.name << ", " << kind << ", " << target;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Ray ray = rays.at(expected.all[i].ray);
+      ASSERT_EQ(all[i].ray, expected.all[i].ray) << world.name << ", " << kind << ", " << target;
+      ASSERT_EQ(all[i].sphere_id, expected.all[i].sphere_id)
+          << world.name << ", " << kind << ", " << target << ": " << test::text_of(ray);
+      ASSERT_EQ(std::memcmp(&all[i].t, &expected.all[i].t, sizeof(double)), 0)
+          << world.name << ", " << kind << ", " << target << ": " << test::text_of(ray);
     }
   }
   ASSERT_TRUE(use_target("").ok());

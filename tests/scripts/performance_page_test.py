@@ -145,6 +145,20 @@ class PerformancePageTest(unittest.TestCase):
         self.assertIn("fedcba321", large)
         self.assertNotIn("fedcba321", small)
 
+    def test_occlusion_beside_tachyon_and_the_program_as_a_whole(self):
+        def picture(ratio):
+            rays = {"primary": 4e6, "ambient": 76.6e6, "shadow": 5e6}
+            return {"rays": rays, "all_ms": 100, "tachyon_ms": 100 * ratio, "ratio": ratio}
+
+        drawn = {"threads": 2, "scenes": {"1tii": picture(7.2), "u1e6": picture(8.5)}}
+        made = report("occlusion", [drawn] + 3 * [{"rays": {"ambient": 19.1e6}}])
+        for run, seconds in zip(made["runs"][1:], (0.4, 0.7, 0.6)):
+            run["seconds"] = seconds
+        page = self.generate([made])
+        self.assertIn("| 1tii | 4.0 | 76.6 | 5.0 | 100 | 720 | **7.20x** | 8x | missed by 10 % |", page)
+        self.assertRegex(page, r"\| u1e6 .*\*\*8.50x\*\* \| 4x \| aim met \|")
+        self.assertIn("19.1 million rays of ambient occlusion: 0.60 s,\nmedian of 3", page)
+
     def test_commands_and_charts(self):
         growth = [dict(result_of("u1e3", 2, 1), spheres=10**k, build_ms=10.0**k / 1e4) for k in (3, 4, 5)]
         page = self.generate([report("growth", growth), report("scenes", [result_of("s1", 1, 3)])])

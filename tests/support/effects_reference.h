@@ -7,6 +7,7 @@
 
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tracer.h"
+#include "bihive/render/transparency.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
@@ -15,10 +16,12 @@ namespace bihive::test {
 
 class EffectsReference {
  public:
-  /// Scene and tracer must outlive it.
-  EffectsReference(const Scene& scene, const Tracer& tracer, const RenderSettings& settings)
+  /// Scene, tracer and `transparent` (null: no sphere is) must outlive it.
+  EffectsReference(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                   const TransparentSpheres* transparent = nullptr)
       : scene_(scene),
         tracer_(tracer),
+        transparent_(transparent),
         settings_(settings),
         pixels_(scene.camera, settings.width_px, settings.height_px) {
     for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
@@ -55,7 +58,8 @@ class EffectsReference {
 
   Seen seen(double x, double y, LensPlace lens) const {
     const Ray ray = pixels_.at(x, y, lens);
-    const SceneHit hit = scene_hit(scene_, tracer_, ray);
+    const SceneHit hit =
+        scene_hit(scene_, transparent_ != nullptr ? transparent_->closest_opaque(ray) : tracer_.closest_hit(ray), ray);
     if (!hit.found()) return {std::numeric_limits<double>::infinity(), kNothing};
     return {hit.t * dot(to_double(ray.direction), pixels_.forward()), hit.id};
   }
@@ -74,6 +78,7 @@ class EffectsReference {
 
   const Scene& scene_;
   const Tracer& tracer_;
+  const TransparentSpheres* transparent_;
   RenderSettings settings_;
   PixelRays pixels_;
   double nearest_ = std::numeric_limits<double>::infinity(), farthest_ = 0;

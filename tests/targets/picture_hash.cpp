@@ -3,7 +3,8 @@
 // Built natively and as WebAssembly; both must print the same lines. It also compares the engines and thread counts
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
 // molecule; recursion 1 to 5, ambient occlusion, soft shadows with effects of materials, outlines and fog, every view,
-// parallel rays, labels, a lens, tone curves, adaptive samples, a part with opacity, the sRGB curve, shadows, several samples.
+// parallel rays, labels, a lens, tone curves, adaptive samples, a part with opacity, the sRGB curve, shadows, several
+// samples.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -116,6 +117,13 @@ bihive::Scene with_look(bihive::Scene scene) {
   return scene;
 }
 
+// Every third sphere lets light straight through.
+bihive::Scene with_opacities(bihive::Scene scene) {
+  std::vector<float>& opacity = scene.spheres.attributes().opacity;
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) opacity.push_back(id % 3 == 0 ? 0.4F : 1.0F);
+  return scene;
+}
+
 bihive::RenderSettings look_settings(bihive::RenderSettings settings) {
   settings.recursion = 2;
   settings.shadows = true;
@@ -196,6 +204,10 @@ bool print_hashes(const bihive::Scene& scene) {
   with_ambient.ambient_occlusion = {10, 4};
   good = print_hash(scene, with_ambient, "shaded with ambient occlusion") && good;
   good = print_hash(with_look(scene), look_settings(settings), "shaded with a look") && good;
+  bihive::RenderSettings with_opacity = look_settings(settings);
+  with_opacity.opacity_rule = bihive::OpacityRule::once;
+  with_opacity.ambient_occlusion = {10, 4};
+  good = print_hash(with_opacities(with_look(scene)), with_opacity, "shaded with opacity once") && good;
   for (const auto& [name, view] : kViews) {
     settings.view = view;
     good = print_hash(scene, settings, name) && good;

@@ -42,6 +42,7 @@ void apply_look(const StyleOptions& options, Input& input) {
 
 void apply_effects(const StyleOptions& options, RenderSettings& settings) {
   settings.ambient_occlusion = choose_ambient(options.ambient, settings.ambient_occlusion);
+  settings.opacity_rule = options.opacity_rule.value_or(settings.opacity_rule);
   settings.light_points = static_cast<int>(options.light_points.value_or(settings.light_points));
   if (options.outline_px) {
     Outline outline = settings.outline.value_or(Outline{});
@@ -62,6 +63,7 @@ std::string beyond_gpu(const Scene& scene, const RenderSettings& settings) {
   if (settings.outline) return "outlines";
   if (settings.fog) return "fog";
   if (has_soft_light(scene) && settings.shadows) return "soft shadows";
+  if (settings.opacity_rule == OpacityRule::once && lets_light_through(scene)) return "opacity that counts once";
   return "";
 }
 

@@ -36,6 +36,7 @@ struct StyleOptions {
   std::string name;  ///< a name or a path; empty: the default one
   std::optional<LightRig> lights;
   AmbientOptions ambient;
+  std::optional<OpacityRule> opacity_rule;
   std::optional<std::int64_t> light_points;
   std::optional<double> outline_px, fog;  ///< 0: none
   std::optional<double> exposure_stops;

@@ -80,6 +80,8 @@ void describe_effects(const RenderSettings& settings, const Scene& scene, ordere
     if (std::isfinite(ambient.distance)) object["distance"] = ambient.distance;
     object["directions"] = ambient.directions;
   }
+  if (settings.opacity_rule != OpacityRule::each_surface && lets_light_through(scene))
+    json["opacity_rule"] = name_of(kOpacityRules, settings.opacity_rule);
   for (const PointLight& light : scene.lights)
     if (light.radius > 0) json["light_points"] = settings.light_points;
   if (settings.outline) json["outline_px"] = settings.outline->width_px;

@@ -71,12 +71,13 @@ class Slabs {
   double pad_;
 };
 
-/// The closest hit of a valid ray in the stored units of `spheres`; with kAnyHit some hit. A hit's t is exact as
-/// geometry/sphere.h defines it, and of equal t the smaller id wins: the same answer as brute force, bit for bit.
+/// Takes a valid ray, in the stored units of `spheres`, to every sphere that it may hit up to answer.limit(), which
+/// may come nearer meanwhile. answer.take(t, id) gets the t of geometry/sphere.h (+inf: no hit), and ends the walk by
+/// true.
 // One function, though a long one: it defines the walk, so it is to be read from top to bottom, beside its twin for
 // graphics processors (gl/shaders/traversal.glsl), which has the same steps in the same order.
-template <bool kAnyHit, class Observer>
-Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Observer& observer) {
+template <class Answer, class Observer>
+void walk(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Answer& answer, Observer& observer) {
   // Test the box around everything.
   const Slabs slabs(ray);
   Interval part{ray.t_min, ray.t_max};
@@ -84,8 +85,7 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
     part = slabs.above(part, axis, double(tree.aabb.lo[axis]));
     part = slabs.below(part, axis, double(tree.aabb.hi[axis]));
   }
-  Hit best;
-  if (part.empty() || tree.aabb.empty()) return best;
+  if (part.empty() || tree.aabb.empty()) return;
 
   // A tree is at most 1000 levels deep, and each level leaves at most one child waiting. An array of Interval would be
   // set to 0 a thousand times for each ray; this one is not.
@@ -109,13 +109,12 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
       for (std::int64_t i = node.first_sphere(); i < node.first_sphere() + node.sphere_count; ++i) {
         const std::int64_t id = tree.sphere_ids[static_cast<std::size_t>(i)];
         observer.sphere_test();
-        best.keep_nearer(sphere_hit(ray, spheres.stored_centre(id), spheres.stored_radius(id)), id);
-        if (kAnyHit && best.found()) return best;
+        if (answer.take(sphere_hit(ray, spheres.stored_centre(id), spheres.stored_radius(id)), id)) return;
       }
     } else if (node.kind == NodeKind::split) {
       // Go to the child on the ray's near side first. The other child waits.
       observer.node_visit();
-      const Interval open{part.t_near, std::min(part.t_far, best.t)};
+      const Interval open{part.t_near, std::min(part.t_far, answer.limit())};
       if (slabs.overlaps(open, axis, double(node.left_clip), double(node.right_clip))) observer.empty_gap();
       const bool left_is_near = ray.direction[axis] >= 0;
       const Interval left = slabs.below(part, axis, double(node.left_clip));
@@ -139,9 +138,9 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
             slabs.below(next_part, axis, double(node.kind == NodeKind::clip ? node.right_clip : node.left_clip));
     }
 
-    // Enter the next node that may still hold a hit as near as the best; at equal t it may hold a smaller id.
-    while (next < 0 || next_part.empty() || next_part.t_near > best.t) {
-      if (waiting_count == 0) return best;
+    // Enter the next node that may still hold a hit within the limit; at the limit itself it may hold a smaller id.
+    while (next < 0 || next_part.empty() || next_part.t_near > answer.limit()) {
+      if (waiting_count == 0) return;
       const Waiting& top = waiting[static_cast<std::size_t>(--waiting_count)];
       next = top.node;
       next_part = {top.t_near, top.t_far};
@@ -149,6 +148,27 @@ Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, O
     position = next;
     part = next_part;
   }
+}
+
+/// The answer of a walk that looks for the closest hit, or for any.
+template <bool kAnyHit>
+struct NearestAnswer {
+  Hit best;
+
+  bool take(double t, std::int64_t id) {
+    best.keep_nearer(t, id);
+    return kAnyHit && best.found();
+  }
+  double limit() const { return best.t; }
+};
+
+/// The closest hit of a valid ray in the stored units of `spheres`; with kAnyHit some hit. A hit's t is exact as
+/// geometry/sphere.h defines it, and of equal t the smaller id wins: the same answer as brute force, bit for bit.
+template <bool kAnyHit, class Observer>
+Hit traverse(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Observer& observer) {
+  NearestAnswer<kAnyHit> nearest;
+  walk(tree, spheres, ray, nearest, observer);
+  return nearest.best;
 }
 
 /// Closest hit by the reference tree. An invalid ray (geometry/ray.h) hits nothing.

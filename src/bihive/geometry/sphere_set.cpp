@@ -92,6 +92,22 @@ SphereSet::Bounds SphereSet::bounds() const {
   return {box.lo * inverse_scale(), box.hi * inverse_scale()};
 }
 
+SphereSet SphereSet::part(const std::vector<std::int64_t>& ids) const {
+  SphereSet made;
+  made.scale_exponent_ = scale_exponent_;
+  const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
+    to.reserve(ids.size());
+    for (const std::int64_t id : ids) to.push_back(from[static_cast<std::size_t>(id)]);
+  };
+  take(x_, made.x_);
+  take(y_, made.y_);
+  take(z_, made.z_);
+  take(r_, made.r_);
+  for (const float radius : made.r_)
+    if (radius > 0 && double(radius) < kVanishingShare) ++made.vanishing_radii_;
+  return made;
+}
+
 std::int64_t SphereSet::allocated_bytes() const {
   std::int64_t bytes = bytes_of(x_) + bytes_of(y_) + bytes_of(z_) + bytes_of(r_);
   bytes += attributes_.allocated_bytes();

@@ -66,6 +66,9 @@ class SphereSet {
   /// reliably.
   std::int64_t vanishing_radii() const { return vanishing_radii_; }
 
+  /// The spheres of these ids in their order, in the same stored units; without attributes.
+  SphereSet part(const std::vector<std::int64_t>& ids) const;
+
   SphereAttributes& attributes() { return attributes_; }
   const SphereAttributes& attributes() const { return attributes_; }
 

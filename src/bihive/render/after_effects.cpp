@@ -14,8 +14,8 @@ constexpr double kBackgroundDepth = std::numeric_limits<double>::infinity();
 }  // namespace
 
 AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, const Tracer& tracer,
-                           const RenderSettings& settings, const PixelRays& rays)
-    : scene_(scene), wave_scene_(wave_scene), tracer_(tracer), rays_(rays) {
+                           const RenderSettings& settings, const PixelRays& rays, const Transparency* transparency)
+    : scene_(scene), wave_scene_(wave_scene), tracer_(tracer), rays_(rays), transparency_(transparency) {
   if (settings.view != View::shaded) return;
   outline_ = settings.outline;
   fog_ = settings.fog;
@@ -87,7 +87,9 @@ void AfterEffects::find_depths(const Tile& grown, const CameraSample& sample, co
   wave.count = count;
   wave.starts_at_eye = true;
   steps::camera_rays(rays_, rays.positions(), wave);
-  WaveIntegrator integrator(wave_scene_, tracer_, {1, false, false, false}, cancel);
+  WaveIntegrator::Settings settings{1, false, false, false};
+  settings.transparency = transparency_;
+  WaveIntegrator integrator(wave_scene_, tracer_, settings, cancel);
   integrator.find_first_hits(rays);
   for (std::int64_t i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(buffers.place[static_cast<std::size_t>(i)]);

@@ -30,9 +30,9 @@ struct EffectBuffers {
 
 class AfterEffects {
  public:
-  /// Scene, tracer and rays must outlive it.
+  /// All but the settings must outlive it. Outlines and fog look through what `transparency` lets straight through.
   AfterEffects(const Scene& scene, const WaveScene& wave_scene, const Tracer& tracer, const RenderSettings& settings,
-               const PixelRays& rays);
+               const PixelRays& rays, const Transparency* transparency);
 
   /// Whether the settings ask for any.
   bool any() const { return outline_ || fog_; }
@@ -55,6 +55,7 @@ class AfterEffects {
   const WaveScene& wave_scene_;
   const Tracer& tracer_;
   const PixelRays& rays_;
+  const Transparency* transparency_;
   std::optional<Outline> outline_;
   std::optional<Fog> fog_;
   double nearest_ = 0, farthest_ = 0;  // depths of the set

@@ -7,6 +7,29 @@
 
 namespace bihive {
 
+// The surfaces that a ray of the generation meets: transparent spheres, then what ends it. If nothing does, the
+// background adds to the sum.
+void Integrator::find_hits(std::size_t ray, Vec3d& sum) {
+  const WeightedRay& item = generation_[ray];
+  double weight = item.weight;
+  SceneHit end;
+  if (to_eye_ == nullptr) {
+    end = scene_hit(scene_, tracer_, item.ray);
+  } else {
+    end = scene_hit(scene_, to_eye_->closest_opaque(item.ray), item.ray);
+    to_eye_->find_crossings(item.ray, crossings_);
+    for (const Crossing& crossing : crossings_) {
+      if (!(crossing.t < end.t)) break;
+      hits_.push_back({ray, {crossing.t, crossing.id}, weight});
+      weight = weight * to_eye_->passing(crossing.id);
+    }
+  }
+  if (end.found())
+    hits_.push_back({ray, end, weight});
+  else
+    sum = sum + weight * scene_.background;
+}
+
 Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
   Vec3d sum;
   deepest_hit_ = 0;
@@ -14,25 +37,18 @@ Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
   generation_.assign(1, {primary, 1.0});
   for (int depth = 1; depth <= recursion_ && !generation_.empty(); ++depth) {
     next_.clear();
-    // Rays that hit nothing.
     hits_.clear();
-    for (const WeightedRay& item : generation_) {
-      hits_.push_back(scene_hit(scene_, tracer_, item.ray));
-      if (!hits_.back().found()) sum = sum + item.weight * scene_.background;
-    }
+    for (std::size_t i = 0; i < generation_.size(); ++i) find_hits(i, sum);
 
-    // Rays that hit a surface.
-    for (std::size_t i = 0; i < generation_.size(); ++i) {
-      if (!hits_[i].found()) continue;
-      const WeightedRay& item = generation_[i];
+    for (const WeightedHit& item : hits_) {
       deepest_hit_ = depth;
-      const Surface surface = surface_at(scene_, item.ray, hits_[i]);
+      const Surface surface = surface_at(scene_, generation_[item.ray].ray, item.hit);
       double visibility = 1;
       if (ambient_ != nullptr)
-        visibility = ambient_visibility(scene_, tracer_, surface, ambient_->sets.of_sample(sample), ambient_->distance,
+        visibility = ambient_visibility(scene_, paths_, surface, ambient_->sets.of_sample(sample), ambient_->distance,
                                         rays_.ambient);
       const std::vector<Vec3d>* points = light_points_ != nullptr ? &light_points_->of_sample(sample) : nullptr;
-      sum = sum + item.weight * local_light(scene_, tracer_, surface, shadows_, points, visibility, rays_.shadow);
+      sum = sum + item.weight * local_light(scene_, paths_, surface, shadows_, points, visibility, rays_.shadow);
 
       // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray.
       if (depth == recursion_) continue;
@@ -40,6 +56,7 @@ Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
         ++rays_.reflected;
         next_.push_back({reflected_ray(surface), item.weight * surface.material.reflective});
       }
+      if (to_eye_ != nullptr && to_eye_->is_transparent(surface.id)) continue;
       if (surface.material.transmissive != 0) {
         ++rays_.transmitted;
         next_.push_back({transmitted_ray(surface), item.weight * surface.material.transmissive});

@@ -8,6 +8,7 @@
 #include "bihive/render/renderer.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tracer.h"
+#include "bihive/render/transparency.h"
 #include "bihive/scene/light_points.h"
 #include "bihive/scene/scene.h"
 
@@ -16,19 +17,25 @@ namespace bihive {
 /// Keeps its lists between calls; each thread needs its own.
 class Integrator {
  public:
-  /// `ambient` and `light_points` must outlive it; null: no ambient occlusion, no soft shadows.
+  /// `ambient`, `light_points` and `transparency` must outlive it; null: no ambient occlusion, no soft shadows,
+  /// OpacityRule::each_surface.
   Integrator(const Scene& scene, const Tracer& tracer, int recursion, bool shadows,
-             const AmbientRays* ambient = nullptr, const LightPointSets* light_points = nullptr)
+             const AmbientRays* ambient = nullptr, const LightPointSets* light_points = nullptr,
+             const Transparency* transparency = nullptr)
       : scene_(scene),
         tracer_(tracer),
         recursion_(recursion),
         shadows_(shadows),
         ambient_(ambient),
-        light_points_(light_points) {}
+        light_points_(light_points),
+        to_eye_(transparency != nullptr ? transparency->to_eye.get() : nullptr),
+        paths_(tracer, transparency != nullptr ? transparency->to_light.get() : nullptr) {}
 
   /// The sum has a fixed order, so that every engine can give the same bits: generation by generation. In a generation
-  /// the rays that hit nothing come first and add weight x background; then come the surfaces of the others. Both
-  /// follow the order of the parents, the reflected ray of a parent before the transmitted one.
+  /// the rays that hit nothing come first and add weight x background; then come the surfaces of all rays. Both follow
+  /// the order of the parents, the reflected ray of a parent before the transmitted one.
+  /// Transparent spheres (OpacityRule::once) that a ray crosses are surfaces of its own generation, the nearest first.
+  /// Each multiplies the ray's weight for what is behind it.
   /// `sample`: the number of the ray in its pixel.
   Vec3d radiance(const Ray& primary, std::int64_t sample = 0);
 
@@ -41,6 +48,14 @@ class Integrator {
     Ray ray;
     double weight;
   };
+  // A surface that a ray of the generation meets, and the weight with which it gets there.
+  struct WeightedHit {
+    std::size_t ray;
+    SceneHit hit;
+    double weight;
+  };
+
+  void find_hits(std::size_t ray, Vec3d& sum);
 
   const Scene& scene_;
   const Tracer& tracer_;
@@ -48,10 +63,13 @@ class Integrator {
   bool shadows_;
   const AmbientRays* ambient_;
   const LightPointSets* light_points_;
+  const TransparentSpheres* to_eye_;
+  LightPaths paths_;
   int deepest_hit_ = 0;
   RenderCounts rays_;
   std::vector<WeightedRay> generation_, next_;
-  std::vector<SceneHit> hits_;
+  std::vector<WeightedHit> hits_;
+  std::vector<Crossing> crossings_;
 };
 
 }  // namespace bihive

@@ -65,7 +65,7 @@ struct SampleSet {
 class Renderer {
  public:
   Renderer(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const ProgressCallback& progress,
-           const CancelToken* cancel, Film film)
+           const CancelToken* cancel, Film film, Transparency transparency)
       : scene_(scene),
         tracer_(tracer),
         settings_(settings),
@@ -73,8 +73,9 @@ class Renderer {
         cancel_(cancel),
         film_(std::move(film)),
         rays_(scene.camera, settings.width_px, settings.height_px),
-        wave_scene_(scene),
-        effects_(scene, wave_scene_, tracer, settings, rays_),
+        transparency_(std::move(transparency)),
+        wave_scene_(scene, settings.opacity_rule),
+        effects_(scene, wave_scene_, tracer, settings, rays_, &transparency_),
         drawn_(pixels_to_draw(settings)),
         tiles_(tiles_of(drawn_, tile_px(tracer, settings))),
         counts_(tiles_.size()),
@@ -253,7 +254,7 @@ class Renderer {
         wave_scene_, tracer_,
         {settings_.recursion, shaded, shaded && settings_.shadows,
          settings_.view == View::recursion || settings_.transparent || toned, set.ambient ? &*set.ambient : nullptr,
-         set.light_points ? &*set.light_points : nullptr, set.count()},
+         set.light_points ? &*set.light_points : nullptr, set.count(), &transparency_, settings_.transparent},
         cancel_);
     // Each thread has its own.
     static thread_local EffectBuffers effects;
@@ -280,7 +281,7 @@ class Renderer {
           Vec3d value = sample_value(buffers, integrator, i);
           if (effects_.any()) value = effects_.applied(tile, effects, pixel.x, pixel.y, sum.samples, value);
           sum.light = sum.light + value;
-          ++sum.counted;
+          sum.covered += settings_.transparent ? integrator.coverage(i) : 1;
           if (notes_edges) sum.range.add(value);
         }
         if (++sum.samples < samples) continue;
@@ -302,21 +303,23 @@ class Renderer {
     sum.ambient += rays.ambient;
   }
 
-  // The samples of one pixel so far; `counted`: those that add to its light.
+  // The samples of one pixel so far; `covered`: those that add to its light, partly where the background shines
+  // through.
   struct PixelSum {
     Vec3d light;
-    std::int64_t counted = 0, samples = 0;
+    double covered = 0;
+    std::int64_t samples = 0;
     SampleRange range;  // known in the first pass of adaptive samples
 
-    bool differs() const { return range.differs() || (counted != 0 && counted != samples); }
+    bool differs() const { return range.differs() || (covered != 0 && covered != static_cast<double>(samples)); }
   };
 
   void put(const PixelSum& sum, PixelPlace pixel) {
     const std::size_t number = film_.number_of(pixel.x - drawn_.x0, pixel.y - drawn_.y0);
-    const Vec3d light = sum.counted > 0 ? sum.light / static_cast<double>(sum.counted) : Vec3d{};
+    const Vec3d light = sum.covered > 0 ? sum.light / sum.covered : Vec3d{};
     film_.radiance[number] = to_float(light);
     if (settings_.transparent)
-      film_.coverage[number] = static_cast<float>(double(sum.counted) / static_cast<double>(sum.samples));
+      film_.coverage[number] = static_cast<float>(sum.covered / static_cast<double>(sum.samples));
   }
 
   bool hits_something(const WaveBuffers& buffers, const WaveIntegrator& integrator, std::int64_t i) const {
@@ -352,6 +355,7 @@ class Renderer {
   const CancelToken* cancel_;
   Film film_;
   PixelRays rays_;
+  Transparency transparency_;
   WaveScene wave_scene_;
   AfterEffects effects_;
   Tile drawn_;  // the film's pixels in the whole picture
@@ -366,6 +370,12 @@ class Renderer {
   std::atomic<std::int64_t> tiles_done_{0};
   std::mutex progress_mutex_;
 };
+
+// The pictures that follow light need it.
+Result<Transparency> transparency_of(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+  if (settings.view != View::shaded && settings.view != View::recursion) return Transparency();
+  return Transparency::of(scene, settings.opacity_rule, tracer.engine(), settings.threads);
+}
 
 Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
   BIHIVE_CHECK(settings.width_px >= 1 && settings.width_px <= 65535);
@@ -405,7 +415,9 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
   if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
   if (settings.view == View::tree) return render_tree_picture(scene, tracer, settings, progress, cancel);
   const Timer timer;
-  Renderer renderer(scene, tracer, settings, progress, cancel, std::move(film));
+  Result<Transparency> transparency = transparency_of(scene, tracer, settings);
+  if (!transparency) return transparency.error();
+  Renderer renderer(scene, tracer, settings, progress, cancel, std::move(film), std::move(*transparency));
   for (std::size_t first = 0; first < renderer.tiles_in_all(); first += renderer.tiles_in_a_pass())
     renderer.run(first, first + renderer.tiles_in_a_pass());
   if (renderer.cancelled()) return Error{"cancelled", "", 0, 0, ""};
@@ -416,9 +428,11 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
 
 class SlicedPicture::Implementation {
  public:
-  Implementation(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, Film film)
+  Implementation(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, Film film,
+                 Transparency transparency)
       : scene_(scene), tracer_(tracer), settings_(settings) {
-    if (settings.view != View::tree) renderer_.emplace(scene, tracer, settings, nullptr, nullptr, std::move(film));
+    if (settings.view != View::tree)
+      renderer_.emplace(scene, tracer, settings, nullptr, nullptr, std::move(film), std::move(transparency));
     slice_ = least_slice_ = static_cast<std::size_t>(settings.threads == 0 ? hardware_threads() : settings.threads);
   }
 
@@ -471,7 +485,10 @@ class SlicedPicture::Implementation {
 Result<SlicedPicture> SlicedPicture::begin(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                            Film film) {
   if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
-  return SlicedPicture(std::make_unique<Implementation>(scene, tracer, settings, std::move(film)));
+  Result<Transparency> transparency = transparency_of(scene, tracer, settings);
+  if (!transparency) return transparency.error();
+  return SlicedPicture(
+      std::make_unique<Implementation>(scene, tracer, settings, std::move(film), std::move(*transparency)));
 }
 
 SlicedPicture::SlicedPicture(std::unique_ptr<Implementation> implementation)

@@ -18,15 +18,18 @@ struct SceneHit {
   bool found() const { return id != kNothing; }
 };
 
-/// If the ray meets a sphere and the plane at the same t, it hits the sphere.
-inline SceneHit scene_hit(const Scene& scene, const Tracer& tracer, const Ray& ray) {
-  const Hit sphere = tracer.closest_hit(ray);
+/// Given the closest hit on a sphere. If the ray meets a sphere and the plane at the same t, it hits the sphere.
+inline SceneHit scene_hit(const Scene& scene, const Hit& sphere, const Ray& ray) {
   SceneHit hit{sphere.t, sphere.sphere_id};
   if (scene.plane && is_valid(ray)) {
     const double t = plane_hit(ray, scene.plane->plane);
     if (t < hit.t) hit = {t, kPlane};
   }
   return hit;
+}
+
+inline SceneHit scene_hit(const Scene& scene, const Tracer& tracer, const Ray& ray) {
+  return scene_hit(scene, tracer.closest_hit(ray), ray);
 }
 
 }  // namespace bihive

@@ -37,12 +37,12 @@ struct LightOffset {
   double facing() const { return towards * nearness; }
 };
 
-// Is a sphere between the place and the light, which lies at t = 1?
-bool is_hidden(const Tracer& tracer, const Surface& surface, Vec3d offset, std::int64_t& shadow_rays) {
+// What arrives at the place from the light, which lies at t = 1?
+double arriving(const LightPaths& paths, const Surface& surface, Vec3d offset, std::int64_t& shadow_rays) {
   Ray shadow = ray_from(surface, offset, surface.from_inside);
   shadow.t_max = 1;
   ++shadow_rays;
-  return tracer.occluded(shadow);
+  return paths.share(shadow);
 }
 
 double in_bands(double facing, int bands) {
@@ -61,7 +61,7 @@ Vec3d mirrored(const Surface& surface) {
 
 }  // namespace
 
-double ambient_visibility(const Scene& scene, const Tracer& tracer, const Surface& surface,
+double ambient_visibility(const Scene& scene, const LightPaths& paths, const Surface& surface,
                           const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays) {
   double seen = 0;
   double in_front = 0;
@@ -72,43 +72,45 @@ double ambient_visibility(const Scene& scene, const Tracer& tracer, const Surfac
     Ray ray = ray_from(surface, to_double(direction), surface.from_inside);
     ray.t_max = distance;
     ++ambient_rays;
-    const bool hidden = tracer.occluded(ray) || (scene.plane && plane_hit(ray, scene.plane->plane) < kInfinity);
-    if (!hidden) seen = seen + facing;
+    if (scene.plane && plane_hit(ray, scene.plane->plane) < kInfinity) continue;
+    seen = seen + facing * paths.share(ray);
   }
   return in_front > 0 ? seen / in_front : 1;
 }
 
-LightShare soft_light_share(const PointLight& light, const Tracer& tracer, const Surface& surface,
+LightShare soft_light_share(const PointLight& light, const LightPaths& paths, const Surface& surface,
                             const std::vector<Vec3d>& points, std::int64_t& shadow_rays) {
   double facing = 0;
   double seen = 0;
   for (const Vec3d& point : points) {
     const LightOffset to_point(light.position + light.radius * point, surface);
-    if (!to_point.in_front() || is_hidden(tracer, surface, to_point.offset, shadow_rays)) continue;
-    facing = facing + to_point.facing();
-    seen = seen + 1;
+    if (!to_point.in_front()) continue;
+    const double share = arriving(paths, surface, to_point.offset, shadow_rays);
+    facing = facing + to_point.facing() * share;
+    seen = seen + share;
   }
   const auto count = static_cast<double>(points.size());
   return {facing / count, seen / count};
 }
 
-Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows,
+Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,
                   const std::vector<Vec3d>* light_points, double visibility, std::int64_t& shadow_rays) {
   const Material& material = surface.material;
   const double cosine = -dot(surface.incoming, surface.normal);
   Vec3d diffuse;
   Vec3d specular;
   for (const PointLight& light : scene.lights) {
-    // Leave out lights behind the surface, and lights behind a sphere.
+    // Leave out lights behind the surface, and lights of which nothing arrives.
     const LightOffset centre(light.position, surface);
     LightShare share{0, 1};
     if (shadows && light_points != nullptr && light.radius > 0) {
-      share = soft_light_share(light, tracer, surface, *light_points, shadow_rays);
+      share = soft_light_share(light, paths, surface, *light_points, shadow_rays);
       if (share.seen == 0) continue;
     } else {
       if (!centre.in_front()) continue;
-      if (shadows && is_hidden(tracer, surface, centre.offset, shadow_rays)) continue;
-      share.facing = centre.facing();
+      if (shadows) share.seen = arriving(paths, surface, centre.offset, shadow_rays);
+      if (share.seen == 0) continue;
+      share.facing = centre.facing() * share.seen;
     }
     if (material.bands > 0) share.facing = in_bands(share.facing, material.bands);
     diffuse = diffuse + (material.diffuse * share.facing) * light.colour;

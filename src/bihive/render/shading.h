@@ -6,33 +6,33 @@
 
 #include "bihive/geometry/ray.h"
 #include "bihive/render/surface.h"
-#include "bihive/render/tracer.h"
+#include "bihive/render/transparency.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
 
 /// The share of its surroundings that a place sees, 0 to 1: the mean over the directions in front of the surface,
-/// weighted by their cosine, of 1 where no sphere and no plane is within `distance`, else 0. Adds the traced rays to
-/// the count.
-double ambient_visibility(const Scene& scene, const Tracer& tracer, const Surface& surface,
+/// weighted by their cosine, of what arrives along them from `distance` (LightPaths; nothing through the plane). Adds
+/// the traced rays to the count.
+double ambient_visibility(const Scene& scene, const LightPaths& paths, const Surface& surface,
                           const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays);
 
 /// How much of a light reaches a place.
 struct LightShare {
-  double facing;  ///< N.L; of a light with a radius: the mean over its points, a hidden point counting 0
-  double seen;    ///< share of the light's points that are in front of the surface and not hidden by a sphere
+  double facing;  ///< N.L; of a light with a radius: the mean over its points, each times what arrives from it
+  double seen;    ///< mean over the light's points of what arrives from them, 0 from behind the surface
 };
 
 /// Of a light with a radius. `points`: of the ball of radius 1, at least one. Adds the traced shadow rays to the count.
-LightShare soft_light_share(const PointLight& light, const Tracer& tracer, const Surface& surface,
+LightShare soft_light_share(const PointLight& light, const LightPaths& paths, const Surface& surface,
                             const std::vector<Vec3d>& points, std::int64_t& shadow_rays);
 
 /// colour x (glow + ambient x visibility x ambient light + sum of diffuse x light x N.L) + tint of sum of specular x
-/// light x (R.V)^power. The sums go over the lights in scene order that are in front of the surface and, with
-/// `shadows`, not hidden by a sphere. Adds the traced shadow rays to the count. `light_points`: null if no light has a
+/// light x (R.V)^power. The sums go over the lights in scene order that are in front of the surface, with `shadows`
+/// each times what arrives from it. Adds the traced shadow rays to the count. `light_points`: null if no light has a
 /// radius or there are no shadows; else a light with a radius gives the mean of its points to the diffuse term, and its
 /// share to its centre's highlight.
-Vec3d local_light(const Scene& scene, const Tracer& tracer, const Surface& surface, bool shadows,
+Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,
                   const std::vector<Vec3d>* light_points, double visibility, std::int64_t& shadow_rays);
 
 /// The mirrored ray.

@@ -77,6 +77,8 @@ void take_picture(const json& value, PictureDefaults& picture) {
   take_value(value, "recursion", picture.recursion);
   take_value(value, "shadows", picture.shadows);
   take_value(value, "transparent", picture.transparent);
+  if (value.contains("opacity_rule"))
+    picture.opacity_rule = *value_named(kOpacityRules, value.at("opacity_rule").get_ref<const std::string&>());
   take_value(value, "light_points", picture.light_points);
   take_value(value, "exposure", picture.tone.exposure_stops);
   if (value.contains("tone")) picture.tone.curve = *value_named(kToneCurves, value.at("tone").get<std::string>());

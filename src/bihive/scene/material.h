@@ -26,6 +26,11 @@ inline bool has_effects(const Material& material) {
   return material.tint != 0 || material.bands != 0 || material.glow != 0;
 }
 
+/// Whether light goes straight through it, not refracted.
+inline bool is_passed_straight(const Material& material) {
+  return material.transmissive > 0 && material.refraction_index == 1;
+}
+
 /// Table 4.1.
 inline Material red_material() {
   return {{0.9, 0.3, 0.3}, 0.30, 0.30, 0.30, 0.10, 40, 0.00, 0.00};

@@ -23,6 +23,7 @@ inline const Names<ViewFrom> kSides{{"front", ViewFrom::front}, {"back", ViewFro
                                     {"iso", ViewFrom::iso}};
 inline const Names<ToneCurve> kToneCurves{
     {"none", ToneCurve::none}, {"soft", ToneCurve::soft}, {"filmic", ToneCurve::filmic}};
+inline const Names<OpacityRule> kOpacityRules{{"each_surface", OpacityRule::each_surface}, {"once", OpacityRule::once}};
 inline const Names<Projection> kProjections{{"perspective", Projection::perspective},
                                             {"orthographic", Projection::orthographic}};
 

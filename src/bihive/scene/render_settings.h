@@ -6,6 +6,7 @@
 #include "bihive/image/film.h"
 #include "bihive/image/tone.h"
 #include "bihive/scene/ambient_occlusion.h"
+#include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/picture_effects.h"
 #include "bihive/scene/scene.h"
 
@@ -29,6 +30,7 @@ struct RenderSettings {
   int recursion = 5;  ///< 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
+  OpacityRule opacity_rule = OpacityRule::each_surface;
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
@@ -60,6 +62,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.recursion = defaults.recursion;
   settings.shadows = defaults.shadows;
   settings.ambient_occlusion = defaults.ambient_occlusion;
+  settings.opacity_rule = defaults.opacity_rule;
   settings.light_points = defaults.light_points;
   settings.outline = defaults.outline;
   settings.fog = defaults.fog;

@@ -15,6 +15,13 @@ bool has_effects(const Scene& scene) {
          (scene.plane && has_effects(scene.plane->material));
 }
 
+bool lets_light_through(const Scene& scene) {
+  const std::vector<float>& opacity = scene.spheres.attributes().opacity;
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& material) { return material.transmissive > 0; }) ||
+         std::any_of(opacity.begin(), opacity.end(), [](float share) { return share < 1; });
+}
+
 Material material_of(const Scene& scene, std::int64_t sphere_id) {
   const auto i = static_cast<std::size_t>(sphere_id);
   Material material =

@@ -15,6 +15,7 @@
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/labels.h"
 #include "bihive/scene/material.h"
+#include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/picture_effects.h"
 
 namespace bihive {
@@ -51,6 +52,7 @@ struct PictureDefaults {
   int recursion = 5;              ///< generations of rays, 1 to 16
   bool shadows = true;
   std::optional<AmbientOcclusion> ambient_occlusion;
+  OpacityRule opacity_rule = OpacityRule::each_surface;
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
@@ -92,6 +94,9 @@ bool has_soft_light(const Scene& scene);
 
 /// Whether a material of the list or of the plane has effects.
 bool has_effects(const Scene& scene);
+
+/// Whether light goes through some sphere, straight or refracted.
+bool lets_light_through(const Scene& scene);
 
 /// The material of one sphere: its material from the list. A colour attribute replaces the colour. An opacity a below 1
 /// scales ambient, diffuse and specular by a, and 1 - a of the light goes straight through (index 1).

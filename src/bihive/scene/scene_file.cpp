@@ -80,8 +80,8 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
-    for (const char* key : {"ambient_occlusion", "light_points", "outline", "fog", "transparent", "exposure", "tone", "legend",
-                            "scale_bar", "axes", "title", "length_unit"})
+    for (const char* key : {"ambient_occlusion", "light_points", "opacity_rule", "outline", "fog", "transparent",
+                            "exposure", "tone", "legend", "scale_bar", "axes", "title", "length_unit"})
       if (value.contains(key)) need_version(2, std::string("/picture/") + key);
     if (value.contains("samples_per_pixel") && value.at("samples_per_pixel").is_string())
       need_version(2, "/picture/samples_per_pixel");

@@ -141,6 +141,10 @@ std::string tone_members(const Tone& tone) {
                      name_of(kToneCurves, tone.curve));
 }
 
+std::string opacity_member(OpacityRule rule) {
+  return rule == PictureDefaults().opacity_rule ? "" : "\"opacity_rule\": \"" + name_of(kOpacityRules, rule) + "\", ";
+}
+
 bool has_ambient_light(const Scene& scene) {
   const Vec3d light = scene.ambient_light;
   return light.x != 1 || light.y != 1 || light.z != 1;
@@ -149,8 +153,9 @@ bool has_ambient_light(const Scene& scene) {
 // The oldest version of the format that has all that the scene needs.
 int version_of(const Scene& scene) {
   const PictureDefaults& picture = scene.picture;
-  const bool effects =
-      picture.ambient_occlusion || picture.outline || picture.fog || !light_points_member(picture.light_points).empty();
+  const bool effects = picture.ambient_occlusion || picture.outline || picture.fog ||
+                       !light_points_member(picture.light_points).empty() ||
+                       !opacity_member(picture.opacity_rule).empty();
   const bool parallel = scene.camera.projection != Projection::perspective;
   return effects || picture.adaptive_samples || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
                  has_effects(scene) || has_ambient_light(scene) || parallel || picture.transparent ||
@@ -182,12 +187,13 @@ std::string scene_to_json(const Scene& scene) {
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}{}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}{}{}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px,
       picture.adaptive_samples ? "\"auto\"" : std::to_string(picture.samples_per_pixel), picture.recursion,
-      picture.shadows, ambient_member(picture.ambient_occlusion), light_points_member(picture.light_points),
-      outline_member(picture.outline), fog_member(picture.fog), picture.transparent ? "\"transparent\": true, " : "",
-      tone_members(picture.tone), labels_members(picture.labels), picture.transfer == Transfer::srgb ? "srgb" : "none");
+      picture.shadows, ambient_member(picture.ambient_occlusion), opacity_member(picture.opacity_rule),
+      light_points_member(picture.light_points), outline_member(picture.outline), fog_member(picture.fog),
+      picture.transparent ? "\"transparent\": true, " : "", tone_members(picture.tone), labels_members(picture.labels),
+      picture.transfer == Transfer::srgb ? "srgb" : "none");
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

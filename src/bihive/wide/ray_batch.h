@@ -56,6 +56,13 @@ struct HitSpan {
   HitSpan part(std::int64_t first) const { return {t + first, sphere_id + first}; }
 };
 
+/// One of several hits of a ray.
+struct RayHit {
+  std::int64_t ray;  ///< its number in the span
+  double t;
+  std::int64_t sphere_id;
+};
+
 /// Rays that it keeps itself. The optional arrays are empty (defaults for all) or have an entry a ray.
 struct RayBatch {
   std::vector<float> origin[3];

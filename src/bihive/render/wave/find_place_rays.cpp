@@ -102,8 +102,9 @@ void add_visible(PlaceWave& wave) {
   for (std::int64_t i = 0; i < wave.rays.count; ++i) {
     if (wave.hidden[i] != 0) continue;
     const std::int64_t place = wave.place[i];
-    wave.seen[place] = wave.seen[place] + wave.facing[i];
-    wave.rays_seen[place] = wave.rays_seen[place] + 1;
+    const double share = wave.has_shares ? wave.share[i] : 1;
+    wave.seen[place] = wave.seen[place] + wave.facing[i] * share;
+    wave.rays_seen[place] = wave.rays_seen[place] + share;
   }
 }
 

@@ -84,8 +84,13 @@ namespace bihive {
 HWY_EXPORT(hit_plane_on_target);
 HWY_EXPORT(find_surfaces_on_target);
 
-WaveScene::WaveScene(const Scene& drawn)
-    : scene(&drawn), inverse_scale(drawn.spheres.inverse_scale()), materials(drawn.materials) {
+WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
+    : scene(&drawn),
+      inverse_scale(drawn.spheres.inverse_scale()),
+      materials(drawn.materials),
+      passes_apart(rule == OpacityRule::once) {
+  for (Material& material : materials)
+    if (passes_apart && is_passed_straight(material)) material.transmissive = 0;
   const SphereAttributes& attributes = drawn.spheres.attributes();
   has_effects = bihive::has_effects(drawn);
   has_attributes = !attributes.colour.empty() || !attributes.opacity.empty();

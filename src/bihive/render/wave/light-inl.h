@@ -110,6 +110,7 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
       lit = hn::And(there, hn::Ne(seen, all(0)));
     } else if (received.hidden != nullptr) {
       lit = hn::AndNot(set_lanes(received.hidden + hidden_at), lit);
+      if (HWY_UNLIKELY(received.share != nullptr)) seen = hn::LoadU(Tag(), received.share + hidden_at);
     }
     hidden_at += received.surfaces;
     if (none(lit)) continue;
@@ -119,6 +120,7 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
     const Lanes nearness = to_light.nearness();
     const Lanes facing = hn::IfThenElseZero(hn::And(lit, in_front), hn::Mul(to_light.towards, nearness));
     Lanes received_facing = soft ? hn::IfThenElseZero(lit, soft_facing) : facing;
+    if (HWY_UNLIKELY(received.share != nullptr) && !soft) received_facing = hn::Mul(facing, seen);
     if (HWY_UNLIKELY(wave_scene.has_effects)) received_facing = effects.in_bands(received_facing);
     diffuse = add(diffuse, multiply(hn::Mul(material.diffuse, received_facing), colour));
     const Lanes highlight = hn::Add(hn::Mul(hn::Mul(all(2), facing), surface.cosine),

@@ -25,8 +25,8 @@ struct MaterialLanes {
 };
 
 /// Opacity and colour of single spheres, if the scene has any.
-HWY_INLINE void apply_attributes(const Scene& scene, Longs id, MaterialLanes& lanes) {
-  const SphereAttributes& attributes = scene.spheres.attributes();
+HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes& lanes) {
+  const SphereAttributes& attributes = scene.scene->spheres.attributes();
   const LaneMask on_sphere = lanes_of(hn::Gt(id, hn::Set(LongTag(), -1)));
   alignas(64) std::int64_t ids[kLanes];
   hn::Store(id, LongTag(), ids);
@@ -52,7 +52,8 @@ HWY_INLINE void apply_attributes(const Scene& scene, Longs id, MaterialLanes& la
   lanes.ambient = hn::IfThenElse(clear, hn::Mul(lanes.ambient, opacity), lanes.ambient);
   lanes.diffuse = hn::IfThenElse(clear, hn::Mul(lanes.diffuse, opacity), lanes.diffuse);
   lanes.specular = hn::IfThenElse(clear, hn::Mul(lanes.specular, opacity), lanes.specular);
-  lanes.transmissive = hn::IfThenElse(clear, hn::Sub(all(1), opacity), lanes.transmissive);
+  const Lanes sent_on = scene.passes_apart ? all(0) : hn::Sub(all(1), opacity);
+  lanes.transmissive = hn::IfThenElse(clear, sent_on, lanes.transmissive);
   lanes.refraction_index = hn::IfThenElse(clear, all(1), lanes.refraction_index);
 }
 
@@ -89,7 +90,7 @@ HWY_INLINE MaterialLanes materials_of(const WaveScene& scene, LaneMask wanted, L
     left = hn::AndNot(same, left);
   }
   if (!scene.has_attributes) return lanes;
-  apply_attributes(*scene.scene, hn::IfThenElse(longs_of(wanted), id, hn::Set(LongTag(), kNothing)), lanes);
+  apply_attributes(scene, hn::IfThenElse(longs_of(wanted), id, hn::Set(LongTag(), kNothing)), lanes);
   return lanes;
 }
 

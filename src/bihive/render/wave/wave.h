@@ -14,6 +14,7 @@
 #include "bihive/render/surface.h"
 #include "bihive/render/wave/column.h"
 #include "bihive/scene/camera.h"
+#include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/sample_pattern.h"
 #include "bihive/scene/scene.h"
 #include "bihive/wide/ray_batch.h"
@@ -28,10 +29,12 @@ struct WaveScene {
       materials;                ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
   bool has_attributes = false;  ///< some sphere has its own colour or opacity
   bool has_effects = false;     ///< some material has bands, a tint or a glow
+  /// What is passed straight sends no ray on: OpacityRule::once. Such materials have a transmissive share of 0 here.
+  bool passes_apart = false;
   std::int64_t plane_material = 0;  ///< the plane's first
   PlaneAxes axes{};                 ///< of the plane, if it has a checker
 
-  explicit WaveScene(const Scene& drawn);
+  explicit WaveScene(const Scene& drawn, OpacityRule rule = OpacityRule::each_surface);
 };
 
 /// The columns of every kind of ray.
@@ -136,12 +139,14 @@ struct ShadowWave : RayColumns {
   Column<double> t_max;
   Column<std::int64_t> surface;  ///< the number of the ray's surface
   Column<std::uint8_t> hidden;
+  Column<double> share;  ///< what of the light arrives; only where there are transparent spheres
 
   void reset(std::int64_t n) {
     RayColumns::reset(n);
     t_max.reserve(n);
     surface.reserve(n);
     hidden.reserve(n);
+    share.reserve(n);
   }
 
   RaySpan span() const {
@@ -157,20 +162,23 @@ struct PlaceWave {
   Columns3<float> origin;
   Columns3<double> normal;
   Column<std::int64_t> id, inside, surface;  ///< `surface`: its number in WaveSurfaces
-  /// Sums so far: of the facings of all rays, of those that nothing hides, and the number of these rays.
+  /// Sums so far: of the facings of all rays, of those that nothing hides, and the number of these rays; the last two
+  /// with each ray times its share.
   Column<double> in_front, seen, rays_seen;
 
   RayColumns rays;
   Column<double> facing;
   Column<std::int64_t> place;  ///< of each ray
   Column<std::uint8_t> hidden;
+  bool has_shares = false;  ///< else the share of each ray is 1
+  Column<double> share;
 
   void reset(std::int64_t n) {
     places = 0;
     origin.reserve(n);
     normal.reserve(n);
     for (Column<std::int64_t>* column : {&id, &inside, &surface, &place}) column->reserve(n);
-    for (Column<double>* column : {&in_front, &seen, &rays_seen, &facing}) column->reserve(n);
+    for (Column<double>* column : {&in_front, &seen, &rays_seen, &facing, &share}) column->reserve(n);
     rays.reset(n);
     hidden.reserve(n);
   }
@@ -218,13 +226,14 @@ void find_ambient_rays(Vec3f direction, PlaceWave& wave);
 /// the rays before.
 void find_light_rays(Vec3d point, PlaceWave& wave);
 
-/// Adds the rays that are not hidden to their places.
+/// Adds the rays that are not hidden to their places, each times its share.
 void add_visible(PlaceWave& wave);
 
 /// What the shadow rays of surfaces brought. Rows of one entry for each surface.
 struct LightReceived {
   std::int64_t surfaces = 0;             ///< entries of a row
   const std::uint8_t* hidden = nullptr;  ///< a row for each light, 1 if a sphere hides the light; null: no shadows
+  const double* share = nullptr;         ///< a row for each light, what arrives of one that is not hidden; null: all
   /// A row for each light with a radius, of LightShare; null: no shadows, or no light has a radius.
   const double* facing = nullptr;
   const double* seen = nullptr;

@@ -30,7 +30,9 @@ void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners, std::int64
   first_sample_ = first_sample;
   buffers.generations.resize(std::max<std::size_t>(buffers.generations.size(), std::size_t(settings_.recursion)));
   buffers.sums.reset(owners);
+  buffers.crossings.resize(std::max(buffers.crossings.size(), buffers.generations.size()));
   if (settings_.depth) deepest_hit_.assign(static_cast<std::size_t>(owners), 0);
+  coverage_.clear();
   Wave& first = primaries(buffers);
   rays_.primary += first.count;
   trace_part({&first, 0, first.count}, 1, buffers);
@@ -48,15 +50,119 @@ void WaveIntegrator::find_sphere_hits(const WavePart& rays, WaveBuffers& buffers
   buffers.id.reserve(rays.count());
   const RayOrder order = rays.wave->starts_at_eye ? RayOrder::blocks : RayOrder::any;
   const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count() : kRaysBetweenLooks;
-  for (std::int64_t i = 0; i < rays.count() && !cancelled(); i += step)
-    tracer_.closest_hits(rays.span().part(i, std::min(step, rays.count() - i)), order,
-                         HitSpan{buffers.t.data(), buffers.id.data()}.part(i));
+  for (std::int64_t i = 0; i < rays.count() && !cancelled(); i += step) {
+    const RaySpan some = rays.span().part(i, std::min(step, rays.count() - i));
+    const HitSpan hits = HitSpan{buffers.t.data(), buffers.id.data()}.part(i);
+    if (to_eye() != nullptr)
+      to_eye()->closest_opaque(some, order, hits);
+    else
+      tracer_.closest_hits(some, order, hits);
+  }
 }
 
 void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& buffers) {
   find_sphere_hits(rays, buffers);
   if (cancelled()) return;
+  if (to_eye() != nullptr && find_crossings(rays, depth, buffers)) return trace_layers(rays, depth, buffers);
+  follow(rays, depth, buffers);
+}
 
+// Which transparent spheres do the rays cross before they end? False: none.
+bool WaveIntegrator::find_crossings(const WavePart& rays, int depth, WaveBuffers& buffers) const {
+  // The plane may end a ray too.
+  steps::hit_plane(scene_, rays, buffers.t.data(), buffers.id.data());
+  CrossingBuffers& found = buffers.crossings[static_cast<std::size_t>(depth - 1)];
+  const auto count = static_cast<std::size_t>(rays.count());
+  RaySpan span = rays.span();
+  span.t_max = buffers.t.data();
+  to_eye()->find_crossings(span, found.crossings);
+  if (found.crossings.empty()) return false;
+
+  found.end.assign(buffers.t.data(), buffers.t.data() + count);
+  found.end_id.assign(buffers.id.data(), buffers.id.data() + count);
+  const auto at_end = [&](const RayHit& hit) { return !(hit.t < found.end[static_cast<std::size_t>(hit.ray)]); };
+  found.crossings.erase(std::remove_if(found.crossings.begin(), found.crossings.end(), at_end), found.crossings.end());
+  found.first.assign(count + 1, 0);
+  for (const RayHit& hit : found.crossings) ++found.first[static_cast<std::size_t>(hit.ray) + 1];
+  for (std::size_t i = 0; i < count; ++i) found.first[i + 1] += found.first[i];
+  return true;
+}
+
+// Follows a ray for each surface that the rays meet: some rays at a time, cut between owners, so that the number of
+// layers does not matter.
+void WaveIntegrator::trace_layers(const WavePart& rays, int depth, WaveBuffers& buffers) {
+  const CrossingBuffers& found = buffers.crossings[static_cast<std::size_t>(depth - 1)];
+  // An owner may receive light several times.
+  if (buffers.sums.empty) {
+    for (int channel = 0; channel < 3; ++channel) std::fill_n(buffers.sums.light[channel].data(), rays.count(), 0.0);
+    buffers.sums.empty = false;
+    if (settings_.without_background) coverage_.assign(static_cast<std::size_t>(rays.count()), 1.0);
+  }
+  const auto owner = [&](std::int64_t i) {
+    return rays.wave->starts_at_eye ? rays.first + i : rays.wave->owner[rays.first + i];
+  };
+  const auto surfaces = [&](std::int64_t first, std::int64_t end) {
+    const std::size_t crossings =
+        found.first[static_cast<std::size_t>(end)] - found.first[static_cast<std::size_t>(first)];
+    return static_cast<std::int64_t>(crossings) + end - first;
+  };
+  for (std::int64_t first = 0; first < rays.count() && !cancelled();) {
+    std::int64_t end = first;
+    for (std::int64_t next = first + 1; next <= rays.count(); ++next) {
+      if (next < rays.count() && owner(next) == owner(next - 1)) continue;
+      if (end > first && surfaces(first, next) > kMostRaysAtOnce) break;
+      end = next;
+    }
+    put_layers(rays, found, first, end, depth, buffers);
+    follow({&buffers.layers, 0, buffers.layers.count}, depth, buffers);
+    first = end;
+  }
+}
+
+// The rays of number `first` to before `end` as a wave with a ray for each surface, and their hits.
+void WaveIntegrator::put_layers(const WavePart& rays, const CrossingBuffers& found, std::int64_t first,
+                                std::int64_t end, int depth, WaveBuffers& buffers) {
+  const Wave& wave = *rays.wave;
+  Wave& layers = buffers.layers;
+  const auto most = static_cast<std::int64_t>(found.first[static_cast<std::size_t>(end)] -
+                                              found.first[static_cast<std::size_t>(first)]) +
+                    end - first;
+  layers.reset(most);
+  buffers.t.reserve(most);
+  buffers.id.reserve(most);
+  for (std::int64_t k = first; k < end; ++k) {
+    const std::int64_t from = rays.first + k;
+    double weight = wave.starts_at_eye ? 1 : wave.weight[from];
+    const auto add = [&](double t, std::int64_t id) {
+      const std::int64_t to = layers.count++;
+      for (int axis = 0; axis < 3; ++axis) {
+        layers.origin[axis][to] = wave.origin[axis][from];
+        layers.direction[axis][to] = wave.direction[axis][from];
+      }
+      layers.leaves[to] = wave.starts_at_eye ? kNothing : wave.leaves[from];
+      layers.inside[to] = wave.starts_at_eye ? 0 : wave.inside[from];
+      layers.weight[to] = weight;
+      layers.owner[to] = wave.starts_at_eye ? from : wave.owner[from];
+      buffers.t[to] = t;
+      buffers.id[to] = id;
+    };
+    for (std::size_t c = found.first[static_cast<std::size_t>(k)]; c < found.first[static_cast<std::size_t>(k) + 1];
+         ++c) {
+      add(found.crossings[c].t, found.crossings[c].sphere_id);
+      weight = weight * to_eye()->passing(found.crossings[c].sphere_id);
+    }
+    // The background behind what a primary ray crosses is left out where the picture gets opacity instead.
+    const std::int64_t end_id = found.end_id[static_cast<std::size_t>(k)];
+    const bool crosses = found.first[static_cast<std::size_t>(k)] < found.first[static_cast<std::size_t>(k) + 1];
+    if (settings_.without_background && depth == 1 && end_id == kNothing && crosses)
+      coverage_[static_cast<std::size_t>(from)] = 1 - weight;
+    else
+      add(found.end[static_cast<std::size_t>(k)], end_id);
+  }
+}
+
+// Shades the surfaces of rays whose hits are known, and follows what these send on.
+void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffers) {
   // Shade all surfaces, and follow the reflected and the transmitted light.
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
@@ -79,8 +185,9 @@ void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& bu
     if (with_shadows()) find_soft_shadows(depth, buffers);
     if (with_ambient()) find_visibility(depth, buffers);
     if (cancelled()) return;
-    steps::LightReceived received{buffers.surfaces.count, nullptr, nullptr, nullptr};
+    steps::LightReceived received{buffers.surfaces.count, nullptr, nullptr, nullptr, nullptr};
     if (with_shadows()) received.hidden = buffers.hidden.data();
+    if (with_shadows() && to_light() != nullptr) received.share = buffers.share.data();
     if (with_shadows() && settings_.light_points != nullptr) {
       received.facing = buffers.light_facing.data();
       received.seen = buffers.light_seen.data();
@@ -132,6 +239,8 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   const std::int64_t all = surfaces * static_cast<std::int64_t>(lights.size());
   buffers.hidden.reserve(all);
   std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
+  if (to_light() != nullptr) buffers.share.reserve(all);
+  if (to_light() != nullptr) std::fill_n(buffers.share.data(), all, 1.0);
   ShadowWave& shadows = buffers.shadows;
   for (std::size_t l = 0; l < lights.size(); ++l) {
     if (is_soft(lights[l])) continue;
@@ -146,9 +255,12 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
     const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
     const std::int64_t step = tracer_.engine() == Engine::wide ? shadows.count : kRaysBetweenLooks;
     for (std::int64_t i = 0; i < shadows.count && !cancelled(); i += step)
-      tracer_.occluded(shadows.span().part(i, std::min(step, shadows.count - i)), order, shadows.hidden.data() + i);
-    std::uint8_t* const hidden = buffers.hidden.data() + static_cast<std::int64_t>(l) * surfaces;
-    for (std::int64_t i = 0; i < shadows.count; ++i) hidden[shadows.surface[i]] = shadows.hidden[i];
+      ask_for_light(shadows.span().part(i, std::min(step, shadows.count - i)), order, shadows.hidden.data() + i,
+                    shadows.share.data() + i);
+    const std::int64_t row = static_cast<std::int64_t>(l) * surfaces;
+    for (std::int64_t i = 0; i < shadows.count; ++i) buffers.hidden[row + shadows.surface[i]] = shadows.hidden[i];
+    if (to_light() == nullptr) continue;
+    for (std::int64_t i = 0; i < shadows.count; ++i) buffers.share[row + shadows.surface[i]] = shadows.share[i];
   }
 }
 
@@ -212,6 +324,28 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
   }
 }
 
+// What of the light arrives at the ends of rays? `share` is written only where there are transparent spheres.
+void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, double* share) const {
+  if (to_light() == nullptr) return tracer_.occluded(rays, order, hidden);
+  static thread_local std::vector<double> ends;
+  static thread_local std::vector<RayHit> crossings;
+  to_light()->hides(rays, order, hidden);
+
+  // Rays that are hidden anyway get an end before their start, so they cross nothing.
+  ends.resize(static_cast<std::size_t>(rays.count));
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    const double end = rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<double>::infinity();
+    ends[static_cast<std::size_t>(i)] = hidden[i] != 0 ? -1 : end;
+  }
+  RaySpan open = rays;
+  open.t_max = ends.data();
+  to_light()->find_crossings(open, crossings);
+  std::fill_n(share, rays.count, 1.0);
+  for (const RayHit& hit : crossings) share[hit.ray] = share[hit.ray] * to_light()->passing(hit.sphere_id);
+  for (std::int64_t i = 0; i < rays.count; ++i)
+    if (share[i] == 0) hidden[i] = 1;
+}
+
 // Which rays of the places does a sphere hide before t = limit? Returns these rays.
 RaySpan WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffers) {
   PlaceWave& wave = buffers.places;
@@ -224,7 +358,8 @@ RaySpan WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffe
   const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
   const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
   for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
-    tracer_.occluded(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i);
+    ask_for_light(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i, wave.share.data() + i);
+  wave.has_shares = to_light() != nullptr;
   return rays;
 }
 

@@ -7,6 +7,7 @@
 #include "bihive/base/cancel.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
+#include "bihive/render/transparency.h"
 #include "bihive/render/wave/wave.h"
 #include "bihive/scene/light_points.h"
 
@@ -16,15 +17,26 @@ namespace bihive {
 /// part by part. A single owner's rays are never cut (2^15 of them in generation 16).
 constexpr std::int64_t kMostRaysAtOnce = 32768;
 
+/// The surfaces that the rays of one generation meet, where there are transparent spheres.
+struct CrossingBuffers {
+  std::vector<double> end;           ///< of each ray: where it ends
+  std::vector<std::int64_t> end_id;  ///< what ends it
+  std::vector<RayHit> crossings;     ///< ray after ray
+  std::vector<std::size_t> first;    ///< of each ray, in `crossings`; and their number
+};
+
 /// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation,
 /// and with ambient occlusion some 150 more.
 struct WaveBuffers {
   std::vector<Wave> generations;
+  std::vector<CrossingBuffers> crossings;  ///< of each generation
+  Wave layers;                             ///< a ray for each surface, the same way as far as it
   Column<double> t;
   Column<std::int64_t> id;
   WaveSurfaces surfaces;
   ShadowWave shadows;
   Column<std::uint8_t> hidden;
+  Column<double> share;
   PlaceWave places;
   Column<double> visibility, limits;
   Column<double> light_facing, light_seen;  ///< of LightReceived
@@ -44,12 +56,16 @@ class WaveIntegrator {
     int recursion;
     bool light;    ///< the light of owners is summed up
     bool shadows;  ///< only with `light`
-    bool depth;    ///< deepest_hit() is known afterwards
+    bool depth;    ///< deepest_hit() and coverage() are known afterwards
     /// Ambient occlusion, only with `light`; null: none. It must outlive the integrator.
     const AmbientRays* ambient = nullptr;
     /// Soft shadows, only with `shadows`; null: none. It must outlive the integrator.
     const LightPointSets* light_points = nullptr;
     std::int64_t samples_per_pixel = 1;  ///< for `ambient` and `light_points`
+    /// Null: OpacityRule::each_surface. It must outlive the integrator, and the WaveScene must know the same rule.
+    const Transparency* transparency = nullptr;
+    /// The background straight behind what primary rays cross is left out of the sums (coverage()).
+    bool without_background = false;
   };
   WaveIntegrator(const WaveScene& scene, const Tracer& tracer, const Settings& settings, const CancelToken* cancel)
       : scene_(scene), tracer_(tracer), settings_(settings), cancel_(cancel) {}
@@ -58,7 +74,8 @@ class WaveIntegrator {
   /// pixel, the others follow. After a cancel the result is undefined.
   void trace(WaveBuffers& buffers, std::int64_t owners, std::int64_t first_sample = 0);
 
-  /// Only the first hits of primaries(), on spheres and plane: t and id of ray i in buffers.t[i] and buffers.id[i].
+  /// Only the first hits of primaries(), on opaque spheres and the plane: t and id of ray i in buffers.t[i] and
+  /// buffers.id[i].
   void find_first_hits(WaveBuffers& buffers);
 
   /// The caller fills them before trace().
@@ -69,16 +86,31 @@ class WaveIntegrator {
 
   /// For each owner: the deepest generation with a ray that hit something in the last trace().
   const std::vector<std::uint8_t>& deepest_hit() const { return deepest_hit_; }
+  /// For each owner of the last trace(): the share of the picture that its light covers. Less than 1 only
+  /// without_background and where nothing but transparent spheres stands before it.
+  double coverage(std::int64_t owner) const { return coverage_.empty() ? 1 : coverage_[std::size_t(owner)]; }
   const RenderCounts& rays() const { return rays_; }
 
  private:
   void find_sphere_hits(const WavePart& rays, WaveBuffers& buffers) const;
   void trace_part(const WavePart& rays, int depth, WaveBuffers& buffers);
+  bool find_crossings(const WavePart& rays, int depth, WaveBuffers& buffers) const;
+  void trace_layers(const WavePart& rays, int depth, WaveBuffers& buffers);
+  void put_layers(const WavePart& rays, const CrossingBuffers& found, std::int64_t first, std::int64_t end, int depth,
+                  WaveBuffers& buffers);
+  void follow(const WavePart& rays, int depth, WaveBuffers& buffers);
   void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
   void find_shadows(int depth, WaveBuffers& buffers);
   void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);
   RaySpan trace_places(int depth, double limit, WaveBuffers& buffers);
+  void ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, double* share) const;
+  const TransparentSpheres* to_eye() const {
+    return settings_.transparency != nullptr ? settings_.transparency->to_eye.get() : nullptr;
+  }
+  const TransparentSpheres* to_light() const {
+    return settings_.transparency != nullptr ? settings_.transparency->to_light.get() : nullptr;
+  }
   bool is_soft(const PointLight& light) const { return settings_.light_points != nullptr && light.radius > 0; }
   bool with_shadows() const { return settings_.light && settings_.shadows; }
   bool with_ambient() const { return settings_.light && settings_.ambient != nullptr; }
@@ -91,6 +123,7 @@ class WaveIntegrator {
   RenderCounts rays_;
   std::int64_t first_sample_ = 0;
   std::vector<std::uint8_t> deepest_hit_;
+  std::vector<double> coverage_;  // empty: 1 of all
 };
 
 }  // namespace bihive

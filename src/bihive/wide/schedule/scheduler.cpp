@@ -7,10 +7,12 @@
 //                  any:    to one light? in that order: beams -> the remaining ones: lists
 //                          else scattered? in the order of cells: lists
 //                          else lists
+//   all hits       beams -> the remaining ones: the scalar walk
 //
 // Lists answer all rays that beams do not take at all (beams_take()).
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -21,6 +23,7 @@
 #include "bihive/wide/schedule/tuning.h"
 #include "bihive/wide/trace/beams.h"
 #include "bihive/wide/trace/lists.h"
+#include "bihive/wide/trace/scalar_walk.h"
 #include "bihive/wide/trace/single_ray.h"
 #include "bihive/wide/trace/tuning.h"
 
@@ -190,8 +193,63 @@ void occluded_in_blocks(const WideTree& tree, const RaySpan& rays, std::uint8_t*
   occluded_remaining(tree, rays, remaining, memory_of_this_thread().remaining_of_blocks, occluded_in_any_order, hidden);
 }
 
+// ---- All hits ----
+
+// Collects the hits of one ray.
+struct HitsOfRay {
+  std::int64_t ray;
+  std::vector<RayHit>& hits;
+
+  bool take(double t, std::int64_t id) const {
+    if (t < std::numeric_limits<double>::infinity()) hits.push_back({ray, t, id});
+    return false;
+  }
+  static double limit() { return std::numeric_limits<double>::infinity(); }
+};
+
+void all_hits_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, std::vector<RayHit>& hits) {
+  const Ray ray = rays.at(i);
+  if (!is_valid(ray)) return;
+  HitsOfRay of_ray{i, hits};
+  walk_scalar(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves), of_ray);
+}
+
+void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) {
+  if (!beams_take(tree, rays)) {
+    for (std::int64_t i = 0; i < rays.count; ++i) all_hits_of_ray(tree, rays, i, hits);
+    return;
+  }
+  const RemainingRays remaining = all_hits_by_beams(tree, rays, hits);
+  for (const RemainingRays::Run& run : remaining.runs())
+    for (std::int64_t i = run.first; i < run.first + run.count; ++i) all_hits_of_ray(tree, rays, i, hits);
+}
+
+// By ray, by counting; then the few hits of each ray by t and id.
+void sort_hits(std::int64_t rays, const std::vector<RayHit>& hits, std::vector<RayHit>& sorted) {
+  std::vector<std::size_t> next(static_cast<std::size_t>(rays) + 1, 0);
+  for (const RayHit& hit : hits) ++next[static_cast<std::size_t>(hit.ray) + 1];
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  sorted.resize(hits.size());
+  for (const RayHit& hit : hits) sorted[next[static_cast<std::size_t>(hit.ray)]++] = hit;
+  // Now `next` holds the end of each ray's hits.
+  std::size_t begin = 0;
+  for (std::size_t ray = 0; ray + 1 < next.size(); begin = next[ray], ++ray) {
+    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(next[ray]);
+    std::sort(first, last,
+              [](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : a.sphere_id < b.sphere_id; });
+  }
+}
+
 }  // namespace
 }  // namespace wide
+
+void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) {
+  static thread_local std::vector<RayHit> found;
+  found.clear();
+  wide::all_hits_in_any_order(tree, rays, found);
+  wide::sort_hits(rays.count, found, hits);
+}
 
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
   if (order == RayOrder::blocks) {

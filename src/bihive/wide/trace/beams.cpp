@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/trace/closest_beam-inl.h"
@@ -58,7 +59,8 @@ RemainingRays closest_hits_by_beams_on_target(const WideTree& tree, const RaySpa
   return remaining;
 }
 
-void occluded_block(const WideTree& tree, const RaySpan& rays, std::int64_t first, OcclusionBeam& beam,
+template <bool kAllHits>
+void occluded_block(const WideTree& tree, const RaySpan& rays, std::int64_t first, OcclusionBeam<kAllHits>& beam,
                     RemainingRays& remaining) {
   const int count = block_size(rays, first);
   if (set_up_beam(tree, rays, first, count, beam.rays)) {
@@ -70,7 +72,7 @@ void occluded_block(const WideTree& tree, const RaySpan& rays, std::int64_t firs
 
 RemainingRays occluded_by_beams_on_target(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   RemainingRays remaining;
-  OcclusionBeam beam(tree, rays, false, hidden);
+  OcclusionBeam<false> beam(tree, rays, false, hidden);
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
     // Where beams give most of their rays back, the lists do better with all of them in their order.
     if (first == kTrialBlocks * kBeamRays && remaining.count() > first / 3) {
@@ -83,10 +85,19 @@ RemainingRays occluded_by_beams_on_target(const WideTree& tree, const RaySpan& r
   return remaining;
 }
 
+RemainingRays all_hits_by_beams_on_target(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found) {
+  RemainingRays remaining;
+  OcclusionBeam<true> beam(tree, rays, false, nullptr, &found);
+  for (std::int64_t first = 0; first < rays.count; first += kBeamRays)
+    occluded_block(tree, rays, first, beam, remaining);
+  beam.decide();
+  return remaining;
+}
+
 wide::SortedBeams occluded_by_sorted_beams_on_target(const WideTree& tree, const RaySpan& rays,
                                                      const wide::BlockChoice& blocks, std::uint8_t* hidden) {
   wide::SortedBeams done;
-  OcclusionBeam beam(tree, rays, true, hidden);
+  OcclusionBeam<false> beam(tree, rays, true, hidden);
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays)
     if ((first / kBeamRays % blocks.step == 0) != blocks.others)
       occluded_block(tree, rays, first, beam, done.remaining);
@@ -105,6 +116,7 @@ namespace bihive {
 HWY_EXPORT(closest_hits_by_beams_on_target);
 HWY_EXPORT(occluded_by_beams_on_target);
 HWY_EXPORT(occluded_by_sorted_beams_on_target);
+HWY_EXPORT(all_hits_by_beams_on_target);
 
 namespace wide {
 
@@ -122,6 +134,11 @@ RemainingRays closest_hits_by_beams(const WideTree& tree, const RaySpan& rays, c
 RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   ensure_target();
   return HWY_DYNAMIC_DISPATCH(occluded_by_beams_on_target)(tree, rays, hidden);
+}
+
+RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found) {
+  ensure_target();
+  return HWY_DYNAMIC_DISPATCH(all_hits_by_beams_on_target)(tree, rays, found);
 }
 
 SortedBeams occluded_by_sorted_beams(const WideTree& tree, const RaySpan& rays, const BlockChoice& blocks,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/trace/remaining_rays.h"
@@ -19,6 +20,9 @@ bool beams_take(const WideTree& tree, const RaySpan& rays);
 /// blocks of 64 (counted from the first ray) that are close in origin and direction are fast.
 RemainingRays closest_hits_by_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
 RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+
+/// Appends every hit of the rays that it does not return, in no order.
+RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found);
 
 /// Blocks of a span: those whose number is a multiple of `step`, or all others.
 struct BlockChoice {

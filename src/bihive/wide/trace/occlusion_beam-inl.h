@@ -1,6 +1,6 @@
-// Any hit of a block of 64 neighbouring rays. It is made for shadow rays towards a light: the walk starts at the far
-// ends of the rays, rays that are surely hidden leave the beam, and the spheres that hid the last blocks are tried
-// first.
+// Any hit of a block of 64 neighbouring rays, or all hits. It is made for shadow rays towards a light: the walk starts
+// at the far ends of the rays, rays that are surely hidden leave the beam, and the spheres that hid the last blocks are
+// tried first. For all hits, no ray leaves the beam, and binary64 decides every sphere that a ray may meet.
 
 #if defined(BIHIVE_WIDE_TRACE_OCCLUSION_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_OCCLUSION_BEAM_INL_H_
@@ -13,8 +13,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "bihive/simd/lanes-inl.h"
+#include "bihive/wide/ray_batch.h"
 #include "bihive/wide/trace/beam_rays-inl.h"
 #include "bihive/wide/trace/beam_spheres-inl.h"
 #include "bihive/wide/trace/beam_walk-inl.h"
@@ -56,11 +58,18 @@ class Occluders {
 };
 
 /// Answers the blocks of one call, one after the other.
+template <bool kAllHits>
 class OcclusionBeam {
  public:
-  /// sorted: neighbours may start on any surfaces.
-  OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, std::uint8_t* hidden)
-      : tree_(tree), span_(span), hidden_(hidden), leave_spheres_(span.leaves != nullptr), sorted_(sorted) {
+  /// sorted: neighbours may start on any surfaces. `hidden`: for any hit. `found`: for all hits, in no order.
+  OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, std::uint8_t* hidden,
+                std::vector<RayHit>* found = nullptr)
+      : tree_(tree),
+        span_(span),
+        hidden_(hidden),
+        found_(found),
+        leave_spheres_(span.leaves != nullptr),
+        sorted_(sorted) {
     width_limit_ = leaf_extent(tree);
     run_width_limit_ = sorted ? width_limit_ : kWidestRunInLeaves * width_limit_;
   }
@@ -72,13 +81,18 @@ class OcclusionBeam {
   /// beam: those are added to `remaining`.
   HWY_INLINE void block(std::int64_t first_ray, RemainingRays& remaining) {
     first_ray_ = first_ray;
-    std::fill_n(hidden_ + first_ray, rays.count, std::uint8_t{0});
+    if (!kAllHits) std::fill_n(hidden_ + first_ray, rays.count, std::uint8_t{0});
     trace_block(remaining);
   }
 
   /// The rays of the pairs must have been answered, by block(), before.
   void decide() {
-    decide_pairs(tree_, span_, pairs_, [&](std::int64_t ray, double, std::uint32_t) HWY_ATTR { hidden_[ray] = 1; });
+    decide_pairs(tree_, span_, pairs_, [&](std::int64_t ray, double t, std::uint32_t slot) HWY_ATTR {
+      if constexpr (kAllHits)
+        found_->push_back({ray, t, tree_.spheres.id(slot)});
+      else
+        hidden_[ray] = 1;
+    });
   }
 
   /// Spheres that met beams so far, each times the rays of the beam.
@@ -91,7 +105,7 @@ class OcclusionBeam {
     if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return;
 
     // Try the spheres that hid the last rays.
-    if (occluders_.count() > 0 && try_occluders(frustum)) {
+    if (!kAllHits && occluders_.count() > 0 && try_occluders(frustum)) {
       if (done<kBeamRays>(0)) {
         note_hidden(done_lanes());
         return;
@@ -163,6 +177,7 @@ class OcclusionBeam {
   const WideTree& tree_;
   const RaySpan& span_;
   std::uint8_t* hidden_;
+  std::vector<RayHit>* found_;
   bool leave_spheres_;  ///< some rays may
   bool sorted_;
   std::int64_t first_ray_ = 0;
@@ -182,7 +197,7 @@ class OcclusionBeam {
   }
 
   HWY_INLINE void note_hidden(std::uint64_t lanes) {
-    if (lanes == 0) return;
+    if (kAllHits || lanes == 0) return;
     for (int i = 0; i < rays.count; ++i) hidden_[first_ray_ + i] |= static_cast<std::uint8_t>(lanes >> i & 1);
   }
 
@@ -230,18 +245,26 @@ class OcclusionBeam {
       if (hn::AllFalse(d, near)) continue;
 
       const beam::Roots roots = bounds.of(met, near, best, hn::Load(d, rays.s_sure + lane));
+      if constexpr (kAllHits) {
+        add_pairs(mask_bits(roots.candidate), lane, slot);
+        continue;
+      }
       const auto rest = hn::IfThenElse(roots.sure, hn::Set(d, -1.0F), best);
       hn::Store(rest, d, rays.s_best + lane);
       if (!hn::AllFalse(d, roots.sure)) {
         any = true;
         if (hn::AllTrue(d, hn::Lt(rest, hn::Zero(d)))) open_vectors_ &= ~(std::uint64_t{1} << (lane / kFloatLanes));
       }
-      for (std::uint32_t bits = mask_bits(hn::AndNot(roots.sure, roots.candidate)); bits != 0; bits &= bits - 1) {
-        const int ray = lane + __builtin_ctz(bits);
-        if (ray < rays.count) pairs_.add(first_ray_ + ray, slot);
-      }
+      add_pairs(mask_bits(hn::AndNot(roots.sure, roots.candidate)), lane, slot);
     }
     return any;
+  }
+
+  HWY_INLINE void add_pairs(std::uint32_t bits, int lane, std::uint32_t slot) {
+    for (; bits != 0; bits &= bits - 1) {
+      const int ray = lane + __builtin_ctz(bits);
+      if (ray < rays.count) pairs_.add(first_ray_ + ray, slot);
+    }
   }
 
   // Have the last occluders hidden any ray?

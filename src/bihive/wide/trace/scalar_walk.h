@@ -16,20 +16,19 @@
 
 namespace bihive {
 
-/// The same answer as traverse() in bih/traversal.h. `ray` is valid and in the tree's stored units. `left`, and
-/// not `ray`, says which sphere it leaves.
-template <bool kAnyHit>
-Hit walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left) {
-  Hit best;
-  if (tree.node_count == 0) return best;
+/// Takes the ray to spheres as walk() in bih/traversal.h does. `ray` is valid and in the tree's stored units. `left`,
+/// and not `ray`, says which sphere it leaves.
+template <class Answer>
+void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, Answer& answer) {
+  if (tree.node_count == 0) return;
   const Slabs slabs(ray);
   std::vector<std::int64_t> waiting{0};
   while (!waiting.empty()) {
     const WideNode& node = tree.nodes[waiting.back()];
     waiting.pop_back();
     for (int slot = 0; slot < node.child_count; ++slot) {
-      // Skip a child that the ray misses, or enters beyond the best hit.
-      Interval part{ray.t_min, std::min(ray.t_max, best.t)};
+      // Skip a child that the ray misses, or enters beyond the limit.
+      Interval part{ray.t_min, std::min(ray.t_max, answer.limit())};
       for (int axis = 0; axis < 3; ++axis) {
         part = slabs.above(part, axis, double(node.lo[axis][slot]));
         part = slabs.below(part, axis, double(node.hi[axis][slot]));
@@ -45,12 +44,18 @@ Hit walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left) {
         const double radius = tree.spheres.radius(i);
         ray.left_centre = centre;
         ray.left_radius = left.is(tree, i) ? radius : -1;
-        best.keep_nearer(sphere_hit(ray, centre, radius), tree.spheres.id(i));
-        if (kAnyHit && best.found()) return best;
+        if (answer.take(sphere_hit(ray, centre, radius), tree.spheres.id(i))) return;
       }
     }
   }
-  return best;
+}
+
+/// The same answer as traverse() in bih/traversal.h.
+template <bool kAnyHit>
+Hit walk_scalar(const WideTree& tree, const ScaledRay& ray, const LeftSphere& left) {
+  NearestAnswer<kAnyHit> nearest;
+  walk_scalar(tree, ray, left, nearest);
+  return nearest.best;
 }
 
 }  // namespace bihive

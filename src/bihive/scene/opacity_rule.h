@@ -1,0 +1,14 @@
+// How often a sphere takes light from a ray that it lets straight through.
+#pragma once
+
+namespace bihive {
+
+/// A sphere is passed straight if its opacity is below 1, or if its material is transmissive with index 1.
+///
+/// each_surface: the ray goes on at each of both surfaces, as a generation of its own, and either surface lets the
+/// transmissive share through; such a sphere throws a full shadow. It is Whitted's rule [Whitted1980] and the thesis's.
+/// once: both surfaces together let that share through, once, outside the count of generations; and shadow rays and
+/// rays of ambient occlusion pass with the same share. Refracting spheres let shadow rays pass straight with theirs.
+enum class OpacityRule { each_surface, once };
+
+}  // namespace bihive

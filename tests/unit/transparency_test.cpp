@@ -1,0 +1,239 @@
+// Spheres that light passes straight, under OpacityRule::once: how much gets through, in which order, and to where.
+#include "bihive/render/transparency.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "bihive/math/rng.h"
+#include "bihive/render/brute_force.h"
+#include "bihive/render/integrator.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/shading.h"
+#include "bihive/scene/generators.h"
+
+namespace bihive {
+namespace {
+
+struct Ball {
+  Vec3d centre;
+  double radius = 1;
+  float opacity = 1;
+  Vec3f glow{};  // its colour, which needs no light
+};
+
+// Seen from (0, 0, 100) towards -z. Each sphere shows its colour as it is.
+Scene scene_of(const std::vector<Ball>& balls) {
+  std::vector<double> x, y, z, r;
+  Scene scene;
+  for (const Ball& ball : balls) {
+    x.push_back(ball.centre.x);
+    y.push_back(ball.centre.y);
+    z.push_back(ball.centre.z);
+    r.push_back(ball.radius);
+  }
+  scene.spheres = SphereSet::from_world(x, y, z, r).value();
+  for (const Ball& ball : balls) {
+    scene.spheres.attributes().colour.push_back(ball.glow);
+    scene.spheres.attributes().opacity.push_back(ball.opacity);
+  }
+  Material flat;
+  flat.ambient = 1;
+  scene.materials = {flat};
+  scene.camera.eye = {0, 0, 100};
+  scene.background = {1, 1, 1};
+  scene.picture.opacity_rule = OpacityRule::once;
+  return scene;
+}
+
+Transparency parts_of(const Scene& scene) {
+  return Transparency::of(scene, scene.picture.opacity_rule, Engine::wide, 1).value();
+}
+
+Vec3d light_along(const Scene& scene, Vec3f origin, Vec3f direction, int recursion = 1) {
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+  const Transparency parts = parts_of(scene);
+  Integrator integrator(scene, tracer, recursion, true, nullptr, nullptr, &parts);
+  Ray ray;
+  ray.origin = origin;
+  ray.direction = direction;
+  return integrator.radiance(ray);
+}
+
+constexpr Vec3f kAhead{0, 0, -1};
+
+TEST(Transparency, a_sphere_takes_its_opacity_once) {
+  Scene scene = scene_of({{{0, 0, 0}, 1, 0.5F}});
+  EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead).x, 0.5);
+  // The old rule: both surfaces, and a generation each.
+  scene.picture.opacity_rule = OpacityRule::each_surface;
+  EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead, 3).x, 0.25);
+  EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead, 1).x, 0);
+}
+
+TEST(Transparency, layers_need_no_recursion) {
+  std::vector<Ball> balls;
+  for (int i = 0; i < 10; ++i) balls.push_back({{0, 0, -3.0 * i}, 1, 0.25F});
+  EXPECT_EQ(light_along(scene_of(balls), {0, 0, 10}, kAhead).x, std::pow(0.75, 10));
+}
+
+TEST(Transparency, the_nearest_layer_comes_first) {
+  const Scene scene =
+      scene_of({{{0, 0, -4}, 1, 0.25F, {0, 1, 0}}, {{0, 0, 0}, 1, 0.5F, {1, 0, 0}}, {{0, 0, -8}, 1, 1, {0, 0, 1}}});
+  const Vec3d light = light_along(scene, {0, 0, 10}, kAhead);
+  EXPECT_EQ(light.x, 0.5);
+  EXPECT_EQ(light.y, 0.5 * 0.25);
+  EXPECT_EQ(light.z, 0.5 * 0.75);
+}
+
+TEST(Transparency, full_and_no_opacity) {
+  EXPECT_EQ(light_along(scene_of({{{0, 0, 0}, 1, 1, {1, 0, 0}}}), {0, 0, 10}, kAhead).y, 0);
+  const Vec3d clear = light_along(scene_of({{{0, 0, 0}, 1, 0, {1, 0, 0}}}), {0, 0, 10}, kAhead);
+  EXPECT_EQ(clear.x, 1);
+  EXPECT_EQ(clear.y, 1);
+}
+
+TEST(Transparency, a_ray_that_starts_inside_crosses_the_sphere_on_its_way_out) {
+  const Scene scene = scene_of({{{0, 0, 0}, 2, 0.5F}, {{0, 0, -1}, 0.5, 1, {1, 1, 1}}});
+  EXPECT_EQ(light_along(scene, {0, 0, 0}, {0, 0, 1}).x, 0.5);
+  EXPECT_EQ(light_along(scene, {0, 0, 0}, kAhead).x, 1) << "it ends inside, too";
+}
+
+TEST(Transparency, shadows_and_occlusion_are_as_weak_as_the_sphere) {
+  // A place under a sphere that hides the light.
+  for (const float opacity : {0.0F, 0.25F, 0.5F, 1.0F}) {
+    Scene scene = scene_of({{{0, 3, 0}, 1, opacity}});
+    scene.plane = thesis_plane();
+    scene.plane->plane.point = {0, 0, 0};
+    scene.plane->checker.reset();
+    scene.plane->material = Material();
+    scene.plane->material.diffuse = 1;
+    scene.lights = {{{0, 100, 0}, {1, 1, 1}}};
+    EXPECT_EQ(light_along(scene, {3, 3, 0}, {-1, -1, 0}).x, 1 - double(opacity)) << opacity;
+
+    // The share that half of the directions lose.
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+    const Transparency parts = parts_of(scene);
+    Surface surface;
+    surface.origin = {0, 0, 0};
+    surface.normal = {0, 1, 0};
+    surface.id = kPlane;
+    std::int64_t rays = 0;
+    const double visibility = ambient_visibility(scene, {tracer, parts.to_light.get()}, surface,
+                                                 {{0, 1, 0}, {0, 1, 0.001F}, {1, 1, 0}, {-1, 1, 0}},
+                                                 std::numeric_limits<double>::infinity(), rays);
+    EXPECT_EQ(visibility, (2 + 2 * (1 - double(opacity))) / 4) << opacity;
+  }
+}
+
+TEST(Transparency, light_passes_glass_with_its_transmission) {
+  Scene scene = scene_of({{{0, 3, 0}, 1}});
+  scene.materials[0].transmissive = 0.75;
+  scene.materials[0].refraction_index = 1.5;
+  scene.plane = thesis_plane();
+  scene.plane->plane.point = {0, 0, 0};
+  scene.plane->checker.reset();
+  scene.plane->material = Material();
+  scene.plane->material.diffuse = 1;
+  scene.lights = {{{0, 100, 0}, {1, 1, 1}}};
+  EXPECT_EQ(parts_of(scene).to_eye, nullptr);
+  EXPECT_EQ(light_along(scene, {3, 3, 0}, {-1, -1, 0}).x, 0.75);
+  scene.picture.opacity_rule = OpacityRule::each_surface;
+  EXPECT_EQ(light_along(scene, {3, 3, 0}, {-1, -1, 0}).x, 0);
+}
+
+TEST(Transparency, nothing_is_divided_where_all_is_opaque) {
+  const Scene scene = scene_of({{{0, 0, 0}}});
+  EXPECT_EQ(parts_of(scene).to_eye, nullptr);
+  EXPECT_EQ(parts_of(scene).to_light, nullptr);
+}
+
+TEST(Transparency, a_ray_leaves_all_spheres_that_are_equal) {
+  // Both are one surface: a ray from the opaque one does not cross the transparent one.
+  const Scene scene = scene_of({{{0, 0, 0}, 1, 1}, {{0, 0, 0}, 1, 0.5F}, {{0, 0, 0}, 1, 1}});
+  const Transparency parts = parts_of(scene);
+  SplitMix64 random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d outward =
+        normalized(Vec3d{random.next_double() - 0.5, random.next_double() - 0.5, random.next_double() - 0.5});
+    Ray ray;
+    ray.origin = to_float(outward);
+    ray.direction = to_float(outward + 0.5 * Vec3d{outward.y, outward.z, outward.x});
+    for (ray.leaves = 0; ray.leaves < 3; ++ray.leaves) EXPECT_EQ(parts.to_eye->share(ray), 1.0);
+  }
+}
+
+// Against the definition, sphere by sphere, on hostile sets: touching, nested, equal, of no radius.
+TEST(Transparency, crossings_are_those_of_all_spheres) {
+  SplitMix64 random(11);
+  for (int round = 0; round < 40; ++round) {
+    const int count = 1 + static_cast<int>(random.next() % 200);
+    const double unit = std::pow(10.0, static_cast<double>(random.next() % 9) * 5 - 20);
+    std::vector<double> x, y, z, r, passing;
+    for (int i = 0; i < count; ++i) {
+      x.push_back(unit * static_cast<double>(random.next() % 5));
+      y.push_back(unit * static_cast<double>(random.next() % 5));
+      z.push_back(unit * random.next_double() * 5);
+      r.push_back(unit * 0.25 * static_cast<double>(random.next() % 5));
+      passing.push_back(random.next() % 3 == 0 ? 0 : random.next_double());
+    }
+    const SphereSet spheres = SphereSet::from_world(x, y, z, r).value();
+    const auto divided = TransparentSpheres::divide(spheres, passing, Engine::wide, 1).value();
+    for (int k = 0; k < 200; ++k) {
+      Ray ray;
+      ray.origin = to_float(unit * Vec3d{5 * random.next_double(), 2, 5 * random.next_double()});
+      ray.direction = {float(random.next() % 3) - 1, float(random.next() % 3) - 1, 1};
+      if (k % 3 == 0) ray.t_max = unit * 3 * random.next_double();
+      if (k % 4 == 0) {
+        ray.leaves = static_cast<std::int64_t>(random.next() % static_cast<unsigned>(count));
+        ray.inside = k % 8 == 0;
+      }
+      const ScaledRay scaled(ray, spheres);
+      std::vector<Crossing> expected;
+      Hit opaque;
+      for (std::int64_t id = 0; id < count; ++id) {
+        const double t = sphere_hit(scaled, spheres.stored_centre(id), spheres.stored_radius(id));
+        if (passing[static_cast<std::size_t>(id)] == 0)
+          opaque.keep_nearer(t, id);
+        else if (t < std::numeric_limits<double>::infinity())
+          expected.push_back({t, id});
+      }
+      std::sort(expected.begin(), expected.end(),
+                [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.id < b.id; });
+      std::vector<Crossing> found;
+      divided->find_crossings(ray, found);
+      ASSERT_EQ(found.size(), expected.size());
+      double share = opaque.found() ? 0 : 1;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].t, expected[i].t);
+        EXPECT_EQ(found[i].id, expected[i].id);
+        share = share * divided->passing(found[i].id);
+      }
+      EXPECT_EQ(divided->share(ray), share);
+      EXPECT_EQ(divided->closest_opaque(ray).sphere_id, opaque.sphere_id);
+      EXPECT_EQ(divided->closest_opaque(ray).t, opaque.t);
+    }
+  }
+}
+
+TEST(Transparency, a_transparent_picture_shows_what_gets_through) {
+  // Two layers before nothing, and one before an opaque sphere.
+  Scene scene = scene_of({{{0, 0, 0}, 50, 0.5F, {1, 0, 0}}, {{0, 0, -200}, 80, 0.5F, {0, 1, 0}}});
+  scene.background = {0.1, 0.2, 0.3};
+  scene.camera.fov_deg = 1;
+  RenderSettings settings = settings_from(scene.picture);
+  settings.width_px = settings.height_px = 1;
+  settings.transparent = true;
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+  const Film film = render(scene, tracer, settings).value().film;
+  EXPECT_EQ(film.coverage[0], 0.75F);
+  EXPECT_FLOAT_EQ(film.radiance[0].x, static_cast<float>(0.5 / 0.75));
+  EXPECT_FLOAT_EQ(film.radiance[0].y, static_cast<float>(0.25 / 0.75));
+  EXPECT_EQ(film.radiance[0].z, 0);
+}
+
+}  // namespace
+}  // namespace bihive
