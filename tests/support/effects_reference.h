@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tracer.h"
@@ -39,7 +40,8 @@ class EffectsReference {
       const double pixel = length(pixels_.right()) * (pixels_.parallel() ? 1 : here.depth);
       const double widths = scene_.spheres.radius(here.id) / (pixel * settings_.outline->width_px);
       const auto line = static_cast<double>(static_cast<float>(std::clamp((widths - 2) / 4, 0.0, 1.0)));
-      if (line > 0) light = (1 - line) * light + line * settings_.outline->colour;
+      const double seen_of_line = line * passing(x, y, lens);
+      if (line > 0) light = (1 - seen_of_line) * light + seen_of_line * settings_.outline->colour;
     }
     if (!settings_.fog || here.id == kNothing) return light;
     const Fog& fog = *settings_.fog;
@@ -47,10 +49,24 @@ class EffectsReference {
     const double grown = std::clamp((share - fog.start) / (fog.end - fog.start), 0.0, 1.0);
     const auto hidden = static_cast<double>(static_cast<float>(fog.strength * grown));
     if (hidden == 0) return light;
-    return (1 - hidden) * light + hidden * scene_.background;
+    const double seen_of_fog = hidden * passing(x, y, lens);
+    return (1 - seen_of_fog) * light + seen_of_fog * scene_.background;
   }
 
  private:
+  // What all transparent spheres before the surface let through.
+  double passing(double x, double y, LensPlace lens) const {
+    if (transparent_ == nullptr) return 1;
+    const Ray ray = pixels_.at(x, y, lens);
+    const SceneHit end = scene_hit(scene_, transparent_->closest_opaque(ray), ray);
+    std::vector<Crossing> crossings;
+    transparent_->find_crossings(ray, crossings);
+    double share = 1;
+    for (const Crossing& crossing : crossings)
+      if (crossing.t < end.t) share = share * transparent_->passing(crossing.id);
+    return share;
+  }
+
   struct Seen {
     double depth;
     std::int64_t id;

@@ -124,17 +124,17 @@ double AfterEffects::fog_at(double depth) const {
 }
 
 Vec3d AfterEffects::applied(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample,
-                            Vec3d light) const {
+                            Vec3d light, double passing) const {
   const std::int64_t width = tile.x1 - tile.x0;
   const std::size_t pixel = static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0));
   const std::size_t samples = buffers.effects.size() / static_cast<std::size_t>(width * (tile.y1 - tile.y0));
   const SampleEffect& effect = buffers.effects[pixel * samples + static_cast<std::size_t>(sample)];
   if (effect.outline > 0) {
-    const double line = double(effect.outline);
+    const double line = double(effect.outline) * passing;
     light = (1 - line) * light + line * outline_->colour;
   }
   if (effect.fog > 0) {
-    const double fog = double(effect.fog);
+    const double fog = double(effect.fog) * passing;
     light = (1 - fog) * light + fog * scene_.background;
   }
   return light;

@@ -42,8 +42,10 @@ class AfterEffects {
   void find(const Tile& tile, const std::vector<CameraSample>& samples, const CancelToken* cancel,
             EffectBuffers& buffers) const;
 
-  /// The light of sample `sample` of a pixel of the tile of the last find().
-  Vec3d applied(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample, Vec3d light) const;
+  /// The light of sample `sample` of a pixel of the tile of the last find(). `passing`: the share of light that passes
+  /// what is transparent before the surface to which outline and fog belong.
+  Vec3d applied(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample, Vec3d light,
+                double passing = 1) const;
 
  private:
   void find_depths(const Tile& grown, const CameraSample& sample, const CancelToken* cancel,

@@ -279,7 +279,8 @@ class Renderer {
         const PixelPlace& pixel = pixels[static_cast<std::size_t>((first + i) / samples)];
         if (!settings_.transparent || hits_something(buffers, integrator, i)) {
           Vec3d value = sample_value(buffers, integrator, i);
-          if (effects_.any()) value = effects_.applied(tile, effects, pixel.x, pixel.y, sum.samples, value);
+          if (effects_.any())
+            value = effects_.applied(tile, effects, pixel.x, pixel.y, sum.samples, value, integrator.passing(i));
           sum.light = sum.light + value;
           sum.covered += settings_.transparent ? integrator.coverage(i) : 1;
           if (notes_edges) sum.range.add(value);

@@ -32,7 +32,7 @@ std::vector<CameraSample> camera_samples(int n) {
     const auto j = static_cast<int>(std::int64_t{i} * step % n);
     const double radius = n == 1 ? 0 : std::sqrt((j + 0.5) / n);
     const double turns = j * kGolden;
-    const Turn turn = turn_by(turns - std::floor(turns));
+    const Rotation turn = turn_by(turns - std::floor(turns));
     samples.push_back({sample_place(i, n), {radius * turn.cosine, radius * turn.sine}});
   }
   return samples;

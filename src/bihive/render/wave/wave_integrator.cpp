@@ -32,6 +32,7 @@ void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners, std::int64
   buffers.sums.reset(owners);
   buffers.crossings.resize(std::max(buffers.crossings.size(), buffers.generations.size()));
   if (settings_.depth) deepest_hit_.assign(static_cast<std::size_t>(owners), 0);
+  passing_.clear();
   coverage_.clear();
   Wave& first = primaries(buffers);
   rays_.primary += first.count;
@@ -96,6 +97,7 @@ void WaveIntegrator::trace_layers(const WavePart& rays, int depth, WaveBuffers& 
   if (buffers.sums.empty) {
     for (int channel = 0; channel < 3; ++channel) std::fill_n(buffers.sums.light[channel].data(), rays.count(), 0.0);
     buffers.sums.empty = false;
+    passing_.assign(static_cast<std::size_t>(rays.count()), 1.0);
     if (settings_.without_background) coverage_.assign(static_cast<std::size_t>(rays.count()), 1.0);
   }
   const auto owner = [&](std::int64_t i) {
@@ -151,6 +153,7 @@ void WaveIntegrator::put_layers(const WavePart& rays, const CrossingBuffers& fou
       add(found.crossings[c].t, found.crossings[c].sphere_id);
       weight = weight * to_eye()->passing(found.crossings[c].sphere_id);
     }
+    if (depth == 1 && !passing_.empty()) passing_[static_cast<std::size_t>(from)] = weight;
     // The background behind what a primary ray crosses is left out where the picture gets opacity instead.
     const std::int64_t end_id = found.end_id[static_cast<std::size_t>(k)];
     const bool crosses = found.first[static_cast<std::size_t>(k)] < found.first[static_cast<std::size_t>(k) + 1];

@@ -86,9 +86,14 @@ class WaveIntegrator {
 
   /// For each owner: the deepest generation with a ray that hit something in the last trace().
   const std::vector<std::uint8_t>& deepest_hit() const { return deepest_hit_; }
-  /// For each owner of the last trace(): the share of the picture that its light covers. Less than 1 only
-  /// without_background and where nothing but transparent spheres stands before it.
-  double coverage(std::int64_t owner) const { return coverage_.empty() ? 1 : coverage_[std::size_t(owner)]; }
+  /// For each owner of the last trace(): the share of light that passes all transparent spheres before the opaque one,
+  /// the plane or the background.
+  double passing(std::int64_t owner) const { return passing_.empty() ? 1 : passing_[static_cast<std::size_t>(owner)]; }
+  /// The share of the picture that the owner's light covers: less than 1 only without_background, and where nothing but
+  /// transparent spheres stands before it.
+  double coverage(std::int64_t owner) const {
+    return coverage_.empty() ? 1 : coverage_[static_cast<std::size_t>(owner)];
+  }
   const RenderCounts& rays() const { return rays_; }
 
  private:
@@ -123,7 +128,7 @@ class WaveIntegrator {
   RenderCounts rays_;
   std::int64_t first_sample_ = 0;
   std::vector<std::uint8_t> deepest_hit_;
-  std::vector<double> coverage_;  // empty: 1 of all
+  std::vector<double> passing_, coverage_;  // empty: 1 of all
 };
 
 }  // namespace bihive
