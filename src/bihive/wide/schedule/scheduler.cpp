@@ -7,7 +7,7 @@
 //                  any:    to one light? in that order: beams -> the remaining ones: lists
 //                          else scattered? in the order of cells: lists
 //                          else lists
-//   all hits       beams -> the remaining ones: the scalar walk
+//   all hits       beams -> the remaining ones, by the sphere that they leave: beams -> the rest: the scalar walk
 //
 // Lists answer all rays that beams do not take at all (beams_take()).
 #include <algorithm>
@@ -214,14 +214,34 @@ void all_hits_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, 
   walk_scalar(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves), of_ray);
 }
 
+// Rays that are no neighbours may still leave the same spheres, as the surfaces of many layers do: in this order beams
+// take most of them.
+void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const RemainingRays& which,
+                             std::vector<RayHit>& hits) {
+  ReorderedBatch& batch = memory_of_this_thread().sorted;
+  std::vector<std::uint32_t>& order = batch.order();
+  order.clear();
+  for (const RemainingRays::Run& run : which.runs())
+    for (std::int64_t i = run.first; i < run.first + run.count; ++i) order.push_back(static_cast<std::uint32_t>(i));
+  if (rays.leaves != nullptr)
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return rays.leaves[a] < rays.leaves[b]; });
+  batch.gather(rays);
+  const std::size_t known = hits.size();
+  const RemainingRays remaining = all_hits_by_beams(tree, batch.rays(), hits);
+  for (std::size_t i = known; i < hits.size(); ++i) hits[i].ray = order[static_cast<std::size_t>(hits[i].ray)];
+  for (const RemainingRays::Run& run : remaining.runs())
+    for (std::int64_t i = run.first; i < run.first + run.count; ++i)
+      all_hits_of_ray(tree, rays, order[static_cast<std::size_t>(i)], hits);
+}
+
 void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) {
   if (!beams_take(tree, rays)) {
     for (std::int64_t i = 0; i < rays.count; ++i) all_hits_of_ray(tree, rays, i, hits);
     return;
   }
   const RemainingRays remaining = all_hits_by_beams(tree, rays, hits);
-  for (const RemainingRays::Run& run : remaining.runs())
-    for (std::int64_t i = run.first; i < run.first + run.count; ++i) all_hits_of_ray(tree, rays, i, hits);
+  if (remaining.count() > 0) all_hits_by_left_sphere(tree, rays, remaining, hits);
 }
 
 // By ray, by counting; then the few hits of each ray by t and id.
