@@ -228,7 +228,7 @@ void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const Re
                      [&](std::uint32_t a, std::uint32_t b) { return rays.leaves[a] < rays.leaves[b]; });
   batch.gather(rays);
   const std::size_t known = hits.size();
-  const RemainingRays remaining = all_hits_by_beams(tree, batch.rays(), hits);
+  const RemainingRays remaining = all_hits_by_beams(tree, batch.rays(), true, hits);
   for (std::size_t i = known; i < hits.size(); ++i) hits[i].ray = order[static_cast<std::size_t>(hits[i].ray)];
   for (const RemainingRays::Run& run : remaining.runs())
     for (std::int64_t i = run.first; i < run.first + run.count; ++i)
@@ -240,7 +240,7 @@ void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vecto
     for (std::int64_t i = 0; i < rays.count; ++i) all_hits_of_ray(tree, rays, i, hits);
     return;
   }
-  const RemainingRays remaining = all_hits_by_beams(tree, rays, hits);
+  const RemainingRays remaining = all_hits_by_beams(tree, rays, false, hits);
   if (remaining.count() > 0) all_hits_by_left_sphere(tree, rays, remaining, hits);
 }
 

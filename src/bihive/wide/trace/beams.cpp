@@ -85,9 +85,10 @@ RemainingRays occluded_by_beams_on_target(const WideTree& tree, const RaySpan& r
   return remaining;
 }
 
-RemainingRays all_hits_by_beams_on_target(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found) {
+RemainingRays all_hits_by_beams_on_target(const WideTree& tree, const RaySpan& rays, bool sorted,
+                                          std::vector<RayHit>& found) {
   RemainingRays remaining;
-  OcclusionBeam<true> beam(tree, rays, false, nullptr, &found);
+  OcclusionBeam<true> beam(tree, rays, sorted, nullptr, &found);
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays)
     occluded_block(tree, rays, first, beam, remaining);
   beam.decide();
@@ -136,9 +137,9 @@ RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::
   return HWY_DYNAMIC_DISPATCH(occluded_by_beams_on_target)(tree, rays, hidden);
 }
 
-RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found) {
+RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, std::vector<RayHit>& found) {
   ensure_target();
-  return HWY_DYNAMIC_DISPATCH(all_hits_by_beams_on_target)(tree, rays, found);
+  return HWY_DYNAMIC_DISPATCH(all_hits_by_beams_on_target)(tree, rays, sorted, found);
 }
 
 SortedBeams occluded_by_sorted_beams(const WideTree& tree, const RaySpan& rays, const BlockChoice& blocks,

@@ -61,7 +61,8 @@ class Occluders {
 template <bool kAllHits>
 class OcclusionBeam {
  public:
-  /// sorted: neighbours may start on any surfaces. `hidden`: for any hit. `found`: for all hits, in no order.
+  /// sorted: neighbours may start on any surfaces; for all hits, every ray is answered, if need be alone. `hidden`: for
+  /// any hit. `found`: for all hits, in no order.
   OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, std::uint8_t* hidden,
                 std::vector<RayHit>* found = nullptr)
       : tree_(tree),
@@ -113,7 +114,7 @@ class OcclusionBeam {
       if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return note_hidden(done_lanes());
     }
     if (frustum.width > width_limit_) {
-      if (leave_spheres_ && !sorted_) {
+      if (leave_spheres_ && (kAllHits || !sorted_)) {
         trace_groups(remaining);
       } else {
         trace_runs(remaining);
@@ -131,6 +132,8 @@ class OcclusionBeam {
       if (done<kRunRays>(begin) || !make_frustum<kRunRays>(tree_, rays, begin, frustum)) continue;
       if (frustum.width <= run_width_limit_) {
         trace<kRunRays>(begin, frustum);
+      } else if (kAllHits && sorted_) {
+        trace_alone(open_lanes() & ((std::uint64_t{1} << kRunRays) - 1) << begin);
       } else {
         remaining.add(first_ray_ + begin, std::min(kRunRays, rays.count - begin));
       }
@@ -158,10 +161,14 @@ class OcclusionBeam {
         group |= std::uint64_t{mask_bits(in_group)} << lane;
       }
       find_open_vectors();
-      const bool small = __builtin_popcountll(group) < kFewestOfGroup;
+      const bool small = !(kAllHits && sorted_) && __builtin_popcountll(group) < kFewestOfGroup;
       if (small && ++small_groups == kMostSmallGroups) group = pending;
       Frustum frustum;
       if (small || !make_frustum<kBeamRays>(tree_, rays, 0, frustum) || frustum.width > run_width_limit_) {
+        if (kAllHits && sorted_) {
+          trace_alone(group);
+          continue;
+        }
         for (std::uint64_t bits = group; bits != 0; bits &= bits - 1) {
           const int ray = __builtin_ctzll(bits);
           if (ray < rays.count) remaining.add(first_ray_ + ray, 1);
@@ -172,6 +179,22 @@ class OcclusionBeam {
       hidden |= group & done_lanes();
     }
     note_hidden(hidden);
+  }
+
+  // Traces these rays one by one; all rays are as before afterwards.
+  HWY_INLINE void trace_alone(std::uint64_t lanes) {
+    alignas(64) float segment[kBeamRays];
+    std::copy_n(rays.s_best, kBeamRays, segment);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int ray = __builtin_ctzll(lanes);
+      std::fill_n(rays.s_best, kBeamRays, -1.0F);
+      rays.s_best[ray] = segment[ray];
+      find_open_vectors();
+      Frustum frustum;
+      if (make_frustum<kBeamRays>(tree_, rays, 0, frustum)) trace<kBeamRays>(0, frustum);
+    }
+    std::copy_n(segment, kBeamRays, rays.s_best);
+    find_open_vectors();
   }
 
   const WideTree& tree_;
@@ -195,6 +218,8 @@ class OcclusionBeam {
       bits |= std::uint64_t{mask_bits(hn::Lt(hn::Load(d, rays.s_best + lane), hn::Zero(d)))} << lane;
     return bits;
   }
+
+  HWY_INLINE std::uint64_t open_lanes() const { return ~done_lanes(); }
 
   HWY_INLINE void note_hidden(std::uint64_t lanes) {
     if (kAllHits || lanes == 0) return;
