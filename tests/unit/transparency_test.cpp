@@ -80,6 +80,37 @@ TEST(Transparency, layers_need_no_recursion) {
   EXPECT_EQ(light_along(scene_of(balls), {0, 0, 10}, kAhead).x, std::pow(0.75, 10));
 }
 
+TEST(Transparency, faint_rays_are_not_followed) {
+  // A mirror before the eye shows the white background, and nothing else is seen.
+  for (const double reflective : {kFaintestRay, std::nextafter(kFaintestRay, 0.0)}) {
+    for (const float opacity_of_another : {0.5F, 1.0F}) {
+      Scene scene = scene_of({{{0, 0, 0}, 1}, {{50, 0, 0}, 1, opacity_of_another}});
+      scene.materials[0].ambient = 0;
+      scene.materials[0].reflective = reflective;
+      const bool followed = reflective == kFaintestRay || opacity_of_another == 1;
+      EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead, 2).x, followed ? reflective : 0);
+    }
+  }
+}
+
+TEST(Transparency, mirrors_in_layers_send_few_rays) {
+  // Sixteen layers, and as many before each mirrored ray: 16 to the power of the generation, if all were followed.
+  std::vector<Ball> balls;
+  for (int i = 0; i < 16; ++i) balls.push_back({{0, 0, -3.0 * i}, 1, 0.5F});
+  for (int i = 0; i < 16; ++i) balls.push_back({{0, 0, 20 + 3.0 * i}, 1, 0.5F});
+  Scene scene = scene_of(balls);
+  scene.materials[0].reflective = 0.12;
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+  const Transparency parts = parts_of(scene);
+  Integrator integrator(scene, tracer, 8, true, nullptr, nullptr, &parts);
+  Ray ray;
+  ray.origin = {0, 0, 10};
+  ray.direction = kAhead;
+  integrator.radiance(ray);
+  EXPECT_GT(integrator.rays().reflected, 4);
+  EXPECT_LT(integrator.rays().reflected, 64);
+}
+
 TEST(Transparency, the_nearest_layer_comes_first) {
   const Scene scene =
       scene_of({{{0, 0, -4}, 1, 0.25F, {0, 1, 0}}, {{0, 0, 0}, 1, 0.5F, {1, 0, 0}}, {{0, 0, -8}, 1, 1, {0, 0, 1}}});

@@ -50,16 +50,18 @@ Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
       const std::vector<Vec3d>* points = light_points_ != nullptr ? &light_points_->of_sample(sample) : nullptr;
       sum = sum + item.weight * local_light(scene_, paths_, surface, shadows_, points, visibility, rays_.shadow);
 
-      // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray.
+      // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray, nor does a faint one.
       if (depth == recursion_) continue;
-      if (surface.material.reflective != 0) {
+      const double reflected = item.weight * surface.material.reflective;
+      if (surface.material.reflective != 0 && is_followed(reflected)) {
         ++rays_.reflected;
-        next_.push_back({reflected_ray(surface), item.weight * surface.material.reflective});
+        next_.push_back({reflected_ray(surface), reflected});
       }
       if (to_eye_ != nullptr && to_eye_->is_transparent(surface.id)) continue;
-      if (surface.material.transmissive != 0) {
+      const double transmitted = item.weight * surface.material.transmissive;
+      if (surface.material.transmissive != 0 && is_followed(transmitted)) {
         ++rays_.transmitted;
-        next_.push_back({transmitted_ray(surface), item.weight * surface.material.transmissive});
+        next_.push_back({transmitted_ray(surface), transmitted});
       }
     }
     std::swap(generation_, next_);

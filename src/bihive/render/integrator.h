@@ -56,6 +56,7 @@ class Integrator {
   };
 
   void find_hits(std::size_t ray, Vec3d& sum);
+  bool is_followed(double weight) const { return to_eye_ == nullptr || weight >= kFaintestRay; }
 
   const Scene& scene_;
   const Tracer& tracer_;

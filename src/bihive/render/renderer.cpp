@@ -74,7 +74,7 @@ class Renderer {
         film_(std::move(film)),
         rays_(scene.camera, settings.width_px, settings.height_px),
         transparency_(std::move(transparency)),
-        wave_scene_(scene, settings.opacity_rule),
+        wave_scene_(scene, transparency_.to_eye ? OpacityRule::once : OpacityRule::each_surface),
         effects_(scene, wave_scene_, tracer, settings, rays_, &transparency_),
         drawn_(pixels_to_draw(settings)),
         tiles_(tiles_of(drawn_, tile_px(tracer, settings))),

@@ -127,10 +127,22 @@ void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t
   opaque_.tracer->occluded(opaque_.rays_here(rays, leaves), order, hidden);
 }
 
-void TransparentSpheres::find_crossings(const RaySpan& rays, std::vector<RayHit>& found) const {
+void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
   if (const WideTree* tree = transparent_.tracer->wide_tree()) {
+    // Most rays cross nothing, and that is quickly known. They get an end before their start.
     static thread_local std::vector<std::int64_t> leaves;
-    all_hits(*tree, transparent_.rays_here(rays, leaves), found);
+    static thread_local std::vector<std::uint8_t> crosses;
+    static thread_local std::vector<double> ends;
+    RaySpan here = transparent_.rays_here(rays, leaves);
+    crosses.resize(static_cast<std::size_t>(rays.count));
+    transparent_.tracer->occluded(here, order, crosses.data());
+    ends.resize(static_cast<std::size_t>(rays.count));
+    for (std::int64_t i = 0; i < rays.count; ++i) {
+      const double end = rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<double>::infinity();
+      ends[static_cast<std::size_t>(i)] = crosses[static_cast<std::size_t>(i)] != 0 ? end : -1;
+    }
+    here.t_max = ends.data();
+    all_hits(*tree, here, found);
     for (RayHit& hit : found) hit.sphere_id = transparent_.ids[static_cast<std::size_t>(hit.sphere_id)];
     return;
   }

@@ -50,7 +50,7 @@ class TransparentSpheres {
   /// behind an opaque sphere.
   void closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
   void hides(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
-  void find_crossings(const RaySpan& rays, std::vector<RayHit>& found) const;
+  void find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
  private:
   // One part of the set, with its own ids.

@@ -11,4 +11,9 @@ namespace bihive {
 /// rays of ambient occlusion pass with the same share. Refracting spheres let shadow rays pass straight with theirs.
 enum class OpacityRule { each_surface, once };
 
+/// Rays cross layers in every generation, so their number would be a power of the number of layers. Hence, in a scene
+/// where a sphere is passed straight once, a reflected or refracted ray that carries less of a primary ray's light than
+/// this is not followed: less than 1/8 of a step of an 8-bit picture in linear light.
+constexpr double kFaintestRay = 1.0 / 2048;
+
 }  // namespace bihive

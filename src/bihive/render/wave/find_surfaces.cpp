@@ -88,7 +88,8 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
     : scene(&drawn),
       inverse_scale(drawn.spheres.inverse_scale()),
       materials(drawn.materials),
-      passes_apart(rule == OpacityRule::once) {
+      passes_apart(rule == OpacityRule::once),
+      faintest_ray(passes_apart ? kFaintestRay : 0) {
   for (Material& material : materials)
     if (passes_apart && is_passed_straight(material)) material.transmissive = 0;
   const SphereAttributes& attributes = drawn.spheres.attributes();

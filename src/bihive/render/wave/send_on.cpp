@@ -84,26 +84,32 @@ steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surf
   const LongTag w;
   steps::SentOn sent;
   for (std::int64_t i = first; i < surfaces.count; i += kLanes) {
-    // A share of exactly 0 makes no ray.
+    // A share of exactly 0 makes no ray, nor does a faint one.
     const LaneMask there = first_lanes(surfaces.count - i);
     const Longs id = load(surfaces.id, i);
     const Longs material_inside = load(surfaces.material_inside, i);
     const MaterialLanes material = materials_of(scene, there, material_inside, id);
-    const LaneMask reflects = hn::And(there, hn::Ne(material.reflective, all(0)));
-    const LaneMask transmits = hn::And(there, hn::Ne(material.transmissive, all(0)));
+    const Lanes weight = load(surfaces.weight, i);
+    const Lanes reflected_weight = hn::Mul(weight, material.reflective);
+    const Lanes transmitted_weight = hn::Mul(weight, material.transmissive);
+    LaneMask reflects = hn::And(there, hn::Ne(material.reflective, all(0)));
+    LaneMask transmits = hn::And(there, hn::Ne(material.transmissive, all(0)));
+    if (scene.faintest_ray > 0) {
+      reflects = hn::And(reflects, hn::Ge(reflected_weight, all(scene.faintest_ray)));
+      transmits = hn::And(transmits, hn::Ge(transmitted_weight, all(scene.faintest_ray)));
+    }
     const LaneMask sends = hn::Or(reflects, transmits);
     if (none(sends)) continue;
 
     const Lanes3 incoming = load(surfaces.incoming, i);
     const Lanes3 normal = load(surfaces.normal, i);
-    const Lanes weight = load(surfaces.weight, i);
     const Longs inside = hn::And(material_inside, hn::Set(w, 1));
     const Lanes3 mirrored = subtract(incoming, multiply(hn::Mul(all(2), dot(incoming, normal)), normal));
-    SentLanes ray{mirrored, hn::Mul(weight, material.reflective), inside};
+    SentLanes ray{mirrored, reflected_weight, inside};
     if (!none(transmits)) {
       const LaneMask on_plane = lanes_of(hn::Eq(id, hn::Set(w, kPlane)));
       SentLanes through = transmitted(material, incoming, normal, on_plane, ray);
-      through.weight = hn::Mul(weight, material.transmissive);
+      through.weight = transmitted_weight;
       sent.transmitted += static_cast<std::int64_t>(hn::CountTrue(Tag(), transmits));
       sent.reflected += static_cast<std::int64_t>(hn::CountTrue(Tag(), reflects));
       if (!none(hn::And(reflects, transmits))) {

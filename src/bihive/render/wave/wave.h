@@ -31,9 +31,11 @@ struct WaveScene {
   bool has_effects = false;     ///< some material has bands, a tint or a glow
   /// What is passed straight sends no ray on: OpacityRule::once. Such materials have a transmissive share of 0 here.
   bool passes_apart = false;
+  double faintest_ray = 0;          ///< rays with less weight are not sent on: kFaintestRay with OpacityRule::once
   std::int64_t plane_material = 0;  ///< the plane's first
   PlaneAxes axes{};                 ///< of the plane, if it has a checker
 
+  /// rule: each_surface where no sphere is passed straight.
   explicit WaveScene(const Scene& drawn, OpacityRule rule = OpacityRule::each_surface);
 };
 

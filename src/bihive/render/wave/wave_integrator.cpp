@@ -15,6 +15,10 @@ constexpr std::int64_t kRaysBetweenLooks = 64;
 // of the next part.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
 
+RayOrder order_of(const WavePart& rays) {
+  return rays.wave->starts_at_eye ? RayOrder::blocks : RayOrder::any;
+}
+
 // The end of a part of a wave from `first` on, before `last`: after `most` rays, or a few more until the last owner's
 // rays end.
 std::int64_t end_of_part(const Wave& wave, std::int64_t first, std::int64_t last, std::int64_t most) {
@@ -49,7 +53,7 @@ void WaveIntegrator::find_first_hits(WaveBuffers& buffers) {
 void WaveIntegrator::find_sphere_hits(const WavePart& rays, WaveBuffers& buffers) const {
   buffers.t.reserve(rays.count());
   buffers.id.reserve(rays.count());
-  const RayOrder order = rays.wave->starts_at_eye ? RayOrder::blocks : RayOrder::any;
+  const RayOrder order = order_of(rays);
   const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count() : kRaysBetweenLooks;
   for (std::int64_t i = 0; i < rays.count() && !cancelled(); i += step) {
     const RaySpan some = rays.span().part(i, std::min(step, rays.count() - i));
@@ -76,7 +80,7 @@ bool WaveIntegrator::find_crossings(const WavePart& rays, int depth, WaveBuffers
   const auto count = static_cast<std::size_t>(rays.count());
   RaySpan span = rays.span();
   span.t_max = buffers.t.data();
-  to_eye()->find_crossings(span, found.crossings);
+  to_eye()->find_crossings(span, order_of(rays), found.crossings);
   if (found.crossings.empty()) return false;
 
   found.end.assign(buffers.t.data(), buffers.t.data() + count);
@@ -342,7 +346,7 @@ void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uin
   }
   RaySpan open = rays;
   open.t_max = ends.data();
-  to_light()->find_crossings(open, crossings);
+  to_light()->find_crossings(open, order, crossings);
   std::fill_n(share, rays.count, 1.0);
   for (const RayHit& hit : crossings) share[hit.ray] = share[hit.ray] * to_light()->passing(hit.sphere_id);
   for (std::int64_t i = 0; i < rays.count; ++i)

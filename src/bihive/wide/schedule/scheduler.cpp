@@ -214,6 +214,11 @@ void all_hits_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, 
   walk_scalar(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves), of_ray);
 }
 
+// Nothing lies between the start and the end of the ray.
+bool is_empty(const RaySpan& rays, std::int64_t i) {
+  return rays.t_max != nullptr && rays.t_max[i] < (rays.t_min != nullptr ? rays.t_min[i] : 0);
+}
+
 // Rays that are no neighbours may still leave the same spheres, as the surfaces of many layers do: in this order beams
 // take most of them.
 void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const RemainingRays& which,
@@ -222,7 +227,9 @@ void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const Re
   std::vector<std::uint32_t>& order = batch.order();
   order.clear();
   for (const RemainingRays::Run& run : which.runs())
-    for (std::int64_t i = run.first; i < run.first + run.count; ++i) order.push_back(static_cast<std::uint32_t>(i));
+    for (std::int64_t i = run.first; i < run.first + run.count; ++i)
+      if (!is_empty(rays, i)) order.push_back(static_cast<std::uint32_t>(i));
+  if (order.empty()) return;
   if (rays.leaves != nullptr)
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return rays.leaves[a] < rays.leaves[b]; });
