@@ -57,6 +57,16 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Target& target, 
                    [&names](const std::string& text) { return choice_from(text, names); });
 }
 
+// An option that may occur again: `take` gets each text, in the order of the command line.
+template <class Take>
+void add_repeatable(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
+                    Take take) {
+  const auto taken = [name, take](const std::string& text) {
+    if (const Status status = take(text); !status) throw CLI::ValidationError(name, status.error().to_string());
+  };
+  app.add_option_function<std::string>(name, taken, help)->type_name(type)->trigger_on_parse();
+}
+
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& target, const std::string& help) {
   return app.add_option(name, target, help)->type_name("FILE")->required();
 }
@@ -124,7 +134,11 @@ void add_ambient_occlusion(CLI::App& app, AmbientOptions& ambient) {
 void add_style_options(CLI::App& app, StyleOptions& look) {
   add_value(app, "--style", look.name, "NAME|FILE", "The look: see bihive styles (files: default)",
             [](const std::string& text) -> Result<std::string> { return text; });
-  add_choice(app, "--light", look.lights, light_presets(), "The lights around the camera (the style's)");
+  add_repeatable(app, "--light", "PRESET|SPEC",
+                 "The lights (the style's or the scene's): " + list_of(light_presets()) +
+                     ",\nfrom:RIGHT,UP,TOWARDS[:COLOUR[:STRENGTH[:DEG]]] around the camera, or\n"
+                     "at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]] in the world; repeatable",
+                 [&look](const std::string& text) { return add_light(text, look.lights); });
   add_ambient_occlusion(app, look.ambient);
   add_integer(app, "--light-points", look.light_points, 1, kMostLightPoints,
               "Soft shadows: points of each light, a sample (the style's)");
@@ -157,10 +171,7 @@ void add_labels(CLI::App& app, LabelOptions& labels) {
 // Options whose order matters: each is taken when the command line reaches it, and may occur again.
 void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
   const auto add = [&app](const std::string& name, const std::string& type, const std::string& help, auto take) {
-    const auto taken = [name, take](const std::string& text) {
-      if (const Status status = take(text); !status) throw CLI::ValidationError(name, status.error().to_string());
-    };
-    app.add_option_function<std::string>(name, taken, help)->type_name(type)->trigger_on_parse();
+    add_repeatable(app, name, type, help, take);
   };
   const auto add_flag = [&app](const std::string& name, const std::string& help, auto take) {
     app.add_flag_function(

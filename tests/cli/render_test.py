@@ -95,6 +95,22 @@ class Render(ProgramTest):
         thesis = self.render("demo", *SMALL, "--style", "plain", "--light", "thesis")
         self.assertEqual(thesis["picture_hash"], hashes["plain"])
 
+    def test_lights_of_ones_own(self):
+        def hash_with(*lights):
+            options = [option for light in lights for option in ["--light", light]]
+            return self.render("demo", *SMALL, "--style", "plain", *options)["picture_hash"]
+
+        left, right = "from:-1,0,1", "from:1,0,1"
+        hashes = [hash_with(left), hash_with(right), hash_with(left, right), hash_with("studio", left), hash_with("studio")]
+        hashes += [hash_with(left + ":orange"), hash_with(left + "::0.5"), hash_with("at:100,0,100"), hash_with("at:0,100,100")]
+        self.assertEqual(len(set(hashes)), len(hashes))
+        # A wide light throws soft shadows, and the place of a light does not depend on the camera.
+        self.assertEqual(hash_with("at:100,0,100:white:1:0"), hash_with("at:100,0,100"))
+        soft = ["--light-points", "8", "--shadows"]
+        wide = self.render("demo", *SMALL, *soft, "--light", "at:100,0,100:white:1:30")["picture_hash"]
+        sharp = self.render("demo", *SMALL, *soft, "--light", "at:100,0,100")["picture_hash"]
+        self.assertNotEqual(wide, sharp)
+
     def test_options_change_parts_of_a_style(self):
         settings = self.settings("demo", *SMALL, "--outline", "2", "--fog", "0.5", "--light-points", "3", "--no-ao")
         self.assertEqual((settings["outline_px"], settings["fog"], settings["light_points"]), (2, 0.5, 3))
@@ -123,6 +139,9 @@ class Render(ProgramTest):
             (["--style", "bad.json"], 1, ["bad.json: /material", "matte, plastic"]),
             (["--material", "wood"], 2, ["--material", "matte"]),
             (["--light", "disco"], 2, ["--light", "studio"]),
+            (["--light", "at:1,2"], 2, ["--light", "three numbers"]),
+            (["--light", "from:1,0,0:mauve"], 2, ["--light", "mauve"]),
+            (["--light", "studio", "--light", "cloudy"], 2, ["--light", "a preset already"]),
             (["--light-points", "0"], 2, ["--light-points"]),
             (["--outline", "0.5"], 2, ["--outline", "0 or a number from 1 to 16"]),
             (["--outline", "17"], 2, ["--outline"]),

@@ -117,13 +117,14 @@ TEST(Viewer, every_view_is_the_renderers) {
   }
 }
 
-TEST(Viewer, draws_without_lens_tone_and_adaptive_samples) {
+TEST(Viewer, draws_with_the_tone_and_without_lens_and_adaptive_samples) {
   const char* const format =
       R"({"bihive_scene": 2, "camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0]%s}, "picture": {%s}, "spheres": [[0, 0, 0, 1]]})";
-  std::uint64_t hashes[2] = {};
-  const std::array<std::array<std::string, 2>, 2> parts{
-      {{"", ""}, {R"(, "aperture": 2)", R"("exposure": 1, "tone": "filmic", "samples_per_pixel": "auto")"}}};
-  for (std::size_t i = 0; i < 2; ++i) {
+  std::uint64_t hashes[3] = {};
+  const std::string tone = R"("exposure": 1, "tone": "filmic")";
+  const std::array<std::array<std::string, 2>, 3> parts{
+      {{"", ""}, {"", tone}, {R"(, "aperture": 2)", tone + R"(, "samples_per_pixel": "auto")"}}};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
     std::string text = format;
     text.replace(text.find("%s"), 2, parts[i][0]);
     text.replace(text.find("%s"), 2, parts[i][1]);
@@ -133,8 +134,12 @@ TEST(Viewer, draws_without_lens_tone_and_adaptive_samples) {
     EXPECT_EQ(viewer.settings().camera.aperture, 0);
     settle(viewer);
     hashes[i] = picture_hash(viewer.image());
+    RenderSettings settings = settings_of(viewer, 96, 64);
+    settings.adaptive_samples = false;
+    EXPECT_EQ(hashes[i], picture_hash(rendered(viewer, Engine::wide, settings))) << i;
   }
-  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_NE(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[1], hashes[2]);
 }
 
 TEST(Viewer, moving_begins_anew_and_is_coarser_where_the_budget_is_small) {

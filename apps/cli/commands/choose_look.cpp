@@ -33,11 +33,13 @@ Style choose_style(const StyleOptions& options) {
 
 void apply_look(const StyleOptions& options, Input& input) {
   Scene& scene = input.scene;
-  if (options.lights || !input.has_lights) {
-    const LightRig& rig = options.lights ? *options.lights : input.rig;
-    scene.lights = lights_around(rig, scene.camera);
-    if (options.lights) scene.ambient_light = rig.ambient_light;
+  if (options.lights.empty()) {
+    if (!input.has_lights) scene.lights = lights_around(input.rig, scene.camera);
+    return;
   }
+  const LightRig rig = rig_of(options.lights, scene.ambient_light);
+  scene.lights = lights_around(rig, scene.camera);
+  scene.ambient_light = rig.ambient_light;
 }
 
 void apply_effects(const StyleOptions& options, RenderSettings& settings) {

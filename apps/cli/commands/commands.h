@@ -10,8 +10,8 @@
 #include "bihive/math/vec3.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
-#include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
+#include "bihive/scene/light_text.h"
 #include "bihive/scene/turn.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "look_options.h"
@@ -33,8 +33,8 @@ struct AmbientOptions {
 
 /// Unset: the style's or the scene's value.
 struct StyleOptions {
-  std::string name;  ///< a name or a path; empty: the default one
-  std::optional<LightRig> lights;
+  std::string name;    ///< a name or a path; empty: the default one
+  LightChoice lights;  ///< empty: the style's
   AmbientOptions ambient;
   std::optional<OpacityRule> opacity_rule;
   std::optional<std::int64_t> light_points;

@@ -21,11 +21,10 @@ const Names<LightRig>& light_presets() {
       {"studio",
        {grey(0.55),
         false,
-        {{{-0.55, 0.75, 0.65}, grey(0.58), 14},
-         {{0.9, 0.1, 0.5}, grey(0.10), 40},
-         {{0.5, 0.5, -0.9}, grey(0.25), 10}}}},
-      {"cloudy", {grey(0.85), false, {{{-0.1, 1, 0.35}, grey(0.30), 70}}}},
-      {"headlight", {grey(0.45), false, {{{0, 0, 1}, grey(0.65), 0}}}},
+        {{{-0.55, 0.75, 0.65}, grey(0.58), 14}, {{0.9, 0.1, 0.5}, grey(0.10), 40}, {{0.5, 0.5, -0.9}, grey(0.25), 10}},
+        {}}},
+      {"cloudy", {grey(0.85), false, {{{-0.1, 1, 0.35}, grey(0.30), 70}}, {}}},
+      {"headlight", {grey(0.45), false, {{{0, 0, 1}, grey(0.65), 0}}, {}}},
   };
   return presets;
 }
@@ -44,6 +43,7 @@ std::vector<PointLight> lights_around(const LightRig& rig, const Camera& camera)
     const double away = kFarAway * distance;
     lights.push_back({camera.look_at + away * direction, light.colour, away * tan_deg(light.angle_deg / 2)});
   }
+  lights.insert(lights.end(), rig.placed.begin(), rig.placed.end());
   return lights;
 }
 

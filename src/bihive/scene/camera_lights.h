@@ -21,6 +21,7 @@ struct LightRig {
   Vec3d ambient_light{1, 1, 1};  ///< strength of the ambient term
   bool light_behind = true;      ///< the light of light_behind(), before `lights`
   std::vector<CameraLight> lights;
+  std::vector<PointLight> placed;  ///< lights that stand in the world, behind `lights`
 };
 
 /// thesis: one point light behind the camera. studio: soft key from above left, fill from the right, rim from behind.

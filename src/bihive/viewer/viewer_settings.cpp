@@ -34,6 +34,7 @@ RenderSettings render_settings(const ViewerSettings& settings, const PictureDefa
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   RenderSettings picture = gpu ? RenderSettings{} : settings_from(defaults);
   if (of_tree) picture.transparent = false;
+  picture.adaptive_samples = false;  // people choose their number
   picture.width_px = width_px;
   picture.height_px = height_px;
   picture.samples_per_pixel = samples_per_pixel;
