@@ -4,6 +4,7 @@
 
 #include "bihive/base/version.h"
 #include "bihive/scene/light_points.h"
+#include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "commands/names.h"
 #include "server/addresses.h"
@@ -144,13 +145,6 @@ void add_style_options(CLI::App& app, StyleOptions& look) {
               "Soft shadows: points of each light, a sample (the style's)");
   add_choice(app, "--opacity-rule", look.opacity_rule, kOpacityRules,
              "Light straight through a sphere counts its opacity (the style's)");
-  add_value(app, "--outline", look.outline_px, "PX", "Width of outlines, 1 to 16; 0: none (the style's)",
-            [](const std::string& text) -> Result<double> {
-              Result<double> width = number_from(text, 0, kWidestOutlinePx);
-              if (width && *width > 0 && *width < 1)
-                return Error{"expected 0 or a number from 1 to 16, found " + text, "", 0, 0, ""};
-              return width;
-            });
   add_number(app, "--fog", look.fog, 1, "F", "Share of the background where the set is deepest; 0: none (the style's)");
   add_value(app, "--exposure", look.exposure_stops, "EV", "Stops: all light times 2^EV (the style's)",
             [](const std::string& text) { return number_from(text, -kMostExposureStops, kMostExposureStops); });
@@ -169,7 +163,7 @@ void add_labels(CLI::App& app, LabelOptions& labels) {
 }
 
 // Options whose order matters: each is taken when the command line reaches it, and may occur again.
-void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
+void add_looks(CLI::App& app, LookOptions& looks, RenderOptions& render) {
   const auto add = [&app](const std::string& name, const std::string& type, const std::string& help, auto take) {
     add_repeatable(app, name, type, help, take);
   };
@@ -193,7 +187,7 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
   add("--material", list_of(named_materials()), "Their material (the style's)",
       [&looks](const std::string& text) { return looks.act("material", text); });
   add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
-      [&looks, &input](const std::string& text) -> Status {
+      [&looks, &input = render.input](const std::string& text) -> Status {
         if (looks.selected) return looks.act("radius-scale", text);
         if (input.radius_scale) return Error{"is given more than once before a --select", "", 0, 0, ""};
         const Result<double> factor = number_from(text, 0, kLargestFloat);
@@ -201,6 +195,17 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input) {
         input.radius_scale = *factor;
         return Done{};
       });
+  add("--outline", "PX", "Behind a --select: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)",
+      [&looks, &look = render.style](const std::string& text) -> Status {
+        const Result<LookAction> action = look_action_from_text("outline", text);
+        if (!action) return action.error();
+        if (looks.selected) return looks.act("outline", text);
+        if (look.outline_px) return Error{"is given more than once before a --select", "", 0, 0, ""};
+        look.outline_px = std::get<SetOutline>(*action).width_px;
+        return Done{};
+      });
+  add("--crease", "ATTR", "Lines between those that touch and differ in it: --crease chain",
+      [&looks](const std::string& text) { return looks.act("crease", text); });
   app.add_option("--element-colours", looks.element_colours,
                  "Colours of elements: a name, or a file with lines 'C #909090' (the style's)")
       ->type_name("soft|jmol|cpk|FILE");
@@ -274,7 +279,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);
   add_input_options(command, options.input, /*with_radius_scale=*/false);
-  add_looks(command, options.looks, options.input);
+  add_looks(command, options.looks, options);
   add_labels(command, options.labels);
   add_json_flag(command, options.json);
 }

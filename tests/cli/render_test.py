@@ -122,6 +122,25 @@ class Render(ProgramTest):
         settings = self.settings("demo", *SMALL, "--style", "own.json")
         self.assertEqual((settings["background"], settings["fog"]), ([0, 0, 1], 0.125))
 
+    def test_outlines_of_a_selection_and_creases(self):
+        def hash_with(*options):
+            size = ["--size", "320x240", "--samples", "1"]  # lines fade where spheres appear small
+            return self.render("demo", *size, "--style", "plain", *options)["picture_hash"]
+
+        hashes = [hash_with(), hash_with("--outline", "2"), hash_with("--select", "chain A", "--outline", "2")]
+        hashes += [hash_with("--crease", "chain"), hash_with("--crease", "resid")]
+        self.assertEqual(len(set(hashes)), len(hashes))
+        self.assertEqual(hash_with("--outline", "3", "--select", "all", "--outline", "2"), hashes[1])
+        self.assertEqual(self.settings("demo", *SMALL, "--outline", "2", "--select", "water", "--outline", "0")["outline_px"], 2)
+        # A scene file says it for a selection or for each sphere.
+        looks = '"spheres": [[0, 0, 0, 1], [1, 0, 0, 1]], "looks": [{"select": "x > 0", "outline": 4, "crease": "x"}]'
+        spheres = '"spheres": [[0, 0, 0, 1], {"centre": [1, 0, 0], "radius": 1, "outline": 4, "crease": 7}]'
+        hashes = set()
+        for i, text in enumerate([looks, spheres, '"spheres": [[0, 0, 0, 1], [1, 0, 0, 1]]']):
+            self.write(f"lines{i}.json", '{"bihive_scene": 2, ' + text + "}")
+            hashes.add(self.render(f"lines{i}.json", "--size", "160x120", "--view-from", "iso")["picture_hash"])
+        self.assertEqual(len(hashes), 2)
+
     def test_looks_have_the_same_bits_everywhere(self):
         for look in [["--style", "default"], ["--style", "studio"], ["--style", "plain", "--material", "toon", "--light", "studio"]]:
             pictures = {
@@ -145,6 +164,10 @@ class Render(ProgramTest):
             (["--light-points", "0"], 2, ["--light-points"]),
             (["--outline", "0.5"], 2, ["--outline", "0 or a number from 1 to 16"]),
             (["--outline", "17"], 2, ["--outline"]),
+            (["--outline", "1", "--outline", "2"], 2, ["--outline", "more than once"]),
+            (["--select", "water", "--outline", "0.5"], 2, ["--outline", "0 or a number from 1 to 16"]),
+            (["--crease", "chian"], 2, ["--crease", "did you mean 'chain'"]),
+            (["--crease", ""], 2, ["--crease"]),
             (["--fog", "1.5"], 2, ["--fog"]),
             (["--style", "--fog"], 2, ["--style"]),
             (["--engine", "gpu", "--style", "studio"], 2, ["--engine gpu draws no", "--style plain"]),

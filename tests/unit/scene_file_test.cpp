@@ -466,6 +466,8 @@ void expect_equal(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.spheres.r(), b.spheres.r());
   EXPECT_EQ(a.spheres.attributes().colour, b.spheres.attributes().colour);
   EXPECT_EQ(a.spheres.attributes().opacity, b.spheres.attributes().opacity);
+  EXPECT_EQ(a.spheres.attributes().outline_px, b.spheres.attributes().outline_px);
+  EXPECT_EQ(a.spheres.attributes().crease, b.spheres.attributes().crease);
   EXPECT_EQ(a.material_of_sphere, b.material_of_sphere);
 }
 
@@ -492,22 +494,25 @@ TEST(SceneFileWriting, AmbientOcclusionComesBackInVersion2) {
 }
 
 TEST(SceneFileWriting, EachPartOfALookComesBackInVersion2) {
-  const std::vector<std::function<void(Scene&)>> changes{[](Scene& scene) {
-                                                           scene.lights.push_back({{1, 2, 3}, {1, 0.5, 2}, 0.1});
-                                                         },
-                                                         [](Scene& scene) {
-                                                           scene.ambient_light = {0.1, 2, 1};
-                                                         },
-                                                         [](Scene& scene) { scene.materials[0].tint = 0.3; },
-                                                         [](Scene& scene) { scene.materials[0].bands = 3; },
-                                                         [](Scene& scene) { scene.plane->material.glow = 0.7; },
-                                                         [](Scene& scene) { scene.picture.light_points = 3; },
-                                                         [](Scene& scene) {
-                                                           scene.picture.outline = Outline{1.5, 0.1, {0.1, 0.2, 0.3}};
-                                                         },
-                                                         [](Scene& scene) {
-                                                           scene.picture.fog = Fog{-0.1, 0.7, 0.3};
-                                                         }};
+  const std::vector<std::function<void(Scene&)>> changes{
+      [](Scene& scene) {
+        scene.lights.push_back({{1, 2, 3}, {1, 0.5, 2}, 0.1});
+      },
+      [](Scene& scene) {
+        scene.ambient_light = {0.1, 2, 1};
+      },
+      [](Scene& scene) { scene.materials[0].tint = 0.3; },
+      [](Scene& scene) { scene.materials[0].bands = 3; },
+      [](Scene& scene) { scene.plane->material.glow = 0.7; },
+      [](Scene& scene) { scene.picture.light_points = 3; },
+      [](Scene& scene) {
+        scene.picture.outline = Outline{1.5, 0.1, {0.1, 0.2, 0.3}};
+      },
+      [](Scene& scene) { scene.spheres.attributes().outline_px = {-1, 0, 1.5F, 16, -1, 2, 3, 4}; },
+      [](Scene& scene) { scene.spheres.attributes().crease = {0, 1, 2, 3, 0, 0, 5, 1}; },
+      [](Scene& scene) {
+        scene.picture.fog = Fog{-0.1, 0.7, 0.3};
+      }};
   for (const auto& change : changes) {
     Scene scene = *scenario_scene(Scenario::grid, {8, 0.3f, 1});
     EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 1,"));
@@ -587,6 +592,10 @@ TEST(SceneFileErrors, ANewKeyNeedsItsVersion) {
         R"("camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0], "focus": 1})"})
     EXPECT_THAT(error_of(std::string(R"({"bihive_scene": 1, "spheres": [[0,0,0,1]], )") + text + "}"),
                 HasSubstr("expected no such key in version 1 of the format"));
+  for (const char* key : {"outline", "crease"})
+    EXPECT_THAT(error_of(std::string(R"({"bihive_scene": 1, "spheres": [{"centre": [0,0,0], "radius": 1, ")") + key +
+                         R"(": 1}]})"),
+                StartsWith(std::string("a.json: /spheres/0/") + key + ": expected no such key in version 1"));
   EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"transparent": false}, "spheres": [[0,0,0,1]]})"),
               StartsWith("a.json: /picture/transparent: expected no such key in version 1 of the format"));
   EXPECT_THAT(error_of(R"({"bihive_scene": 1, "picture": {"ambient_occlusion": {}}, "spheres": [[0,0,0,1]]})"),

@@ -8,6 +8,8 @@ const value_words: Record<string, { hint: string; list: string; mode: string }> 
   opacity: { hint: '0 to 1', list: '', mode: 'decimal' },
   material: { hint: 'metal', list: 'material_names', mode: 'text' },
   'radius-scale': { hint: '0.5', list: '', mode: 'decimal' },
+  outline: { hint: '0 to 16', list: '', mode: 'decimal' },
+  crease: { hint: 'chain', list: 'colour_attributes', mode: 'text' },
 };
 const is_complete = ({ action, value }: LookRow) => !(action in value_words) || value !== '';
 

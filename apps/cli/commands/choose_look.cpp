@@ -62,7 +62,7 @@ void apply_effects(const StyleOptions& options, RenderSettings& settings) {
 
 std::string beyond_gpu(const Scene& scene, const RenderSettings& settings) {
   if (settings.ambient_occlusion) return "ambient occlusion";
-  if (settings.outline) return "outlines";
+  if (settings.outline || has_own_lines(scene)) return "outlines";
   if (settings.fog) return "fog";
   if (has_soft_light(scene) && settings.shadows) return "soft shadows";
   if (settings.opacity_rule == OpacityRule::once && lets_light_through(scene)) return "opacity that counts once";

@@ -52,6 +52,8 @@ struct SphereAttributes {
   std::vector<std::int32_t> type;     ///< the file's own particle type
   std::vector<Vec3f> colour;          ///< linear RGB, each in [0, 1]
   std::vector<float> opacity;         ///< 0 (clear) to 1 (opaque)
+  std::vector<float> outline_px;      ///< width of its outline, 0 (none) to 16; below 0: as wide as the picture's
+  std::vector<std::int32_t> crease;   ///< lines are drawn between spheres whose numbers differ
   std::vector<NamedNumbers> numbers;
   std::vector<NamedTexts> texts;
 

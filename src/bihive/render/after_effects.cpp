@@ -18,12 +18,18 @@ AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, cons
     : scene_(scene), wave_scene_(wave_scene), tracer_(tracer), rays_(rays), transparency_(transparency) {
   if (settings.view != View::shaded) return;
   outline_ = settings.outline;
+  all_outlined_ = settings.outline.has_value();
+  outline_scale_ = settings.outline_scale;
   fog_ = settings.fog;
+  if (has_own_lines(scene) && !outline_) outline_.emplace();
   if (outline_) {
-    border_ = static_cast<int>(std::ceil(outline_->width_px));
+    double widest = 0;
+    for (std::int64_t id = 0; id < scene.spheres.size(); ++id) widest = std::max(widest, line_of(id).width_px);
+    border_ = static_cast<int>(std::ceil(widest));
     for (int y = -border_; y <= border_; ++y)
       for (int x = -border_; x <= border_; ++x)
-        if ((x != 0 || y != 0) && x * x + y * y <= outline_->width_px * outline_->width_px) around_.push_back({x, y});
+        if ((x != 0 || y != 0) && x * x + y * y <= widest * widest) around_.push_back({x, y});
+    if (around_.empty()) outline_.reset();
   }
   if (fog_) {
     nearest_ = kBackgroundDepth;
@@ -99,19 +105,39 @@ void AfterEffects::find_depths(const Tile& grown, const CameraSample& sample, co
   }
 }
 
+// In a preview, lines that would be thinner than a pixel are left out.
+AfterEffects::Line AfterEffects::line_of(std::int64_t id) const {
+  const SphereAttributes& attributes = scene_.spheres.attributes();
+  const double own = attributes.outline_px.empty() ? -1 : double(attributes.outline_px[static_cast<std::size_t>(id)]);
+  const double outline = own >= 0 ? own : all_outlined_ ? outline_->width_px : 0;
+  const double width = (outline > 0 || attributes.crease.empty() ? outline : Outline().width_px) * outline_scale_;
+  return {width >= 1 ? width : 0, outline > 0};
+}
+
+std::int32_t AfterEffects::group(std::int64_t id) const {
+  const std::vector<std::int32_t>& groups = scene_.spheres.attributes().crease;
+  return groups.empty() || id < 0 ? 0 : groups[static_cast<std::size_t>(id)];
+}
+
 double AfterEffects::outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const {
   const std::int64_t id = buffers.id[static_cast<std::size_t>(at)];
   if (!outline_ || id < 0) return 0;
+  const Line line = line_of(id);
+  if (!(line.width_px > 0)) return 0;
   const double depth = buffers.depth[static_cast<std::size_t>(at)];
   const double radius = scene_.spheres.radius(id);
   const double pixel = length(rays_.right()) * (rays_.parallel() ? 1 : depth);
-  const double lines_wide = radius / (pixel * outline_->width_px);
+  const double lines_wide = radius / (pixel * line.width_px);
   const double share = std::clamp((lines_wide - 2) / 4, 0.0, 1.0);
   if (!(share > 0)) return 0;
-  const double limit = depth + outline_->step * radius;
+  const double limit = line.is_outline ? depth + outline_->step * radius : kBackgroundDepth;
   const bool beside_deeper = std::any_of(around_.begin(), around_.end(), [&](Step step) {
-    const auto beside = static_cast<std::size_t>(at + step.y * row + step.x);
-    return buffers.id[beside] != id && buffers.depth[beside] > limit;
+    if (step.x * step.x + step.y * step.y > line.width_px * line.width_px) return false;
+    const auto at_beside = static_cast<std::size_t>(at + step.y * row + step.x);
+    const std::int64_t beside = buffers.id[at_beside];
+    if (beside == id) return false;
+    const double its_depth = buffers.depth[at_beside];
+    return its_depth > limit || (beside >= 0 && its_depth > depth && group(beside) != group(id));
   });
   return beside_deeper ? share : 0;
 }

@@ -58,7 +58,18 @@ class AfterEffects {
   const Tracer& tracer_;
   const PixelRays& rays_;
   const Transparency* transparency_;
+  // Of one sphere: how wide its lines are, and whether one runs along its whole outline or only where it touches
+  // another group.
+  struct Line {
+    double width_px;
+    bool is_outline;
+  };
+  Line line_of(std::int64_t id) const;
+  std::int32_t group(std::int64_t id) const;
+
   std::optional<Outline> outline_;
+  bool all_outlined_ = false;
+  double outline_scale_ = 1;
   std::optional<Fog> fog_;
   double nearest_ = 0, farthest_ = 0;  // depths of the set
   struct Step {

@@ -4,6 +4,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/io/bundled.h"
+#include "bihive/scene/creases.h"
 #include "bihive/scene/default_colours.h"
 
 namespace bihive {
@@ -49,6 +50,10 @@ void restyle(LoadedScene& loaded, const Style& style) {
   loaded.scene.coloured_by.clear();
   loaded.scene.coloured_by_of_sphere.clear();
   take_default_colours(loaded.scene, loaded.format, &style);
+  loaded.scene.spheres.attributes().crease.clear();
+  if (style.crease.empty()) return;
+  if (Result<std::vector<std::int32_t>> groups = crease_groups(loaded.scene.spheres, style.crease))
+    loaded.scene.spheres.attributes().crease = std::move(*groups);
 }
 
 bool is_built_in_scene(const std::string& name) {

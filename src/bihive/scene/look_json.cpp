@@ -35,6 +35,8 @@ Look look_from_json(const nlohmann::json& value) {
   if (value.contains("material"))
     look.actions.emplace_back(SetMaterial{*value_named(named_materials(), value.at("material").get<std::string>())});
   if (value.contains("radius_scale")) look.actions.emplace_back(ScaleRadius{value.at("radius_scale").get<double>()});
+  if (value.contains("outline")) look.actions.emplace_back(SetOutline{value.at("outline").get<double>()});
+  if (value.contains("crease")) look.actions.emplace_back(SetCrease{value.at("crease").get<std::string>()});
   return look;
 }
 

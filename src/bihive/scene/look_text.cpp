@@ -64,6 +64,17 @@ Result<LookAction> radius_scale_action(const std::string& value) {
   return LookAction(ScaleRadius{*factor});
 }
 
+Result<LookAction> outline_action(const std::string& value) {
+  const std::optional<double> width = number_in(value, 0, kWidestOutlinePx);
+  if (!width || (*width > 0 && *width < 1)) return unexpected("0 or a number from 1 to 16", value);
+  return LookAction(SetOutline{*width});
+}
+
+Result<LookAction> crease_action(const std::string& value) {
+  if (value.empty()) return unexpected("the name of an attribute", value);
+  return LookAction(SetCrease{value});
+}
+
 using FromText = Result<LookAction> (*)(const std::string& value);
 
 const Names<FromText>& actions() {
@@ -74,7 +85,9 @@ const Names<FromText>& actions() {
       {"colour-by", colour_by_action},
       {"opacity", opacity_action},
       {"material", material_action},
-      {"radius-scale", radius_scale_action}};
+      {"radius-scale", radius_scale_action},
+      {"outline", outline_action},
+      {"crease", crease_action}};
   return all;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "bihive/scene/creases.h"
+#include "bihive/scene/picture_effects.h"
 #include "bihive/select/selection.h"
 
 namespace bihive {
@@ -69,6 +71,25 @@ class LookedAt {
     return Done{};
   }
 
+  Status operator()(const SetOutline& action) {
+    const double width = action.width_px;
+    if (width != 0 && !(width >= 1 && width <= kWidestOutlinePx))
+      return look_error("an outline is 0 (none) or 1 to 16 pixels wide");
+    if (outlines_.empty()) outlines_ = scene_.spheres.attributes().outline_px;
+    set(outlines_, -1.0F, static_cast<float>(width));
+    return Done{};
+  }
+
+  Status operator()(const SetCrease& action) {
+    const Result<std::vector<std::int32_t>> groups = crease_groups(scene_.spheres, action.attribute);
+    if (!groups) return groups.error();
+    if (creases_.empty()) creases_ = scene_.spheres.attributes().crease;
+    creases_.resize(mask_.size(), 0);
+    for (std::size_t i = 0; i < mask_.size(); ++i)
+      if (mask_[i] != 0) creases_[i] = (*groups)[i];
+    return Done{};
+  }
+
   // Gives everything to the scene.
   Status finish(Scene& scene) {
     if (!shown_.empty() && std::count(shown_.begin(), shown_.end(), std::uint8_t{0}) == 0) shown_.clear();
@@ -94,11 +115,15 @@ class LookedAt {
       keep_entries(scene.coloured_by_of_sphere, shown_);
       keep_entries(colours_, shown_);
       keep_entries(opacities_, shown_);
+      keep_entries(outlines_, shown_);
+      keep_entries(creases_, shown_);
       keep_ids(scene);
     }
     if (new_set) scene.spheres = std::move(*set);
     if (!colours_.empty()) scene.spheres.attributes().colour = std::move(colours_);
     if (!opacities_.empty()) scene.spheres.attributes().opacity = std::move(opacities_);
+    if (!outlines_.empty()) scene.spheres.attributes().outline_px = std::move(outlines_);
+    if (!creases_.empty()) scene.spheres.attributes().crease = std::move(creases_);
     return Done{};
   }
 
@@ -149,7 +174,8 @@ class LookedAt {
   const Scene& scene_;
   std::vector<std::uint8_t> mask_, shown_;
   std::vector<Vec3f> colours_;
-  std::vector<float> opacities_;
+  std::vector<float> opacities_, outlines_;
+  std::vector<std::int32_t> creases_;
   std::vector<Material> materials_;  // behind those of the scene
   std::vector<std::int32_t> material_of_;
   std::vector<ColourBy> meanings_;  // behind those of the scene

@@ -1,5 +1,5 @@
-// How selected spheres look: hidden, coloured, clearer, smaller, of another material. The options of `bihive render`
-// behind --select, and the key `looks` of scene files.
+// How selected spheres look: hidden, coloured, clearer, smaller, of another material, outlined. The options of `bihive
+// render` behind --select, and the key `looks` of scene files.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,16 @@ struct SetMaterial {
 struct ScaleRadius {
   double factor;  ///< >= 0
 };
-/// One thing to do to spheres. To add a kind (an outline): one more struct here, and its case in looks.cpp.
-using LookAction = std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius>;
+struct SetOutline {
+  double width_px;  ///< 0 (none), or 1 to kWidestOutlinePx; replaces the picture's
+};
+/// Lines between those of the spheres that differ in the attribute, and between them and all others.
+struct SetCrease {
+  std::string attribute;  ///< a name as selections know it
+};
+/// One thing to do to spheres. To add a kind: one more struct here, and its case in looks.cpp.
+using LookAction =
+    std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius, SetOutline, SetCrease>;
 
 /// Actions on the spheres of one selection, done in their order.
 struct Look {

@@ -20,7 +20,8 @@ constexpr double kWidestOutlinePx = 16;
 /// `width_px` away and at the same place in its pixel, another sphere, the plane or the background is deeper by more
 /// than `step` radii of the sphere that the sample shows. The line fades where spheres appear small, so that it does
 /// not cover them: it is full where the radius appears at least six times as wide as the line, and gone below two
-/// times.
+/// times. Spheres may have a width of their own, and lines between groups that touch, without a step: `outline_px` and
+/// `crease` of geometry/sphere_attributes.h.
 struct Outline {
   double width_px = 1;    ///< 1 to kWidestOutlinePx
   double step = 2;        ///< radii, >= 0

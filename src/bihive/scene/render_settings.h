@@ -41,6 +41,8 @@ struct RenderSettings {
   /// View::shaded: of the light of all samples that hit something, before outlines and fog. So the background and the
   /// colours of outlines and fog are on the screen what they are.
   Tone tone;
+  /// Multiplies the widths of outlines; below one pixel they are left out. For a preview in another size. Above 0.
+  double outline_scale = 1;
   View view = View::shaded;
   /// Only these pixels of the picture are drawn, with the same bits as in the whole picture: at least one, inside it.
   std::optional<Tile> crop;

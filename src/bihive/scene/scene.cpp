@@ -9,6 +9,12 @@ bool has_soft_light(const Scene& scene) {
                      [](const PointLight& light) { return light.radius > 0; });
 }
 
+bool has_own_lines(const Scene& scene) {
+  const SphereAttributes& attributes = scene.spheres.attributes();
+  return !attributes.crease.empty() ||
+         std::any_of(attributes.outline_px.begin(), attributes.outline_px.end(), [](float width) { return width > 0; });
+}
+
 bool has_effects(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const Material& material) { return has_effects(material); }) ||

@@ -92,6 +92,9 @@ inline std::int64_t input_id(const Scene& scene, std::int64_t id) {
 /// Whether some light throws soft shadows.
 bool has_soft_light(const Scene& scene);
 
+/// Whether some sphere has lines that are not the picture's: an outline of its own width, or creases.
+bool has_own_lines(const Scene& scene);
+
 /// Whether a material of the list or of the plane has effects.
 bool has_effects(const Scene& scene);
 

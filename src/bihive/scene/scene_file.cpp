@@ -267,6 +267,16 @@ class Extraction {
         opacities.resize(n, 1.0f);
         opacities[i] = value.at("opacity").get<float>();
       }
+      if (value.contains("outline")) {
+        need_version(2, pointer + "/outline");
+        raw.attributes.outline_px.resize(n, -1.0f);
+        raw.attributes.outline_px[i] = value.at("outline").get<float>();
+      }
+      if (value.contains("crease")) {
+        need_version(2, pointer + "/crease");
+        raw.attributes.crease.resize(n, 0);
+        raw.attributes.crease[i] = value.at("crease").get<std::int32_t>();
+      }
     }
     if (!failed_.message.empty()) return;
     for (std::size_t i = 0; i < colours.size(); ++i)

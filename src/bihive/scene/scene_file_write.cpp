@@ -75,7 +75,9 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
   const std::string xyz = coordinate(centre.x) + ", " + coordinate(centre.y) + ", " + coordinate(centre.z);
   const std::string radius = coordinate(spheres.radius(id));
   const std::int32_t material = scene.material_of_sphere.empty() ? 0 : scene.material_of_sphere[i];
-  if (attributes.colour.empty() && attributes.opacity.empty()) {
+  const bool plain = attributes.colour.empty() && attributes.opacity.empty() && attributes.outline_px.empty() &&
+                     attributes.crease.empty();
+  if (plain) {
     out += "    [" + xyz + ", " + radius + (material == 0 ? "" : fmt::format(", {}", material)) + "]";
     return;
   }
@@ -86,6 +88,9 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
     out += fmt::format(", \"colour\": [{}, {}, {}]", colour.x, colour.y, colour.z);
   }
   if (!attributes.opacity.empty()) out += fmt::format(", \"opacity\": {}", attributes.opacity[i]);
+  if (!attributes.outline_px.empty() && attributes.outline_px[i] >= 0)
+    out += fmt::format(", \"outline\": {}", attributes.outline_px[i]);
+  if (!attributes.crease.empty()) out += fmt::format(", \"crease\": {}", attributes.crease[i]);
   out += "}";
 }
 
@@ -150,6 +155,11 @@ bool has_ambient_light(const Scene& scene) {
   return light.x != 1 || light.y != 1 || light.z != 1;
 }
 
+bool has_own_outlines(const Scene& scene) {
+  const SphereAttributes& attributes = scene.spheres.attributes();
+  return !attributes.outline_px.empty() || !attributes.crease.empty();
+}
+
 // The oldest version of the format that has all that the scene needs.
 int version_of(const Scene& scene) {
   const PictureDefaults& picture = scene.picture;
@@ -158,8 +168,8 @@ int version_of(const Scene& scene) {
                        !opacity_member(picture.opacity_rule).empty();
   const bool parallel = scene.camera.projection != Projection::perspective;
   return effects || picture.adaptive_samples || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
-                 has_effects(scene) || has_ambient_light(scene) || parallel || picture.transparent ||
-                 picture.tone.any() || !labels_members(picture.labels).empty()
+                 has_effects(scene) || has_own_outlines(scene) || has_ambient_light(scene) || parallel ||
+                 picture.transparent || picture.tone.any() || !labels_members(picture.labels).empty()
              ? 2
              : 1;
 }

@@ -21,6 +21,8 @@ struct Style {
   ElementScheme element_colours = ElementScheme::jmol;
   /// Of spheres without element, type and own colour, if they have the attribute. Unset: the material's colour.
   std::optional<ColourBy> colour_by;
+  /// Lines between spheres that touch and differ in this attribute, if they have it; empty: none.
+  std::string crease;
   LightRig lights;
   Vec3d background{1, 1, 1};  ///< linear
   PictureDefaults picture;    ///< its size and transfer are of no use

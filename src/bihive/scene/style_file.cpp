@@ -66,6 +66,7 @@ Result<Style> parse_style(std::string_view text, const std::string& file) {
   if (document.contains("element_colours"))
     style.element_colours = *value_named(kElementSchemes, document.at("element_colours").get<std::string>());
   if (document.contains("colour_by")) style.colour_by = colour_by_from_json(document.at("colour_by"));
+  style.crease = document.value("crease", style.crease);
   if (document.contains("lights")) style.lights = light_rig(document.at("lights"));
   if (document.contains("ambient_light"))
     style.lights.ambient_light = colour_from_json(document.at("ambient_light"), Transfer::srgb);

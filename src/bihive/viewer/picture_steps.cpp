@@ -19,7 +19,7 @@ constexpr int kQuickLightPoints = 2;
 // Whether the picture has soft light, outlines or fog, which take more rays.
 bool has_slow_parts(const Scene& scene, const RenderSettings& settings) {
   return settings.view == View::shaded && (settings.ambient_occlusion || settings.outline || settings.fog ||
-                                           (has_soft_light(scene) && settings.shadows));
+                                           has_own_lines(scene) || (has_soft_light(scene) && settings.shadows));
 }
 
 // The same picture with fewer rays. An outline keeps its width on the screen; a thinner one than a pixel is left out.
@@ -27,8 +27,7 @@ void make_quick(RenderSettings& settings, int divisor) {
   if (settings.ambient_occlusion)
     settings.ambient_occlusion->directions = std::min(settings.ambient_occlusion->directions, kQuickDirections);
   settings.light_points = std::min(settings.light_points, kQuickLightPoints);
-  if (settings.outline) settings.outline->width_px /= divisor;
-  if (settings.outline && settings.outline->width_px < 1) settings.outline.reset();
+  settings.outline_scale = 1.0 / divisor;
 }
 
 // Pixels of a picture of that step.
