@@ -206,6 +206,9 @@ void add_looks(CLI::App& app, LookOptions& looks, RenderOptions& render) {
       });
   add("--crease", "ATTR", "Lines between those that touch and differ in it: --crease chain",
       [&looks](const std::string& text) { return looks.act("crease", text); });
+  add("--clip", "plane:NX,NY,NZ,D|box:X0,Y0,Z0,X1,Y1,Z1|sphere:X,Y,Z,R",
+      "Cut them open: n.x > D, the box or the sphere is taken away; repeatable",
+      [&looks](const std::string& text) { return looks.act("clip", text); });
   app.add_option("--element-colours", looks.element_colours,
                  "Colours of elements: a name, or a file with lines 'C #909090' (the style's)")
       ->type_name("soft|jmol|cpk|FILE");

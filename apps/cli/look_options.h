@@ -24,7 +24,7 @@ struct LookOptions {
   void select(const std::string& text);
   void show(bool shown);
   Status set_nan_colour(const std::string& text);
-  /// colour, colour-by, opacity, material, radius-scale, outline, crease.
+  /// colour, colour-by, opacity, material, radius-scale, outline, crease, clip.
   Status act(const std::string& name, const std::string& text);
   /// --no-hydrogens and --no-water: hide what the word selects; the selection of the next actions stays.
   void hide_word(const std::string& option, const std::string& word);

@@ -1,6 +1,7 @@
 #include "commands/choose_camera.h"
 
 #include "bihive/render/tree_picture.h"
+#include "bihive/scene/clips.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -11,14 +12,15 @@ bool parallel(Vec3d a, Vec3d b) {
 }
 
 Camera framed(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings) {
-  return settings.view == View::tree ? frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px)
-                                     : frame_spheres(scene.spheres, side, lens, settings.width_px, settings.height_px);
+  return settings.view == View::tree
+             ? frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px)
+             : frame_spheres(remaining_spheres(scene), side, lens, settings.width_px, settings.height_px);
 }
 
 // A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
 Camera placed(const Camera& before, const Input& input, const RenderOptions& options) {
   Camera camera = before;
-  const SphereSet::Bounds bounds = input.scene.spheres.bounds();
+  const SphereSet::Bounds bounds = remaining_spheres(input.scene).bounds();
   if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
   camera.eye = options.eye.value_or(camera.eye);
   camera.look_at = options.look_at.value_or(camera.look_at);

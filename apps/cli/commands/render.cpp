@@ -13,6 +13,7 @@
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
+#include "bihive/scene/clips.h"
 #include "bihive/simd/target.h"
 #include "commands/choose_camera.h"
 #include "commands/choose_labels.h"
@@ -281,6 +282,7 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (settings.view == View::shaded && settings.tone.any())
     refuse("exposure and tone curve", "without them: --exposure 0 --tone none");
   if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: --samples 4");
+  if (has_clips(scene)) refuse("cut spheres", "without --clip");
   if (scene.camera.aperture > 0) refuse("depth of field", "without it: --aperture 0");
   if (settings.crop) refuse("part of a picture", "the whole picture without --crop");
   if (settings.transparent) refuse("transparent background", "on a colour: --background white");
@@ -327,13 +329,14 @@ void run_render(const RenderOptions& options) {
                "leave --engine out");
   const RenderSettings settings = apply_options(options, input);
   if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
+  if (shows_reference_tree(settings.view) && has_clips(input.scene))
+    fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of whole spheres", "leave out --clip");
   const Scene& scene = input.scene;
   check_memory_of(settings);
   value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
 
   // Build, render, write.
-  const Tracer tracer =
-      value_or_fail(Tracer::build(scene.spheres, structure_of(engine), options.tree, settings.threads));
+  const Tracer tracer = value_or_fail(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
   const Drawn drawn = is_gpu(engine) ? draw_on_gpu(scene, tracer, settings) : draw_on_cpu(scene, tracer, settings);
   const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
   PngPixels image =

@@ -110,7 +110,7 @@ std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const Ra
 std::int64_t rays_per_chunk(const Tracer& tracer, std::int64_t rays, std::int64_t threads) {
   const std::int64_t spheres = std::max<std::int64_t>(1, tracer.spheres().size());
   if (tracer.engine() == Engine::brute) return std::clamp<std::int64_t>(kSpheresPerChunk / spheres, 1, kFewestPerChunk);
-  if (tracer.wide_tree() == nullptr) return kFewestPerChunk;
+  if (tracer.engine() != Engine::wide) return kFewestPerChunk;
   const std::int64_t workers = threads > 0 ? threads : hardware_threads();
   return std::clamp(rays / (workers * kChunksPerThread), kFewestPerChunk, kMostPerChunk);
 }
@@ -155,8 +155,8 @@ void run_trace(const TraceOptions& options) {
   const RayFile rays(options.rays);
   const Input input = load_input(options.input);
   value_or_fail(check_tree_memory(input.scene.spheres, options.engine, options.tree));
-  const Tracer tracer = value_or_fail(
-      Tracer::build(input.scene.spheres, options.engine, options.tree, static_cast<int>(options.threads)));
+  const Tracer tracer =
+      value_or_fail(Tracer::build(input.scene, options.engine, options.tree, static_cast<int>(options.threads)));
   const Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
 
   const Timer timer;

@@ -52,13 +52,15 @@ void SphereAttributes::keep_only(const std::vector<std::uint8_t>& kept) {
   keep_entries(opacity, kept);
   keep_entries(outline_px, kept);
   keep_entries(crease, kept);
+  keep_entries(clips, kept);
   for (NamedNumbers& column : numbers) keep_entries(column.values, kept);
   for (NamedTexts& column : texts) keep_entries(column.text_of_sphere, kept);
 }
 
 std::int64_t SphereAttributes::allocated_bytes() const {
   std::int64_t bytes = bytes_of_column(element) + bytes_of_column(type) + bytes_of_column(colour) +
-                       bytes_of_column(opacity) + bytes_of_column(outline_px) + bytes_of_column(crease);
+                       bytes_of_column(opacity) + bytes_of_column(outline_px) + bytes_of_column(crease) +
+                       bytes_of_column(clips);
   for (const NamedNumbers& column : numbers) bytes += bytes_of_column(column.values);
   for (const NamedTexts& column : texts) {
     bytes += bytes_of_column(column.text_of_sphere) + bytes_of_column(column.texts);

@@ -54,6 +54,7 @@ struct SphereAttributes {
   std::vector<float> opacity;         ///< 0 (clear) to 1 (opaque)
   std::vector<float> outline_px;      ///< width of its outline, 0 (none) to 16; below 0: as wide as the picture's
   std::vector<std::int32_t> crease;   ///< lines are drawn between spheres whose numbers differ
+  std::vector<std::uint64_t> clips;   ///< bit k: clip k of the scene acts on the sphere
   std::vector<NamedNumbers> numbers;
   std::vector<NamedTexts> texts;
 

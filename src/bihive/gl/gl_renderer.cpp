@@ -12,6 +12,7 @@
 #include "bihive/gl/film_textures.h"
 #include "bihive/gl/scene_on_gpu.h"
 #include "bihive/gl/tile_walk.h"
+#include "bihive/scene/clips.h"
 #include "bihive/scene/sample_pattern.h"
 
 namespace bihive {
@@ -60,6 +61,8 @@ class GlRenderer::Implementation {
   }
 
   Status set_scene(const Scene& scene, const Tree* tree) {
+    if (has_clips(scene))
+      return Error{"the graphics processor draws no cut spheres", "", 0, 0, "choose an engine of the CPU"};
     Status status = scene_.set(scene, tree);
     if (status) program_ = nullptr;
     return status;

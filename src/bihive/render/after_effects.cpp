@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bihive/geometry/hit.h"
+#include "bihive/scene/clips.h"
 
 namespace bihive {
 namespace {
@@ -33,7 +34,7 @@ AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, cons
   }
   if (fog_) {
     nearest_ = kBackgroundDepth;
-    const SphereSet& spheres = scene.spheres;
+    const SphereSet spheres = remaining_spheres(scene);
     const Vec3d eye = to_double(rays.eye());
     for (std::int64_t id = 0; id < spheres.size(); ++id) {
       const double depth = dot(spheres.centre(id) - eye, rays.forward());

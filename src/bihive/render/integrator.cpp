@@ -42,7 +42,7 @@ Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
 
     for (const WeightedHit& item : hits_) {
       deepest_hit_ = depth;
-      const Surface surface = surface_at(scene_, generation_[item.ray].ray, item.hit);
+      const Surface surface = surface_at(scene_, generation_[item.ray].ray, item.hit, cuts_.get());
       double visibility = 1;
       if (ambient_ != nullptr)
         visibility = ambient_visibility(scene_, paths_, surface, ambient_->sets.of_sample(sample), ambient_->distance,

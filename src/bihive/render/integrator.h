@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "bihive/geometry/ray.h"
@@ -9,6 +10,7 @@
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tracer.h"
 #include "bihive/render/transparency.h"
+#include "bihive/scene/clips.h"
 #include "bihive/scene/light_points.h"
 #include "bihive/scene/scene.h"
 
@@ -29,7 +31,8 @@ class Integrator {
         ambient_(ambient),
         light_points_(light_points),
         to_eye_(transparency != nullptr ? transparency->to_eye.get() : nullptr),
-        paths_(tracer, transparency != nullptr ? transparency->to_light.get() : nullptr) {}
+        paths_(tracer, transparency != nullptr ? transparency->to_light.get() : nullptr),
+        cuts_(cut_set_of(scene)) {}
 
   /// The sum has a fixed order, so that every engine can give the same bits: generation by generation. In a generation
   /// the rays that hit nothing come first and add weight x background; then come the surfaces of all rays. Both follow
@@ -66,6 +69,7 @@ class Integrator {
   const LightPointSets* light_points_;
   const TransparentSpheres* to_eye_;
   LightPaths paths_;
+  std::shared_ptr<const CutSet> cuts_;
   int deepest_hit_ = 0;
   RenderCounts rays_;
   std::vector<WeightedRay> generation_, next_;

@@ -19,6 +19,7 @@
 #include "bihive/render/tree_picture.h"
 #include "bihive/render/views.h"
 #include "bihive/render/wave/wave_integrator.h"
+#include "bihive/scene/clips.h"
 #include "bihive/scene/lens_pattern.h"
 
 namespace bihive {
@@ -339,7 +340,7 @@ class Renderer {
       case View::traversal:
         return traversal_colour(tracer_, ray());
       case View::normal:
-        return normal_colour(scene_, ray(), hit());
+        return normal_colour(scene_, ray(), hit(), wave_scene_.cuts.get());
       case View::distance:
         return distance_colour(ray(), hit(), range_);
       case View::id:
@@ -402,6 +403,12 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
   BIHIVE_CHECK(drawn.y0 >= 0 && drawn.y0 < drawn.y1 && drawn.y1 <= settings.height_px);
   if (Status status = check_camera(scene.camera); !status) return status.error();
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
+  const bool is_cut = cut_set_of(scene) != nullptr;
+  if (of_tree && is_cut)
+    return Error{"this view shows the tree of whole spheres, and clips cut the spheres", "", 0, 0,
+                 "leave out the clips"};
+  if (is_cut != tracer.has_clips())
+    return Error{"the tracer does not have the clips of the scene", "", 0, 0, "build the tracer from the scene"};
   if (of_tree && tracer.tree() == nullptr)
     return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                  "choose the reference engine"};

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "bihive/geometry/cut_sphere.h"
+#include "bihive/scene/clips.h"
+
 namespace bihive {
 namespace {
 
@@ -21,6 +24,11 @@ Vec3d checker_colour(const ScenePlane& plane, const Checker& checker, Vec3d poin
 }  // namespace
 
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
+  const std::shared_ptr<const CutSet> cuts = scene.clips.empty() ? nullptr : cut_set_of(scene);
+  return surface_at(scene, ray, hit, cuts.get());
+}
+
+Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit, const CutSet* cuts) {
   Surface surface;
   surface.id = hit.id;
   const Vec3d origin = to_double(ray.origin);
@@ -36,7 +44,8 @@ Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
     surface.material = scene.plane->material;
     if (scene.plane->checker) surface.material.colour = checker_colour(*scene.plane, *scene.plane->checker, point);
   } else {
-    outward = normalized((origin - scene.spheres.centre(hit.id)) + along);
+    if (cuts == nullptr || !cuts->cap_normal(ray, hit.id, outward))
+      outward = normalized((origin - scene.spheres.centre(hit.id)) + along);
     surface.material = material_of(scene, hit.id);
   }
   surface.from_inside = dot(surface.incoming, outward) > 0;

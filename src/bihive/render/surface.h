@@ -10,6 +10,8 @@
 
 namespace bihive {
 
+class CutSet;
+
 struct Surface {
   std::int64_t id;    ///< sphere or kPlane
   Vec3f origin;       ///< the hit point, rounded to binary32: where the next rays start
@@ -19,7 +21,9 @@ struct Surface {
   Material material;  ///< with the checker's colour if there is a checker
 };
 
-/// `hit` must be a hit, not a miss.
+/// `hit` must be a hit, not a miss. `cuts`: of the scene (scene/clips.h); null: all spheres are whole.
+Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit, const CutSet* cuts);
+/// The same for a scene whose cuts are not at hand: it makes them for each call if the scene has clips.
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit);
 
 }  // namespace bihive

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include "bihive/base/check.h"
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
+#include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/brute_force.h"
+#include "bihive/render/part_tracer.h"
 #include "bihive/render/pixel_order.h"
+#include "bihive/scene/clips.h"
 
 namespace bihive {
 BuildParameters TreeParameters::for_reference() const {
@@ -52,6 +56,21 @@ Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const Tree
   return tracer;
 }
 
+Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParameters& parameters, int threads) {
+  std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
+  if (cuts == nullptr) return build(scene.spheres, engine, parameters, threads);
+  Tracer tracer(scene.spheres, engine == Engine::automatic ? Engine::wide : engine);
+  const Timer timer;
+  std::vector<std::int64_t> all;
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) all.push_back(id);
+  auto parts = std::make_shared<PartTracer>();
+  const PartTracer::Parameters of_parts{tracer.engine_, parameters, threads, false};
+  if (Status status = parts->make(scene.spheres, std::move(cuts), all, of_parts); !status) return status.error();
+  tracer.parts_ = std::move(parts);
+  if (tracer.engine_ != Engine::brute) tracer.build_ms_ = timer.elapsed_ms();
+  return tracer;
+}
+
 Tracer::Tracer(const SphereSet& spheres, std::shared_ptr<const WideTree> tree) : Tracer(spheres, Engine::wide) {
   BIHIVE_CHECK(tree != nullptr);
   BIHIVE_CHECK_EQ(tree->size, spheres.size());
@@ -64,16 +83,19 @@ Tracer::Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree) : Tra
 }
 
 Hit Tracer::closest_hit(const Ray& ray) const {
+  if (parts_) return parts_->closest_hit(ray);
   if (wide_tree_) return bihive::closest_hit(*wide_tree_, ray);
   return tree_ ? bihive::closest_hit(*tree_, *spheres_, ray) : bihive::closest_hit(*spheres_, ray);
 }
 
 bool Tracer::occluded(const Ray& ray) const {
+  if (parts_) return parts_->occluded(ray);
   if (wide_tree_) return bihive::occluded(*wide_tree_, ray);
   return tree_ ? bihive::occluded(*tree_, *spheres_, ray) : bihive::occluded(*spheres_, ray);
 }
 
 void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
+  if (parts_) return parts_->closest_hits(rays, order, hits);
   if (wide_tree_) return bihive::closest_hits(*wide_tree_, rays, order, hits);
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const Hit hit = closest_hit(rays.at(i));
@@ -83,6 +105,7 @@ void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hi
 }
 
 void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+  if (parts_) return parts_->occluded(rays, order, hidden);
   if (wide_tree_) return bihive::occluded(*wide_tree_, rays, order, hidden);
   for (std::int64_t i = 0; i < rays.count; ++i) hidden[i] = occluded(rays.at(i)) ? 1 : 0;
 }

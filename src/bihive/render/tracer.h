@@ -19,6 +19,9 @@
 
 namespace bihive {
 
+class PartTracer;
+struct Scene;
+
 /// automatic: the fastest engine, which is wide; wide: vectors on the wide tree (wide/queries.h); reference: scalar
 /// traversal of the reference tree; brute: every sphere. All give the same bits.
 enum class Engine { automatic, wide, reference, brute };
@@ -49,6 +52,11 @@ class Tracer {
   static Result<Tracer> build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters = {},
                               int threads = 0);
 
+  /// The same for a scene, whose clips (scene/clips.h) cut its spheres open. Without clips it is the tracer of the
+  /// scene's spheres.
+  static Result<Tracer> build(const Scene& scene, Engine engine, const TreeParameters& parameters = {},
+                              int threads = 0);
+
   /// A tracer on an existing tree of these spheres: for frame after frame with one WideBuilder (wide/wide_builder.h),
   /// or for several tracers on one tree.
   Tracer(const SphereSet& spheres, std::shared_ptr<const WideTree> tree);
@@ -68,6 +76,8 @@ class Tracer {
 
   Engine engine() const { return engine_; }  ///< never `automatic`
   const SphereSet& spheres() const { return *spheres_; }
+  /// Whether clips cut the spheres. Then there is no tree of all spheres.
+  bool has_clips() const { return parts_ != nullptr; }
   const Tree* tree() const { return tree_.get(); }                ///< null unless the engine is `reference`
   const WideTree* wide_tree() const { return wide_tree_.get(); }  ///< null unless the engine is `wide`
   double build_ms() const { return build_ms_; }                   ///< 0 for a tree from elsewhere
@@ -79,6 +89,7 @@ class Tracer {
   Engine engine_;
   std::shared_ptr<const Tree> tree_;
   std::shared_ptr<const WideTree> wide_tree_;
+  std::shared_ptr<const PartTracer> parts_;  // null: all spheres are whole
   double build_ms_ = 0;
 };
 

@@ -3,11 +3,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "bihive/base/result.h"
-#include "bihive/bih/tree.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/render/tracer.h"
@@ -15,6 +13,9 @@
 #include "bihive/scene/scene.h"
 
 namespace bihive {
+
+class CutSet;
+class PartTracer;
 
 /// Where a ray crosses a transparent sphere first: `t` of geometry/sphere.h. So a ray crosses a sphere once, on its way
 /// in or, if it starts inside, on its way out; the sphere that it leaves outward it does not cross.
@@ -32,9 +33,11 @@ class TransparentSpheres {
   TransparentSpheres& operator=(const TransparentSpheres&) = delete;
 
   /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for that
-  /// engine on that many threads (0: all). Error: not enough memory for a tree.
+  /// engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. The spheres
+  /// must outlive it. Error: not enough memory for a tree.
   static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
-                                                                  Engine engine, int threads);
+                                                                  Engine engine, int threads,
+                                                                  std::shared_ptr<const CutSet> cuts = nullptr);
 
   double passing(std::int64_t id) const { return passing_[static_cast<std::size_t>(id)]; }
   bool is_transparent(std::int64_t id) const { return id >= 0 && passing(id) > 0; }
@@ -53,24 +56,8 @@ class TransparentSpheres {
   void find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
  private:
-  // One part of the set, with its own ids.
-  struct Part {
-    SphereSet spheres;
-    std::vector<std::int64_t> ids;        // in the whole set
-    std::vector<std::int64_t> own_place;  // of each sphere of the whole set: of an equal sphere here, or kNothing
-    std::optional<Tracer> tracer;
-
-    Status make(const SphereSet& whole, Engine engine, int threads);
-    std::int64_t left_here(std::int64_t leaves) const {
-      const bool is_sphere = leaves >= 0 && leaves < static_cast<std::int64_t>(own_place.size());
-      return is_sphere ? own_place[static_cast<std::size_t>(leaves)] : kNothing;
-    }
-    RaySpan rays_here(const RaySpan& rays, std::vector<std::int64_t>& leaves) const;
-  };
-
   std::vector<double> passing_;
-  Part opaque_, transparent_;
-  Tree tree_;  // of the transparent ones
+  std::shared_ptr<const PartTracer> opaque_, transparent_;
 };
 
 /// The parts of a scene's set for one picture.

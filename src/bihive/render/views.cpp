@@ -37,9 +37,9 @@ Vec3d traversal_colour(const Tracer& tracer, const Ray& ray) {
   return {0, steps(observer.empty_gaps), steps(observer.node_visits + observer.leaf_visits)};
 }
 
-Vec3d normal_colour(const Scene& scene, const Ray& ray, const SceneHit& hit) {
+Vec3d normal_colour(const Scene& scene, const Ray& ray, const SceneHit& hit, const CutSet* cuts) {
   if (!hit.found()) return {};
-  const Vec3d normal = surface_at(scene, ray, hit).normal;
+  const Vec3d normal = surface_at(scene, ray, hit, cuts).normal;
   return 0.5 * (normal + Vec3d{1, 1, 1});
 }
 

@@ -10,6 +10,8 @@
 
 namespace bihive {
 
+class CutSet;
+
 /// 1 red, 2 green, 3 blue, 4 yellow, 5 magenta, deeper white, 0 black (the colours of the thesis's Figure 4.2f).
 Vec3d recursion_colour(int deepest_hit);
 
@@ -18,7 +20,8 @@ Vec3d recursion_colour(int deepest_hit);
 Vec3d traversal_colour(const Tracer& tracer, const Ray& ray);
 
 /// (n + 1) / 2 of the normal turned against the ray; black for a miss.
-Vec3d normal_colour(const Scene& scene, const Ray& ray, const SceneHit& hit);
+/// `cuts` as surface_at().
+Vec3d normal_colour(const Scene& scene, const Ray& ray, const SceneHit& hit, const CutSet* cuts = nullptr);
 
 /// A fixed hash of the id, never close to black; black for a miss.
 Vec3d id_colour(std::int64_t id);

@@ -25,6 +25,22 @@ ColourBy colour_by_from_json(const nlohmann::json& value) {
   return how;
 }
 
+Clip clip_from_json(const nlohmann::json& value) {
+  const auto vector = [](const nlohmann::json& v) {
+    return Vec3d{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+  };
+  if (value.contains("plane")) {
+    const nlohmann::json& plane = value.at("plane");
+    return PlaneClip{vector(plane.at("normal")), plane.at("offset").get<double>()};
+  }
+  if (value.contains("box")) {
+    const nlohmann::json& box = value.at("box");
+    return BoxClip{vector(box.at("lo")), vector(box.at("hi"))};
+  }
+  const nlohmann::json& sphere = value.at("sphere");
+  return SphereClip{vector(sphere.at("centre")), sphere.at("radius").get<double>()};
+}
+
 Look look_from_json(const nlohmann::json& value) {
   Look look;
   look.select = value.value("select", look.select);
@@ -37,6 +53,8 @@ Look look_from_json(const nlohmann::json& value) {
   if (value.contains("radius_scale")) look.actions.emplace_back(ScaleRadius{value.at("radius_scale").get<double>()});
   if (value.contains("outline")) look.actions.emplace_back(SetOutline{value.at("outline").get<double>()});
   if (value.contains("crease")) look.actions.emplace_back(SetCrease{value.at("crease").get<std::string>()});
+  if (value.contains("clip"))
+    for (const nlohmann::json& clip : value.at("clip")) look.actions.emplace_back(AddClip{clip_from_json(clip)});
   return look;
 }
 

@@ -7,8 +7,9 @@
 
 namespace bihive {
 
-/// Both: the schema has accepted the value.
+/// All: the schema has accepted the value.
 ColourBy colour_by_from_json(const nlohmann::json& value);
+Clip clip_from_json(const nlohmann::json& value);
 Look look_from_json(const nlohmann::json& value);
 
 }  // namespace bihive

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bihive/io/parse_number.h"
+#include "bihive/scene/clips.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/named_materials.h"
 
@@ -75,6 +76,12 @@ Result<LookAction> crease_action(const std::string& value) {
   return LookAction(SetCrease{value});
 }
 
+Result<LookAction> clip_action(const std::string& value) {
+  const Result<Clip> clip = clip_from_text(value);
+  if (!clip) return clip.error();
+  return LookAction(AddClip{*clip});
+}
+
 using FromText = Result<LookAction> (*)(const std::string& value);
 
 const Names<FromText>& actions() {
@@ -87,7 +94,8 @@ const Names<FromText>& actions() {
       {"material", material_action},
       {"radius-scale", radius_scale_action},
       {"outline", outline_action},
-      {"crease", crease_action}};
+      {"crease", crease_action},
+      {"clip", clip_action}};
   return all;
 }
 

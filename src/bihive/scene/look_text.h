@@ -10,7 +10,7 @@
 
 namespace bihive {
 
-/// hide, show, colour, colour-by, opacity, material, radius-scale, outline, crease: the options' names.
+/// hide, show, colour, colour-by, opacity, material, radius-scale, outline, crease, clip: the options' names.
 const std::vector<std::string>& look_action_names();
 
 /// The action of that name. `value`: as behind the option; hide and show have none and ignore it. Error: there is no

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "bihive/geometry/cut_sphere.h"
+#include "bihive/scene/clips.h"
 #include "bihive/scene/creases.h"
 #include "bihive/scene/picture_effects.h"
 #include "bihive/select/selection.h"
@@ -90,6 +92,23 @@ class LookedAt {
     return Done{};
   }
 
+  Status operator()(const AddClip& action) {
+    if (Status status = check_clip(action.clip); !status) return status.error();
+    if (clips_.empty()) {
+      clips_ = scene_.clips;
+      clips_of_ = scene_.spheres.attributes().clips;
+    }
+    auto place = static_cast<std::size_t>(std::find(clips_.begin(), clips_.end(), action.clip) - clips_.begin());
+    if (place == clips_.size()) {
+      if (clips_.size() == kMostClips) return look_error("there are more than 64 different clips");
+      clips_.push_back(action.clip);
+    }
+    clips_of_.resize(mask_.size(), 0);
+    for (std::size_t i = 0; i < mask_.size(); ++i)
+      if (mask_[i] != 0) clips_of_[i] |= std::uint64_t{1} << place;
+    return Done{};
+  }
+
   // Gives everything to the scene.
   Status finish(Scene& scene) {
     if (!shown_.empty() && std::count(shown_.begin(), shown_.end(), std::uint8_t{0}) == 0) shown_.clear();
@@ -99,6 +118,11 @@ class LookedAt {
       set = rebuilt(scene.spheres);
       if (!set) return set.error();
       if (set->empty()) return look_error("every sphere is hidden", "show some of them");
+    }
+    if (!shown_.empty()) keep_entries(clips_of_, shown_);
+    if (all_cut_away(new_set ? *set : scene.spheres))
+      return look_error("every sphere is cut away or hidden", "clip less");
+    if (new_set) {
       set->attributes() = std::move(scene.spheres.attributes());
       if (!shown_.empty()) set->attributes().keep_only(shown_);
     }
@@ -124,6 +148,10 @@ class LookedAt {
     if (!opacities_.empty()) scene.spheres.attributes().opacity = std::move(opacities_);
     if (!outlines_.empty()) scene.spheres.attributes().outline_px = std::move(outlines_);
     if (!creases_.empty()) scene.spheres.attributes().crease = std::move(creases_);
+    if (!clips_.empty()) {
+      scene.clips = std::move(clips_);
+      scene.spheres.attributes().clips = std::move(clips_of_);
+    }
     return Done{};
   }
 
@@ -133,6 +161,14 @@ class LookedAt {
     if (values.empty()) values.assign(mask_.size(), before);
     for (std::size_t i = 0; i < mask_.size(); ++i)
       if (mask_[i] != 0) values[i] = wanted;
+  }
+
+  bool all_cut_away(const SphereSet& spheres) const {
+    if (clips_.empty() || spheres.empty()) return false;
+    const CutSet cuts(spheres, clips_, clips_of_);
+    for (std::int64_t id = 0; id < spheres.size(); ++id)
+      if (cuts.remainder(id) != Remainder::nothing) return false;
+    return true;
   }
 
   // What the colours of the present spheres mean: a position in the scene's list, then in meanings_.
@@ -181,6 +217,8 @@ class LookedAt {
   std::vector<ColourBy> meanings_;  // behind those of the scene
   std::vector<std::int32_t> meaning_of_;
   std::vector<double> factors_;
+  std::vector<Clip> clips_;  // with those of the scene
+  std::vector<std::uint64_t> clips_of_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// How selected spheres look: hidden, coloured, clearer, smaller, of another material, outlined. The options of `bihive
-// render` behind --select, and the key `looks` of scene files.
+// How selected spheres look: hidden, coloured, clearer, smaller, of another material, outlined, cut open. The options
+// of `bihive render` behind --select, and the key `looks` of scene files.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/geometry/clip.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/scene.h"
 
@@ -36,9 +37,13 @@ struct SetOutline {
 struct SetCrease {
   std::string attribute;  ///< a name as selections know it
 };
+/// One more clip that acts on the spheres.
+struct AddClip {
+  Clip clip;
+};
 /// One thing to do to spheres. To add a kind: one more struct here, and its case in looks.cpp.
 using LookAction =
-    std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius, SetOutline, SetCrease>;
+    std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius, SetOutline, SetCrease, AddClip>;
 
 /// Actions on the spheres of one selection, done in their order.
 struct Look {
@@ -46,14 +51,14 @@ struct Look {
   std::vector<LookAction> actions;
 };
 
-/// Does all actions in their order; a later one replaces an earlier one, except that factors multiply. Every selection
-/// sees the spheres as they were before: hidden ones too, with their first radii and opacities. Afterwards hidden
-/// spheres have left the set; Scene::id_in_input knows the ids of the rest, and materials and attributes keep in step.
-/// Radii are rounded once.
+/// Does all actions in their order; a later one replaces an earlier one, except that factors multiply and clips add up.
+/// Every selection sees the spheres as they were before: hidden ones too, with their first radii and opacities.
+/// Afterwards hidden spheres have left the set; Scene::id_in_input knows the ids of the rest, and materials and
+/// attributes keep in step. Radii are rounded once.
 ///
 /// Returns how many spheres each look selects. Errors: a selection's (column and line as in select_spheres()), an
-/// action's, or that every sphere is hidden. The scene is then as it was, and `failed` (if given) is the look's
-/// position; looks.size() if none is to blame.
+/// action's, or that every sphere is hidden or cut away. The scene is then as it was, and `failed` (if given) is the
+/// look's position; looks.size() if none is to blame.
 Result<std::vector<std::int64_t>> apply_looks(Scene& scene, const std::vector<Look>& looks,
                                               std::size_t* failed = nullptr);
 

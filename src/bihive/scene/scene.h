@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/geometry/clip.h"
 #include "bihive/geometry/plane.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/image/tone.h"
@@ -75,6 +76,7 @@ struct Scene {
   std::string length_unit;  ///< of the input's format ("Å"); empty: unknown
   std::vector<PointLight> lights;
   std::optional<ScenePlane> plane;
+  std::vector<Clip> clips;  ///< SphereAttributes::clips says on which spheres each acts; at most kMostClips
   Camera camera;
   Vec3d background{1, 1, 1};     ///< linear radiance
   Vec3d ambient_light{1, 1, 1};  ///< light from everywhere: the ambient term is multiplied by it

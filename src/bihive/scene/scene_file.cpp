@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/io/finish.h"
+#include "bihive/scene/clips.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/default_colours.h"
 #include "bihive/scene/json_parts.h"
@@ -39,6 +40,7 @@ class Extraction {
     take_camera();
     take_lights();
     take_plane();
+    take_clips();
     if (document_.contains("background")) scene.background = colour(document_.at("background"));
     if (document_.contains("ambient_light")) {
       need_version(2, "/ambient_light");
@@ -223,6 +225,32 @@ class Extraction {
     loaded_.scene.plane = plane;
   }
 
+  void take_clips() {
+    if (!document_.contains("clips")) return;
+    need_version(2, "/clips");
+    for (const json& value : document_.at("clips")) {
+      loaded_.scene.clips.push_back(clip_from_json(value));
+      check_clip(loaded_.scene.clips.back(), "/clips/" + std::to_string(loaded_.scene.clips.size() - 1));
+    }
+  }
+
+  void check_clip(const Clip& clip, const std::string& pointer) {
+    if (const Status status = bihive::check_clip(clip); !status) fail(pointer, status.error().message);
+  }
+
+  // The bits of a sphere's clips, from their positions.
+  std::uint64_t clips_of_sphere(const json& positions, const std::string& pointer) {
+    std::uint64_t bits = 0;
+    for (const json& value : positions) {
+      const auto position = value.get<std::uint64_t>();
+      if (position < loaded_.scene.clips.size())
+        bits |= std::uint64_t{1} << position;
+      else
+        fail(pointer, fmt::format("there is no clip {}, because `clips` has {}", position, loaded_.scene.clips.size()));
+    }
+    return bits;
+  }
+
   void take_spheres() {
     const json& value = document_.at("spheres");
     if (value.is_array())
@@ -277,6 +305,11 @@ class Extraction {
         raw.attributes.crease.resize(n, 0);
         raw.attributes.crease[i] = value.at("crease").get<std::int32_t>();
       }
+      if (value.contains("clips")) {
+        need_version(2, pointer + "/clips");
+        raw.attributes.clips.resize(n, 0);
+        raw.attributes.clips[i] = clips_of_sphere(value.at("clips"), pointer + "/clips");
+      }
     }
     if (!failed_.message.empty()) return;
     for (std::size_t i = 0; i < colours.size(); ++i)
@@ -304,6 +337,7 @@ class Extraction {
     scene.camera.look_at = scene.camera.look_at - file.recentred_by;
     for (PointLight& light : scene.lights) light.position = light.position - file.recentred_by;
     if (scene.plane) scene.plane->plane.point = scene.plane->plane.point - file.recentred_by;
+    for (Clip& clip : scene.clips) clip = moved(clip, -file.recentred_by);
   }
 
   void take_sphere_file(const json& value) {

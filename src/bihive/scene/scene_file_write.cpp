@@ -67,6 +67,32 @@ void write_plane(const ScenePlane& plane, std::string& out) {
   out += "\n  },\n";
 }
 
+std::string clip_text(const PlaneClip& plane) {
+  return fmt::format(R"({{"plane": {{"normal": {}, "offset": {}}}}})", vector(plane.normal), number(plane.offset));
+}
+std::string clip_text(const BoxClip& box) {
+  return fmt::format(R"({{"box": {{"lo": {}, "hi": {}}}}})", vector(box.lo), vector(box.hi));
+}
+std::string clip_text(const SphereClip& sphere) {
+  return fmt::format(R"({{"sphere": {{"centre": {}, "radius": {}}}}})", vector(sphere.centre), number(sphere.radius));
+}
+
+void write_clips(const Scene& scene, std::string& out) {
+  out += "  \"clips\": [\n";
+  for (std::size_t i = 0; i < scene.clips.size(); ++i)
+    out += "    " + std::visit([](const auto& clip) { return clip_text(clip); }, scene.clips[i]) +
+           (i + 1 < scene.clips.size() ? ",\n" : "\n");
+  out += "  ],\n";
+}
+
+// The positions of the clips whose bits are set.
+std::string clip_positions(std::uint64_t bits) {
+  std::string positions;
+  for (int k = 0; k < kMostClips; ++k)
+    if ((bits >> k & 1) != 0) positions += (positions.empty() ? "" : ", ") + std::to_string(k);
+  return positions;
+}
+
 void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
   const std::size_t i = static_cast<std::size_t>(id);
   const SphereSet& spheres = scene.spheres;
@@ -76,7 +102,7 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
   const std::string radius = coordinate(spheres.radius(id));
   const std::int32_t material = scene.material_of_sphere.empty() ? 0 : scene.material_of_sphere[i];
   const bool plain = attributes.colour.empty() && attributes.opacity.empty() && attributes.outline_px.empty() &&
-                     attributes.crease.empty();
+                     attributes.crease.empty() && attributes.clips.empty();
   if (plain) {
     out += "    [" + xyz + ", " + radius + (material == 0 ? "" : fmt::format(", {}", material)) + "]";
     return;
@@ -91,6 +117,8 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
   if (!attributes.outline_px.empty() && attributes.outline_px[i] >= 0)
     out += fmt::format(", \"outline\": {}", attributes.outline_px[i]);
   if (!attributes.crease.empty()) out += fmt::format(", \"crease\": {}", attributes.crease[i]);
+  if (!attributes.clips.empty() && attributes.clips[i] != 0)
+    out += ", \"clips\": [" + clip_positions(attributes.clips[i]) + "]";
   out += "}";
 }
 
@@ -169,7 +197,8 @@ int version_of(const Scene& scene) {
   const bool parallel = scene.camera.projection != Projection::perspective;
   return effects || picture.adaptive_samples || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
                  has_effects(scene) || has_own_outlines(scene) || has_ambient_light(scene) || parallel ||
-                 picture.transparent || picture.tone.any() || !labels_members(picture.labels).empty()
+                 picture.transparent || picture.tone.any() || !labels_members(picture.labels).empty() ||
+                 !scene.clips.empty()
              ? 2
              : 1;
 }
@@ -193,6 +222,7 @@ std::string scene_to_json(const Scene& scene) {
   out += "],\n";
   write_materials(scene, out);
   if (scene.plane) write_plane(*scene.plane, out);
+  if (!scene.clips.empty()) write_clips(scene, out);
   out += "  \"background\": " + vector(scene.background) + ",\n";
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(

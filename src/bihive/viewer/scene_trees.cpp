@@ -1,24 +1,39 @@
 #include "bihive/viewer/scene_trees.h"
 
 #include "bihive/render/memory.h"
+#include "bihive/scene/clips.h"
 
 namespace bihive {
 
-Result<const Tracer*> SceneTrees::wide() {
-  if (!wide_) {
-    if (Status status = check_tree_memory(spheres_, Engine::wide, parameters_); !status) return status.error();
-    Result<BuiltWideTree> built = build_wide_tree(spheres_, parameters_);
+// The wide tree of whole spheres.
+Result<const BuiltWideTree*> SceneTrees::built() {
+  if (!built_) {
+    if (Status status = check_tree_memory(scene_.spheres, Engine::wide, parameters_); !status) return status.error();
+    Result<BuiltWideTree> built = build_wide_tree(scene_.spheres, parameters_);
     if (!built) return built.error();
     built_ = std::move(*built);
-    wide_.emplace(spheres_, built_->tree);
   }
+  return &*built_;
+}
+
+Result<const Tracer*> SceneTrees::wide() {
+  if (wide_) return &*wide_;
+  if (has_clips(scene_)) {
+    Result<Tracer> tracer = Tracer::build(scene_, Engine::wide, parameters_);
+    if (!tracer) return tracer.error();
+    wide_ = std::move(*tracer);
+    return &*wide_;
+  }
+  if (Result<const BuiltWideTree*> tree = built(); !tree) return tree.error();
+  wide_.emplace(scene_.spheres, built_->tree);
   return &*wide_;
 }
 
 Result<const Tracer*> SceneTrees::reference() {
   if (!reference_) {
-    if (Status status = check_tree_memory(spheres_, Engine::reference, parameters_); !status) return status.error();
-    Result<Tracer> built = Tracer::build(spheres_, Engine::reference, parameters_);
+    if (Status status = check_tree_memory(scene_.spheres, Engine::reference, parameters_); !status)
+      return status.error();
+    Result<Tracer> built = Tracer::build(scene_.spheres, Engine::reference, parameters_);
     if (!built) return built.error();
     reference_ = std::move(*built);
   }
@@ -31,7 +46,7 @@ const Tracer* SceneTrees::any() const {
 }
 
 Result<std::string> SceneTrees::statistics(std::optional<std::uint64_t> seed) {
-  if (Result<const Tracer*> tracer = wide(); !tracer) return tracer.error();
+  if (Result<const BuiltWideTree*> tree = built(); !tree) return tree.error();
   const Result<const Tracer*> tracer = reference();
   if (!tracer) return tracer.error();
   return statistics_json(reference_facts(*(*tracer)->tree(), (*tracer)->build_ms()), wide_facts(*built_), seed);

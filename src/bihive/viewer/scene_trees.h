@@ -5,8 +5,8 @@
 #include <string>
 
 #include "bihive/base/result.h"
-#include "bihive/geometry/sphere_set.h"
 #include "bihive/render/tracer.h"
+#include "bihive/scene/scene.h"
 #include "bihive/viewer/statistics_json.h"
 #include "bihive/viewer/viewer_settings.h"
 
@@ -14,10 +14,11 @@ namespace bihive {
 
 class SceneTrees {
  public:
-  /// The spheres must outlive it.
-  SceneTrees(const SphereSet& spheres, const TreeParameters& parameters) : spheres_(spheres), parameters_(parameters) {}
+  /// The scene must outlive it, and its spheres and clips must not change.
+  SceneTrees(const Scene& scene, const TreeParameters& parameters) : scene_(scene), parameters_(parameters) {}
 
-  /// Error: not enough memory, or too many spheres. The tracers live as long as this object.
+  /// Error: not enough memory, or too many spheres. The tracers live as long as this object. The reference tree is that
+  /// of whole spheres: for the pictures of the tree and for graphics processors, which draw no cut ones.
   Result<const Tracer*> wide();
   Result<const Tracer*> reference();
   /// The tracer that these settings need.
@@ -31,7 +32,9 @@ class SceneTrees {
   Result<std::string> statistics(std::optional<std::uint64_t> seed);
 
  private:
-  const SphereSet& spheres_;
+  Result<const BuiltWideTree*> built();
+
+  const Scene& scene_;
   TreeParameters parameters_;
   std::optional<BuiltWideTree> built_;
   std::optional<Tracer> wide_, reference_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bihive/render/tree_picture.h"
+#include "bihive/scene/clips.h"
 
 namespace bihive {
 
@@ -25,13 +26,13 @@ ShownScene::ShownScene(LoadedScene loaded)
 Camera ShownScene::framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const {
   const Lens lens{own_camera.fov_deg, projection};
   return view == View::tree ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
-                            : frame_spheres(scene.spheres, side_of(side), lens, size.width, size.height);
+                            : frame_spheres(remaining_spheres(scene), side_of(side), lens, size.width, size.height);
 }
 
 bool ShownScene::same_spheres(const ShownScene& other) const {
   const SphereSet &a = scene.spheres, &b = other.scene.spheres;
   return a.scale_exponent() == b.scale_exponent() && a.x() == b.x() && a.y() == b.y() && a.z() == b.z() &&
-         a.r() == b.r();
+         a.r() == b.r() && scene.clips == other.scene.clips && a.attributes().clips == b.attributes().clips;
 }
 
 void ShownScene::take_look_of(ShownScene&& other) {

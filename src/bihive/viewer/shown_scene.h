@@ -44,7 +44,8 @@ struct ShownScene {
 
   /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree.
   Camera framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const;
-  /// Whether the other scene has the same spheres but for their attributes: then these trees are right for both.
+  /// Whether the other scene has the same spheres and clips, whatever the spheres' other attributes: then these trees
+  /// are right for both.
   bool same_spheres(const ShownScene& other) const;
   /// Becomes the other scene, which has the same spheres, and keeps the trees.
   void take_look_of(ShownScene&& other);

@@ -6,6 +6,7 @@
 
 #include "bihive/base/check.h"
 #include "bihive/render/memory.h"
+#include "bihive/scene/clips.h"
 #include "bihive/viewer/gpu_pictures.h"
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/picture_steps.h"
@@ -42,7 +43,7 @@ class Viewer::Implementation {
     const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
     settings.camera = side ? next->framed(*side, next->own_camera.projection, settings.view, size_) : next->own_camera;
     if (Status status = check_settings(settings); !status) return status.error();
-    next->trees = std::make_unique<SceneTrees>(next->scene.spheres, tree_parameters(settings));
+    next->trees = std::make_unique<SceneTrees>(next->scene, tree_parameters(settings));
     if (Status status = make_ready(*next, *next->trees, settings, /*upload=*/true); !status) return status.error();
 
     drop_picture();
@@ -282,9 +283,9 @@ class Viewer::Implementation {
 
     // The trees refer to the spheres that stay.
     std::unique_ptr<SceneTrees> other_trees;
-    const SphereSet& spheres = same_spheres ? shown_->scene.spheres : next->scene.spheres;
+    const Scene& kept = same_spheres ? shown_->scene : next->scene;
     if (!same_spheres || !same_tree(settings, settings_))
-      other_trees = std::make_unique<SceneTrees>(spheres, tree_parameters(settings));
+      other_trees = std::make_unique<SceneTrees>(kept, tree_parameters(settings));
     SceneTrees& trees = other_trees ? *other_trees : *shown_->trees;
     const bool upload = next || other_trees || settings_.engine != ViewerEngine::gpu;
     if (Status status = make_ready(scene, trees, settings, upload); !status) return status;
@@ -300,6 +301,9 @@ class Viewer::Implementation {
   Status make_ready(const ShownScene& shown, SceneTrees& trees, const ViewerSettings& settings, bool upload) {
     if (settings.engine == ViewerEngine::gpu)
       if (Status status = check_gpu(settings); !status) return status;
+    const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
+    if (of_tree && has_clips(shown.scene))
+      return bad_setting("this view shows the tree of whole spheres", "remove the clips");
     const Result<const Tracer*> tracer = trees.needed_by(settings);
     if (!tracer) return tracer.error();
     if (settings.engine != ViewerEngine::gpu || !upload) return Done{};

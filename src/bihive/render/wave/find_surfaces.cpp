@@ -7,6 +7,7 @@
 
 #include "bihive/render/wave/lanes-inl.h"
 #include "bihive/render/wave/surfaces-inl.h"
+#include "bihive/scene/clips.h"
 #include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -61,7 +62,7 @@ void find_surfaces_on_target(const WaveScene& wave_scene, const WavePart& part, 
     if (!none(missed)) add_background(scene.background, wave, i, missed, sums);
     if (none(found)) continue;
 
-    const SurfaceLanes surface = surfaces_at(wave_scene, found, rays);
+    const SurfaceLanes surface = surfaces_at(wave_scene, found, wave, i, rays);
     const Appender append(found, surfaces.count);
     append(surface.origin, surfaces.origin);
     append(surface.incoming, surfaces.incoming);
@@ -89,7 +90,8 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
       inverse_scale(drawn.spheres.inverse_scale()),
       materials(drawn.materials),
       passes_apart(rule == OpacityRule::once),
-      faintest_ray(passes_apart ? kFaintestRay : 0) {
+      faintest_ray(passes_apart ? kFaintestRay : 0),
+      cuts(cut_set_of(drawn)) {
   for (Material& material : materials)
     if (passes_apart && is_passed_straight(material)) material.transmissive = 0;
   const SphereAttributes& attributes = drawn.spheres.attributes();

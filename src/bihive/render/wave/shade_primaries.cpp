@@ -44,7 +44,7 @@ HWY_INLINE void shade_primaries_from(const WaveScene& scene, const WavePart& par
     if (HWY_UNLIKELY(count - k < kLanes)) found = hn::And(found, first_lanes(count - k));
     Lanes3 light = background;
     if (!none(found)) {
-      const SurfaceLanes surface = surfaces_at(scene, found, rays);
+      const SurfaceLanes surface = surfaces_at(scene, found, wave, i, rays);
       light = choose(found, add(all(Vec3d{}), local_light(scene, found, surface, {}, 0, all(1))), background);
     }
     hn::StoreU(light.x, Tag(), red + i);

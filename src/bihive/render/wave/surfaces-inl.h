@@ -77,8 +77,33 @@ struct SurfaceLanes {
   Longs id, material_inside;
 };
 
-/// For lanes `found` of the rays, at least one: the rays that hit something.
-HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found, const RayLanes& rays) {
+// Puts the normals of caps in the places of those that the whole spheres have there. Few hits are on cut spheres, so
+// one after the other will do.
+inline HWY_NOINLINE void put_cap_normals(const CutSet& cuts, const Wave& wave, std::int64_t i, LaneMask on_sphere,
+                                         Longs ids, Lanes3& outward) {
+  alignas(64) std::int64_t id[kLanes];
+  alignas(64) double x[kLanes], y[kLanes], z[kLanes];
+  hn::Store(ids, LongTag(), id);
+  hn::Store(outward.x, Tag(), x);
+  hn::Store(outward.y, Tag(), y);
+  hn::Store(outward.z, Tag(), z);
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(Tag(), on_sphere, bits);
+  for (unsigned left = bits[0]; left != 0; left &= left - 1) {
+    const int k = __builtin_ctz(left);
+    Vec3d normal;
+    if (!cuts.is_cut(id[k]) || !cuts.cap_normal(wave.span().at(i + k), id[k], normal)) continue;
+    x[k] = normal.x;
+    y[k] = normal.y;
+    z[k] = normal.z;
+  }
+  outward = {hn::Load(Tag(), x), hn::Load(Tag(), y), hn::Load(Tag(), z)};
+}
+
+/// For lanes `found` of the rays, at least one: the rays that hit something. They are those of the wave from number i
+/// on.
+HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found, const Wave& wave, std::int64_t i,
+                                    const RayLanes& rays) {
   const LongTag w;
   const Scene& scene = *wave_scene.scene;
   SurfaceLanes surface;
@@ -101,6 +126,8 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
                         gathered(spheres.z().data(), sphere)};
     const Lanes3 centre = multiply(all(wave_scene.inverse_scale), stored);
     outward = normalized(add(subtract(rays.origin, centre), along));
+    if (HWY_UNLIKELY(wave_scene.cuts != nullptr))
+      put_cap_normals(*wave_scene.cuts, wave, i, on_sphere, rays.id, outward);
     if (!scene.material_of_sphere.empty()) material = gathered(scene.material_of_sphere.data(), sphere);
   }
   if (!none(on_plane)) {

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "bihive/geometry/cut_sphere.h"
 #include "bihive/image/film.h"
 #include "bihive/image/tone.h"
 #include "bihive/render/pixel_order.h"
@@ -31,9 +33,10 @@ struct WaveScene {
   bool has_effects = false;     ///< some material has bands, a tint or a glow
   /// What is passed straight sends no ray on: OpacityRule::once. Such materials have a transmissive share of 0 here.
   bool passes_apart = false;
-  double faintest_ray = 0;          ///< rays with less weight are not sent on: kFaintestRay with OpacityRule::once
-  std::int64_t plane_material = 0;  ///< the plane's first
-  PlaneAxes axes{};                 ///< of the plane, if it has a checker
+  double faintest_ray = 0;             ///< rays with less weight are not sent on: kFaintestRay with OpacityRule::once
+  std::int64_t plane_material = 0;     ///< the plane's first
+  PlaneAxes axes{};                    ///< of the plane, if it has a checker
+  std::shared_ptr<const CutSet> cuts;  ///< null: all spheres are whole
 
   /// rule: each_surface where no sphere is passed straight.
   explicit WaveScene(const Scene& drawn, OpacityRule rule = OpacityRule::each_surface);

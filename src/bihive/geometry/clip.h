@@ -1,0 +1,40 @@
+// Shapes that cut spheres open: what lies inside of them is absent for every ray.
+#pragma once
+
+#include <variant>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Takes away all points p with normal . p > offset. The normal may have any length above 0. World units.
+struct PlaneClip {
+  Vec3d normal;
+  double offset = 0;
+};
+/// Takes away the inside of the box between two corners, lo < hi along each axis.
+struct BoxClip {
+  Vec3d lo, hi;
+};
+/// Takes away the inside of a sphere, radius > 0.
+struct SphereClip {
+  Vec3d centre;
+  double radius = 0;
+};
+/// The borders of these shapes are not taken away: they become the caps of the spheres.
+using Clip = std::variant<PlaneClip, BoxClip, SphereClip>;
+
+inline bool operator==(const PlaneClip& a, const PlaneClip& b) {
+  return a.normal == b.normal && a.offset == b.offset;
+}
+inline bool operator==(const BoxClip& a, const BoxClip& b) {
+  return a.lo == b.lo && a.hi == b.hi;
+}
+inline bool operator==(const SphereClip& a, const SphereClip& b) {
+  return a.centre == b.centre && a.radius == b.radius;
+}
+
+/// The most different clips of a scene: each sphere has a bit for each clip (SphereAttributes::clips).
+constexpr int kMostClips = 64;
+
+}  // namespace bihive

@@ -1,0 +1,54 @@
+// The scalar truth of the intersection of a ray and a cut sphere: what clips leave of the ball, closed by caps.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "bihive/geometry/clip.h"
+#include "bihive/geometry/ray.h"
+#include "bihive/geometry/sphere_set.h"
+#include "bihive/geometry/stored_clip.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Where a ray meets a cut sphere.
+struct CutHit {
+  double t = std::numeric_limits<double>::infinity();
+  int clip = -1;  ///< whose cap it is; -1: the sphere's own surface
+  int face = 0;   ///< of a box
+};
+
+/// The spheres of a set with the clips that act on them. Const; any number of threads may ask.
+class CutSet {
+ public:
+  /// `clips_of_sphere`: of each sphere a bit for each clip; empty: no clip acts. The spheres must outlive this.
+  CutSet(const SphereSet& spheres, const std::vector<Clip>& clips, const std::vector<std::uint64_t>& clips_of_sphere);
+
+  Remainder remainder(std::int64_t id) const { return remainders_[static_cast<std::size_t>(id)]; }
+  bool is_cut(std::int64_t id) const {
+    return id >= 0 && id < static_cast<std::int64_t>(remainders_.size()) && remainder(id) == Remainder::cut;
+  }
+
+  /// A valid ray as the cut spheres meet it. If it leaves a cut sphere, it leaves the surface to which its origin is
+  /// nearest: of the ball, or of one of its clips; of equally near ones the ball, then the first clip.
+  CutRay entering(const Ray& ray) const;
+
+  /// What is left of a ball is one or more parts of the line, closed by the ball's surface and by caps. The hit is the
+  /// first end of a part that lies in the segment: where the ray gets in, or where it gets out if it starts inside.
+  /// The surface that the ray leaves counts as the ray says: it is not met again at t = 0.
+  CutHit hit(const CutRay& ray, std::int64_t id) const;
+
+  /// The outward normal, of length 1, at the cap where the ray hits the sphere. False: it hits the ball's own surface,
+  /// or the sphere is not cut.
+  bool cap_normal(const Ray& ray, std::int64_t id, Vec3d& normal) const;
+
+ private:
+  const SphereSet* spheres_;
+  std::vector<StoredClip> clips_;
+  std::vector<Remainder> remainders_;
+  std::vector<std::uint64_t> cutting_;  // of each sphere: the clips whose border meets it
+};
+
+}  // namespace bihive

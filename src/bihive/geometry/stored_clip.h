@@ -1,0 +1,88 @@
+// A clip as rays meet it: in the stored units of one sphere set, in binary64.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "bihive/geometry/clip.h"
+#include "bihive/geometry/scaled_ray.h"
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// A plane of a clip, such that equal planes have equal keys: the largest component of `normal` is 1 (of equal ones the
+/// first). The plane's front is where normal . p > offset.
+struct PlaneKey {
+  Vec3d normal;
+  double offset = 0;
+
+  friend bool operator==(const PlaneKey& a, const PlaneKey& b) { return a.normal == b.normal && a.offset == b.offset; }
+};
+
+/// A ray that may leave a cap. If it leaves a sphere, or the round cap that a sphere of this place and size made, the
+/// scaled ray says so; `inside` then means that it goes into that sphere.
+struct CutRay {
+  ScaledRay ray;
+  bool leaves_plane = false;  ///< a flat cap
+  PlaneKey plane;             ///< of this cap
+  bool to_front = false;      ///< the side to which the ray goes
+};
+
+/// The open part of a line that a clip takes away: empty unless t_in < t_out. `face_in`, `face_out`: of a box, the
+/// faces at both ends: twice the axis, and 1 more for the upper one.
+struct TakenPart {
+  double t_in = std::numeric_limits<double>::infinity();
+  double t_out = -std::numeric_limits<double>::infinity();
+  int face_in = 0, face_out = 0;
+
+  bool empty() const { return !(t_in < t_out); }
+};
+
+/// What a clip leaves of a sphere.
+enum class Remainder { whole, cut, nothing };
+
+class StoredClip {
+ public:
+  /// `scale`: of the sphere set, a power of two.
+  StoredClip(const Clip& clip, double scale);
+
+  /// A sphere that the border touches is cut. A sphere of radius 0, which no ray meets, remains whole.
+  Remainder remainder(Vec3d centre, double radius) const;
+
+  TakenPart taken(const CutRay& cut_ray) const;
+
+  /// How far a point of the surface of a cut sphere is from this clip's border, and on which face of a box. The surface
+  /// with the smallest distance is the one on which the point lies.
+  struct Place {
+    double distance;
+    int face;
+  };
+  Place place(Vec3d point) const;
+
+  /// Tells a ray, whose origin lies on this border, that it leaves it there. `into_clip`: it goes to the side that is
+  /// taken away.
+  void leave(int face, bool into_clip, CutRay& ray) const;
+
+  /// The direction, of length 1, from the cap into what is taken away. The point is origin + along.
+  Vec3d outward(int face, Vec3d origin, Vec3d along) const;
+
+ private:
+  enum class Kind { plane, box, sphere };
+
+  Remainder of_plane(Vec3d centre, double radius) const;
+  Remainder of_box(Vec3d centre, double radius) const;
+  Remainder of_sphere(Vec3d centre, double radius) const;
+  TakenPart by_plane(const CutRay& cut_ray) const;
+  TakenPart by_box(const CutRay& cut_ray) const;
+  TakenPart by_sphere(const CutRay& cut_ray) const;
+  PlaneKey key_of_face(int face) const;
+
+  Kind kind_ = Kind::plane;
+  Vec3d normal_;  // plane: exact, its largest component between 1/2 and 1
+  double offset_ = 0;
+  Vec3d lo_, hi_;  // box; sphere: lo_ is the centre
+  double radius_ = 0;
+  PlaneKey key_;  // of a plane
+};
+
+}  // namespace bihive
