@@ -14,6 +14,7 @@
 #include "bihive/scene/generators.h"
 #include "bihive/scene/lens_pattern.h"
 #include "bihive/simd/target.h"
+#include "support/clips.h"
 #include "support/effects_reference.h"
 #include "support/effort.h"
 
@@ -100,6 +101,7 @@ Scene random_scene(std::uint64_t seed) {
   if (seed % 4 == 1) scene.camera = with_projection(scene.camera, Projection::orthographic);
   if (seed % 4 == 3) scene.camera.aperture = 0.1 * static_cast<double>(seed % 11);
   if (seed % 8 == 3) scene.camera.focus = 20;
+  if (seed % 5 == 2 || seed % 7 == 1) test::add_random_clips(seed, 10, scene);
   return scene;
 }
 
@@ -110,7 +112,7 @@ struct Expected {
 };
 
 Expected one_after_the_other(const Scene& scene, const RenderSettings& settings) {
-  const Tracer tracer = Tracer::build(scene.spheres, Engine::reference).value();
+  const Tracer tracer = Tracer::build(scene, Engine::reference).value();
   const PixelRays pixels(scene.camera, settings.width_px, settings.height_px);
   std::optional<AmbientRays> ambient;
   if (settings.ambient_occlusion) ambient.emplace(*settings.ambient_occlusion, settings.samples_per_pixel);
@@ -178,7 +180,7 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
     if (seed % 3 == 0) settings.ambient_occlusion = {seed % 2 == 0 ? 3.0 : AmbientOcclusion{}.distance, 5};
     const Expected expected = one_after_the_other(scene, settings);
     for (const Engine engine : {Engine::wide, Engine::reference}) {
-      const Tracer tracer = Tracer::build(scene.spheres, engine).value();
+      const Tracer tracer = Tracer::build(scene, engine).value();
       for (const std::string& target : test::targets_under_test()) {
         ASSERT_TRUE(use_target(target));
         settings.threads = target.size() % 2 == 0 ? 1 : 2;
@@ -205,13 +207,13 @@ TEST(Wave, sums_are_the_same_before_they_are_rounded) {
     const PixelRays pixels(scene.camera, width, height);
     const bool shadows = seed % 2 == 0;
     const int recursion = seed % 3 == 0 ? 1 : 5;
-    const Tracer reference = Tracer::build(scene.spheres, Engine::reference).value();
+    const Tracer reference = Tracer::build(scene, Engine::reference).value();
     Integrator integrator(scene, reference, recursion, shadows);
     std::vector<Vec3d> expected;
     for (int i = 0; i < width * height; ++i)
       expected.push_back(integrator.radiance(pixels.at(i % width + 0.5, i / width + 0.5)));
 
-    const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+    const Tracer tracer = Tracer::build(scene, Engine::wide).value();
     const WaveScene wave_scene(scene);
     for (const std::string& target : test::targets_under_test()) {
       ASSERT_TRUE(use_target(target));
@@ -248,7 +250,7 @@ TEST(Wave, ambient_occlusion_of_many_samples) {
   settings.recursion = 1;
   settings.ambient_occlusion = {4.0, 2};
   const Expected expected = one_after_the_other(scene, settings);
-  expect_same(expected, render(scene, Tracer::build(scene.spheres, Engine::wide).value(), settings).value(),
+  expect_same(expected, render(scene, Tracer::build(scene, Engine::wide).value(), settings).value(),
               "many samples");
 }
 
@@ -258,7 +260,7 @@ TEST(Wave, primary_rays_alone_with_unfilled_vectors) {
   constexpr std::array<std::array<int, 2>, 6> kSizes{{{1, 1}, {3, 1}, {2, 3}, {7, 5}, {13, 11}, {17, 9}}};
   for (std::uint64_t seed = 201; seed <= 248; seed += step()) {
     const Scene scene = random_scene(seed);
-    const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+    const Tracer tracer = Tracer::build(scene, Engine::wide).value();
     RenderSettings settings;
     settings.width_px = kSizes[seed % kSizes.size()][0];
     settings.height_px = kSizes[seed % kSizes.size()][1];
@@ -304,7 +306,7 @@ TEST(Wave, generations_that_grow_too_large_are_cut) {
   const Expected expected = one_after_the_other(scene, settings);
   ASSERT_GT(expected.rays.reflected, 4 * kMostRaysAtOnce);
   for (const Engine engine : {Engine::wide, Engine::reference}) {
-    const Tracer tracer = Tracer::build(scene.spheres, engine).value();
+    const Tracer tracer = Tracer::build(scene, engine).value();
     settings.threads = engine == Engine::wide ? 2 : 1;
     expect_same(expected, render(scene, tracer, settings).value(), "two rays a surface");
   }
@@ -319,7 +321,7 @@ TEST(Wave, pixels_of_very_many_samples_are_cut) {
   settings.recursion = 2;
   const Expected expected = one_after_the_other(scene, settings);
   ASSERT_GT(expected.rays.primary, 3 * kMostRaysAtOnce);
-  const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
+  const Tracer tracer = Tracer::build(scene, Engine::automatic).value();
   for (settings.threads = 1; settings.threads <= 2; ++settings.threads)
     expect_same(expected, render(scene, tracer, settings).value(), "2500 samples");
 }
@@ -327,7 +329,7 @@ TEST(Wave, pixels_of_very_many_samples_are_cut) {
 TEST(Wave, large_pictures_of_the_scenarios) {
   for (const Scenario scenario : {Scenario::grid, Scenario::corners, Scenario::mixed}) {
     const Scene scene = scenario_scene(scenario, {1000, 1, 1}).value();
-    const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
+    const Tracer tracer = Tracer::build(scene, Engine::automatic).value();
     RenderSettings settings;
     settings.width_px = 231;
     settings.height_px = 193;
@@ -339,7 +341,7 @@ TEST(Wave, large_pictures_of_the_scenarios) {
 
 TEST(Wave, draws_into_the_film_that_it_is_given) {
   const Scene scene = four_spheres_scene();
-  const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
+  const Tracer tracer = Tracer::build(scene, Engine::automatic).value();
   RenderSettings settings;
   settings.width_px = 70;
   settings.height_px = 50;

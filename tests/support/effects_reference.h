@@ -10,6 +10,7 @@
 #include "bihive/render/tracer.h"
 #include "bihive/render/transparency.h"
 #include "bihive/scene/camera.h"
+#include "bihive/scene/clips.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
 
@@ -25,10 +26,11 @@ class EffectsReference {
         transparent_(transparent),
         settings_(settings),
         pixels_(scene.camera, settings.width_px, settings.height_px) {
-    for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
-      const double depth = dot(scene.spheres.centre(id) - to_double(pixels_.eye()), pixels_.forward());
-      nearest_ = std::min(nearest_, depth - scene.spheres.radius(id));
-      farthest_ = std::max(farthest_, depth + scene.spheres.radius(id));
+    const SphereSet spheres = remaining_spheres(scene);
+    for (std::int64_t id = 0; id < spheres.size(); ++id) {
+      const double depth = dot(spheres.centre(id) - to_double(pixels_.eye()), pixels_.forward());
+      nearest_ = std::min(nearest_, depth - spheres.radius(id));
+      farthest_ = std::max(farthest_, depth + spheres.radius(id));
     }
     nearest_ = std::min(std::max(nearest_, 0.0), farthest_);
   }

@@ -73,7 +73,7 @@ class Slabs {
 
 /// Takes a valid ray, in the stored units of `spheres`, to every sphere that it may hit up to answer.limit(), which
 /// may come nearer meanwhile. answer.take(t, id) gets the t of geometry/sphere.h (+inf: no hit), and ends the walk by
-/// true.
+/// true. An answer with test(id) in place of take() does the test itself.
 // One function, though a long one: it defines the walk, so it is to be read from top to bottom, beside its twin for
 // graphics processors (gl/shaders/traversal.glsl), which has the same steps in the same order.
 template <class Answer, class Observer>
@@ -109,7 +109,11 @@ void walk(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Answ
       for (std::int64_t i = node.first_sphere(); i < node.first_sphere() + node.sphere_count; ++i) {
         const std::int64_t id = tree.sphere_ids[static_cast<std::size_t>(i)];
         observer.sphere_test();
-        if (answer.take(sphere_hit(ray, spheres.stored_centre(id), spheres.stored_radius(id)), id)) return;
+        if constexpr (requires { answer.test(id); }) {
+          if (answer.test(id)) return;
+        } else if (answer.take(sphere_hit(ray, spheres.stored_centre(id), spheres.stored_radius(id)), id)) {
+          return;
+        }
       }
     } else if (node.kind == NodeKind::split) {
       // Go to the child on the ray's near side first. The other child waits.

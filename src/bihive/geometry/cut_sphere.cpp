@@ -1,6 +1,5 @@
 #include "bihive/geometry/cut_sphere.h"
 
-#include <array>
 #include <cmath>
 
 #include "bihive/geometry/sphere.h"
@@ -13,41 +12,33 @@ constexpr double kEndOfLine = std::numeric_limits<double>::infinity();
 // Calls use(k) for each bit k that is set, from the lowest on.
 template <class Use>
 void for_each_clip(std::uint64_t mask, const Use& use) {
-  for (int k = 0; mask != 0; ++k, mask >>= 1)
-    if ((mask & 1) != 0) use(k);
+  for (; mask != 0; mask &= mask - 1) use(__builtin_ctzll(mask));
 }
 
 // What the clips of one sphere take of a line.
 struct TakenParts {
-  struct Part {
-    double t_in, t_out;
-    int face_in, face_out, clip;
-  };
-  // At most kMostClips; the array is written before it is read.
-  std::array<Part, kMostClips> parts;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  int count = 0;
-
-  void add(const TakenPart& taken, int clip) {
-    if (!taken.empty())
-      parts[static_cast<std::size_t>(count++)] = {taken.t_in, taken.t_out, taken.face_in, taken.face_out, clip};
-  }
+  const CutRay& ray;
+  std::uint64_t clips;
 
   // Goes from a place inside taken parts to their end.
-  void leave_taken(CutHit& place) const {
-    for (int i = 0; i < count; ++i) {
-      const Part& part = parts[static_cast<std::size_t>(i)];
-      if (!(part.t_in <= place.t && place.t < part.t_out)) continue;
-      place = {part.t_out, part.clip, part.face_out};
-      i = -1;
+  void leave(CutHit& place) const {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for_each_clip(clips, [&](int k) {
+        const TakenPart& part = ray.taken[static_cast<std::size_t>(k)];
+        if (!(part.t_in <= place.t && place.t < part.t_out)) return;
+        place = {part.t_out, k, part.face_out};
+        moved = true;
+      });
     }
   }
 
   // The end of what is left, from a place on that no part takes: `end`, or where a part begins before it.
   CutHit next_end(double place, CutHit end) const {
-    for (int i = 0; i < count; ++i) {
-      const Part& part = parts[static_cast<std::size_t>(i)];
-      if (part.t_in > place && part.t_in < end.t) end = {part.t_in, part.clip, part.face_in};
-    }
+    for_each_clip(clips, [&](int k) {
+      const TakenPart& part = ray.taken[static_cast<std::size_t>(k)];
+      if (!part.empty() && part.t_in > place && part.t_in < end.t) end = {part.t_in, k, part.face_in};
+    });
     return end;
   }
 };
@@ -60,7 +51,10 @@ CutSet::CutSet(const SphereSet& spheres, const std::vector<Clip>& clips,
       remainders_(static_cast<std::size_t>(spheres.size()), Remainder::whole),
       cutting_(remainders_.size(), 0) {
   clips_.reserve(clips.size());
-  for (const Clip& clip : clips) clips_.emplace_back(clip, spheres.scale());
+  for (const Clip& clip : clips) {
+    clips_.emplace_back(clip, spheres.scale());
+    has_round_clips_ = has_round_clips_ || clips_.back().is_round();
+  }
   const std::uint64_t known = clips.size() < kMostClips ? (std::uint64_t{1} << clips.size()) - 1 : ~std::uint64_t{0};
   for (std::size_t i = 0; i < clips_of_sphere.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
@@ -74,22 +68,43 @@ CutSet::CutSet(const SphereSet& spheres, const std::vector<Clip>& clips,
   }
 }
 
-CutRay CutSet::entering(const Ray& ray) const {
-  if (!is_cut(ray.leaves)) return {ScaledRay(ray, *spheres_), false, {}, false};
-  const Vec3d origin = to_double(ray.origin) * spheres_->scale();
+// Finds the surface of a cut sphere on which the ray starts.
+void CutSet::leave_nearest(const Ray& ray, CutRay& entered) const {
+  const Vec3d origin = entered.ray.origin;
   const double height = length(origin - spheres_->stored_centre(ray.leaves)) - spheres_->stored_radius(ray.leaves);
   StoredClip::Place nearest{std::abs(height), 0};
   int nearest_clip = -1;
-  for_each_clip(cutting_[static_cast<std::size_t>(ray.leaves)], [&](int k) {
+  for_each_clip(cutting(ray.leaves), [&](int k) {
     const StoredClip::Place place = clips_[static_cast<std::size_t>(k)].place(origin);
     if (!(place.distance < nearest.distance)) return;
     nearest = place;
     nearest_clip = k;
   });
-  if (nearest_clip < 0) return {ScaledRay(ray, *spheres_), false, {}, false};
-  CutRay entered{ScaledRay(ray, spheres_->scale()), false, {}, false};
+  if (nearest_clip < 0) return;
+  entered.ray.left_radius = -1;
   clips_[static_cast<std::size_t>(nearest_clip)].leave(nearest.face, !ray.inside, entered);
+}
+
+CutRay CutSet::entering(const Ray& ray, std::uint64_t clips) const {
+  CutRay entered{ScaledRay(ray, *spheres_)};
+  if (is_cut(ray.leaves)) leave_nearest(ray, entered);
+  for_each_clip(clips, [&](int k) {
+    entered.taken[static_cast<std::size_t>(k)] = clips_[static_cast<std::size_t>(k)].taken(entered);
+  });
   return entered;
+}
+
+bool CutSet::narrow(std::uint64_t clips, CutRay& cut_ray) {
+  ScaledRay& ray = cut_ray.ray;
+  for_each_clip(clips, [&](int k) {
+    const TakenPart& part = cut_ray.taken[static_cast<std::size_t>(k)];
+    if (part.empty()) return;
+    const bool from_start = part.t_in < ray.t_min || part.t_in == -kEndOfLine;
+    const bool to_end = part.t_out > ray.t_max || part.t_out == kEndOfLine;
+    if (from_start && part.t_out > ray.t_min) ray.t_min = part.t_out;
+    if (to_end && part.t_in < ray.t_max) ray.t_max = part.t_in;
+  });
+  return ray.t_min <= ray.t_max;
 }
 
 CutHit CutSet::hit(const CutRay& cut_ray, std::int64_t id) const {
@@ -100,14 +115,12 @@ CutHit CutSet::hit(const CutRay& cut_ray, std::int64_t id) const {
   if (own && !ray.inside) return {};
   const SphereRoots roots = sphere_roots(ray, centre, radius);
   if (!(roots.t_far >= ray.t_min)) return {};
-  TakenParts taken;
-  for_each_clip(cutting_[static_cast<std::size_t>(id)],
-                [&](int k) { taken.add(clips_[static_cast<std::size_t>(k)].taken(cut_ray), k); });
+  const TakenParts taken{cut_ray, cutting(id)};
 
   // Go along the line, from one part that is left to the next.
   CutHit place{own ? -kEndOfLine : roots.t_near, -1, 0};
   for (;;) {
-    taken.leave_taken(place);
+    taken.leave(place);
     if (place.t > roots.t_far || (place.t == roots.t_far && place.clip >= 0)) return {};
     if (place.t > ray.t_max) return {};
     if (place.t >= ray.t_min) return place;
@@ -119,7 +132,7 @@ CutHit CutSet::hit(const CutRay& cut_ray, std::int64_t id) const {
 
 bool CutSet::cap_normal(const Ray& ray, std::int64_t id, Vec3d& normal) const {
   if (!is_cut(id)) return false;
-  const CutRay entered = entering(ray);
+  const CutRay entered = entering(ray, cutting(id));
   const CutHit met = hit(entered, id);
   if (met.clip < 0) return false;
   const StoredClip& clip = clips_[static_cast<std::size_t>(met.clip)];

@@ -33,11 +33,22 @@ class CutSet {
 
   /// A valid ray as the cut spheres meet it. If it leaves a cut sphere, it leaves the surface to which its origin is
   /// nearest: of the ball, or of one of its clips; of equally near ones the ball, then the first clip.
-  CutRay entering(const Ray& ray) const;
+  /// It knows what the clips of `clips`, a bit each, take of it.
+  CutRay entering(const Ray& ray, std::uint64_t clips) const;
+
+  /// The clips whose border meets the sphere, a bit each.
+  std::uint64_t cutting(std::int64_t id) const { return cutting_[static_cast<std::size_t>(id)]; }
+
+  /// Whether some clip is a sphere.
+  bool has_round_clips() const { return has_round_clips_; }
+
+  /// Narrows the segment of a ray to where it may meet spheres that all of these clips cut. False: nowhere.
+  static bool narrow(std::uint64_t clips, CutRay& ray);
 
   /// What is left of a ball is one or more parts of the line, closed by the ball's surface and by caps. The hit is the
   /// first end of a part that lies in the segment: where the ray gets in, or where it gets out if it starts inside.
-  /// The surface that the ray leaves counts as the ray says: it is not met again at t = 0.
+  /// The surface that the ray leaves counts as the ray says: it is not met again at t = 0. The ray must know the clips
+  /// of the sphere.
   CutHit hit(const CutRay& ray, std::int64_t id) const;
 
   /// The outward normal, of length 1, at the cap where the ray hits the sphere. False: it hits the ball's own surface,
@@ -45,8 +56,11 @@ class CutSet {
   bool cap_normal(const Ray& ray, std::int64_t id, Vec3d& normal) const;
 
  private:
+  void leave_nearest(const Ray& ray, CutRay& entered) const;
+
   const SphereSet* spheres_;
   std::vector<StoredClip> clips_;
+  bool has_round_clips_ = false;
   std::vector<Remainder> remainders_;
   std::vector<std::uint64_t> cutting_;  // of each sphere: the clips whose border meets it
 };

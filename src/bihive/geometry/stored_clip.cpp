@@ -37,6 +37,8 @@ StoredClip::StoredClip(const Clip& clip, double scale) {
     offset_ = std::ldexp(plane->offset, -exponent) * scale;
     const double largest = normal_[axis];
     key_ = {normal_ / largest, offset_ / largest};
+    length_ = length(normal_);
+    takes_front_ = largest > 0;
   } else if (const auto* box = std::get_if<BoxClip>(&clip)) {
     kind_ = Kind::box;
     lo_ = box->lo * scale;
@@ -57,7 +59,7 @@ Remainder StoredClip::remainder(Vec3d centre, double radius) const {
 
 Remainder StoredClip::of_plane(Vec3d centre, double radius) const {
   const double height = dot(normal_, centre) - offset_;
-  const double reach = radius * length(normal_);
+  const double reach = radius * length_;
   if (height > reach) return Remainder::nothing;
   return height < -reach ? Remainder::whole : Remainder::cut;
 }
@@ -85,18 +87,17 @@ TakenPart StoredClip::taken(const CutRay& cut_ray) const {
 }
 
 TakenPart StoredClip::by_plane(const CutRay& cut_ray) const {
-  const bool takes_front = normal_[largest_axis(normal_)] > 0;
   if (cut_ray.leaves_plane && cut_ray.plane == key_)
-    return cut_ray.to_front == takes_front ? TakenPart{-kNever, kNever} : TakenPart();
+    return cut_ray.to_front == takes_front_ ? TakenPart::everything() : TakenPart::nothing();
   const double speed = dot(normal_, cut_ray.ray.direction);
   const double below = offset_ - dot(normal_, cut_ray.ray.origin);
-  if (speed == 0) return below < 0 ? TakenPart{-kNever, kNever} : TakenPart();
+  if (speed == 0) return below < 0 ? TakenPart::everything() : TakenPart::nothing();
   const double t = below / speed;
-  return speed > 0 ? TakenPart{t, kNever} : TakenPart{-kNever, t};
+  return speed > 0 ? TakenPart::between(t, kNever) : TakenPart::between(-kNever, t);
 }
 
 TakenPart StoredClip::by_box(const CutRay& cut_ray) const {
-  TakenPart part{-kNever, kNever};
+  TakenPart part = TakenPart::everything();
   for (int axis = 0; axis < 3; ++axis) {
     const double origin = cut_ray.ray.origin[axis];
     const double speed = cut_ray.ray.direction[axis];
@@ -105,7 +106,7 @@ TakenPart StoredClip::by_box(const CutRay& cut_ray) const {
     const bool leaves_upper = cut_ray.leaves_plane && cut_ray.plane == key_of_face(lower + 1);
     // A ray that leaves a face goes away from the box, or to the opposite face.
     if (leaves_lower || leaves_upper) {
-      if (cut_ray.to_front != leaves_lower) return {};
+      if (cut_ray.to_front != leaves_lower) return TakenPart::nothing();
       const double t = leaves_lower ? (hi_[axis] - origin) / speed : (lo_[axis] - origin) / speed;
       if (speed != 0 && (speed > 0) == leaves_lower && t < part.t_out) {
         part.t_out = t;
@@ -114,7 +115,7 @@ TakenPart StoredClip::by_box(const CutRay& cut_ray) const {
       continue;
     }
     if (speed == 0) {
-      if (!(origin > lo_[axis] && origin < hi_[axis])) return {};
+      if (!(origin > lo_[axis] && origin < hi_[axis])) return TakenPart::nothing();
       continue;
     }
     const double t_lower = (lo_[axis] - origin) / speed;
@@ -135,10 +136,10 @@ TakenPart StoredClip::by_box(const CutRay& cut_ray) const {
 
 TakenPart StoredClip::by_sphere(const CutRay& cut_ray) const {
   const bool leaves = cut_ray.ray.leaves(rounded(lo_), rounded(radius_));
-  if (leaves && !cut_ray.ray.inside) return {};
+  if (leaves && !cut_ray.ray.inside) return TakenPart::nothing();
   const SphereRoots roots = sphere_roots(cut_ray.ray, lo_, radius_);
-  if (!(roots.t_near < roots.t_far)) return {};
-  return {leaves ? -kNever : roots.t_near, roots.t_far};
+  if (!(roots.t_near < roots.t_far)) return TakenPart::nothing();
+  return TakenPart::between(leaves ? -kNever : roots.t_near, roots.t_far);
 }
 
 PlaneKey StoredClip::key_of_face(int face) const {
@@ -149,7 +150,7 @@ PlaneKey StoredClip::key_of_face(int face) const {
 }
 
 StoredClip::Place StoredClip::place(Vec3d point) const {
-  if (kind_ == Kind::plane) return {std::abs(dot(normal_, point) - offset_) / length(normal_), 0};
+  if (kind_ == Kind::plane) return {std::abs(dot(normal_, point) - offset_) / length_, 0};
   if (kind_ == Kind::sphere) return {std::abs(length(point - lo_) - radius_), 0};
   Place nearest{kNever, 0};
   for (int face = 0; face < 6; ++face) {
@@ -170,7 +171,7 @@ void StoredClip::leave(int face, bool into_clip, CutRay& ray) const {
     return;
   }
   ray.leaves_plane = true;
-  const bool front_taken = kind_ == Kind::plane ? normal_[largest_axis(normal_)] > 0 : face % 2 == 0;
+  const bool front_taken = kind_ == Kind::plane ? takes_front_ : face % 2 == 0;
   ray.plane = kind_ == Kind::plane ? key_ : key_of_face(face);
   ray.to_front = into_clip == front_taken;
 }

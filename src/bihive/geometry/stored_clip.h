@@ -1,6 +1,7 @@
 // A clip as rays meet it: in the stored units of one sphere set, in binary64.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -19,23 +20,32 @@ struct PlaneKey {
   friend bool operator==(const PlaneKey& a, const PlaneKey& b) { return a.normal == b.normal && a.offset == b.offset; }
 };
 
+/// The open part of a line that a clip takes away: empty unless t_in < t_out. `face_in`, `face_out`: of a box, the
+/// faces at both ends: twice the axis, and 1 more for the upper one.
+struct TakenPart {
+  double t_in, t_out;
+  int face_in, face_out;
+
+  static TakenPart between(double in, double out) { return {in, out, 0, 0}; }
+  static TakenPart nothing() { return between(0, 0); }
+  static TakenPart everything() {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    return between(-inf, inf);
+  }
+  bool empty() const { return !(t_in < t_out); }
+};
+
 /// A ray that may leave a cap. If it leaves a sphere, or the round cap that a sphere of this place and size made, the
 /// scaled ray says so; `inside` then means that it goes into that sphere.
 struct CutRay {
+  explicit CutRay(const ScaledRay& entering) : ray(entering) {}
+
   ScaledRay ray;
   bool leaves_plane = false;  ///< a flat cap
   PlaneKey plane;             ///< of this cap
   bool to_front = false;      ///< the side to which the ray goes
-};
-
-/// The open part of a line that a clip takes away: empty unless t_in < t_out. `face_in`, `face_out`: of a box, the
-/// faces at both ends: twice the axis, and 1 more for the upper one.
-struct TakenPart {
-  double t_in = std::numeric_limits<double>::infinity();
-  double t_out = -std::numeric_limits<double>::infinity();
-  int face_in = 0, face_out = 0;
-
-  bool empty() const { return !(t_in < t_out); }
+  /// What each clip takes away of the line; the entries of the clips that were asked for (CutSet::entering).
+  std::array<TakenPart, kMostClips> taken;
 };
 
 /// What a clip leaves of a sphere.
@@ -45,6 +55,8 @@ class StoredClip {
  public:
   /// `scale`: of the sphere set, a power of two.
   StoredClip(const Clip& clip, double scale);
+
+  bool is_round() const { return kind_ == Kind::sphere; }
 
   /// A sphere that the border touches is cut. A sphere of radius 0, which no ray meets, remains whole.
   Remainder remainder(Vec3d centre, double radius) const;
@@ -82,7 +94,10 @@ class StoredClip {
   double offset_ = 0;
   Vec3d lo_, hi_;  // box; sphere: lo_ is the centre
   double radius_ = 0;
-  PlaneKey key_;  // of a plane
+  // Of a plane.
+  PlaneKey key_;
+  double length_ = 1;  // of the normal
+  bool takes_front_ = false;
 };
 
 }  // namespace bihive

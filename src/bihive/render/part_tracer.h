@@ -65,21 +65,35 @@ class PartTracer {
     std::vector<std::uint8_t> inside, near_cut;
     std::vector<double> ends;
   };
+  // Cut spheres with a tree of their balls.
+  struct CutBalls : Balls {
+    std::uint64_t common = ~std::uint64_t{0};  // the clips that cut all of them
+    std::uint64_t any = 0;                     // the clips that cut some of them
+
+    template <class Answer>
+    void walk_with(Answer& answer) const;
+  };
   struct NearestCut;
   struct AllCut;
 
   // The ray as these balls see it: it may leave one of them.
   Ray ray_to(const Balls& balls, const Ray& ray) const;
   RaySpan rays_to(const Balls& balls, const RaySpan& rays, RayArrays& arrays) const;
-  // Calls use(i) for each ray i that may meet a cut sphere. `hidden`: 1 for rays that need no look; may be null.
+  static std::int64_t left_here(const Balls& balls, const CutRay& entered);
+  RaySpan rays_to_look_at(const CutBalls& balls, const RaySpan& rays, const std::uint8_t* hidden,
+                          RayArrays& arrays) const;
+  Status make_cut(const SphereSet& whole, const std::vector<std::int64_t>& cut, const Parameters& parameters);
+  // Calls use(i) for each ray i that may meet one of the balls. `hidden`: 1 for rays that need no look; may be null.
   template <class Use>
-  void for_each_near_cut(const RaySpan& rays, RayOrder order, const std::uint8_t* hidden, const Use& use) const;
+  void for_each_near(const CutBalls& balls, const RaySpan& rays, RayOrder order, const std::uint8_t* hidden,
+                     const Use& use) const;
   template <class Answer>
-  void walk_cut(const Ray& ray, Answer& answer) const;
+  bool prepare(const CutBalls& balls, const Ray& ray, Answer& answer) const;
   void add_whole_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
   std::shared_ptr<const CutSet> cuts_;
-  Balls whole_, cut_;
+  Balls whole_;
+  std::vector<std::unique_ptr<CutBalls>> cut_;  // by the clips that cut them; tracers refer to their spheres
 };
 
 }  // namespace bihive

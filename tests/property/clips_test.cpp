@@ -1,0 +1,362 @@
+// Cut spheres: every engine gives the same bits, and the bits agree with constructive solid geometry in long double.
+#include "bihive/scene/clips.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "bihive/geometry/cut_sphere.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/surface.h"
+#include "bihive/render/tracer.h"
+#include "bihive/render/transparency.h"
+#include "support/clips.h"
+#include "support/effort.h"
+#include "support/scenes.h"
+
+namespace bihive {
+namespace {
+
+using Real = long double;
+constexpr Real kNoHit = std::numeric_limits<Real>::infinity();
+
+struct Point {
+  Real x, y, z;
+};
+Point at(const Ray& ray, Real t) {
+  return {ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, ray.origin.z + t * ray.direction.z};
+}
+
+// Is the point taken away, and where does the ray cross the clip's border?
+bool taken(const Clip& clip, Point p) {
+  if (const auto* plane = std::get_if<PlaneClip>(&clip))
+    return plane->normal.x * p.x + plane->normal.y * p.y + plane->normal.z * p.z > plane->offset;
+  if (const auto* box = std::get_if<BoxClip>(&clip))
+    return p.x > box->lo.x && p.x < box->hi.x && p.y > box->lo.y && p.y < box->hi.y && p.z > box->lo.z &&
+           p.z < box->hi.z;
+  const auto& ball = std::get<SphereClip>(clip);
+  const Real x = p.x - ball.centre.x, y = p.y - ball.centre.y, z = p.z - ball.centre.z;
+  return x * x + y * y + z * z < Real(ball.radius) * ball.radius;
+}
+
+void add_roots(const Ray& ray, Vec3d centre, Real radius, std::vector<Real>& roots) {
+  const Real dx = ray.direction.x, dy = ray.direction.y, dz = ray.direction.z;
+  const Real ox = centre.x - Real(ray.origin.x), oy = centre.y - Real(ray.origin.y), oz = centre.z - Real(ray.origin.z);
+  const Real dd = dx * dx + dy * dy + dz * dz;
+  const Real cx = oy * dz - oz * dy, cy = oz * dx - ox * dz, cz = ox * dy - oy * dx;
+  const Real discriminant = radius * radius - (cx * cx + cy * cy + cz * cz) / dd;
+  if (!(discriminant >= 0) || !(radius > 0)) return;
+  const Real middle = (ox * dx + oy * dy + oz * dz) / dd, half = std::sqrt(discriminant / dd);
+  roots.push_back(middle - half);
+  roots.push_back(middle + half);
+}
+
+void add_borders(const Ray& ray, const Clip& clip, std::vector<Real>& roots) {
+  if (const auto* plane = std::get_if<PlaneClip>(&clip)) {
+    const Vec3d n = plane->normal;
+    const Real speed = n.x * Real(ray.direction.x) + n.y * Real(ray.direction.y) + n.z * Real(ray.direction.z);
+    const Real height = n.x * Real(ray.origin.x) + n.y * Real(ray.origin.y) + n.z * Real(ray.origin.z);
+    if (speed != 0) roots.push_back((plane->offset - height) / speed);
+  } else if (const auto* box = std::get_if<BoxClip>(&clip)) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double wall : {box->lo[axis], box->hi[axis]})
+        if (ray.direction[axis] != 0) roots.push_back((wall - Real(ray.origin[axis])) / ray.direction[axis]);
+  } else {
+    const auto& ball = std::get<SphereClip>(clip);
+    add_roots(ray, ball.centre, ball.radius, roots);
+  }
+}
+
+// The first place of the line, from t = 0 on, where the solid begins or ends, and the length of the part of the solid
+// there.
+struct Expected {
+  Real t = kNoHit;
+  Real thickness = kNoHit;
+};
+
+Expected expected_hit(const Scene& scene, const Ray& ray, std::int64_t id) {
+  std::vector<Real> ends;
+  add_roots(ray, scene.spheres.centre(id), scene.spheres.radius(id), ends);
+  if (ends.empty()) return {};
+  const Real near = ends[0], far = ends[1];
+  const std::uint64_t bits = scene.spheres.attributes().clips[static_cast<std::size_t>(id)];
+  for (std::size_t k = 0; k < scene.clips.size(); ++k)
+    if ((bits >> k & 1) != 0) add_borders(ray, scene.clips[k], ends);
+  std::sort(ends.begin(), ends.end());
+  const auto is_solid = [&](Real t) {
+    if (!(t > near && t < far)) return false;
+    for (std::size_t k = 0; k < scene.clips.size(); ++k)
+      if ((bits >> k & 1) != 0 && taken(scene.clips[k], at(ray, t))) return false;
+    return true;
+  };
+  bool before = false;
+  Real begin = -kNoHit;
+  Expected found;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const bool after = i + 1 < ends.size() && is_solid((ends[i] + ends[i + 1]) / 2);
+    if (after != before) {
+      if (found.t < kNoHit) {
+        found.thickness = std::min(found.thickness, ends[i] - found.t);
+        return found;
+      }
+      if (after) begin = ends[i];
+      if (ends[i] >= 0) {
+        found.t = ends[i];
+        if (!after) return {ends[i], ends[i] - begin};
+      }
+    }
+    before = after;
+  }
+  return found;
+}
+
+Ray random_ray(SplitMix64& rng, double size, Vec3d middle) {
+  const auto coordinate = [&](double m) { return static_cast<float>(m + size * (2 * rng.next_double() - 1)); };
+  Ray ray;
+  ray.origin = {coordinate(middle.x), coordinate(middle.y), coordinate(middle.z)};
+  ray.direction = Vec3f{coordinate(middle.x), coordinate(middle.y), coordinate(middle.z)} - ray.origin;
+  return ray;
+}
+
+// Each ray against each sphere. The two may differ by more than rounding only where the ray grazes the solid.
+void expect_oracle(const Scene& scene, double size, std::uint64_t seed, const std::string& what, std::int64_t& hits) {
+  const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
+  ASSERT_NE(cuts, nullptr) << what;
+  SplitMix64 rng(seed);
+  std::int64_t grazed = 0;
+  const std::int64_t rays = 3000 / test::ray_share();
+  for (std::int64_t i = 0; i < rays; ++i) {
+    const auto id = static_cast<std::int64_t>(rng.next() % static_cast<std::uint64_t>(scene.spheres.size()));
+    const Ray ray = random_ray(rng, 1.5 * size, {});
+    if (!is_valid(ray) || cuts->remainder(id) != Remainder::cut) continue;
+    const Expected expected = expected_hit(scene, ray, id);
+    const double t = cuts->hit(cuts->entering(ray, cuts->cutting(id)), id).t;
+    const Real tolerance = 1e-9L;
+    const bool same = expected.t == kNoHit ? t == std::numeric_limits<double>::infinity()
+                                           : std::abs(t - expected.t) <= tolerance * std::max<Real>(1, expected.t);
+    if (expected.t < kNoHit) ++hits;
+    if (same) continue;
+    ++grazed;
+    // What grazes: the solid is thin on one of both ways.
+    ASSERT_TRUE(expected.thickness < 1e-6L || expected.t == kNoHit || expected.t < 1e-9L)
+        << what << ", ray " << i << ", sphere " << id << ": " << t << ", expected " << static_cast<double>(expected.t);
+  }
+  EXPECT_LE(grazed, rays / 500) << what;
+}
+
+Scene scene_of(const test::World& world) {
+  Scene scene;
+  scene.spheres = test::sphere_set(world);
+  return scene;
+}
+
+void clip_all(Scene& scene, const std::vector<Clip>& clips) {
+  scene.clips = clips;
+  scene.spheres.attributes().clips.assign(static_cast<std::size_t>(scene.spheres.size()),
+                                          (std::uint64_t{1} << clips.size()) - 1);
+}
+
+TEST(Clips, RandomSetsAgreeWithLongDouble) {
+  std::int64_t hits = 0;
+  for (std::uint64_t seed = 1; seed <= 60; seed += static_cast<std::uint64_t>(test::ray_share())) {
+    Scene scene = scene_of(test::random_world("random", seed, 40, 10, 0.5, 5));
+    test::add_random_clips(seed, 10, scene);
+    if (cut_set_of(scene) != nullptr) expect_oracle(scene, 10, seed, "seed " + std::to_string(seed), hits);
+  }
+  EXPECT_GT(hits, 1000 / test::ray_share());
+}
+
+// Planes that touch, planes through centres, nested and coincident clips and spheres, spheres of radius 0.
+std::vector<Scene> hostile_scenes() {
+  std::vector<Scene> scenes;
+  const std::vector<Clip> planes{PlaneClip{{0, 0, 1}, 0}, PlaneClip{{0, 3, 0}, 3}, PlaneClip{{-1, 0, 0}, 2}};
+  scenes.push_back(scene_of(test::touching_world(4)));
+  clip_all(scenes.back(), planes);
+  scenes.push_back(scene_of(test::coincident_world(5, 20, 4)));
+  clip_all(scenes.back(), {PlaneClip{{1, 1, 1}, 0}, PlaneClip{{2, 2, 2}, 0}, BoxClip{{-1, -1, -1}, {1, 1, 1}}});
+  scenes.push_back(scene_of(test::nested_world(6, 10)));
+  clip_all(scenes.back(), {SphereClip{{0, 0, 0}, 4}, SphereClip{{0, 0, 0}, 2}, BoxClip{{0, 0, 0}, {9, 9, 9}}});
+  scenes.push_back(scene_of(test::random_world("points", 7, 50, 3, 0, 0)));
+  test::World mixed = test::random_world("mixed", 8, 50, 3, 1e-4, 3);
+  mixed.add(0, 0, 0, 0);
+  mixed.add(0, 0, 0, 1);
+  scenes.push_back(scene_of(mixed));
+  clip_all(scenes.back(), {SphereClip{{0, 0, 0}, 1}, PlaneClip{{0, 0, -1}, 0.5}});
+  for (const double unit : {1e-20, 1e20}) {
+    scenes.push_back(scene_of(test::random_world("units", 9, 60, 3, 0.1, 2).scaled(unit, "units")));
+    clip_all(scenes.back(), {PlaneClip{{1, 2, 3}, 0.5 * unit}, BoxClip{{-unit, -unit, -unit}, {unit, unit, unit}},
+                             SphereClip{{2 * unit, 0, 0}, unit}});
+  }
+  return scenes;
+}
+
+double size_of(const Scene& scene) {
+  const SphereSet::Bounds box = scene.spheres.bounds();
+  return std::max({std::abs(box.lo.x), std::abs(box.hi.x), std::abs(box.lo.y), std::abs(box.hi.y), std::abs(box.lo.z),
+                   std::abs(box.hi.z)});
+}
+
+TEST(Clips, HostileSetsAgreeWithLongDouble) {
+  std::uint64_t seed = 100;
+  std::int64_t hits = 0;
+  for (const Scene& scene : hostile_scenes()) {
+    ++seed;
+    if (cut_set_of(scene) != nullptr) expect_oracle(scene, size_of(scene), seed, "set " + std::to_string(seed), hits);
+  }
+  EXPECT_GT(hits, 500 / test::ray_share());
+}
+
+// Rays through the set; half of them leave what another ray hit, as shading does.
+RayBatch rays_of(const Scene& scene, const Tracer& tracer, std::uint64_t seed) {
+  SplitMix64 rng(seed);
+  const double size = 1.5 * size_of(scene);
+  RayBatch rays;
+  for (std::int64_t i = 0; i < 4000 / test::ray_share(); ++i) {
+    Ray ray = random_ray(rng, size, {});
+    if (i % 5 == 0) ray.t_max = rng.next_double();
+    if (i % 11 == 0) ray.t_min = 0.25 * rng.next_double();
+    rays.push_back(ray);
+    const SceneHit hit = scene_hit(scene, tracer, ray);
+    if (!hit.found()) continue;
+    const Surface surface = surface_at(scene, ray, hit);
+    Ray next = random_ray(rng, size, {});
+    next.origin = surface.origin;
+    next.leaves = surface.id;
+    const bool outward = dot(to_double(next.direction), surface.normal) > 0;
+    next.inside = outward == surface.from_inside;
+    rays.push_back(next);
+  }
+  return rays;
+}
+
+void expect_same_answers(const Scene& scene, std::uint64_t seed) {
+  const Tracer brute = Tracer::build(scene, Engine::brute).value();
+  const RayBatch batch = rays_of(scene, brute, seed);
+  const RaySpan rays = batch.span();
+  for (const Engine engine : {Engine::wide, Engine::reference}) {
+    const Tracer tracer = Tracer::build(scene, engine).value();
+    for (const RayOrder order : {RayOrder::any, RayOrder::blocks}) {
+      HitBatch hits;
+      hits.resize(rays.count);
+      std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.count), 2);
+      tracer.closest_hits(rays, order, hits.span());
+      tracer.occluded(rays, order, hidden.data());
+      for (std::int64_t i = 0; i < rays.count; ++i) {
+        const Hit expected = brute.closest_hit(rays.at(i));
+        ASSERT_EQ(hits.at(i).t, expected.t) << seed << ", ray " << i;
+        ASSERT_EQ(hits.at(i).sphere_id, expected.sphere_id) << seed << ", ray " << i;
+        ASSERT_EQ(hidden[static_cast<std::size_t>(i)], expected.found() ? 1 : 0) << seed << ", ray " << i;
+        if (order == RayOrder::blocks) continue;
+        ASSERT_EQ(tracer.closest_hit(rays.at(i)).sphere_id, expected.sphere_id) << seed << ", ray " << i;
+        ASSERT_EQ(tracer.occluded(rays.at(i)), expected.found()) << seed << ", ray " << i;
+      }
+    }
+  }
+}
+
+TEST(Clips, EveryEngineGivesTheSameBits) {
+  for (std::uint64_t seed = 1; seed <= 24; seed += static_cast<std::uint64_t>(test::ray_share())) {
+    Scene scene = scene_of(test::random_world("random", seed, 60, 10, 0.3, 6));
+    test::add_random_clips(seed, 10, scene);
+    expect_same_answers(scene, seed);
+  }
+  std::uint64_t seed = 200;
+  for (const Scene& scene : hostile_scenes()) expect_same_answers(scene, ++seed);
+}
+
+// More groups of clips than the tracer keeps apart.
+TEST(Clips, ManyGroupsGiveTheSameBits) {
+  Scene scene = scene_of(test::random_world("random", 3, 120, 10, 0.3, 6));
+  SplitMix64 rng(9);
+  for (int k = 0; k < 7; ++k) scene.clips.push_back(test::random_clip(rng, 10));
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id)
+    scene.spheres.attributes().clips.push_back(rng.next() % 128);
+  expect_same_answers(scene, 300);
+}
+
+TEST(Clips, CrossingsOfTransparentSpheresAreTheSame) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Scene scene = scene_of(test::random_world("random", seed, 60, 10, 0.3, 6));
+    test::add_random_clips(seed, 10, scene);
+    scene.spheres.attributes().opacity.assign(60, 1);
+    for (std::size_t i = 0; i < 60; i += 2) scene.spheres.attributes().opacity[i] = 0.5f;
+    const RayBatch batch = rays_of(scene, Tracer::build(scene, Engine::brute).value(), seed);
+    const auto brute = Transparency::of(scene, OpacityRule::once, Engine::brute, 1).value().to_light;
+    const auto wide = Transparency::of(scene, OpacityRule::once, Engine::wide, 1).value().to_light;
+    std::vector<RayHit> expected, found;
+    brute->find_crossings(batch.span(), RayOrder::any, expected);
+    wide->find_crossings(batch.span(), RayOrder::any, found);
+    ASSERT_EQ(found.size(), expected.size()) << seed;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      ASSERT_EQ(found[i].ray, expected[i].ray) << seed;
+      ASSERT_EQ(found[i].t, expected[i].t) << seed;
+      ASSERT_EQ(found[i].sphere_id, expected[i].sphere_id) << seed;
+    }
+    for (std::int64_t i = 0; i < batch.size(); i += 10)
+      ASSERT_EQ(wide->share(batch.span().at(i)), brute->share(batch.span().at(i))) << seed;
+  }
+}
+
+// One plane cuts all spheres: what leaves a cap on the side that is taken away meets nothing, whatever the units.
+TEST(Clips, NoCapShadowsAnother) {
+  for (const double unit : {1e-20, 1.0, 1e20}) {
+    Scene scene = scene_of(test::random_world("base", 4, 80, 3, 0.2, 2).scaled(unit, "scaled"));
+    const Vec3d normal{0.3, -0.2, 0.9};
+    clip_all(scene, {PlaneClip{normal, 0.1 * unit}});
+    const Tracer tracer = Tracer::build(scene, Engine::wide).value();
+    SplitMix64 rng(5);
+    int caps = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Ray ray = random_ray(rng, 4 * unit, {});
+      const SceneHit hit = scene_hit(scene, tracer, ray);
+      if (!hit.found()) continue;
+      const Surface surface = surface_at(scene, ray, hit);
+      if (surface.from_inside || dot(surface.normal, normalized(normal)) < 1 - 1e-12) continue;
+      ++caps;
+      Ray next = random_ray(rng, unit, {});
+      if (dot(to_double(next.direction), normal) < 0) next.direction = -next.direction;
+      next.origin = surface.origin;
+      next.leaves = surface.id;
+      EXPECT_FALSE(tracer.occluded(next)) << unit << ", ray " << i;
+    }
+    EXPECT_GT(caps, 100) << unit;
+  }
+}
+
+TEST(Clips, ThreadsDoNotChangeAPicture) {
+  Scene scene = scene_of(test::random_world("random", 2, 200, 10, 0.5, 3));
+  test::add_random_clips(2, 10, scene);
+  scene.camera.eye = {0, 0, 30};
+  scene.lights.push_back({{20, 30, 40}});
+  scene.materials[0].reflective = 0.3;
+  RenderSettings settings;
+  settings.width_px = 150;
+  settings.height_px = 100;
+  settings.ambient_occlusion.emplace();
+  Film first;
+  for (const int threads : {1, 2, 7}) {
+    settings.threads = threads;
+    const Tracer tracer = Tracer::build(scene, Engine::wide, {}, threads).value();
+    Film film = render(scene, tracer, settings).value().film;
+    if (threads == 1) first = film;
+    ASSERT_EQ(film.radiance.size(), first.radiance.size());
+    EXPECT_EQ(std::memcmp(film.radiance.data(), first.radiance.data(), film.radiance.size() * sizeof(Vec3f)), 0);
+  }
+}
+
+TEST(Clips, ATracerWithoutTheClipsIsRefused) {
+  Scene scene = scene_of(test::random_world("random", 2, 20, 10, 0.5, 3));
+  clip_all(scene, {PlaneClip{{0, 0, 1}, 0}});
+  EXPECT_FALSE(render(scene, Tracer::build(scene.spheres, Engine::wide).value(), RenderSettings()));
+  EXPECT_TRUE(render(scene, Tracer::build(scene, Engine::wide).value(), [] {
+    RenderSettings small;
+    small.width_px = small.height_px = 4;
+    return small;
+  }()));
+}
+
+}  // namespace
+}  // namespace bihive
