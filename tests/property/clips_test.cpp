@@ -130,7 +130,11 @@ void expect_oracle(const Scene& scene, double size, std::uint64_t seed, const st
   const std::int64_t rays = 3000 / test::ray_share();
   for (std::int64_t i = 0; i < rays; ++i) {
     const auto id = static_cast<std::int64_t>(rng.next() % static_cast<std::uint64_t>(scene.spheres.size()));
-    const Ray ray = random_ray(rng, 1.5 * size, {});
+    // Aimed at the sphere, or a little beside it.
+    Ray ray = random_ray(rng, 1.5 * size, {});
+    const double reach = 1.1 * scene.spheres.radius(id);
+    const auto beside = [&] { return reach * (2 * rng.next_double() - 1); };
+    ray.direction = to_float(scene.spheres.centre(id) + Vec3d{beside(), beside(), beside()} - to_double(ray.origin));
     if (!is_valid(ray) || cuts->remainder(id) != Remainder::cut) continue;
     const Expected expected = expected_hit(scene, ray, id);
     const double t = cuts->hit(cuts->entering(ray, cuts->cutting(id)), id).t;

@@ -70,7 +70,7 @@ TEST(Clips, TheCapOfAPlaneHasTheAreaOfItsCircle) {
         const Ray ray = ray_from({place(x), place(y), 5}, {0, 0, -1});
         const SceneHit hit = scene_hit(scene, tracer, ray);
         if (!hit.found()) continue;
-        if (surface_at(scene, ray, hit).normal == Vec3d{0, 0, 1} && hit.t == 5 - d) ++on_cap;
+        if (surface_at(scene, ray, hit).normal == Vec3d{0, 0, 1} && std::abs(hit.t - (5 - d)) < 1e-14) ++on_cap;
       }
     const double area = static_cast<double>(on_cap) * kPixel * kPixel;
     const double rim = 2 * M_PI * std::sqrt(1 - d * d);
@@ -230,12 +230,13 @@ TEST(ClipLooks, NothingMustNotBeLeft) {
 }
 
 TEST(ClipFile, ClipsComeBack) {
-  const Scene scene = clipped({{0, 0, 0, 1}, {0, 0, -3, 1}},
+  Scene scene = clipped({{0, 0, 0, 1}, {0, 0, -3, 1}},
                               {PlaneClip{{0.1, 1e-30, -3}, 0.25}, BoxClip{{-1, -2, -3}, {0.5, 1.0 / 3, 9}},
                                SphereClip{{0.1, 0.2, 0.3}, 0.7}},
                               "z = 0");
+  scene.name = "a.json";
   const std::string text = scene_to_json(scene);
-  const Result<LoadedScene> back = parse_scene(text, "a.json");
+  const Result<LoadedScene> back = parse_scene(text, "a.json", {});
   ASSERT_TRUE(back) << back.error().to_string();
   EXPECT_EQ(back->scene.clips, scene.clips);
   EXPECT_EQ(back->scene.spheres.attributes().clips, (std::vector<std::uint64_t>{7, 0}));
@@ -245,11 +246,11 @@ TEST(ClipFile, ClipsComeBack) {
 TEST(ClipFile, LooksTakeClipsAndErrorsNameThePlace) {
   const auto loaded = parse_scene(
       R"({"bihive_scene": 2, "spheres": [[0,0,0,1]], "looks": [{"clip": [{"plane": {"normal": [0,0,1], "offset": 0}}]}]})",
-      "a.json");
+      "a.json", {});
   ASSERT_TRUE(loaded) << loaded.error().to_string();
   EXPECT_EQ(loaded->scene.clips, std::vector<Clip>{kUpperHalf});
   const auto error = [](const std::string& rest) {
-    return parse_scene(R"({"bihive_scene": 2, )" + rest + "}", "a.json").error().to_string();
+    return parse_scene(R"({"bihive_scene": 2, )" + rest + "}", "a.json", {}).error().to_string();
   };
   EXPECT_THAT(error(R"("spheres": [[0,0,0,1]], "clips": [{"cone": 1}])"), HasSubstr("/clips/0"));
   EXPECT_THAT(error(R"("spheres": [[0,0,0,1]], "clips": [{"sphere": {"centre": [0,0,0], "radius": 0}}])"),
@@ -258,7 +259,7 @@ TEST(ClipFile, LooksTakeClipsAndErrorsNameThePlace) {
               HasSubstr("/clips/0: the normal"));
   EXPECT_THAT(error(R"("spheres": [{"centre": [0,0,0], "radius": 1, "clips": [0]}])"),
               HasSubstr("/spheres/0/clips: there is no clip 0"));
-  EXPECT_THAT(parse_scene(R"({"bihive_scene": 1, "spheres": [[0,0,0,1]], "clips": []})", "a.json").error().message,
+  EXPECT_THAT(parse_scene(R"({"bihive_scene": 1, "spheres": [[0,0,0,1]], "clips": []})", "a.json", {}).error().message,
               HasSubstr("expected no such key in version 1"));
 }
 

@@ -86,12 +86,18 @@ void CutSet::leave_nearest(const Ray& ray, CutRay& entered) const {
 }
 
 CutRay CutSet::entering(const Ray& ray, std::uint64_t clips) const {
-  CutRay entered{ScaledRay(ray, *spheres_)};
+  CutRay entered{ScaledRay(ray, spheres_->scale())};
+  enter(ray, clips, entered);
+  return entered;
+}
+
+void CutSet::enter(const Ray& ray, std::uint64_t clips, CutRay& entered) const {
+  entered.ray = ScaledRay(ray, *spheres_);
+  entered.leaves_plane = false;
   if (is_cut(ray.leaves)) leave_nearest(ray, entered);
   for_each_clip(clips, [&](int k) {
     entered.taken[static_cast<std::size_t>(k)] = clips_[static_cast<std::size_t>(k)].taken(entered);
   });
-  return entered;
 }
 
 bool CutSet::narrow(std::uint64_t clips, CutRay& cut_ray) {

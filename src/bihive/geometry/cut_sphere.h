@@ -35,6 +35,8 @@ class CutSet {
   /// nearest: of the ball, or of one of its clips; of equally near ones the ball, then the first clip.
   /// It knows what the clips of `clips`, a bit each, take of it.
   CutRay entering(const Ray& ray, std::uint64_t clips) const;
+  /// The same in the place of another ray, which is quicker.
+  void enter(const Ray& ray, std::uint64_t clips, CutRay& entered) const;
 
   /// The clips whose border meets the sphere, a bit each.
   std::uint64_t cutting(std::int64_t id) const { return cutting_[static_cast<std::size_t>(id)]; }

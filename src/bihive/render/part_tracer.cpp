@@ -93,7 +93,7 @@ template <class Answer>
 bool PartTracer::prepare(const CutBalls& balls, const Ray& ray, Answer& answer) const {
   if (!is_valid(ray)) return false;
   answer.ids = &balls.ids;
-  answer.ray = cuts_->entering(ray, balls.any);
+  cuts_->enter(ray, balls.any, answer.ray);
   return CutSet::narrow(balls.common, answer.ray);
 }
 
@@ -193,14 +193,16 @@ RaySpan PartTracer::rays_to(const Balls& balls, const RaySpan& rays, RayArrays& 
     here.inside = arrays.inside.data();
   }
   for (std::size_t i = 0; i < count; ++i) {
-    Ray ray;
-    ray.leaves = rays.leaves[i];
-    if (cuts_ != nullptr && cuts_->is_cut(ray.leaves)) ray = rays.at(static_cast<std::int64_t>(i));
-    ray = ray_to(balls, ray);
-    arrays.leaves[i] = ray.leaves;
-    if (cuts_ == nullptr) continue;
-    const bool is_cut = cuts_->is_cut(rays.leaves[i]);
-    arrays.inside[i] = is_cut ? (ray.inside ? 1 : 0) : (rays.inside != nullptr ? rays.inside[i] : 0);
+    const std::int64_t leaves = rays.leaves[i];
+    if (cuts_ != nullptr && cuts_->is_cut(leaves)) {
+      const Ray ray = ray_to(balls, rays.at(static_cast<std::int64_t>(i)));
+      arrays.leaves[i] = ray.leaves;
+      arrays.inside[i] = ray.inside ? 1 : 0;
+      continue;
+    }
+    const bool is_sphere = leaves >= 0 && leaves < static_cast<std::int64_t>(balls.own_place.size());
+    arrays.leaves[i] = is_sphere ? balls.own_place[static_cast<std::size_t>(leaves)] : kNothing;
+    if (cuts_ != nullptr) arrays.inside[i] = rays.inside != nullptr ? rays.inside[i] : 0;
   }
   return here;
 }
@@ -232,6 +234,7 @@ RaySpan PartTracer::rays_to_look_at(const CutBalls& balls, const RaySpan& rays, 
   for (auto* bytes : {&arrays.near_cut, &arrays.inside}) bytes->resize(count);
   arrays.leaves.resize(count);
   arrays.ends.resize(count);
+  CutRay entered{ScaledRay({}, 1)};
   for (std::size_t i = 0; i < count; ++i) {
     const double start = rays.t_min != nullptr ? rays.t_min[i] : 0;
     const bool no_segment = rays.t_max != nullptr && rays.t_max[i] < start;
@@ -240,7 +243,7 @@ RaySpan PartTracer::rays_to_look_at(const CutBalls& balls, const RaySpan& rays, 
     arrays.inside[i] = rays.inside != nullptr ? rays.inside[i] : 0;
     arrays.leaves[i] = kNothing;
     if (looks && cuts_->is_cut(leaves)) {
-      CutRay entered = cuts_->entering(rays.at(static_cast<std::int64_t>(i)), balls.common & balls.any);
+      cuts_->enter(rays.at(static_cast<std::int64_t>(i)), balls.common & balls.any, entered);
       looks = CutSet::narrow(balls.common & balls.any, entered);
       arrays.leaves[i] = left_here(balls, entered);
       arrays.inside[i] = entered.ray.inside ? 1 : 0;
