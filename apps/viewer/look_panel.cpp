@@ -95,6 +95,7 @@ const char* hint_of(const std::string& action) {
   if (action == "colour") return "orange or #ff8800";
   if (action == "colour-by") return "chain or b_factor:magma";
   if (action == "material") return "metal";
+  if (action == "clip") return "plane:0,0,1,0";
   return action == "opacity" ? "0 to 1" : "0.5";
 }
 

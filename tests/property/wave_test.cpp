@@ -250,8 +250,7 @@ TEST(Wave, ambient_occlusion_of_many_samples) {
   settings.recursion = 1;
   settings.ambient_occlusion = {4.0, 2};
   const Expected expected = one_after_the_other(scene, settings);
-  expect_same(expected, render(scene, Tracer::build(scene, Engine::wide).value(), settings).value(),
-              "many samples");
+  expect_same(expected, render(scene, Tracer::build(scene, Engine::wide).value(), settings).value(), "many samples");
 }
 
 // One pass shades primary rays without shadows; the last vector of a tile is rarely full.

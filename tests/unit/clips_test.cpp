@@ -56,8 +56,8 @@ Ray ray_from(Vec3f origin, Vec3f direction) {
 constexpr PlaneClip kUpperHalf{{0, 0, 1}, 0};
 
 TEST(Clips, TheCapOfAPlaneHasTheAreaOfItsCircle) {
-  // A square of 2.5 units has 500 pixels a side. The border of the cap crosses at most 8 times its radius in pixels, and
-  // by chance half of these count; so the area is right to a fraction of a pixel's width along the border.
+  // A square of 2.5 units has 500 pixels a side. The border of the cap crosses at most 8 times its radius in pixels,
+  // and by chance half of these count; so the area is right to a fraction of a pixel's width along the border.
   constexpr int kSide = 500;
   constexpr double kPixel = 2.5 / kSide;
   for (const double d : {-0.75, -0.2, 0.0, 0.3, 0.9}) {
@@ -230,10 +230,10 @@ TEST(ClipLooks, NothingMustNotBeLeft) {
 }
 
 TEST(ClipFile, ClipsComeBack) {
-  Scene scene = clipped({{0, 0, 0, 1}, {0, 0, -3, 1}},
-                              {PlaneClip{{0.1, 1e-30, -3}, 0.25}, BoxClip{{-1, -2, -3}, {0.5, 1.0 / 3, 9}},
-                               SphereClip{{0.1, 0.2, 0.3}, 0.7}},
-                              "z = 0");
+  Scene scene = clipped(
+      {{0, 0, 0, 1}, {0, 0, -3, 1}},
+      {PlaneClip{{0.1, 1e-30, -3}, 0.25}, BoxClip{{-1, -2, -3}, {0.5, 1.0 / 3, 9}}, SphereClip{{0.1, 0.2, 0.3}, 0.7}},
+      "z = 0");
   scene.name = "a.json";
   const std::string text = scene_to_json(scene);
   const Result<LoadedScene> back = parse_scene(text, "a.json", {});

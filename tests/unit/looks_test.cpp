@@ -194,7 +194,7 @@ TEST(Looks, FaultsOfASceneFileNameTheirPlace) {
   EXPECT_THAT(error_of("2", R"([{"colour_by": {"attribute": "q"}}])"),
               HasSubstr("/looks/0: there is no attribute \"q\""));
   EXPECT_THAT(error_of("2", R"([{"hide": true}])"),
-              HasSubstr("/looks/0: unknown key \"hide\"; known keys: colour, colour_by"));
+              HasSubstr("/looks/0: unknown key \"hide\"; known keys: clip, colour, colour_by"));
   EXPECT_THAT(error_of("2", R"([{"opacity": 2}])"), HasSubstr("/looks/0/opacity: expected a number from 0 to 1"));
   EXPECT_THAT(error_of("2", R"([{"colour_by": {"attribute": "x", "map": "jet"}}])"),
               HasSubstr("expected one of viridis"));
