@@ -194,14 +194,15 @@ RaySpan PartTracer::rays_to(const Balls& balls, const RaySpan& rays, RayArrays& 
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t leaves = rays.leaves[i];
-    if (cuts_ != nullptr && cuts_->is_cut(leaves)) {
+    const bool is_sphere = leaves >= 0 && leaves < static_cast<std::int64_t>(balls.own_place.size());
+    const std::int64_t own = is_sphere ? balls.own_place[static_cast<std::size_t>(leaves)] : kNothing;
+    if (cuts_ != nullptr && cuts_->is_cut(leaves) && (own != kNothing || cuts_->has_round_clips())) {
       const Ray ray = ray_to(balls, rays.at(static_cast<std::int64_t>(i)));
       arrays.leaves[i] = ray.leaves;
       arrays.inside[i] = ray.inside ? 1 : 0;
       continue;
     }
-    const bool is_sphere = leaves >= 0 && leaves < static_cast<std::int64_t>(balls.own_place.size());
-    arrays.leaves[i] = is_sphere ? balls.own_place[static_cast<std::size_t>(leaves)] : kNothing;
+    arrays.leaves[i] = own;
     if (cuts_ != nullptr) arrays.inside[i] = rays.inside != nullptr ? rays.inside[i] : 0;
   }
   return here;
