@@ -275,8 +275,9 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
             [](const std::string& text) { return number_from(text, 0, kMostZoom, /*open=*/true); });
   add_number(command, "--aperture", options.aperture, kLargestFloat, "R",
              "Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)");
-  add_value(command, "--focus", options.focus, "D|auto",
-            "With an aperture: the distance that is sharp, in world units (auto: where the camera looks at)",
+  add_value(command, "--focus", options.focus, "D|auto|EXPR",
+            "With an aperture: the distance that is sharp, in world units, or the spheres that are,\n"
+            "such as 'resname LIG' or 'index 12' (auto: where the camera looks at)",
             focus_from);
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");

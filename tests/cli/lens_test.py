@@ -28,6 +28,21 @@ class DepthOfField(LensTest):
         self.assertEqual(self.picture("s.json", *SMALL, "--aperture", "1.5", "--samples", "9", "--focus", "20"), auto)
         self.assertEqual(self.picture("lens.json", *SMALL, "--focus", "auto"), auto)
 
+    def test_focus_on_spheres(self):
+        self.write("s.json", SCENE % ("", 9))
+        lens = ["s.json", *SMALL, "--aperture", "1.5", "--samples", "9"]
+        near = self.picture(*lens, "--focus", "10")
+        self.assertNotEqual(near, self.picture(*lens))
+        self.assertEqual(self.picture(*lens, "--focus", "index 1"), near)
+        self.assertEqual(self.picture(*lens, "--focus", "all"), self.picture(*lens, "--focus", "15"))
+        self.write("lens.json", SCENE % (', "aperture": 1.5, "focus": "x > 1"', 9))
+        self.assertEqual(self.picture("lens.json", *SMALL), near)
+        self.assertIn("--focus: the selection means no sphere", self.fail_usage("render", *lens, "-o", "a.png", "--focus", "x > 9"))
+        behind = ["--eye", "0,0,-20", "--look-at", "0,0,-30"]
+        self.assertIn("not before the camera", self.fail_usage("render", *lens, *behind, "-o", "a.png", "--focus", "all"))
+        self.write("bad.json", SCENE % (', "aperture": 1.5, "focus": "name"', 9))
+        self.assertIn("bad.json: /camera/focus: ", self.run_bihive("render", "bad.json", "-o", "a.png").stderr)
+
     def test_an_aperture_brings_its_samples(self):
         report = self.render("demo", *SMALL, "--style", "plain", "--aperture", "1", "--focus", "70")
         self.assertEqual(report["settings"]["samples_per_pixel"], 64)
@@ -55,8 +70,9 @@ class DepthOfField(LensTest):
 
         for value in ["-1", "x", "nan", "1e39"]:
             self.assertIn("--aperture: expected a number", said("--aperture=" + value))
-        for value in ["0", "-1", "x", "nan", "1e39"]:
-            self.assertIn('--focus: expected a number above 0 and up to 3.4e38 or "auto"', said("--aperture", "1", "--focus=" + value))
+        for value in ["0", "-1", "1e39"]:
+            self.assertIn('--focus: expected a number above 0 and up to 3.4e38, "auto" or a selection', said("--aperture", "1", "--focus=" + value))
+        self.assertIn("--focus: 'x' needs values or a comparison behind it", said("--aperture", "1", "--focus", "x"))
         self.assertIn("--focus changes nothing without an aperture", said("--focus", "3"))
         self.assertIn("orthographic camera has no lens", said("--aperture", "1", "--projection", "orthographic"))
         self.assertIn("draws no depth of field", said("--aperture", "1", "--engine", "gpu", "--style", "plain"))

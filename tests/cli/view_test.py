@@ -158,11 +158,11 @@ class Window(ProgramTest):
             self.tool("key", key)
             time.sleep(0.05)
 
-    def saved(self):
+    def saved(self, patience_s=PATIENCE_S):
         """Presses S; the settings and the scene of the picture that is written."""
         before = set(os.listdir(self.folder))
         self.press("s")
-        deadline = time.monotonic() + PATIENCE_S
+        deadline = time.monotonic() + patience_s
         while time.monotonic() < deadline:
             new = [name for name in set(os.listdir(self.folder)) - before if name.endswith(".png")]
             if new:
@@ -239,31 +239,46 @@ class Window(ProgramTest):
 
 
     def test_a_look_of_a_selection(self):
-        """A row of the panel by pointer and keys: the button is below four lines of the panel."""
+        """A row of the panel by pointer and keys: the button is below four lines of the panel. Nothing but the picture
+        says that the panel has taken a key, so a busy machine gets more time at the next attempt."""
         self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
-        self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat")
-        self.assertEqual(self.saved()["look"], {"style": "flat", "element_colours": "", "background": "", "rows": []})
+        wanted = [{"select": "index 1", "action": "colour", "value": "orange"}]
+        for pause_s in [0.3, 1, 4, 16]:
+            self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat")
+            self.assertEqual(self.saved()["look"], {"style": "flat", "element_colours": "", "background": "", "rows": []})
+            rows = self.rows_after_typing(pause_s)
+            if rows == wanted:
+                break
+            self.close_window()
+        self.assertEqual(rows, wanted)
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
+
+    def rows_after_typing(self, pause_s):
+        """The rows of the saved picture; none if the panel missed a key, or takes S for a letter."""
 
         def enter(x, y, text):
             self.tool("mousemove", "--window", self.window, str(x), str(y))
-            time.sleep(0.3)
+            time.sleep(pause_s)
             self.tool("click", "1")
-            time.sleep(0.5)
+            time.sleep(2 * pause_s)
             self.tool("type", "--delay", "50", text)
             self.press("Return")
-            time.sleep(0.5)
+            time.sleep(2 * pause_s)
 
         enter(520, 160, "")  # add
         enter(450, 160, "index 1")
         enter(610, 188, "orange")
         self.tool("mousemove", "--window", self.window, "100", "100")
-        deadline = time.monotonic() + PATIENCE_S
-        rows = []
-        while not rows and time.monotonic() < deadline:
-            rows = self.saved()["look"]["rows"]
-        self.assertEqual(rows, [{"select": "index 1", "action": "colour", "value": "orange"}])
-        self.press("q")
-        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
+        deadline = time.monotonic() + 10 * pause_s
+        while time.monotonic() < deadline:
+            try:
+                rows = self.saved(patience_s=20 * pause_s)["look"]["rows"]
+            except AssertionError:
+                return []
+            if rows:
+                return rows
+        return []
 
     def title(self, expected):
         """Waits until the window has that name."""

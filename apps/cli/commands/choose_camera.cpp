@@ -2,6 +2,7 @@
 
 #include "bihive/render/tree_picture.h"
 #include "bihive/scene/clips.h"
+#include "bihive/scene/focus.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -32,6 +33,13 @@ Camera placed(const Camera& before, const Input& input, const RenderOptions& opt
   return camera;
 }
 
+double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& camera) {
+  if (const double* const distance = std::get_if<double>(&wanted)) return *distance;
+  const Result<double> distance = focus_on(spheres, camera, std::get<std::string>(wanted));
+  if (!distance) fail_usage("--focus: " + distance.error().message, distance.error().hint);
+  return *distance;
+}
+
 }  // namespace
 
 Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings) {
@@ -57,7 +65,7 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   if (options.turn && (user_places || !fitted)) camera = turned(camera, *options.turn);
   camera = enlarged(camera, options.zoom.value_or(1));
   camera.aperture = options.aperture.value_or(input.scene.camera.aperture);
-  camera.focus = options.focus.value_or(input.scene.camera.focus);
+  camera.focus = options.focus ? focus_of(*options.focus, input.scene.spheres, camera) : input.scene.camera.focus;
   if (options.focus && camera.aperture == 0)
     fail_usage("--focus changes nothing without an aperture", "give the radius of the lens by --aperture");
   if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);

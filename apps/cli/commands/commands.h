@@ -81,7 +81,7 @@ struct RenderOptions {
   std::optional<Turn> turn;
   std::optional<double> zoom;      ///< above 0
   std::optional<double> aperture;  ///< world units, at least 0
-  std::optional<double> focus;     ///< world units; 0: where the camera looks at
+  std::optional<Focus> focus;      ///< world units, 0: where the camera looks at; or what is sharp
   bool json = false;
 };
 void run_render(const RenderOptions& options);

@@ -9,6 +9,7 @@
 
 #include "bihive/bih/tree.h"
 #include "bihive/scene/colour_text.h"
+#include "bihive/select/selection.h"
 
 namespace bihive::cli {
 namespace {
@@ -132,11 +133,12 @@ Result<std::int64_t> samples_from(const std::string& text) {
   return unexpected("a whole number from 1 to " + std::to_string(kMost) + " or \"auto\"", text);
 }
 
-Result<double> focus_from(const std::string& text) {
-  if (text == "auto") return 0.0;
+Result<Focus> focus_from(const std::string& text) {
+  if (text == "auto") return Focus(0.0);
   const std::optional<double> value = whole<double>(text);
-  if (value && *value > 0 && *value <= double(std::numeric_limits<float>::max())) return *value;
-  return unexpected("a number above 0 and up to 3.4e38 or \"auto\"", text);
+  if (value && *value > 0 && *value <= double(std::numeric_limits<float>::max())) return Focus(*value);
+  if (!value && check_selection(text)) return Focus(text);
+  return unexpected("a number above 0 and up to 3.4e38, \"auto\" or a selection", text);
 }
 
 Result<std::int64_t> bits_from(const std::string& text) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bihive/base/result.h"
@@ -45,8 +46,9 @@ Result<Tile> crop_from(const std::string& text);
 constexpr std::int64_t kAutomaticSamples = 0;
 Result<std::int64_t> samples_from(const std::string& text);
 
-/// A number above 0, or "auto" (0).
-Result<double> focus_from(const std::string& text);
+/// A number above 0, "auto" (0), or the text of a selection.
+using Focus = std::variant<double, std::string>;
+Result<Focus> focus_from(const std::string& text);
 
 /// 8 or 16.
 Result<std::int64_t> bits_from(const std::string& text);

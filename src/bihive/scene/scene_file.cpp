@@ -10,6 +10,7 @@
 #include "bihive/scene/clips.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/default_colours.h"
+#include "bihive/scene/focus.h"
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/look_json.h"
 #include "bihive/scene/scene_json.h"
@@ -47,6 +48,7 @@ class Extraction {
       scene.ambient_light = colour(document_.at("ambient_light"));
     }
     if (failed_.message.empty()) take_spheres();
+    if (failed_.message.empty()) take_focus();
     if (failed_.message.empty()) take_looks();
     if (!failed_.message.empty()) return failed_;
     return std::move(loaded_);
@@ -156,7 +158,7 @@ class Extraction {
     for (const char* key : {"aperture", "focus"})
       if (value.contains(key)) need_version(2, std::string("/camera/") + key);
     camera.aperture = value.value("aperture", camera.aperture);
-    camera.focus = value.value("focus", camera.focus);
+    if (value.contains("focus") && value.at("focus").is_number()) camera.focus = value.at("focus").get<double>();
     const Status status = check_camera(camera);
     if (status) return;
     // The path already names the camera.
@@ -376,6 +378,18 @@ class Extraction {
       scene.spheres.attributes().colour.clear();
     else
       take_default_colours(scene, format, style_);
+  }
+
+  // A focus on selected spheres, which are known now.
+  void take_focus() {
+    const json* const camera = document_.contains("camera") ? &document_.at("camera") : nullptr;
+    if (camera == nullptr || !camera->contains("focus") || !camera->at("focus").is_string()) return;
+    Camera& of_scene = loaded_.scene.camera;
+    const Result<double> focus = focus_on(loaded_.scene.spheres, of_scene, camera->at("focus").get<std::string>());
+    if (focus)
+      of_scene.focus = *focus;
+    else
+      fail("/camera/focus", focus.error().message, focus.error().hint);
   }
 
   // Last, because they change the spheres.

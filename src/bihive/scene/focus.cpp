@@ -1,0 +1,25 @@
+#include "bihive/scene/focus.h"
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/select/selection.h"
+
+namespace bihive {
+
+Result<double> focus_on(const SphereSet& spheres, const Camera& camera, const std::string& selection) {
+  const Result<std::vector<std::uint8_t>> mask = select_spheres(spheres, selection);
+  if (!mask) return mask.error();
+  const Vec3d forward = normalized(camera.look_at - camera.eye);
+  double sum = 0, count = 0;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    if ((*mask)[static_cast<std::size_t>(id)] == 0) continue;
+    sum += dot(spheres.centre(id) - camera.eye, forward);
+    count += 1;
+  }
+  if (count == 0) return Error{"the selection means no sphere", "", 0, 0, "see bihive select"};
+  if (!(sum / count > 0)) return Error{"the selected spheres are not before the camera", "", 0, 0, ""};
+  return sum / count;
+}
+
+}  // namespace bihive
