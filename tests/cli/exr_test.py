@@ -4,6 +4,7 @@ import math
 import os
 import struct
 import subprocess
+import tempfile
 import unittest
 
 import numpy
@@ -14,14 +15,19 @@ SMALL = ["--size", "60x40"]
 ALL = "radiance,albedo,depth,normal,id,attribute:b_factor"
 # A ball before a plane, and nothing above: the second of three spheres is hidden.
 SCENE = """{"bihive_scene": 2, "camera": {"eye": [0, 0, 10], "look_at": [0, 0, 0], "fov_deg": 40},
-"picture": {"exposure": 3, "tone": "filmic", "labels": {"title": "T"}, "shadows": false},
+"picture": {"exposure": 3, "tone": "filmic", "title": "T", "shadows": false},
 "materials": [{"name": "a", "colour": [0.5, 0.25, 1]}],
-"spheres": {"file": "s.csv"}, "looks": [{"select": "index 1", "hide": true}]}"""
+"spheres": {"file": "s.csv"}, "looks": [{"select": "index 1", "show": false}]}"""
 
 
 def has_exr():
-    done = subprocess.run([BIHIVE, "render", "demo", "-o", "/nowhere/a.exr"], capture_output=True, text=True, timeout=PATIENCE_S)
+    with tempfile.TemporaryDirectory() as folder:
+        call = [BIHIVE, "render", "demo", "--size", "1x1", "-o", folder + "/a.exr"]
+        done = subprocess.run(call, capture_output=True, text=True, timeout=PATIENCE_S)
     return "has no OpenEXR" not in done.stderr
+
+
+HAS_EXR = has_exr()
 
 
 class ExrTest(ProgramTest):
@@ -30,7 +36,7 @@ class ExrTest(ProgramTest):
         return ExrFile(self.read("a.exr"))
 
 
-@unittest.skipIf(has_exr(), "this build has OpenEXR")
+@unittest.skipIf(HAS_EXR, "this build has OpenEXR")
 class WithoutOpenExr(ExrTest):
     def test_it_is_said(self):
         said = self.fail_with(3, "render", "demo", *SMALL, "-o", "a.exr")
@@ -38,7 +44,7 @@ class WithoutOpenExr(ExrTest):
         self.assertIn("libopenexr-dev", said)
 
 
-@unittest.skipUnless(has_exr(), "this build has no OpenEXR")
+@unittest.skipUnless(HAS_EXR, "this build has no OpenEXR")
 class Layers(ExrTest):
     def test_the_light_is_that_of_the_png(self):
         light = self.draw("demo", *SMALL)
@@ -61,7 +67,7 @@ class Layers(ExrTest):
 
     def test_exposure_and_curve_are_those_of_the_command_line(self):
         self.write("s.csv", "x,y,z,r\n0,0,0,2\n")
-        self.write("s.json", SCENE.replace(', "looks": [{"select": "index 1", "hide": true}]', ""))
+        self.write("s.json", SCENE.replace(', "looks": [{"select": "index 1", "show": false}]', ""))
         plain = self.draw("s.json", *SMALL).channels["G"]
         brighter = self.draw("s.json", *SMALL, "--exposure", "1").channels["G"]
         self.assertEqual(brighter[20][30], 2 * plain[20][30])
@@ -92,19 +98,19 @@ class Layers(ExrTest):
         """The rays through the middles of the pixels, from a camera that the test makes itself."""
         width, height = 40, 30
         camera = ["--eye", "0,0,60", "--look-at", "0,0,0", "--up", "0,1,0", "--fov", "30", "--projection", "orthographic"]
-        file = self.draw("scenario1", "--count", "500", "--size", f"{width}x{height}", *camera, "--layers", "id,depth")
+        file = self.draw("scenario1", "--count", "2000", "--size", f"{width}x{height}", *camera, "--layers", "id,depth")
         step = 2 * 60 * math.tan(math.radians(15)) / height
         x, y = numpy.meshgrid(numpy.arange(width) + 0.5 - width / 2, height / 2 - numpy.arange(height) - 0.5)
         rays = numpy.zeros((width * height, 6), dtype=numpy.float32)
         rays[:, 0], rays[:, 1], rays[:, 2], rays[:, 5] = x.ravel() * step, y.ravel() * step, 60, -1
         numpy.save(self.path("rays.npy"), rays)
-        self.succeed("trace", "scenario1", "--count", "500", "--rays", "rays.npy", "--t", "t.npy", "--id", "id.npy")
+        self.succeed("trace", "scenario1", "--count", "2000", "--rays", "rays.npy", "--t", "t.npy", "--id", "id.npy")
         ids = numpy.load(self.path("id.npy"))
         same = numpy.array(file.channels["id"], dtype=numpy.int64).ravel() == numpy.where(ids < 0, 2**32 - 1, ids)
         self.assertGreater(same.mean(), 0.999)  # the two cameras are rounded differently
         depths = numpy.array(file.channels["Z"]).ravel()
         hit = same & (ids >= 0)
-        self.assertGreater(hit.sum(), 200)
+        self.assertGreater(hit.sum(), 100)
         numpy.testing.assert_allclose(depths[hit], numpy.load(self.path("t.npy"))[hit], rtol=1e-3)
         self.assertTrue(numpy.isinf(depths[same & (ids < 0)]).all())
 
@@ -113,7 +119,7 @@ class Layers(ExrTest):
         self.assertIn(2**32 - 2, ids)
 
 
-@unittest.skipUnless(has_exr(), "this build has no OpenEXR")
+@unittest.skipUnless(HAS_EXR, "this build has no OpenEXR")
 class File(ExrTest):
     def test_threads_engines_bands_and_parts(self):
         arguments = ["demo", *SMALL, "--layers", ALL, "--background", "none"]
@@ -135,7 +141,7 @@ class File(ExrTest):
             self.assertTrue(numpy.array_equal(rows, cut, equal_nan=True), name)
 
     def test_what_the_file_says_of_itself(self):
-        self.write("b\u00E4r.csv", "x,y,z\n1,2,3\n")
+        self.write("b\u00E4r.csv", "x,y,z,r\n1,2,3,1\n")
         file = self.draw("b\u00E4r.csv", *SMALL, "--dpi", "300", "--layers", "radiance,id")
         self.assertEqual(file.attributes["xDensity"], ("float", struct.pack("<f", 300)))
         self.assertIn(b"bihive", file.attributes["Software"][1])
@@ -148,7 +154,7 @@ class File(ExrTest):
         self.assertEqual(report["rays"], {"primary": 2400, "all": 2400})
 
     def test_what_is_refused(self):
-        for layers in ["", "colour", "radiance,", "attribute:", "Depth"]:
+        for layers in ["colour", "radiance,", "attribute:", "Depth"]:
             said = self.fail_usage("render", "demo", "-o", "a.exr", "--layers=" + layers)
             self.assertIn("radiance, albedo, depth, normal, id, and attribute:NAME", said)
         for words, expected in [

@@ -27,10 +27,6 @@
 namespace bihive {
 namespace {
 
-std::string temporary(const std::string& name) {
-  return ::testing::TempDir() + "bihive_exr_" + name;
-}
-
 Scene some_scene() {
   return scenario_scene(Scenario::mixed, {300, 1.5F, 3}).value();
 }
@@ -48,10 +44,6 @@ const Channel& channel_of(const std::vector<Channel>& channels, const std::strin
     if (channel.name == name) return channel;
   ADD_FAILURE() << name;
   return channels.front();
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 TEST(Layers, their_names) {
@@ -104,6 +96,14 @@ TEST(Layers, light_is_the_film_and_the_others_are_the_closest_hits) {
 }
 
 #if BIHIVE_HAS_OPENEXR
+
+std::string temporary(const std::string& name) {
+  return ::testing::TempDir() + "bihive_exr_" + name;
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
 
 TEST(Exr, openexr_reads_the_same_numbers) {
   const Scene scene = some_scene();
