@@ -61,6 +61,20 @@ bihive_require_header(gemmi/pdb.hpp gemmi-dev)
 bihive_require_header(tao/pegtl.hpp tao-pegtl-dev)
 target_compile_definitions(bihive_options INTERFACE BIHIVE_HAS_ZLIB=1 BIHIVE_HAS_PNG=1)
 
+# Pictures with layers are OpenEXR files, if it is installed; nothing else needs it.
+set(BIHIVE_OPENEXR AUTO CACHE STRING "Write OpenEXR: ON, OFF, or AUTO: where it is installed")
+set(BIHIVE_HAS_OPENEXR OFF)
+if(NOT BIHIVE_OPENEXR STREQUAL "OFF")
+  find_package(OpenEXR 3.1 QUIET)
+  if(OpenEXR_FOUND)
+    set(BIHIVE_HAS_OPENEXR ON)
+    # Its headers are for one source file alone: bihive_exr.
+    list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<LINK_ONLY:OpenEXR::OpenEXR>)
+  elseif(NOT BIHIVE_OPENEXR STREQUAL "AUTO")
+    bihive_missing("OpenEXR" libopenexr-dev)
+  endif()
+endif()
+
 if(BIHIVE_BUILD_CLI)
   bihive_require(CLI11 libcli11-dev)
   bihive_require_header(boost/beast/http.hpp libboost-dev)

@@ -235,7 +235,10 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
       "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
   add_input(command, options.input);
-  add_path(command, "-o,--output", options.output, "The picture (PNG); - writes it to the standard output");
+  add_path(command, "-o,--output", options.output,
+           "The picture: PNG, or OpenEXR (.exr); - writes a PNG to the standard\noutput");
+  add_value(command, "--layers", options.layers, "L,L...",
+            ".exr: what it holds: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
   add_value(command, "--size", options.size, "WxH", "Pixels (1280x720)", size_from);
   add_value(command, "--crop", options.crop, "X0,Y0,X1,Y1",
             "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",

@@ -19,10 +19,10 @@ LONG = ["scenario3", "--size", "4000x4000", "--samples", "64", "--shadows"]
 
 
 class Interrupt(ProgramTest):
-    def interrupted(self, arguments, delay_s, number=signal.SIGINT):
+    def interrupted(self, arguments, delay_s, number=signal.SIGINT, **options):
         """Runs the program, sends the signal after this much work, and returns exit code, stdout and stderr."""
         process = subprocess.Popen(
-            [BIHIVE, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            [BIHIVE, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
         )
         self.let_work(process, delay_s)
         self.assertIsNone(process.poll(), "the work was over too early for this test")
@@ -39,6 +39,13 @@ class Interrupt(ProgramTest):
         for delay_s in [0.3, 1.5]:
             self.assertEqual(self.interrupted(["render", *LONG, "-o", "a.png"], delay_s), (130, "", ""))
             self.assertEqual(self.contents(), before)
+
+    def test_a_picture_in_bands_leaves_no_file(self):
+        self.write("a.png", "old")
+        before = self.contents()
+        environment = {**os.environ, "BIHIVE_MEMORY": "4000000"}
+        self.assertEqual(self.interrupted(["render", *LONG, "-o", "a.png"], 5, env=environment), (130, "", ""))
+        self.assertEqual(self.contents(), before)
 
     def test_an_old_picture_stays(self):
         self.write("a.png", "old")

@@ -1,8 +1,9 @@
 """Every command refuses an input that cannot fit the machine's memory, before any work and with the same words."""
 
 import os
+import subprocess
 
-from program import ProgramTest, main
+from program import BIHIVE, PATIENCE_S, ProgramTest, main
 
 
 class Memory(ProgramTest):
@@ -29,8 +30,22 @@ class Memory(ProgramTest):
 
     def test_a_scenario_and_a_picture(self):
         self.assertIn("so many spheres would take", self.refused(20000, "info", "scenario1"))
-        large = ["render", "four-spheres", "-o", "a.png", "--size", "1000x1000"]
-        self.assertIn("so large a picture would take about 18 MB", self.refused(1000000, *large))
+        whole = ["render", "four-spheres", "-o", "a.png", "--size", "1000x1000", "--view", "distance"]
+        self.assertIn("so large a picture would take about 18 MB", self.refused(1000000, *whole))
+
+    def test_a_picture_that_does_not_fit_is_drawn_in_bands(self):
+        """The same file, from any amount of memory."""
+        labels = ["--projection", "orthographic", "--scale-bar", "--axes", "--title", "Title"]
+        for more in (["--bits", "16"], ["--background", "none", *labels], ["--samples", "auto", "--crop", "5,50,190,220"]):
+            arguments = ["render", "demo", "--size", "200x240", *more]
+            self.succeed(*arguments, "-o", "whole.png")
+            done = self.run_bihive(*arguments, "-o", "bands.png", env={**os.environ, "BIHIVE_MEMORY": "1000000"})
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(self.read("whole.png"), self.read("bands.png"))
+            self.assertEqual(sorted(os.listdir(self.folder)), ["bands.png", "whole.png"])
+            on_output = subprocess.run([BIHIVE, *arguments, "-o", "-"], cwd=self.folder, capture_output=True,
+                                       timeout=PATIENCE_S, env={**os.environ, "BIHIVE_MEMORY": "1000000"})
+            self.assertEqual(on_output.stdout, self.read("whole.png"))
 
 
 if __name__ == "__main__":

@@ -77,5 +77,40 @@ TEST_F(WriteFile, reading_says_what_is_wrong) {
   EXPECT_NE(folder.error().to_string().find("is a folder"), std::string::npos);
 }
 
+TEST_F(WriteFile, a_growing_file_is_seen_when_it_is_whole) {
+  ASSERT_TRUE(write_file(in("a"), "old"));
+  Result<GrowingFile> file = GrowingFile::begin(in("a"));
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ(names().size(), 2u);
+  EXPECT_TRUE(file->append("0123456"));
+  EXPECT_TRUE(file->write_at(2, "xy"));
+  EXPECT_TRUE(file->append("789"));
+  EXPECT_TRUE(file->write_at(9, "end"));
+  EXPECT_EQ(read_file(in("a")).value(), "old");
+  ASSERT_TRUE(file->finish());
+  EXPECT_EQ(read_file(in("a")).value(), "01xy45678end");
+  EXPECT_EQ(names(), std::set<std::string>{"a"});
+}
+
+TEST_F(WriteFile, a_growing_file_that_is_left_is_removed) {
+  {
+    Result<GrowingFile> file = GrowingFile::begin(in("a"));
+    ASSERT_TRUE(file.ok());
+    EXPECT_TRUE(file->append("half"));
+    const GrowingFile moved = std::move(*file);
+    EXPECT_EQ(names().size(), 1u);
+  }
+  EXPECT_EQ(names(), std::set<std::string>{});
+}
+
+TEST_F(WriteFile, a_device_cannot_go_back) {
+  Result<GrowingFile> file = GrowingFile::begin("/dev/null");
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ(file->path_aside(), "");
+  EXPECT_TRUE(file->append("bytes"));
+  EXPECT_FALSE(file->write_at(0, "b"));
+  EXPECT_TRUE(file->finish());
+}
+
 }  // namespace
 }  // namespace bihive

@@ -8,6 +8,7 @@
 
 #include "bihive/image/transfer.h"
 #include "bihive/math/vec3.h"
+#include "bihive/render/layers.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/framing.h"
@@ -59,6 +60,7 @@ struct RenderOptions {
   InputOptions input;
   LookOptions looks;
   std::string output;  ///< a path, or kStandardOutput
+  std::optional<std::vector<Layer>> layers;
   std::optional<PictureSize> size;
   std::optional<Tile> crop;  ///< not yet compared with the size
   std::optional<std::int64_t> recursion;

@@ -1,16 +1,15 @@
-// bihive render: from an input to a PNG.
+// bihive render: from an input to a picture.
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
-#include "bihive/image/png.h"
-#include "bihive/render/draw_labels.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/scene/clips.h"
@@ -20,6 +19,7 @@
 #include "commands/choose_look.h"
 #include "commands/commands.h"
 #include "commands/names.h"
+#include "commands/picture_file.h"
 #include "commands/render_on_gpu.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
@@ -104,10 +104,12 @@ void describe_labels(const Labels& labels, ordered_json& json) {
 }
 
 // Everything that decides the picture, for its text chunk. Threads and engine do not.
-ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene) {
+ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene,
+                           const std::vector<Layer>& layers) {
   const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
   ordered_json json;
   json["view"] = name_of(kViews, settings.view);
+  for (const Layer& layer : layers) json["layers"].push_back(name_of_layer(layer));
   json["width_px"] = settings.width_px;
   json["height_px"] = settings.height_px;
   if (settings.crop) json["crop"] = {settings.crop->x0, settings.crop->y0, settings.crop->x1, settings.crop->y1};
@@ -116,7 +118,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   json["recursion"] = settings.recursion;
   json["shadows"] = settings.shadows;
   describe_effects(settings, scene, json);
-  json["transfer"] = name_of(kTransfers, scene.picture.transfer);
+  if (layers.empty()) json["transfer"] = name_of(kTransfers, scene.picture.transfer);
   json["background"] = vector(scene.background);
   if (settings.transparent) json["transparent"] = true;
   describe_labels(settings.labels, json);
@@ -156,69 +158,88 @@ std::string as_text(const ordered_json& json, int indent) {
   return json.dump(indent, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace);
 }
 
-// PNG's plain text knows Latin-1 only.
-std::string latin1(std::string text) {
-  std::string converted;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    if (byte < 0x80) {
-      converted += text[i];
-    } else if ((byte == 0xC2 || byte == 0xC3) && (next & 0xC0) == 0x80) {
-      converted += static_cast<char>((byte << 6 & 0xC0) | (next & 0x3F));
-      ++i;
-    } else if ((byte & 0xC0) != 0x80) {
-      converted += '?';
-    }
-  }
-  return converted;
-}
-
-PngText text_chunks(const Scene& scene, const ordered_json& settings) {
-  PngText text{{"Software", "bihive " + std::string(version())},
-               {"Scene", latin1(scene.name)},
-               {"Settings", as_text(settings, -1)}};
+// What the file says about its picture.
+std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const ordered_json& settings) {
+  std::vector<std::pair<std::string, std::string>> text{
+      {"Software", "bihive " + std::string(version())}, {"Scene", scene.name}, {"Settings", as_text(settings, -1)}};
   if (scene.seed) text.emplace_back("Seed", std::to_string(*scene.seed));
   return text;
 }
 
-// A picture and its report.
+// The report of a picture.
 struct Drawn {
-  Film film;
   std::int64_t all_rays = 0;
   double render_ms = 0;
   ordered_json rays, gpu;
 };
 
-Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+// The views distance and tree, and pictures of graphics processors, are drawn whole.
+bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
+  return is_gpu(engine) || settings.view == View::distance || settings.view == View::tree;
+}
+
+// Film and file of a row. Adaptive samples keep a film of their own, and which pixels lie on edges.
+double bytes_of_row(const RenderSettings& settings, const PictureFile& file) {
+  const double film = sizeof(Vec3f) + (settings.transparent ? sizeof(float) : 0);
+  const double pixel = film + (settings.adaptive_samples ? film + 1 : 0) + file.bytes_of_pixel();
+  return pixel * drawn_pixels(settings).width();
+}
+
+// Ends the program if a signal came, else if there is an error.
+void succeed_or_leave(const Status& status) {
+  CancellableSection::leave_if_cancelled();
+  if (!status) fail(status.error());
+}
+
+Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile& file) {
   const CancellableSection section;
   Progress progress("rendering");
-  Result<Rendered> result = render(
-      scene, tracer, settings, [&](double done) { progress.update(done); }, &CancellableSection::token());
+  const int band_rows = rows_of_band(drawn_pixels(settings).height(), bytes_of_row(settings, file));
+  Result<RenderedBands> result = render_in_bands(
+      scene, tracer, settings, band_rows,
+      [&file](const Film& film, const Tile& pixels) { return file.add(film, pixels); },
+      [&](double done) { progress.update(done); }, &CancellableSection::token());
   CancellableSection::leave_if_cancelled();
-  Rendered rendered = value_or_fail(std::move(result));
+  const RenderedBands rendered = value_or_fail(std::move(result));
   const RenderCounts& rays = rendered.rays;
   Drawn drawn;
   drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient;
   drawn.rays = {{"primary", rays.primary},         {"shadow", rays.shadow},   {"reflected", rays.reflected},
                 {"transmitted", rays.transmitted}, {"ambient", rays.ambient}, {"all", drawn.all_rays}};
-  drawn.film = std::move(rendered.film);
   drawn.render_ms = rendered.render_ms;
   return drawn;
 }
 
-Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
+// Layers without light: one ray for each pixel.
+Drawn draw_layers_alone(const RenderSettings& settings, PictureFile& file) {
+  const CancellableSection section;
+  Progress progress("rendering");
+  const Timer timer;
+  const Tile all = drawn_pixels(settings);
+  const int band_rows = rows_of_band(all.height(), bytes_of_row(settings, file));
+  for (int y = all.y0; y < all.y1; y += band_rows) {
+    succeed_or_leave(file.add({}, {all.x0, y, all.x1, std::min(y + band_rows, all.y1)}));
+    progress.update(static_cast<double>(y - all.y0) / all.height());
+  }
+  Drawn drawn;
+  drawn.all_rays = std::int64_t{all.width()} * all.height();
+  drawn.rays = {{"primary", drawn.all_rays}, {"all", drawn.all_rays}};
+  drawn.render_ms = timer.elapsed_ms();
+  return drawn;
+}
+
+Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile& file) {
   const CancellableSection section;
   Progress progress("rendering");
   GpuPicture picture = render_on_gpu(scene, tracer.tree(), settings, [&](double done) {
     progress.update(done);
     CancellableSection::leave_if_cancelled();
   });
+  succeed_or_leave(file.add(picture.film, drawn_pixels(settings)));
   Drawn drawn;
   drawn.all_rays = picture.primary + picture.others;
   drawn.rays = {{"primary", picture.primary}, {"all", drawn.all_rays}};
   drawn.gpu = picture.gpu;
-  drawn.film = std::move(picture.film);
   drawn.render_ms = picture.render_ms;
   return drawn;
 }
@@ -288,14 +309,6 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (settings.transparent) refuse("transparent background", "on a colour: --background white");
 }
 
-// Two views are drawn whole before they are cut.
-void check_memory_of(const RenderSettings& settings) {
-  const bool of_parts = settings.view != View::distance && settings.view != View::tree;
-  const Tile whole{0, 0, settings.width_px, settings.height_px};
-  const Tile drawn = of_parts ? drawn_pixels(settings) : whole;
-  value_or_fail(check_picture_memory(drawn.width(), drawn.height()));
-}
-
 void check_output(const RenderOptions& options) {
   if (options.output != kStandardOutput) {
     if (const Status status = check_writable(options.output); !status) fail(status.error());
@@ -306,10 +319,28 @@ void check_output(const RenderOptions& options) {
     fail_usage("-o - would write the picture to the terminal", "send it to a program or into a file");
 }
 
-void write_picture(const std::string& output, const std::string& png) {
-  if (output == kStandardOutput) return print(png);
-  const WritingSection section;
-  if (const Status status = write_file(output, png); !status) fail(status.error());
+// What does not come in bands must fit the memory.
+void check_memory_of(RenderEngine engine, const Input& input, const RenderOptions& options,
+                     const RenderSettings& settings) {
+  if (comes_whole(engine, settings)) value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
+  value_or_fail(check_tree_memory(input.scene.spheres, structure_of(engine), options.tree));
+}
+
+ordered_json report_json(const RenderOptions& options, const Input& input, const RenderSettings& settings,
+                         RenderEngine engine, const Tracer& tracer, const Drawn& drawn) {
+  const Scene& scene = input.scene;
+  const Tile pixels = drawn_pixels(settings);
+  ordered_json json;
+  json["output"] = options.output;
+  json["scene"] = scene.name;
+  json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
+  json["size"] = fmt::format("{}x{}", pixels.width(), pixels.height());
+  json["view"] = name_of(kViews, settings.view);
+  json["engine"] = is_gpu(engine) ? name_of(kRenderEngines, engine) : name_of(kEngines, tracer.engine());
+  json["target"] = tracer.engine() == Engine::wide ? ordered_json(active_target()) : ordered_json();
+  if (is_gpu(engine)) json["gpu"] = drawn.gpu;
+  json["spheres"] = scene.spheres.size();
+  return json;
 }
 
 }  // namespace
@@ -327,49 +358,42 @@ void run_render(const RenderOptions& options) {
   if (is_gpu(engine) && options.view == View::id && !input.scene.id_in_input.empty())
     fail_usage("--engine " + name_of(kRenderEngines, engine) + " does not know the ids of a set with hidden spheres",
                "leave --engine out");
-  const RenderSettings settings = apply_options(options, input);
-  if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
+  RenderSettings settings = apply_options(options, input);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of whole spheres", "leave out --clip");
   const Scene& scene = input.scene;
-  check_memory_of(settings);
-  value_or_fail(check_tree_memory(scene.spheres, structure_of(engine), options.tree));
+  const std::vector<Layer> layers = choose_layers(options, scene, settings);
+  if (is_gpu(engine)) refuse_on_gpu(engine, scene, settings);
+  check_memory_of(engine, input, options, settings);
 
   // Build, render, write.
   const Tracer tracer = value_or_fail(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
-  const Drawn drawn = is_gpu(engine) ? draw_on_gpu(scene, tracer, settings) : draw_on_cpu(scene, tracer, settings);
-  const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
-  PngPixels image =
-      png_pixels_from_film(drawn.film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
-  draw_labels(image, scene, settings, options.dots_per_inch);
-  const ordered_json described = settings_json(options, settings, scene);
-  write_picture(options.output, value_or_fail(encode_png(image, text_chunks(scene, described), options.dots_per_inch)));
+  const ordered_json described = settings_json(options, settings, scene, layers);
+  const std::unique_ptr<PictureFile> file =
+      open_picture({options, scene, tracer, settings, layers, text_of(scene, described)});
+  const bool without_light = !layers.empty() && !has_radiance(layers);
+  const Drawn drawn = without_light    ? draw_layers_alone(settings, *file)
+                      : is_gpu(engine) ? draw_on_gpu(scene, tracer, settings, *file)
+                                       : draw_on_cpu(scene, tracer, settings, *file);
+  value_or_fail(file->finish());
   if (options.output == kStandardOutput) return;
 
   // Print the report.
   const double mray_per_s = drawn.render_ms > 0 ? static_cast<double>(drawn.all_rays) / drawn.render_ms / 1000 : 0;
   if (!options.json) {
+    const Tile pixels = drawn_pixels(settings);
     print(fmt::format("{}: {} x {}, {} spheres; tree {}, picture {} ({:.3g} Mray/s of all kinds)\n", options.output,
-                      image.width, image.height, grouped(scene.spheres.size()), readable_ms(tracer.build_ms()),
+                      pixels.width(), pixels.height(), grouped(scene.spheres.size()), readable_ms(tracer.build_ms()),
                       readable_ms(drawn.render_ms), mray_per_s));
     return;
   }
-  ordered_json json;
-  json["output"] = options.output;
-  json["scene"] = scene.name;
-  json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
-  json["size"] = fmt::format("{}x{}", image.width, image.height);
-  json["view"] = name_of(kViews, settings.view);
-  json["engine"] = is_gpu(engine) ? name_of(kRenderEngines, engine) : name_of(kEngines, tracer.engine());
-  json["target"] = tracer.engine() == Engine::wide ? ordered_json(active_target()) : ordered_json();
-  if (is_gpu(engine)) json["gpu"] = drawn.gpu;
-  json["spheres"] = scene.spheres.size();
+  ordered_json json = report_json(options, input, settings, engine, tracer, drawn);
   json["settings"] = described;
   json["rays"] = drawn.rays;
   json["build_ms"] = tracer.build_ms();
   json["render_ms"] = drawn.render_ms;
   json["mray_per_s"] = mray_per_s;
-  json["picture_hash"] = fmt::format("{:016x}", picture_hash(image));
+  if (const auto hash = file->hash()) json["picture_hash"] = fmt::format("{:016x}", *hash);
   json["warnings"] = input.warnings;
   print(as_text(json, 2) + "\n");
 }

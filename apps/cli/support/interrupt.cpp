@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <climits>
 #include <csignal>
 #include <cstdint>
+#include <cstring>
 #include <ctime>
 
 namespace bihive::cli {
@@ -28,8 +30,12 @@ std::int64_t now_ms() {
   return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
 }
 
+// The file to remove; its first byte is 0 if there is none.
+char g_unfinished[PATH_MAX];
+
 // Ends the program at any point; clears a progress line on a terminal first.
 [[noreturn]] void end_at_once(int signal) {
+  if (g_unfinished[0] != 0) unlink(g_unfinished);
   if (isatty(STDERR_FILENO) != 0) {
     const char wipe[] = "\r\033[K";
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, wipe, sizeof(wipe) - 1);
@@ -88,6 +94,17 @@ WritingSection::WritingSection() {
 }
 WritingSection::~WritingSection() {
   g_section.store(kWritten);
+}
+
+RemovedWhenEnded::RemovedWhenEnded(const std::string& path) {
+  if (path.empty() || path.size() >= sizeof(g_unfinished)) return;
+  // The first byte comes last, so that a signal finds the whole path.
+  std::memcpy(g_unfinished + 1, path.c_str() + 1, path.size());
+  std::atomic_signal_fence(std::memory_order_release);
+  g_unfinished[0] = path[0];
+}
+RemovedWhenEnded::~RemovedWhenEnded() {
+  g_unfinished[0] = 0;
 }
 
 }  // namespace bihive::cli

@@ -4,6 +4,8 @@
 // once.
 #pragma once
 
+#include <string>
+
 #include "bihive/base/cancel.h"
 
 namespace bihive::cli {
@@ -35,6 +37,16 @@ class WritingSection {
   ~WritingSection();
   WritingSection(const WritingSection&) = delete;
   WritingSection& operator=(const WritingSection&) = delete;
+};
+
+/// During the life of such an object a signal that ends the program removes this file first. One at a time; an empty
+/// path is none.
+class RemovedWhenEnded {
+ public:
+  explicit RemovedWhenEnded(const std::string& path);
+  ~RemovedWhenEnded();
+  RemovedWhenEnded(const RemovedWhenEnded&) = delete;
+  RemovedWhenEnded& operator=(const RemovedWhenEnded&) = delete;
 };
 
 }  // namespace bihive::cli

@@ -4,10 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace bihive {
 namespace {
@@ -42,42 +44,85 @@ int write_all(int file, std::string_view bytes) {
   return 0;
 }
 
-// A pipe or a device: a rename would replace it.
-Status write_in_place(const std::string& path, std::string_view bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (file < 0) return system_error("cannot be written", path, errno);
-  int code = write_all(file, bytes);
-  if (::close(file) != 0 && code == 0) code = errno;
-  if (code != 0) return system_error("writing failed", path, code);
+}  // namespace
+
+Result<GrowingFile> GrowingFile::begin(const std::string& given_path) {
+  if (Status status = check_writable(given_path); !status) return status.error();
+  GrowingFile growing;
+  growing.given_path_ = given_path;
+  growing.path_ = follow_links(given_path);
+  struct stat info {};
+  const bool exists = ::stat(growing.path_.c_str(), &info) == 0;
+  if (exists && !S_ISREG(info.st_mode)) {
+    // A pipe or a device: a rename would replace it.
+    growing.file_ = ::open(growing.path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (growing.file_ < 0) return system_error("cannot be written", given_path, errno);
+    return growing;
+  }
+
+  // Make a file with a new name in the folder of the target, so that the rename stays on one disk.
+  std::string aside = growing.path_ + ".XXXXXX";
+  growing.file_ = ::mkstemp(aside.data());
+  if (growing.file_ < 0) return system_error("cannot be created", given_path, errno);
+  growing.aside_ = std::move(aside);
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  growing.mode_ = exists ? (info.st_mode & 07777) : (0666 & ~mask);
+  return growing;
+}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : file_(std::exchange(other.file_, -1)),
+      size_(other.size_),
+      mode_(other.mode_),
+      given_path_(std::move(other.given_path_)),
+      path_(std::move(other.path_)),
+      aside_(std::exchange(other.aside_, std::string())) {}
+
+GrowingFile::~GrowingFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!aside_.empty()) ::unlink(aside_.c_str());
+}
+
+Status GrowingFile::failed(int code) {
+  return system_error("writing failed", given_path_, code,
+                      code == ENOSPC && !aside_.empty() ? "free some space or write elsewhere" : "");
+}
+
+Status GrowingFile::append(std::string_view bytes) {
+  if (const int code = write_all(file_, bytes); code != 0) return failed(code);
+  size_ += bytes.size();
   return Done{};
 }
 
-}  // namespace
+Status GrowingFile::write_at(std::uint64_t place, std::string_view bytes) {
+  if (place == size_) return append(bytes);
+  if (aside_.empty()) return failed(ESPIPE);
+  if (::lseek(file_, static_cast<off_t>(place), SEEK_SET) < 0) return failed(errno);
+  if (const int code = write_all(file_, bytes); code != 0) return failed(code);
+  size_ = std::max(size_, place + bytes.size());
+  if (::lseek(file_, static_cast<off_t>(size_), SEEK_SET) < 0) return failed(errno);
+  return Done{};
+}
 
-Status write_file(const std::string& given_path, std::string_view bytes) {
-  if (Status status = check_writable(given_path); !status) return status;
-  const std::string path = follow_links(given_path);
-  struct stat info {};
-  const bool exists = ::stat(path.c_str(), &info) == 0;
-  if (exists && !S_ISREG(info.st_mode)) return write_in_place(path, bytes);
+Status GrowingFile::finish() {
+  // Flush, rename. The destructor removes the new file after any failure.
+  int code = 0;
+  const bool is_aside = !aside_.empty();
+  if (is_aside && ::fchmod(file_, static_cast<mode_t>(mode_)) != 0) code = errno;
+  if (is_aside && code == 0 && ::fsync(file_) != 0) code = errno;
+  if (::close(std::exchange(file_, -1)) != 0 && code == 0) code = errno;
+  if (is_aside && code == 0 && ::rename(aside_.c_str(), path_.c_str()) != 0) code = errno;
+  if (code != 0) return failed(code);
+  aside_.clear();
+  return Done{};
+}
 
-  // Make a file with a new name in the folder of the target, so that the rename stays on one disk.
-  std::string aside = path + ".XXXXXX";
-  const int file = ::mkstemp(aside.data());
-  if (file < 0) return system_error("cannot be created", given_path, errno);
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  const mode_t mode = exists ? (info.st_mode & 07777) : (0666 & ~mask);
-
-  // Write, flush, rename. Remove the new file after any failure.
-  int code = write_all(file, bytes);
-  if (code == 0 && ::fchmod(file, mode) != 0) code = errno;
-  if (code == 0 && ::fsync(file) != 0) code = errno;
-  if (::close(file) != 0 && code == 0) code = errno;
-  if (code == 0 && ::rename(aside.c_str(), path.c_str()) != 0) code = errno;
-  if (code == 0) return Done{};
-  ::unlink(aside.c_str());
-  return system_error("writing failed", given_path, code, code == ENOSPC ? "free some space or write elsewhere" : "");
+Status write_file(const std::string& path, std::string_view bytes) {
+  Result<GrowingFile> file = GrowingFile::begin(path);
+  if (!file) return file.error();
+  if (Status status = file->append(bytes); !status) return status;
+  return file->finish();
 }
 
 Status check_writable(const std::string& given_path) {

@@ -1,6 +1,7 @@
 // Writes files whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,37 @@ namespace bihive {
 /// old file or the whole new one. A symbolic link is followed. A pipe, a device or another file that is not regular is
 /// written directly. After an error (missing folder, no permission, full disk) no partial file is left.
 Status write_file(const std::string& path, std::string_view bytes);
+
+/// A file that is written piece by piece, and is not seen under its path before it is whole: for what is too large for
+/// the memory. What write_file() says of paths holds here too.
+class GrowingFile {
+ public:
+  /// Makes the new file beside `path`, or opens the pipe or the device.
+  static Result<GrowingFile> begin(const std::string& path);
+  /// A file that is not finished is removed.
+  ~GrowingFile();
+  GrowingFile(GrowingFile&& other) noexcept;
+  GrowingFile& operator=(GrowingFile&&) = delete;
+
+  /// Behind all bytes so far.
+  Status append(std::string_view bytes);
+  /// Over earlier bytes, or up to the end and beyond it. A pipe cannot go back: an Error.
+  Status write_at(std::uint64_t place, std::string_view bytes);
+  /// Flushes it to the disk and renames it to its path. The last call.
+  Status finish();
+
+  /// The path of the file until finish(); empty for a pipe or a device.
+  const std::string& path_aside() const { return aside_; }
+
+ private:
+  GrowingFile() = default;
+  Status failed(int code);
+
+  int file_ = -1;
+  std::uint64_t size_ = 0;
+  unsigned mode_ = 0;
+  std::string given_path_, path_, aside_;
+};
 
 /// An error if write_file(path) would surely fail now (missing folder, a folder in its place, no permission). Call it
 /// before long work, so that the user sees the error at once.

@@ -2,13 +2,19 @@
 
 namespace bihive {
 
-std::uint64_t picture_hash(const Image& image) {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  const auto add = [&hash](std::uint8_t byte) { hash = (hash ^ byte) * 0x100000001B3u; };
-  for (const int side : {image.width, image.height})
+PictureHash::PictureHash(int width, int height) {
+  for (const int side : {width, height})
     for (int shift = 0; shift < 32; shift += 8) add(static_cast<std::uint8_t>(side >> shift & 0xFF));
-  for (const std::uint8_t byte : image.rgb) add(byte);
-  return hash;
+}
+
+void PictureHash::add(const std::vector<std::uint8_t>& bytes) {
+  for (const std::uint8_t byte : bytes) add(byte);
+}
+
+std::uint64_t picture_hash(const Image& image) {
+  PictureHash hash(image.width, image.height);
+  hash.add(image.rgb);
+  return hash.value();
 }
 
 }  // namespace bihive

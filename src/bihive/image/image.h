@@ -15,4 +15,17 @@ struct Image {
 /// 64-bit FNV-1a over size and pixels: equal pictures, equal hash.
 std::uint64_t picture_hash(const Image& image);
 
+/// The same of a picture that comes in pieces: all its bytes, in their order.
+class PictureHash {
+ public:
+  PictureHash(int width, int height);
+  void add(const std::vector<std::uint8_t>& bytes);
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  void add(std::uint8_t byte) { hash_ = (hash_ ^ byte) * 0x100000001B3u; }
+
+  std::uint64_t hash_ = 0xCBF29CE484222325u;
+};
+
 }  // namespace bihive

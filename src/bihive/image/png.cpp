@@ -6,6 +6,7 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "bihive/base/check.h"
 #include "bihive/base/write_file.h"
@@ -45,28 +46,35 @@ void take_bytes(png_structp png, png_bytep data, png_size_t count) {
   state->position += count;
 }
 
-// The picture as libpng's functions take it: plain data only.
-struct PngRows {
+// The form of a picture as libpng's functions take it: plain data only.
+struct PngHead {
   png_uint_32 width, height;
   int bits, colour_type;
-  const std::uint8_t* bytes;
-  std::size_t row_bytes;
   png_uint_32 pixels_per_metre;  // 0: not said
 };
 
-// The part between setjmp and longjmp: plain pointers only. False on an error.
-bool write_picture(png_structp png, png_infop info, PngState* state, const PngRows* rows, png_text* text, int texts) {
+// The parts between setjmp and longjmp: plain pointers only. False on an error.
+bool write_head(png_structp png, png_infop info, PngState* state, const PngHead* head, png_text* text, int texts) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, state, append_bytes, flush_nothing);
   png_set_compression_level(png, kCompressionLevel);
-  png_set_IHDR(png, info, rows->width, rows->height, rows->bits, rows->colour_type, PNG_INTERLACE_NONE,
+  png_set_IHDR(png, info, head->width, head->height, head->bits, head->colour_type, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (rows->pixels_per_metre > 0)
-    png_set_pHYs(png, info, rows->pixels_per_metre, rows->pixels_per_metre, PNG_RESOLUTION_METER);
+  if (head->pixels_per_metre > 0)
+    png_set_pHYs(png, info, head->pixels_per_metre, head->pixels_per_metre, PNG_RESOLUTION_METER);
   if (texts > 0) png_set_text(png, info, text, texts);
   png_write_info(png, info);
-  for (png_uint_32 y = 0; y < rows->height; ++y)
-    png_write_row(png, rows->bytes + static_cast<std::size_t>(y) * rows->row_bytes);
+  return true;
+}
+
+bool write_rows(png_structp png, const std::uint8_t* rows, int count, std::size_t row_bytes) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  for (int y = 0; y < count; ++y) png_write_row(png, rows + static_cast<std::size_t>(y) * row_bytes);
+  return true;
+}
+
+bool write_end(png_structp png, png_infop info) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_write_end(png, info);
   return true;
 }
@@ -90,43 +98,105 @@ bool read_rows(png_structp png, png_infop info, png_bytepp rows) {
   return true;
 }
 
-Result<std::string> encode_rows(const PngRows& rows, const PngText& text) {
-  PngState state;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, on_error, on_warning);
-  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-  std::vector<png_text> chunks(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    chunks[i].compression = PNG_TEXT_COMPRESSION_NONE;
-    chunks[i].key = const_cast<png_charp>(text[i].first.c_str());    // NOLINT: libpng reads it only
-    chunks[i].text = const_cast<png_charp>(text[i].second.c_str());  // NOLINT: libpng reads it only
-    chunks[i].text_length = text[i].second.size();
+png_uint_32 pixels_per_metre(double dots_per_inch) {
+  constexpr double kMetresPerInch = 0.0254;
+  return static_cast<png_uint_32>(std::floor(dots_per_inch / kMetresPerInch + 0.5));
+}
+
+}  // namespace
+
+class PngEncoder::Implementation {
+ public:
+  explicit Implementation(std::size_t row_bytes) : row_bytes_(row_bytes) {
+    png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &state_, on_error, on_warning);
+    info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
   }
-  const bool written =
-      info != nullptr && write_picture(png, info, &state, &rows, chunks.data(), static_cast<int>(chunks.size()));
-  png_destroy_write_struct(&png, &info);
-  if (!written) return Error{std::string("PNG: ") + state.message, "", 0, 0, ""};
-  return std::move(state.bytes);
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+  ~Implementation() { png_destroy_write_struct(&png_, &info_); }
+
+  Status begin(const PngHead& head, const PngText& text) {
+    std::vector<png_text> chunks(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      chunks[i].compression = PNG_TEXT_COMPRESSION_NONE;
+      chunks[i].key = const_cast<png_charp>(text[i].first.c_str());    // NOLINT: libpng reads it only
+      chunks[i].text = const_cast<png_charp>(text[i].second.c_str());  // NOLINT: libpng reads it only
+      chunks[i].text_length = text[i].second.size();
+    }
+    return status_of(info_ != nullptr &&
+                     write_head(png_, info_, &state_, &head, chunks.data(), static_cast<int>(chunks.size())));
+  }
+  Status add(const std::uint8_t* rows, int count) { return status_of(write_rows(png_, rows, count, row_bytes_)); }
+  Status finish() { return status_of(write_end(png_, info_)); }
+  std::string take_bytes() { return std::exchange(state_.bytes, std::string()); }
+  std::size_t row_bytes() const { return row_bytes_; }
+
+ private:
+  Status status_of(bool good) const {
+    if (!good) return Error{std::string("PNG: ") + state_.message, "", 0, 0, ""};
+    return Done{};
+  }
+
+  std::size_t row_bytes_;
+  PngState state_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
+
+PngEncoder::PngEncoder(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+PngEncoder::PngEncoder(PngEncoder&& other) noexcept = default;
+PngEncoder& PngEncoder::operator=(PngEncoder&& other) noexcept = default;
+PngEncoder::~PngEncoder() = default;
+
+Result<PngEncoder> PngEncoder::begin(int width, int height, int channels, int bits, const PngText& text,
+                                     double dots_per_inch) {
+  BIHIVE_CHECK(channels == 3 || channels == 4);
+  BIHIVE_CHECK(bits == 8 || bits == 16);
+  const PngPixels form{width, height, channels, bits, {}};
+  auto implementation = std::make_unique<Implementation>(form.row_bytes());
+  const PngHead head{static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
+                     channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, pixels_per_metre(dots_per_inch)};
+  if (Status status = implementation->begin(head, text); !status) return status.error();
+  return PngEncoder(std::move(implementation));
+}
+
+Status PngEncoder::add(const PngPixels& rows) {
+  BIHIVE_CHECK_EQ(rows.row_bytes(), implementation_->row_bytes());
+  BIHIVE_CHECK_EQ(rows.bytes.size(), rows.row_bytes() * static_cast<std::size_t>(rows.height));
+  return add(rows.bytes.data(), rows.height);
+}
+Status PngEncoder::add(const std::uint8_t* rows, int count) {
+  return implementation_->add(rows, count);
+}
+Status PngEncoder::finish() {
+  return implementation_->finish();
+}
+std::string PngEncoder::take_bytes() {
+  return implementation_->take_bytes();
+}
+
+namespace {
+
+Result<std::string> encode_rows(const std::uint8_t* rows, int width, int height, int channels, int bits,
+                                const PngText& text, double dots_per_inch) {
+  Result<PngEncoder> encoder = PngEncoder::begin(width, height, channels, bits, text, dots_per_inch);
+  if (!encoder) return encoder.error();
+  if (Status status = encoder->add(rows, height); !status) return status.error();
+  if (Status status = encoder->finish(); !status) return status.error();
+  return encoder->take_bytes();
 }
 
 }  // namespace
 
 Result<std::string> encode_png(const Image& image, const PngText& text) {
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width);
-  BIHIVE_CHECK_EQ(image.rgb.size(), row_bytes * static_cast<std::size_t>(image.height));
-  return encode_rows({static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-                      PNG_COLOR_TYPE_RGB, image.rgb.data(), row_bytes, 0},
-                     text);
+  BIHIVE_CHECK_EQ(image.rgb.size(), 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  return encode_rows(image.rgb.data(), image.width, image.height, 3, 8, text, 0);
 }
 
 Result<std::string> encode_png(const PngPixels& pixels, const PngText& text, double dots_per_inch) {
-  BIHIVE_CHECK(pixels.channels == 3 || pixels.channels == 4);
-  BIHIVE_CHECK(pixels.bits == 8 || pixels.bits == 16);
   BIHIVE_CHECK_EQ(pixels.bytes.size(), pixels.row_bytes() * static_cast<std::size_t>(pixels.height));
-  constexpr double kMetresPerInch = 0.0254;
-  return encode_rows({static_cast<png_uint_32>(pixels.width), static_cast<png_uint_32>(pixels.height), pixels.bits,
-                      pixels.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, pixels.bytes.data(),
-                      pixels.row_bytes(), static_cast<png_uint_32>(std::floor(dots_per_inch / kMetresPerInch + 0.5))},
-                     text);
+  return encode_rows(pixels.bytes.data(), pixels.width, pixels.height, pixels.channels, pixels.bits, text,
+                     dots_per_inch);
 }
 
 Status write_png(const std::string& path, const Image& image, const PngText& text) {

@@ -1,6 +1,8 @@
 // Reads and writes PNG (libpng).
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +21,30 @@ Result<std::string> encode_png(const Image& image, const PngText& text);
 
 /// `dots_per_inch`: the size at which the picture is printed; 0 says nothing about it.
 Result<std::string> encode_png(const PngPixels& pixels, const PngText& text, double dots_per_inch = 0);
+
+/// A PNG that grows by rows, for pictures that are larger than the memory. The bytes are those of encode_png().
+class PngEncoder {
+ public:
+  /// The size of the whole picture; channels and bits as in PngPixels.
+  static Result<PngEncoder> begin(int width, int height, int channels, int bits, const PngText& text,
+                                  double dots_per_inch = 0);
+  PngEncoder(PngEncoder&& other) noexcept;
+  PngEncoder& operator=(PngEncoder&& other) noexcept;
+  ~PngEncoder();
+
+  /// The next rows, of the width and form of begin().
+  Status add(const PngPixels& rows);
+  Status add(const std::uint8_t* rows, int count);
+  /// After the last row.
+  Status finish();
+  /// The bytes of the file since the last call, to be written behind the earlier ones.
+  std::string take_bytes();
+
+ private:
+  class Implementation;
+  explicit PngEncoder(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
 
 /// Writes a new file and renames it (base/write_file.h): after a failure no partial file is left.
 Status write_png(const std::string& path, const Image& image, const PngText& text);

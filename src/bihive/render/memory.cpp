@@ -1,5 +1,7 @@
 #include "bihive/render/memory.h"
 
+#include <algorithm>
+
 #include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
 #include "bihive/bih/memory.h"
@@ -18,6 +20,14 @@ Status check_tree_memory(const SphereSet& spheres, Engine engine, const TreePara
 Status check_picture_memory(int width_px, int height_px) {
   const double pixels = static_cast<double>(width_px) * height_px;
   return check_memory(pixels * (sizeof(Vec3f) + 2 * 3), "so large a picture");
+}
+
+int rows_of_band(int rows, double bytes_of_row) {
+  constexpr int kRowsOfTiles = 64;
+  const double fitting = std::min(kBandBytes, memory_bytes() / 4) / bytes_of_row;
+  if (fitting >= rows) return rows;
+  const int band = std::max(static_cast<int>(fitting), 1);
+  return band < kRowsOfTiles ? band : band / kRowsOfTiles * kRowsOfTiles;
 }
 
 }  // namespace bihive

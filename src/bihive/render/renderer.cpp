@@ -62,6 +62,14 @@ struct SampleSet {
   std::optional<LightPointSets> light_points;
 };
 
+void add_counts(const RenderCounts& rays, RenderCounts& sum) {
+  sum.primary += rays.primary;
+  sum.shadow += rays.shadow;
+  sum.reflected += rays.reflected;
+  sum.transmitted += rays.transmitted;
+  sum.ambient += rays.ambient;
+}
+
 // The state of an unfinished picture.
 class Renderer {
  public:
@@ -77,17 +85,17 @@ class Renderer {
         transparency_(std::move(transparency)),
         wave_scene_(scene, transparency_.to_eye ? OpacityRule::once : OpacityRule::each_surface),
         effects_(scene, wave_scene_, tracer, settings, rays_, &transparency_),
-        drawn_(pixels_to_draw(settings)),
-        tiles_(tiles_of(drawn_, tile_px(tracer, settings))),
-        counts_(tiles_.size()),
-        ranges_(tiles_.size(), kNoRange),
         passes_(settings.view == View::distance || is_adaptive(settings) ? 2 : 1),
         first_set_(scene, settings, first_samples(settings)) {
-    if (is_adaptive(settings)) {
-      second_set_.emplace(scene, settings, kManySamples);
-      edges_.resize(drawn_.width(), drawn_.height());
-    }
-    film_.resize(drawn_.width(), drawn_.height(), settings_.transparent);
+    if (is_adaptive(settings)) second_set_.emplace(scene, settings, kManySamples);
+    begin_part();
+  }
+
+  /// After take(): other pixels of the same picture are next. `film`: from take(), for its memory.
+  void move_to(const Tile& part, Film film) {
+    settings_.crop = part;
+    if (film_.radiance.empty()) film_ = std::move(film);
+    begin_part();
   }
 
   // The tiles of all passes have consecutive numbers. Runs the tiles from `first` to before `end`, all in one pass.
@@ -120,7 +128,7 @@ class Renderer {
     const bool is_whole =
         drawn_.width() == drawn_pixels(settings_).width() && drawn_.height() == drawn_pixels(settings_).height();
     rendered.film = is_whole ? std::move(film_) : part_of(film_, in_film(*settings_.crop));
-    for (const RenderCounts& tile : counts_) add(tile, rendered.rays);
+    for (const RenderCounts& tile : counts_) add_counts(tile, rendered.rays);
     return rendered;
   }
 
@@ -133,6 +141,16 @@ class Renderer {
     const int border = is_adaptive(settings) ? 1 : 0;
     return {std::max(part.x0 - border, 0), std::max(part.y0 - border, 0), std::min(part.x1 + border, whole.x1),
             std::min(part.y1 + border, whole.y1)};
+  }
+
+  void begin_part() {
+    drawn_ = pixels_to_draw(settings_);
+    tiles_ = tiles_of(drawn_, tile_px(tracer_, settings_));
+    counts_.assign(tiles_.size(), {});
+    ranges_.assign(tiles_.size(), kNoRange);
+    tiles_done_ = 0;
+    if (second_set_) edges_.resize(drawn_.width(), drawn_.height());
+    film_.resize(drawn_.width(), drawn_.height(), settings_.transparent);
   }
 
   Tile in_film(const Tile& part) const {
@@ -294,15 +312,7 @@ class Renderer {
     });
     RenderCounts rays = integrator.rays();
     rays.primary = pixel_count * samples;
-    add(rays, counts);
-  }
-
-  static void add(const RenderCounts& rays, RenderCounts& sum) {
-    sum.primary += rays.primary;
-    sum.shadow += rays.shadow;
-    sum.reflected += rays.reflected;
-    sum.transmitted += rays.transmitted;
-    sum.ambient += rays.ambient;
+    add_counts(rays, counts);
   }
 
   // The samples of one pixel so far; `covered`: those that add to its light, partly where the background shines
@@ -360,7 +370,7 @@ class Renderer {
   Transparency transparency_;
   WaveScene wave_scene_;
   AfterEffects effects_;
-  Tile drawn_;  // the film's pixels in the whole picture
+  Tile drawn_{};  // the film's pixels in the whole picture
   std::vector<Tile> tiles_;
   std::vector<RenderCounts> counts_;  // of each tile
   std::vector<DistanceRange> ranges_;
@@ -417,6 +427,25 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
   return Done{};
 }
 
+void run_all(Renderer& renderer) {
+  for (std::size_t first = 0; first < renderer.tiles_in_all(); first += renderer.tiles_in_a_pass())
+    renderer.run(first, first + renderer.tiles_in_a_pass());
+}
+
+Error was_cancelled() {
+  return {"cancelled", "", 0, 0, ""};
+}
+
+// For the views that are drawn whole.
+Result<RenderedBands> render_in_one_band(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                         const BandCallback& take, const ProgressCallback& progress,
+                                         const CancelToken* cancel) {
+  const Result<Rendered> whole = render(scene, tracer, settings, progress, cancel);
+  if (!whole) return whole.error();
+  if (Status status = take(whole->film, drawn_pixels(settings)); !status) return status.error();
+  return RenderedBands{whole->rays, whole->render_ms};
+}
+
 }  // namespace
 
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
@@ -427,11 +456,49 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
   Result<Transparency> transparency = transparency_of(scene, tracer, settings);
   if (!transparency) return transparency.error();
   Renderer renderer(scene, tracer, settings, progress, cancel, std::move(film), std::move(*transparency));
-  for (std::size_t first = 0; first < renderer.tiles_in_all(); first += renderer.tiles_in_a_pass())
-    renderer.run(first, first + renderer.tiles_in_a_pass());
-  if (renderer.cancelled()) return Error{"cancelled", "", 0, 0, ""};
+  run_all(renderer);
+  if (renderer.cancelled()) return was_cancelled();
   Rendered rendered = renderer.take();
   rendered.render_ms = timer.elapsed_ms();
+  return rendered;
+}
+
+Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                      int band_rows, const BandCallback& take, const ProgressCallback& progress,
+                                      const CancelToken* cancel) {
+  BIHIVE_CHECK(band_rows >= 1);
+  if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
+  if (settings.view == View::tree || settings.view == View::distance)
+    return render_in_one_band(scene, tracer, settings, take, progress, cancel);
+  Timer timer;
+  Result<Transparency> transparency = transparency_of(scene, tracer, settings);
+  if (!transparency) return transparency.error();
+
+  // The share of the picture above the band, and that of the band.
+  double above = 0;
+  double in_band = 0;
+  ProgressCallback of_picture;
+  if (progress) of_picture = [&](double done) { progress(above + done * in_band); };
+
+  const Tile all = drawn_pixels(settings);
+  const auto band_from = [&](int y) { return Tile{all.x0, y, all.x1, std::min(y + band_rows, all.y1)}; };
+  RenderSettings of_band = settings;
+  of_band.crop = band_from(all.y0);
+  Renderer renderer(scene, tracer, of_band, of_picture, cancel, {}, std::move(*transparency));
+  RenderedBands rendered;
+  for (Tile band = *of_band.crop; band.y0 < all.y1;) {
+    above = static_cast<double>(band.y0 - all.y0) / all.height();
+    in_band = static_cast<double>(band.height()) / all.height();
+    run_all(renderer);
+    if (renderer.cancelled()) return was_cancelled();
+    Rendered of_rows = renderer.take();
+    add_counts(of_rows.rays, rendered.rays);
+    rendered.render_ms += timer.elapsed_ms();
+    if (Status status = take(of_rows.film, band); !status) return status.error();
+    timer = Timer();
+    band = band_from(band.y1);
+    if (band.y0 < all.y1) renderer.move_to(band, std::move(of_rows.film));
+  }
   return rendered;
 }
 

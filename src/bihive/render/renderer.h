@@ -36,6 +36,21 @@ using ProgressCallback = std::function<void(double done)>;
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
 
+/// Takes the next rows of a picture: the light of these pixels. An Error ends the picture.
+using BandCallback = std::function<Status(const Film& film, const Tile& pixels)>;
+
+struct RenderedBands {
+  RenderCounts rays;
+  double render_ms = 0;  ///< without the time in the callback
+};
+
+/// The same picture from the top in bands of `band_rows` rows, at least one; the last may have fewer. So a picture
+/// needs the memory of a band (render/memory.h). Each band has the bits of the whole picture. The views distance and
+/// tree are drawn whole, in one band. Progress is that of the whole picture.
+Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                      int band_rows, const BandCallback& take, const ProgressCallback& progress = {},
+                                      const CancelToken* cancel = nullptr);
+
 /// The same picture in slices, for callers that have other work in between.
 class SlicedPicture {
  public:

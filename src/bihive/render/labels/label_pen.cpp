@@ -22,6 +22,17 @@ bool is_light(Vec3d colour) {
   return 0.2126 * colour.x + 0.7152 * colour.y + 0.0722 * colour.z > 0.5;
 }
 
+// Whether a shape, `border` pixels wider, may cover some of these rows.
+bool meets_rows(const Shape& shape, const Tile& part, double border) {
+  for (const std::vector<CanvasPoint>& outline : shape.outlines()) {
+    if (outline.empty()) continue;
+    const auto [top, bottom] =
+        std::minmax_element(outline.begin(), outline.end(), [](CanvasPoint a, CanvasPoint b) { return a.y < b.y; });
+    if (bottom->y + border >= part.y0 && top->y - border <= part.y1) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 LabelPen::LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height_px, double em_px, Vec3d paper)
@@ -42,6 +53,8 @@ void LabelPen::fill(const Shape& shape, Vec3d colour) {
 }
 
 void LabelPen::draw(const Shape& shape, Vec3d colour) {
+  // A picture in bands has many parts, and large masks take time.
+  if (!meets_rows(shape, part_, kSeamEm * em_px_ + 2)) return;
   const CoverageMask mask = mask_of(shape);
   blend(pixels_, part_, widened(mask, kSeamEm * em_px_), paper_, kSeamOpacity);
   blend(pixels_, part_, mask, colour);

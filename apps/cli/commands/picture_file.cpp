@@ -1,0 +1,183 @@
+#include "commands/picture_file.h"
+
+#include <algorithm>
+
+#include "bihive/base/write_file.h"
+#include "bihive/image/exr.h"
+#include "bihive/image/png.h"
+#include "bihive/render/draw_labels.h"
+#include "commands/commands.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+// PNG's plain text knows Latin-1 only.
+std::string latin1(const std::string& text) {
+  std::string converted;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte < 0x80) {
+      converted += text[i];
+    } else if ((byte == 0xC2 || byte == 0xC3) && (next & 0xC0) == 0x80) {
+      converted += static_cast<char>((byte << 6 & 0xC0) | (next & 0x3F));
+      ++i;
+    } else if ((byte & 0xC0) != 0x80) {
+      converted += '?';
+    }
+  }
+  return converted;
+}
+
+// The settings of a part of the picture.
+RenderSettings settings_of(const RenderSettings& settings, const Tile& pixels) {
+  RenderSettings of_part = settings;
+  of_part.crop = pixels;
+  return of_part;
+}
+
+class PngFileOfRows : public PictureFile {
+ public:
+  PngFileOfRows(PictureToWrite picture, PngEncoder encoder)
+      : picture_(std::move(picture)),
+        encoder_(std::move(encoder)),
+        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()) {}
+
+  Status add(const Film& film, const Tile& pixels) override {
+    const RenderSettings& settings = picture_.settings;
+    const Transfer curve = settings.view == View::shaded ? picture_.scene.picture.transfer : Transfer::none;
+    PngPixels rows = png_pixels_from_film(film, curve, bits(), settings.threads);
+    draw_labels(rows, picture_.scene, settings_of(settings, pixels), picture_.options.dots_per_inch);
+    hash_.add(rows.bytes);
+    if (Status status = encoder_.add(rows); !status) return status;
+    return write();
+  }
+
+  Status finish() override {
+    if (Status status = encoder_.finish(); !status) return status;
+    if (Status status = write(); !status) return status;
+    if (!file_) return Done{};
+    const WritingSection section;
+    return file_->finish();
+  }
+
+  std::optional<std::uint64_t> hash() const override { return hash_.value(); }
+  // As pixels and, at worst, as bytes of the file.
+  double bytes_of_pixel() const override { return (picture_.settings.transparent ? 4 : 3) * (bits() / 8.0) * 2; }
+
+ private:
+  int bits() const { return static_cast<int>(picture_.options.bits.value_or(8)); }
+
+  // The file begins with its first rows, so that a small picture is drawn before there is one.
+  Status write() {
+    const std::string bytes = encoder_.take_bytes();
+    const std::string& output = picture_.options.output;
+    if (output == kStandardOutput) {
+      print(bytes);
+      return Done{};
+    }
+    if (!file_) {
+      Result<GrowingFile> file = GrowingFile::begin(output);
+      if (!file) return file.error();
+      file_.emplace(std::move(*file));
+      removed_.emplace(file_->path_aside());
+    }
+    return file_->append(bytes);
+  }
+
+  PictureToWrite picture_;
+  PngEncoder encoder_;
+  std::optional<GrowingFile> file_;  // none: the standard output
+  std::optional<RemovedWhenEnded> removed_;
+  PictureHash hash_;
+};
+
+class ExrFileOfRows : public PictureFile {
+ public:
+  explicit ExrFileOfRows(PictureToWrite picture) : picture_(std::move(picture)) {}
+
+  Status add(const Film& film, const Tile& pixels) override {
+    if (!writer_)
+      if (Status status = begin(); !status) return status;
+    return writer_->add(draw_layers(picture_.scene, picture_.tracer, settings_of(picture_.settings, pixels),
+                                    picture_.layers, film, &CancellableSection::token()));
+  }
+  Status finish() override {
+    const WritingSection section;
+    return writer_->finish();
+  }
+  double bytes_of_pixel() const override {
+    constexpr double kBytesOfNumber = 4;
+    return kBytesOfNumber * static_cast<double>(channels_of(picture_.layers, picture_.settings.transparent).size());
+  }
+
+ private:
+  Status begin() {
+    const RenderSettings& settings = picture_.settings;
+    const ExrForm form{settings.width_px,      settings.height_px,
+                       drawn_pixels(settings), channels_of(picture_.layers, settings.transparent),
+                       picture_.text,          picture_.options.dots_per_inch};
+    Result<ExrWriter> writer = ExrWriter::begin(picture_.options.output, form);
+    if (!writer) return writer.error();
+    writer_.emplace(std::move(*writer));
+    removed_.emplace(writer_->path_aside());
+    return Done{};
+  }
+
+  PictureToWrite picture_;
+  std::optional<ExrWriter> writer_;
+  std::optional<RemovedWhenEnded> removed_;
+};
+
+}  // namespace
+
+bool is_exr(const std::string& output) {
+  constexpr std::string_view kEnding = ".exr";
+  if (output.size() < kEnding.size()) return false;
+  std::string ending = output.substr(output.size() - kEnding.size());
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending == kEnding;
+}
+
+std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings) {
+  if (!is_exr(options.output)) {
+    if (options.layers) fail_usage("--layers need a file that holds them", "let the output end in .exr");
+    return {};
+  }
+  if (!can_write_exr())
+    fail_environment({"this build of bihive has no OpenEXR", options.output, 0, 0,
+                      "install libopenexr-dev (scripts/setup demo) and build again, or write a PNG"});
+  if (options.bits)
+    fail_usage("--bits is for PNG: OpenEXR gets numbers of 32 bits with a floating point", "leave --bits out");
+  if (settings.view != View::shaded)
+    fail_usage("OpenEXR holds light and layers of numbers, not the colours of --view",
+               "name layers: --layers normal,depth,id");
+  const LabelOptions& labels = options.labels;
+  if (labels.legend || labels.scale_bar || labels.axes || labels.title)
+    fail_usage("labels are drawn over the pixels of a PNG, and OpenEXR has light instead",
+               "leave them out, or write a PNG too");
+  settings.labels = {};
+  settings.tone = {options.style.exposure_stops.value_or(0), options.style.tone.value_or(ToneCurve::none)};
+  std::vector<Layer> layers = options.layers.value_or(std::vector<Layer>{Layer{}});
+  if (const Status status = check_layers(scene, layers); !status)
+    fail_usage("--layers: " + status.error().message, status.error().hint);
+  return layers;
+}
+
+std::unique_ptr<PictureFile> open_picture(PictureToWrite picture) {
+  const RenderOptions& options = picture.options;
+  if (is_exr(options.output)) return std::make_unique<ExrFileOfRows>(std::move(picture));
+  const Tile drawn = drawn_pixels(picture.settings);
+  PngText text;
+  for (const auto& [name, value] : picture.text) text.emplace_back(name, latin1(value));
+  PngEncoder encoder =
+      value_or_fail(PngEncoder::begin(drawn.width(), drawn.height(), picture.settings.transparent ? 4 : 3,
+                                      static_cast<int>(options.bits.value_or(8)), text, options.dots_per_inch));
+  return std::make_unique<PngFileOfRows>(std::move(picture), std::move(encoder));
+}
+
+}  // namespace bihive::cli

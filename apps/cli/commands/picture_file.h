@@ -1,0 +1,55 @@
+// The file of `bihive render`, which grows by rows: PNG, or OpenEXR with layers.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/image/film.h"
+#include "bihive/render/layers.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive::cli {
+
+struct RenderOptions;
+
+/// Whether the output's name says so.
+bool is_exr(const std::string& output);
+
+/// The layers of an OpenEXR file; empty for a PNG. Takes out of the settings what such a file does not get: labels, and
+/// the exposure and curve that scene or style mean for a screen. Fails where options contradict the file's kind.
+std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
+
+/// What the file needs besides its pixels. All but the text must outlive it.
+struct PictureToWrite {
+  const RenderOptions& options;
+  const Scene& scene;
+  const Tracer& tracer;
+  const RenderSettings& settings;
+  const std::vector<Layer>& layers;
+  std::vector<std::pair<std::string, std::string>> text;  ///< UTF-8
+};
+
+class PictureFile {
+ public:
+  virtual ~PictureFile() = default;
+  /// The next rows: as BandCallback (render/renderer.h). An OpenEXR file without radiance does not look at the film.
+  virtual Status add(const Film& film, const Tile& pixels) = 0;
+  /// The file takes its place.
+  virtual Status finish() = 0;
+  /// Of pictures on screens alone.
+  virtual std::optional<std::uint64_t> hash() const { return std::nullopt; }
+  /// Memory for one pixel of a band, without the film.
+  virtual double bytes_of_pixel() const = 0;
+};
+
+/// A PNG may go to the standard output. The file begins with its first rows. Until it is finished or destroyed, a
+/// signal that ends the program removes it.
+std::unique_ptr<PictureFile> open_picture(PictureToWrite picture);
+
+}  // namespace bihive::cli

@@ -1,0 +1,174 @@
+#include "bihive/image/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+
+#include <exception>
+#include <optional>
+#include <stdexcept>
+
+#include "bihive/base/check.h"
+#include "bihive/base/write_file.h"
+
+namespace bihive {
+namespace {
+
+// `demo` with all layers: 0.52 s and 9.68 MB. OpenEXR's own level, 4, takes 0.66 s for 9.47 MB.
+constexpr int kExrCompressionLevel = 1;
+
+// OpenEXR's way to a file that is written aside. OpenEXR's destructors drop exceptions, so the first fault is kept.
+class ExrStream : public Imf::OStream {
+ public:
+  ExrStream(const std::string& path, GrowingFile& file) : Imf::OStream(path.c_str()), file_(file) {}
+
+  void write(const char bytes[], int count) override {
+    if (!fault_) {
+      const Status status = file_.write_at(place_, {bytes, static_cast<std::size_t>(count)});
+      if (!status) fault_ = status.error();
+    }
+    if (fault_) throw std::runtime_error(fault_->message);
+    place_ += static_cast<std::uint64_t>(count);
+  }
+  std::uint64_t tellp() override { return place_; }
+  void seekp(std::uint64_t place) override { place_ = place; }
+
+  /// The first fault of the file.
+  const std::optional<Error>& fault() const { return fault_; }
+
+ private:
+  GrowingFile& file_;
+  std::uint64_t place_ = 0;
+  std::optional<Error> fault_;
+};
+
+Imf::PixelType exr_type(const Channel& channel) {
+  return channel.of_ids ? Imf::UINT : Imf::FLOAT;
+}
+
+Imf::Header exr_header(const ExrForm& form) {
+  // The last column and row belong to OpenEXR's windows.
+  const Tile& part = form.pixels;
+  Imf::Header header(Imath::Box2i({0, 0}, {form.width_px - 1, form.height_px - 1}),
+                     Imath::Box2i({part.x0, part.y0}, {part.x1 - 1, part.y1 - 1}));
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = kExrCompressionLevel;
+  Imf::addChromaticities(header, Imf::Chromaticities());
+  if (form.dots_per_inch > 0) Imf::addXDensity(header, static_cast<float>(form.dots_per_inch));
+  for (const auto& [name, text] : form.text) header.insert(name, Imf::StringAttribute(text));
+  for (const Channel& channel : form.channels) {
+    BIHIVE_CHECK(header.channels().findChannel(channel.name) == nullptr);
+    header.channels().insert(channel.name, Imf::Channel(exr_type(channel)));
+  }
+  return header;
+}
+
+// Calls work(), whose exceptions become an Error.
+template <class Work>
+Status without_exceptions(const std::string& path, const std::optional<ExrStream>& stream, const Work& work) {
+  try {
+    work();
+  } catch (const std::exception& fault) {
+    if (stream && stream->fault()) return *stream->fault();
+    return Error{std::string("OpenEXR: ") + fault.what(), path, 0, 0, ""};
+  }
+  if (stream && stream->fault()) return *stream->fault();
+  return Done{};
+}
+
+}  // namespace
+
+bool can_write_exr() {
+  return true;
+}
+
+class ExrWriter::Implementation {
+ public:
+  Implementation(std::string path, const ExrForm& form, GrowingFile file)
+      : path_(std::move(path)), part_(form.pixels), next_y_(form.pixels.y0), file_(std::move(file)) {}
+
+  Status begin(const ExrForm& form) {
+    return without_exceptions(path_, stream_, [&] {
+      stream_.emplace(path_, file_);
+      output_.emplace(*stream_, exr_header(form));
+    });
+  }
+
+  Status add(const std::vector<Channel>& channels) {
+    const auto width = static_cast<std::size_t>(part_.width());
+    const Channel& first = channels.front();
+    const std::size_t rows = (first.of_ids ? first.ids.size() : first.numbers.size()) / width;
+    if (rows == 0) return Done{};
+    BIHIVE_CHECK(rows <= static_cast<std::size_t>(part_.y1 - next_y_));
+    return without_exceptions(path_, stream_, [&] {
+      Imf::FrameBuffer buffer;
+      for (const Channel& channel : channels) {
+        BIHIVE_CHECK_EQ(channel.of_ids ? channel.ids.size() : channel.numbers.size(), rows * width);
+        const void* const values = channel.of_ids ? static_cast<const void*>(channel.ids.data())
+                                                  : static_cast<const void*>(channel.numbers.data());
+        buffer.insert(channel.name, Imf::Slice::Make(exr_type(channel), values, Imath::V2i(part_.x0, next_y_),
+                                                     part_.width(), static_cast<std::int64_t>(rows)));
+      }
+      output_->setFrameBuffer(buffer);
+      output_->writePixels(static_cast<int>(rows));
+      next_y_ += static_cast<int>(rows);
+    });
+  }
+
+  Status finish() {
+    BIHIVE_CHECK_EQ(next_y_, part_.y1);
+    // Its destructor writes the places of the lines.
+    const Status written = without_exceptions(path_, stream_, [&] { output_.reset(); });
+    if (!written) return written;
+    if (stream_->fault()) return *stream_->fault();
+    return file_.finish();
+  }
+
+  const GrowingFile& file() const { return file_; }
+
+ private:
+  std::string path_;
+  Tile part_;
+  int next_y_;
+  GrowingFile file_;
+  std::optional<ExrStream> stream_;
+  std::optional<Imf::OutputFile> output_;  // before the stream in its destruction
+};
+
+ExrWriter::ExrWriter(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+ExrWriter::ExrWriter(ExrWriter&& other) noexcept = default;
+ExrWriter& ExrWriter::operator=(ExrWriter&& other) noexcept = default;
+ExrWriter::~ExrWriter() = default;
+
+Result<ExrWriter> ExrWriter::begin(const std::string& path, const ExrForm& form) {
+  BIHIVE_CHECK(!form.channels.empty());
+  Result<GrowingFile> file = GrowingFile::begin(path);
+  if (!file) return file.error();
+  if (file->path_aside().empty()) return Error{"an OpenEXR file cannot be a pipe or a device", path, 0, 0, ""};
+  auto implementation = std::make_unique<Implementation>(path, form, std::move(*file));
+  if (Status status = implementation->begin(form); !status) return status.error();
+  return ExrWriter(std::move(implementation));
+}
+
+Status ExrWriter::add(const std::vector<Channel>& channels) {
+  return implementation_->add(channels);
+}
+Status ExrWriter::finish() {
+  return implementation_->finish();
+}
+const std::string& ExrWriter::path_aside() const {
+  return implementation_->file().path_aside();
+}
+
+Status write_exr(const std::string& path, const ExrForm& form) {
+  Result<ExrWriter> writer = ExrWriter::begin(path, form);
+  if (!writer) return writer.error();
+  if (Status status = writer->add(form.channels); !status) return status;
+  return writer->finish();
+}
+
+}  // namespace bihive
