@@ -142,9 +142,11 @@ class Window(ProgramTest):
         self.tool("windowfocus", "--sync", self.window)
 
     def close_window(self):
+        """Also of a window that is closed already."""
         if self.program.poll() is None:
             self.program.kill()
-        self.program.communicate()
+        if not self.program.stderr.closed:
+            self.program.communicate()
 
     def tool(self, *arguments):
         done = subprocess.run(
