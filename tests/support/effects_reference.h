@@ -26,7 +26,8 @@ class EffectsReference {
         transparent_(transparent),
         settings_(settings),
         pixels_(scene.camera, settings.width_px, settings.height_px) {
-    const SphereSet spheres = remaining_spheres(scene);
+    const RemainingSpheres remaining(scene);
+    const SphereSet& spheres = remaining.set();
     for (std::int64_t id = 0; id < spheres.size(); ++id) {
       const double depth = dot(spheres.centre(id) - to_double(pixels_.eye()), pixels_.forward());
       nearest_ = std::min(nearest_, depth - spheres.radius(id));

@@ -165,7 +165,11 @@ TEST(Clips, AClipActsOnItsSelectionAlone) {
 
 TEST(Clips, ASphereInsideIsGoneAndTheCameraDoesNotLookForIt) {
   const Scene scene = clipped({{0, 0, 0, 1}, {0, 0, 50, 1}}, {PlaneClip{{0, 0, 1}, 10}});
-  EXPECT_EQ(remaining_spheres(scene).size(), 1);
+  EXPECT_EQ(RemainingSpheres(scene).set().size(), 1);
+  const Scene cut = clipped({{0, 0, 0, 1}, {0, 0, 50, 1}}, {kUpperHalf}, "index 0");
+  EXPECT_EQ(&RemainingSpheres(cut).set(), &cut.spheres) << "none is gone, so none is copied";
+  const Scene whole = scene_of({{0, 0, 0, 1}});
+  EXPECT_EQ(&RemainingSpheres(whole).set(), &whole.spheres);
   EXPECT_FALSE(Tracer::build(scene, Engine::wide).value().occluded(ray_from({3, 0, 50}, {-1, 0, 0})));
 }
 

@@ -15,13 +15,13 @@ bool parallel(Vec3d a, Vec3d b) {
 Camera framed(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings) {
   return settings.view == View::tree
              ? frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px)
-             : frame_spheres(remaining_spheres(scene), side, lens, settings.width_px, settings.height_px);
+             : frame_spheres(RemainingSpheres(scene).set(), side, lens, settings.width_px, settings.height_px);
 }
 
 // A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
 Camera placed(const Camera& before, const Input& input, const RenderOptions& options) {
   Camera camera = before;
-  const SphereSet::Bounds bounds = remaining_spheres(input.scene).bounds();
+  const SphereSet::Bounds bounds = RemainingSpheres(input.scene).set().bounds();
   if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
   camera.eye = options.eye.value_or(camera.eye);
   camera.look_at = options.look_at.value_or(camera.look_at);

@@ -34,7 +34,8 @@ AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, cons
   }
   if (fog_) {
     nearest_ = kBackgroundDepth;
-    const SphereSet spheres = remaining_spheres(scene);
+    const RemainingSpheres remaining(scene);
+    const SphereSet& spheres = remaining.set();
     const Vec3d eye = to_double(rays.eye());
     for (std::int64_t id = 0; id < spheres.size(); ++id) {
       const double depth = dot(spheres.centre(id) - eye, rays.forward());

@@ -139,12 +139,13 @@ std::shared_ptr<const CutSet> cut_set_of(const Scene& scene) {
   return nullptr;
 }
 
-SphereSet remaining_spheres(const Scene& scene) {
+RemainingSpheres::RemainingSpheres(const Scene& scene) : whole_(&scene.spheres) {
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
+  if (cuts == nullptr) return;
   std::vector<std::int64_t> ids;
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id)
-    if (cuts == nullptr || cuts->remainder(id) != Remainder::nothing) ids.push_back(id);
-  return scene.spheres.part(ids);
+    if (cuts->remainder(id) != Remainder::nothing) ids.push_back(id);
+  if (static_cast<std::int64_t>(ids.size()) < scene.spheres.size()) part_ = scene.spheres.part(ids);
 }
 
 }  // namespace bihive

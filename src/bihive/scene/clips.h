@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bihive/base/result.h"
@@ -29,10 +30,21 @@ Clip moved(const Clip& clip, Vec3d by);
 /// Whether a clip acts on some sphere.
 bool has_clips(const Scene& scene);
 
-/// What the clips make of the scene's spheres, which must outlive it; null if they do not cut and do not remove any.
+/// The cut spheres of the scene, whose set must outlive it; null if the clips neither cut nor remove any.
 std::shared_ptr<const CutSet> cut_set_of(const Scene& scene);
 
-/// The spheres of which something is left, without attributes: for cameras. Cut ones are there with their full radii.
-SphereSet remaining_spheres(const Scene& scene);
+/// The spheres of which something is left: for cameras. Cut ones are there with their full radii.
+class RemainingSpheres {
+ public:
+  /// The scene must outlive it.
+  explicit RemainingSpheres(const Scene& scene);
+  /// The scene's own set where clips remove no sphere, so that large sets are not copied; else a part of it, without
+  /// attributes.
+  const SphereSet& set() const { return part_ ? *part_ : *whole_; }
+
+ private:
+  const SphereSet* whole_;
+  std::optional<SphereSet> part_;
+};
 
 }  // namespace bihive

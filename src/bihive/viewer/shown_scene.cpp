@@ -25,8 +25,9 @@ ShownScene::ShownScene(LoadedScene loaded)
 
 Camera ShownScene::framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const {
   const Lens lens{own_camera.fov_deg, projection};
-  return view == View::tree ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
-                            : frame_spheres(remaining_spheres(scene), side_of(side), lens, size.width, size.height);
+  return view == View::tree
+             ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
+             : frame_spheres(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
 }
 
 bool ShownScene::same_spheres(const ShownScene& other) const {
