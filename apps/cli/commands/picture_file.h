@@ -25,7 +25,7 @@ bool is_exr(const std::string& output);
 /// the exposure and curve that scene or style mean for a screen. Fails where options contradict the file's kind.
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
 
-/// What the file needs besides its pixels. All but the text must outlive it.
+/// The file needs this besides its pixels. All but the text must outlive it.
 struct PictureToWrite {
   const RenderOptions& options;
   const Scene& scene;

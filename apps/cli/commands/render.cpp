@@ -158,7 +158,7 @@ std::string as_text(const ordered_json& json, int indent) {
   return json.dump(indent, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace);
 }
 
-// What the file says about its picture.
+// The texts in the file about its picture.
 std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const ordered_json& settings) {
   std::vector<std::pair<std::string, std::string>> text{
       {"Software", "bihive " + std::string(version())}, {"Scene", scene.name}, {"Settings", as_text(settings, -1)}};
@@ -319,7 +319,7 @@ void check_output(const RenderOptions& options) {
     fail_usage("-o - would write the picture to the terminal", "send it to a program or into a file");
 }
 
-// What does not come in bands must fit the memory.
+// A picture that does not come in bands, and the tree, must fit the memory.
 void check_memory_of(RenderEngine engine, const Input& input, const RenderOptions& options,
                      const RenderSettings& settings) {
   if (comes_whole(engine, settings)) value_or_fail(check_picture_memory(settings.width_px, settings.height_px));

@@ -14,8 +14,8 @@ namespace bihive {
 /// written directly. After an error (missing folder, no permission, full disk) no partial file is left.
 Status write_file(const std::string& path, std::string_view bytes);
 
-/// A file that is written piece by piece, and is not seen under its path before it is whole: for what is too large for
-/// the memory. What write_file() says of paths holds here too.
+/// A file that is written piece by piece, and is not seen under its path before it is whole: for files that are too
+/// large for the memory. The rules of write_file() for paths hold here too.
 class GrowingFile {
  public:
   /// Makes the new file beside `path`, or opens the pipe or the device.

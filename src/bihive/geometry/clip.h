@@ -1,4 +1,4 @@
-// Shapes that cut spheres open: what lies inside of them is absent for every ray.
+// Shapes that cut spheres open: no ray meets the inside of a shape.
 #pragma once
 
 #include <variant>

@@ -15,7 +15,7 @@ void for_each_clip(std::uint64_t mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(__builtin_ctzll(mask));
 }
 
-// What the clips of one sphere take of a line.
+// The parts of a line that the clips of one sphere take.
 struct TakenParts {
   const CutRay& ray;
   std::uint64_t clips;

@@ -47,7 +47,7 @@ class CutSet {
   /// Narrows the segment of a ray to where it may meet spheres that all of these clips cut. False: nowhere.
   static bool narrow(std::uint64_t clips, CutRay& ray);
 
-  /// What is left of a ball is one or more parts of the line, closed by the ball's surface and by caps. The hit is the
+  /// The clips leave one or more parts of the line in a ball, closed by the ball's surface and by caps. The hit is the
   /// first end of a part that lies in the segment: where the ray gets in, or where it gets out if it starts inside.
   /// The surface that the ray leaves counts as the ray says: it is not met again at t = 0. The ray must know the clips
   /// of the sphere.

@@ -44,11 +44,11 @@ struct CutRay {
   bool leaves_plane = false;  ///< a flat cap
   PlaneKey plane;             ///< of this cap
   bool to_front = false;      ///< the side to which the ray goes
-  /// What each clip takes away of the line; the entries of the clips that were asked for (CutSet::entering).
+  /// The part of the line that each clip takes away; the entries of the clips that were asked for (CutSet::entering).
   std::array<TakenPart, kMostClips> taken;
 };
 
-/// What a clip leaves of a sphere.
+/// The sphere after a clip: untouched, cut open, or gone.
 enum class Remainder { whole, cut, nothing };
 
 class StoredClip {

@@ -1,4 +1,4 @@
-// What lies behind each pixel, in numbers: the layers of an OpenEXR file beside the light.
+// Numbers of the first surface behind each pixel: the layers of an OpenEXR file beside the light.
 #pragma once
 
 #include <cstdint>

@@ -14,10 +14,9 @@ Status check_tree_memory(const SphereSet& spheres, Engine engine, const TreePara
 /// A picture of this many pixels, as film, display values and file. Sides as in RenderSettings.
 Status check_picture_memory(int width_px, int height_px);
 
-/// A picture of at most so many bytes is drawn at once: 3840 x 2160 pixels of 8 bits are. `demo --style plain --samples
-/// 1
-/// --size 6000x1680` took 0.8 to 0.9 seconds of processor time in bands of 5 to 180 MB, so the limit sets the memory
-/// alone.
+/// A picture of at most so many bytes is drawn at once: 3840 x 2160 pixels of 8 bits are. The limit sets the memory
+/// alone: `bihive render demo --style plain --samples 1 --size 6000x1680` took 0.8 to 0.9 seconds of processor time in
+/// bands of 5 to 180 MB.
 constexpr double kBandBytes = 256.0 * 1024 * 1024;
 
 /// The rows of a band for render_in_bands(), if a row takes so many bytes as film, display values and file: all, if
