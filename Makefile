@@ -1,6 +1,6 @@
 # Shortcuts: each job is a script in scripts/.
 
-.PHONY: help demo web test test-all check bench verify lint format clean
+.PHONY: help demo web test test-all check bench fuzz faults verify lint format clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -27,6 +27,15 @@ check: ## the quick checks for daily work
 bench: ## measure everything of docs/performance.md, beside Embree and Tachyon (over an hour on two cores)
 	scripts/setup bench
 	scripts/bench
+
+fuzz: ## random inputs against readers, scenes, server and engines for MINUTES (60), with sanitizers; goes on where it ended
+	scripts/setup all
+	scripts/fuzz $(or $(MINUTES),60)
+
+faults: ## every call of the program that can fail fails in turn (some 52,000 runs, over an hour)
+	scripts/setup all
+	cmake --preset release && cmake --build --preset release --target bihive faults
+	tests/faults/run_faults.py build-release/bihive build-release/tests/faults.so
 
 verify: ## the intersection against the long-double oracle, ten million rays a scene (over half an hour)
 	scripts/verify

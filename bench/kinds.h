@@ -12,8 +12,21 @@ namespace bihive::bench {
 /// primary: 8 x 8 pixel blocks of a camera. random: any origin, any direction. shadow: from the hits of the primary
 /// rays to the light. mirrorK: mirrored K times. mirror_shadowK: from the hits of mirrorK to the light. ao: ambient
 /// occlusion from the hits of the primary rays, along directions that all of them share, as the renderer asks.
-/// ao_random: the same with directions of its own for each hit, by cosine, as a path tracer asks.
-enum class Kind { primary, random, shadow, mirror1, mirror2, mirror3, mirror_shadow2, mirror_shadow3, ao, ao_random };
+/// ao_random: the same with directions of its own for each hit, by cosine, as a path tracer asks. comb: parallel rays
+/// towards -z through the box of random rays, row by row.
+enum class Kind {
+  primary,
+  random,
+  shadow,
+  mirror1,
+  mirror2,
+  mirror3,
+  mirror_shadow2,
+  mirror_shadow3,
+  ao,
+  ao_random,
+  comb
+};
 
 struct KindFacts {
   Kind kind;
@@ -26,7 +39,7 @@ struct KindFacts {
 /// A thread takes all its random rays in one call, because the engine sorts them, and sorts more of them better.
 constexpr std::int64_t kTile = 131072, kRandomTile = 1048576;
 
-constexpr std::array<KindFacts, 10> kKinds{{{Kind::primary, "primary", false, RayOrder::blocks, kTile},
+constexpr std::array<KindFacts, 11> kKinds{{{Kind::primary, "primary", false, RayOrder::blocks, kTile},
                                             {Kind::random, "random", false, RayOrder::any, kRandomTile},
                                             {Kind::shadow, "shadow", true, RayOrder::blocks, kTile},
                                             {Kind::mirror1, "mirror1", false, RayOrder::any, kTile},
@@ -35,7 +48,8 @@ constexpr std::array<KindFacts, 10> kKinds{{{Kind::primary, "primary", false, Ra
                                             {Kind::mirror_shadow2, "mirror_shadow2", true, RayOrder::any, kTile},
                                             {Kind::mirror_shadow3, "mirror_shadow3", true, RayOrder::any, kTile},
                                             {Kind::ao, "ao", true, RayOrder::blocks, kTile},
-                                            {Kind::ao_random, "ao_random", true, RayOrder::any, kTile}}};
+                                            {Kind::ao_random, "ao_random", true, RayOrder::any, kTile},
+                                            {Kind::comb, "comb", false, RayOrder::any, kTile}}};
 
 constexpr const KindFacts& facts_of(Kind kind) {
   return kKinds[static_cast<std::size_t>(kind)];

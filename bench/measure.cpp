@@ -94,17 +94,35 @@ Built measure_builds(const BenchScene& bench, const BenchOptions& options, Embre
 
 // Rays
 
-// Traces the tiles once, spread over the threads.
-double trace_ours_ms(const WideTree& tree, const RaySet& set, int threads, const Tiles& tiles, Answers& answers) {
+// The rays of a range, one query after the other.
+void trace_one_by_one(const WideTree& tree, const RaySet& set, const Tiles::Range& range, Answers& answers) {
+  const RaySpan rays = set.rays.span();
+  for (std::int64_t i = range.begin; i < range.end; ++i) {
+    if (set.facts.any_hit) {
+      answers.hidden[static_cast<std::size_t>(i)] = occluded(tree, rays.at(i)) ? 1 : 0;
+      continue;
+    }
+    const Hit hit = closest_hit(tree, rays.at(i));
+    answers.hits.t[static_cast<std::size_t>(i)] = hit.t;
+    answers.hits.sphere_id[static_cast<std::size_t>(i)] = hit.sphere_id;
+  }
+}
+
+// Traces the tiles once, spread over the threads, `call` rays at a time (0: a tile).
+double trace_ours_ms(const WideTree& tree, const RaySet& set, int threads, const Tiles& tiles, std::int64_t call,
+                     Answers& answers) {
   const RaySpan rays = set.rays.span();
   const Timer timer;
   parallel_for(threads, tiles.count(), [&](std::int64_t i) {
     const Tiles::Range tile = tiles.range(i);
-    const RaySpan part = rays.part(tile.begin, tile.end - tile.begin);
-    if (set.facts.any_hit) {
-      occluded(tree, part, set.facts.order, answers.hidden.data() + tile.begin);
-    } else {
-      closest_hits(tree, part, set.facts.order, answers.hits.span().part(tile.begin));
+    if (call == 1) return trace_one_by_one(tree, set, tile, answers);
+    const std::int64_t step = call > 0 ? call : tile.end - tile.begin;
+    for (std::int64_t first = tile.begin; first < tile.end; first += step) {
+      const RaySpan part = rays.part(first, std::min(step, tile.end - first));
+      if (set.facts.any_hit)
+        occluded(tree, part, set.facts.order, answers.hidden.data() + first);
+      else
+        closest_hits(tree, part, set.facts.order, answers.hits.span().part(first));
     }
   });
   return timer.elapsed_ms();
@@ -118,7 +136,8 @@ struct Contender {
 };
 
 // Tries every mode on a sample of the rays; returns the best one, and those that come close to it.
-std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const Tiles& sample) {
+// A program with `call` rays at a time (0: as many as it likes) has no larger packets.
+std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const Tiles& sample, std::int64_t call) {
   struct Tried {
     double ms;
     EmbreeMode mode;
@@ -127,6 +146,7 @@ std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const T
   std::vector<Tried> tried;
   double best = std::numeric_limits<double>::infinity();
   for (const int width : {16, 8, 4, 1}) {
+    if (call > 0 && width > call) continue;
     const std::shared_ptr<EmbreeRays> rays = peer.prepare(set, width);
     for (const bool coherent : {false, true}) {
       double ms = peer.trace_ms(*rays, coherent, sample);
@@ -182,11 +202,11 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   const std::int64_t tile = even_tile(result.rays, options.tile > 0 ? options.tile : set.facts.tile, options.threads);
   result.tile = tile;
   const Tiles all = Tiles::all(result.rays, tile);
-  double longest = trace_ours_ms(tree, set, threads, all, answers);
+  double longest = trace_ours_ms(tree, set, threads, all, options.call, answers);
   std::vector<Contender> contenders;
   if (peer != nullptr) {
-    contenders =
-        best_modes(*peer, set, Tiles(result.rays, tile, std::max<std::int64_t>(1, all.count() / kFewestTiles)));
+    contenders = best_modes(*peer, set, Tiles(result.rays, tile, std::max<std::int64_t>(1, all.count() / kFewestTiles)),
+                            options.call);
     for (const Contender& contender : contenders)
       longest = std::max(longest, peer->trace_ms(*contender.rays, contender.mode.coherent, all));
   }
@@ -194,7 +214,7 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   while (longest / static_cast<double>(step) > kLongestTimingMs && all.count() / (2 * step) >= kFewestTiles) step *= 2;
   const Tiles timed(result.rays, tile, step);
   const double share = static_cast<double>(timed.rays()) / static_cast<double>(result.rays);
-  const auto ours = [&] { return trace_ours_ms(tree, set, threads, timed, answers) / share; };
+  const auto ours = [&] { return trace_ours_ms(tree, set, threads, timed, options.call, answers) / share; };
   const std::int64_t passes = passes_for(ours() * share);
   std::int64_t peer_passes = 1;
   const auto theirs = [&](const Contender& contender) {

@@ -93,6 +93,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
             [](const std::string& text) { return cli::number_from(text, 0, kLargestFloat, true); });
   add_integer(app, "--tile", options.tile, 64, 1048576,
               "Rays that a thread takes at a time, at most (131072, random rays 1048576)");
+  add_integer(app, "--call", options.call, 1, 1048576,
+              "Rays of one call, as programs that have few at a time would ask (a tile's); 1: queries for one ray");
   app.add_option("--target", options.target,
                  "Instruction set of both: avx512, avx2, sse4 (the best); without a peer also scalar, neon")
       ->type_name("NAME");

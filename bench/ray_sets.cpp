@@ -81,6 +81,25 @@ RayBatch random_rays(const BenchScene& bench, std::int64_t count) {
   return rays;
 }
 
+// As far apart in each row as the rows are. They start before the box by its depth.
+PixelRaySet comb_rays(const BenchScene& bench, int side) {
+  const Vec3d size = bench.random_hi - bench.random_lo;
+  PixelRaySet set;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      Ray ray;
+      ray.origin = to_float(bench.random_lo + Vec3d{(x + 0.5) / side * size.x, (y + 0.5) / side * size.y, 2 * size.z});
+      ray.direction = {0, 0, -1};
+      set.rays.push_back(ray);
+      set.place.push_back(z_code(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)));
+    }
+  set.rays.t_min.clear();
+  set.rays.t_max.clear();
+  set.rays.leaves.clear();
+  set.rays.inside.clear();
+  return set;
+}
+
 // The hits of rays, and the rays that start there: the mirrored ones, and those to the light if the surface faces it.
 struct Next {
   PixelRaySet mirrored, shadow;
@@ -225,6 +244,7 @@ std::vector<RaySet> make_ray_sets(const BenchScene& bench, const WideTree& tree,
   }
   for (const Kind kind : {K::ao, K::ao_random})
     if (asked(kind)) add(kind, ambient_rays(bench.scene, tree, primary, options.ao_distance, kind == K::ao));
+  if (asked(K::comb)) add(K::comb, comb_rays(bench, picture_side_px(options.rays)));
   std::sort(sets.begin(), sets.end(), [](const RaySet& a, const RaySet& b) { return a.facts.kind < b.facts.kind; });
   return sets;
 }

@@ -19,6 +19,15 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/bihiveConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/bihiveConfig.cmake ${PROJECT_BINARY_DIR}/bihiveConfigVersion.cmake
         DESTINATION ${config_folder})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The programs find a shared library beside themselves, wherever the folder is moved.
+if(BUILD_SHARED_LIBS)
+  file(RELATIVE_PATH from_programs ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  foreach(program bihive bihive-view)
+    if(TARGET ${program})
+      set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${from_programs}")
+    endif()
+  endforeach()
+endif()
 if(TARGET bihive)
   install(TARGETS bihive)
   # The page of `bihive web`, if `make web` has built it.

@@ -2,7 +2,9 @@
 
 include(GNUInstallDirs)
 
-option(BIHIVE_BUILD_CLI "Build the bihive program" ON)
+# Inside another project only the library is built, and nothing installed, unless that project says otherwise.
+option(BIHIVE_BUILD_CLI "Build the bihive program" ${PROJECT_IS_TOP_LEVEL})
+option(BIHIVE_INSTALL "Install the library, its headers and what else is built" ${PROJECT_IS_TOP_LEVEL})
 option(BIHIVE_BUILD_TESTS "Build the tests (needs GoogleTest)" OFF)
 option(BIHIVE_BUILD_FUZZERS "Build the fuzz targets (needs clang)" OFF)
 # BIHIVE_WERROR in the environment is its default, for builds that are begun by a script.
@@ -38,7 +40,7 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 

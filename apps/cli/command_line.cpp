@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bihive/base/version.h"
+#include "bihive/io/cell_options.h"
 #include "bihive/scene/light_points.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
@@ -77,12 +78,16 @@ void add_generator_options(CLI::App& app, InputOptions& input) {
   add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", seed_from);
 }
 
-void add_input(CLI::App& app, InputOptions& input) {
+// `alone`: no other word without an option follows INPUT.
+void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
   app.add_option("INPUT", input.input,
-                 "A file (PDB, mmCIF, XYZ, LAMMPS dump, CSV, NPY, scene JSON) or a built-in name:\n"
-                 "scenario1, scenario2, scenario3, four-spheres, demo")
+                 "A file (PDB, PQR, mmCIF, XYZ, GRO, LAMMPS dump, GSD, CSV, NPY, scene JSON) or a built-in name:\n"
+                 "scenario1, scenario2, scenario3, four-spheres, demo; - is the standard input")
       ->type_name("")
       ->required();
+  app.add_option(alone ? "TRAJECTORY,--trajectory" : "--trajectory", input.trajectory,
+                 "Files: the places of the same spheres at many times (DCD, XTC, TRR)")
+      ->type_name("FILE");
 }
 
 void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scale = true) {
@@ -98,6 +103,17 @@ void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scal
               return text;
             });
   add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
+  add_value(app, "--replicate", input.replicate, "AxBxC",
+            "Files: so many copies along the vectors of the periodic cell", copies_from_text);
+  add_value(app, "--cell-vectors", input.cell_vectors, "AX,AY,AZ,BX...",
+            "Files: the three vectors of the cell (the file's)", cell_vectors_from_text);
+  add_value(app, "--cell-origin", input.cell_origin, "X,Y,Z", "Files: the corner of the cell (the file's, else 0,0,0)",
+            cell_origin_from_text);
+  const auto set = [&input](Wrapping wrapping) { return [&input, wrapping] { input.wrapping = wrapping; }; };
+  CLI::Option* wrap = app.add_flag_callback("--wrap", set(Wrapping::wrap), "Files: move every centre into the cell");
+  app.add_flag_callback("--unwrap", set(Wrapping::unwrap),
+                        "Files: bring together what belongs together, by the columns\nix, iy, iz or by mol")
+      ->excludes(wrap);
 }
 
 void add_tree_options(CLI::App& app, TreeParameters& tree) {
@@ -287,6 +303,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_thread_options(command, options.tree, options.threads);
   add_input_options(command, options.input, /*with_radius_scale=*/false);
   add_looks(command, options.looks, options);
+  command.add_flag("--cell", options.cell, "Draw the edges of the periodic cell, and of its copies");
   add_labels(command, options.labels);
   add_json_flag(command, options.json);
 }
@@ -332,8 +349,11 @@ void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
       app, "trace", "Trace rays from a .npy file", "bihive trace scenario1 --rays rays.npy --t t.npy --id id.npy",
       "bihive trace demo --rays rays.npy --t t.npy --id id.npy --any --threads 2", options, request);
   add_input(command, options.input);
-  add_path(command, "--rays", options.rays, "float32 (n, 6): origin, direction; or (n, 8): and t_min, t_max");
-  add_path(command, "--t", options.t, "Written: float64 (n), the hit is at origin + t direction; inf for none");
+  add_path(command, "--rays", options.rays,
+           "float32 (n, 6): origin, direction; or (n, 8): and t_min, t_max; -: from the standard input");
+  add_path(command, "--t", options.t,
+           "Written: float64 (n), the hit is at origin + t direction; inf for none;\n- for this or --id is the "
+           "standard output");
   add_path(command, "--id", options.id, "Written: int64 (n), position in the set; -1 for nothing, -2 for the plane");
   command.add_flag("--any", options.any, "Whether anything is hit: id 0 or -1, t 0 or inf");
   command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
@@ -351,7 +371,8 @@ void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
       ->required();
   add_generator_options(command, options.input);
   add_number(command, "--radius", options.input.radius, kLargestFloat, "R", "Scenarios: radius of every sphere (1)");
-  add_path(command, "-o,--output", options.output, ".npy: x, y, z, r as float32 (n, 4); .json: a scene file");
+  add_path(command, "-o,--output", options.output,
+           ".npy: x, y, z, r as float32 (n, 4); .json: a scene file;\n- writes a scene file to the standard output");
 }
 
 void add_info(CLI::App& app, InfoOptions& options, Request& request) {
@@ -368,8 +389,27 @@ void add_select(CLI::App& app, SelectOptions& options, Request& request) {
   CLI::App& command = add_command(app, "select", "Count and list the spheres that an expression selects",
                                   "bihive select demo 'chain A and name CA'",
                                   "bihive select demo 'within 5 of resname 478' --json", options, request);
-  add_input(command, options.input);
+  add_input(command, options.input, /*alone=*/false);
   command.add_option("EXPRESSION", options.expression, "The selection: docs/selections.md")->type_name("")->required();
+  add_input_options(command, options.input);
+  add_json_flag(command, options.json);
+}
+
+void add_convert(CLI::App& app, ConvertOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "convert", "Write the spheres as they were read into a file of another format",
+                                  "bihive convert data/1hpv.pdb -o protein.csv",
+                                  "bihive convert demo -o calphas.extxyz --select 'name CA'", options, request);
+  add_input(command, options.input);
+  add_path(command, "-o,--output", options.output, "The file; - is the standard output");
+  add_value(command, "--format", options.format, "xyz|extxyz|csv|npy|ply|scene",
+            "What to write (by the output's ending: .xyz .extxyz .csv .npy .ply .json)",
+            [](const std::string& text) -> Result<std::string> {
+              static constexpr const char* formats[] = {"xyz", "extxyz", "csv", "npy", "ply", "scene"};
+              for (const char* format : formats)
+                if (text == format) return text;
+              return Error{"expected xyz, extxyz, csv, npy, ply or scene, found \"" + text + "\"", "", 0, 0, ""};
+            });
+  command.add_option("--select", options.select, "Only these spheres: docs/selections.md")->type_name("EXPR");
   add_input_options(command, options.input);
   add_json_flag(command, options.json);
 }
@@ -395,7 +435,14 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
   add_value(command, "--seed", options.seed, "S", "Seed of the random scenarios (1)", seed_from);
   add_integer(command, "--threads", options.threads, 0, kMostThreads,
               "Threads (0: as many as the machine runs at once)");
-  command.add_option("--values", options.values, "Other stated values: DIR/EXPERIMENT/values.json")->type_name("DIR");
+  command.add_option("--values", options.values, "Other values to compare with: DIR/EXPERIMENT/values.json")
+      ->type_name("DIR");
+  command
+      .add_option("--device", options.devices, "A run that the page saved on another device; may come several times")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_option("--against", options.against, "results.json of an older run: the report says what changed")
+      ->type_name("FILE");
   add_json_flag(command, options.json);
 }
 
@@ -437,6 +484,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   InfoOptions info;
   StylesOptions styles;
   SelectOptions select;
+  ConvertOptions convert;
   ThesisOptions thesis;
   WebOptions web;
   Request request = HelpText{"", false};
@@ -448,6 +496,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   add_info(app, info, request);
   add_styles(app, styles, request);
   add_select(app, select, request);
+  add_convert(app, convert, request);
   add_thesis(app, thesis, request);
   add_web(app, web, request);
   try {

@@ -11,6 +11,7 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
+#include "bihive/scene/load_scene.h"
 #include "bihive/scene/names.h"
 #include "bihive/viewer/viewer_json.h"
 #include "theme.h"
@@ -25,11 +26,6 @@ constexpr double kTurnOfKeyPx = 24;  // the turn or shift of an arrow key
 
 App& app_of(GLFWwindow* window) {
   return *static_cast<App*>(glfwGetWindowUserPointer(window));
-}
-
-// What the GPU engine does not draw.
-bool is_beyond_gpu(const ViewerLook& look) {
-  return (!look.style.empty() && look.style != "plain") || look.background == "none";
 }
 
 // "demo.png", or "demo-2.png" if that exists.
@@ -71,6 +67,7 @@ Status App::open() {
   if (!asked) return asked.error();
   if (asked->engine == ViewerEngine::gpu && !attached) return attached.error();
   if (Status status = viewer_.set(*asked); !status) return status;
+  panel_.reading = request_.reading;
   opened(viewer_.facts());
   return Done{};
 }
@@ -115,6 +112,7 @@ void App::on_key(int key, int action, int mods) {
   const bool again = action == GLFW_REPEAT;
   const double step = kTurnOfKeyPx * window_->pixels_per_unit() * window_->text_scale();
   const auto turn = [&](double dx, double dy) {
+    framed_ = false;
     if ((mods & GLFW_MOD_SHIFT) != 0)
       viewer_.pan(dx * step, dy * step);
     else
@@ -122,6 +120,7 @@ void App::on_key(int key, int action, int mods) {
   };
   const auto zoom = [&](double factor) {
     const ImVec2 size = picture_size();
+    framed_ = false;
     viewer_.zoom(factor, size.x / 2.0, size.y / 2.0);
   };
   switch (key) {
@@ -168,6 +167,7 @@ void App::on_key(int key, int action, int mods) {
       glfwSetWindowShouldClose(window_->handle(), GLFW_TRUE);
       return;
     case 'r':
+      framed_ = true;
       return viewer_.home();
     case 's':
       return save();
@@ -235,6 +235,7 @@ void App::on_cursor(double x, double y) {
   x_ = x;
   y_ = y;
   if (dx == 0 && dy == 0) return;
+  if (drag_ != Drag::none) framed_ = false;
   if (drag_ == Drag::orbit) viewer_.orbit(dx, dy);
   if (drag_ == Drag::pan) viewer_.pan(dx, dy);
 }
@@ -242,6 +243,7 @@ void App::on_cursor(double x, double y) {
 void App::on_wheel(double dy) {
   if (!over_picture()) return;
   const double scale = window_->pixels_per_unit();
+  framed_ = false;
   viewer_.zoom(std::pow(kZoomOfNotch, std::clamp(dy, -10.0, 10.0)), x_ * scale, y_ * scale);
 }
 
@@ -255,11 +257,52 @@ void App::on_drop(std::vector<std::string> paths) {
 void App::open_file(const std::string& path) {
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return say(bytes.error().to_string(), true);
-  opened(viewer_.load(*bytes, path));
+  const Result<SceneFacts> facts = viewer_.load(*bytes, path);
+  if (facts) input_ = path;
+  if (facts) panel_.reading = {};
+  opened(facts);
 }
 
 void App::open_built_in(const std::string& name) {
-  opened(viewer_.load_built_in(name));
+  const Result<SceneFacts> facts = viewer_.load_built_in(name);
+  if (facts) input_ = name;
+  if (facts) panel_.reading = {};
+  if (facts) request_.scenario = {};
+  opened(facts);
+}
+
+// The same input with other radii, in the same look and with the same settings. A camera that nobody has moved is
+// placed anew.
+void App::read_again(const ReadOptions& reading) {
+  const ViewerLook look = viewer_.look();
+  ViewerSettings settings = viewer_.settings();
+  ScenarioParameters scenario = request_.scenario;
+  scenario.radius = reading.radius ? static_cast<float>(*reading.radius) : ScenarioParameters{}.radius;
+  const bool is_file = !is_built_in_scene(input_);
+  const Result<std::string> bytes = is_file ? read_file(input_) : Result<std::string>(std::string());
+  if (!bytes) return say(bytes.error().to_string(), true);
+  const Result<SceneFacts> facts =
+      is_file ? viewer_.load(*bytes, input_, reading) : viewer_.load_built_in(input_, scenario, reading);
+  if (!facts) return say(facts.error().to_string(), true);
+  panel_.reading = reading;
+  const std::string file_name = panel_.file_name;
+  const bool framed = framed_;
+  std::string words;
+  if (const auto shown = viewer_.set_look(look); !shown) words = shown.error().to_string();
+  if (framed) {
+    const Camera lens = settings.camera;
+    settings.camera = viewer_.settings().camera;
+    settings.camera.fov_deg = lens.fov_deg;
+    settings.camera.aperture = 0;
+    settings.camera = with_projection(settings.camera, lens.projection);
+    settings.camera.aperture = lens.aperture;
+    settings.camera.focus = lens.focus;
+  }
+  if (Status status = viewer_.set(settings); !status) words = status.error().to_string();
+  opened(*facts);
+  panel_.file_name = file_name;
+  framed_ = framed;
+  if (!words.empty()) say(words, true);
 }
 
 void App::opened(const Result<SceneFacts>& facts) {
@@ -268,6 +311,8 @@ void App::opened(const Result<SceneFacts>& facts) {
   texture_->forget();
   panel_.table.forget();
   panel_.look.start_anew(viewer_.look());
+  panel_.can_scale_radii = input_ == "demo" || !is_built_in_scene(input_);
+  framed_ = true;
   const std::filesystem::path name(facts->name);
   panel_.file_name = name.stem().string() + ".png";
   glfwSetWindowTitle(window_->handle(), (name.filename().string() + " - bihive").c_str());
@@ -279,21 +324,12 @@ void App::apply(const ViewerSettings& settings) {
 }
 
 void App::apply(const ViewerLook& look) {
-  const bool engine_changes =
-      viewer_.settings().engine == ViewerEngine::gpu && look.style != viewer_.look().style && is_beyond_gpu(look);
-  const bool becomes_clear = viewer_.settings().engine == ViewerEngine::gpu && look.background == "none" &&
-                             viewer_.look().background != "none";
   std::size_t failed_row = 0;
   const Result<std::vector<std::int64_t>> counts = viewer_.set_look(look, &failed_row);
   if (const std::string words = panel_.look.answered(counts, failed_row); !words.empty()) return say(words, true);
   if (!counts) return;
   if (message_is_bad_) message_.clear();
   panel_.table.forget();
-  if (!engine_changes && !becomes_clear) return;
-  ViewerSettings settings = viewer_.settings();
-  settings.engine = ViewerEngine::cpu;
-  apply(settings);
-  say("the CPU engine draws now: the GPU engine draws the style plain, on a colour", false);
 }
 
 void App::follow(const PanelWishes& wishes) {
@@ -301,6 +337,8 @@ void App::follow(const PanelWishes& wishes) {
   if (wishes.settings) apply(*wishes.settings);
   if (wishes.side) viewer_.look_from(*wishes.side);
   if (wishes.home) viewer_.home();
+  framed_ = framed_ || wishes.side || wishes.home;
+  if (wishes.reading) read_again(*wishes.reading);
   if (wishes.built_in) open_built_in(*wishes.built_in);
   if (wishes.save) save();
 }

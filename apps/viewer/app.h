@@ -19,7 +19,7 @@ namespace bihive::window {
 class App {
  public:
   /// The viewer has the scene of the request.
-  App(Viewer& viewer, const Request& request) : viewer_(viewer), request_(request) {}
+  App(Viewer& viewer, const Request& request) : viewer_(viewer), request_(request), input_(request.input) {}
   ~App();
   App(const App&) = delete;
   App& operator=(const App&) = delete;
@@ -45,6 +45,7 @@ class App {
   // Actions on events.
   void open_file(const std::string& path);
   void open_built_in(const std::string& name);
+  void read_again(const ReadOptions& reading);
   void opened(const Result<SceneFacts>& facts);
   void apply(const ViewerSettings& settings);
   void apply(const ViewerLook& look);
@@ -62,6 +63,8 @@ class App {
 
   Viewer& viewer_;
   Request request_;
+  std::string input_;   // on show: a built-in name or a file
+  bool framed_ = true;  // nobody has moved the camera since it showed the whole scene, or was the scene's own
   std::unique_ptr<Window> window_;
   std::unique_ptr<PictureTexture> texture_;
   Panel panel_;

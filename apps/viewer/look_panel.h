@@ -21,6 +21,9 @@ class LookPanel {
   /// those of rows are shown below their rows.
   std::string answered(const Result<std::vector<std::int64_t>>& counts, std::size_t failed_row);
 
+  /// The next wanted look comes from elsewhere, and has the rows that are on show.
+  void leave_rows() { rows_sent_ = false; }
+
   /// Another scene is on show: its rows come from its look.
   void start_anew(const ViewerLook& look);
 

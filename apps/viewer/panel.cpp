@@ -8,6 +8,7 @@
 
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/names.h"
+#include "bihive/viewer/viewer_json.h"
 #include "theme.h"
 #include "widgets.h"
 
@@ -37,6 +38,12 @@ void limit_slider(const char* name, std::optional<std::int64_t>& value, int max)
     value = position;
 }
 
+// Only a perspective camera has a lens.
+Camera projected(Camera camera, Projection projection) {
+  if (projection == Projection::orthographic) camera.aperture = 0;
+  return with_projection(camera, projection);
+}
+
 }  // namespace
 
 PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale) {
@@ -52,6 +59,11 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
   heading("look");
   wishes.look = look.draw(viewer);
   draw_picture(viewer, settings);
+  ViewerLook wanted = viewer.look();
+  bool look_changed = false;
+  effects.draw(viewer, settings, wanted, look_changed);
+  if (look_changed) look.leave_rows();
+  if (look_changed) wishes.look = wanted;
   draw_speed(viewer, report);
   draw_camera(settings, wishes);
   draw_saving(wishes);
@@ -59,17 +71,11 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
   draw_keys();
   ImGui::End();
 
-  const ViewerSettings& before = viewer.settings();
-  const bool changed = settings.engine != before.engine || settings.view != before.view ||
-                       settings.recursion != before.recursion ||
-                       settings.samples_per_pixel != before.samples_per_pixel || settings.shadows != before.shadows ||
-                       settings.camera.projection != before.camera.projection ||
-                       settings.max_prims != before.max_prims || settings.max_depth != before.max_depth;
-  if (changed) wishes.settings = settings;
+  if (settings_to_json(settings) != settings_to_json(viewer.settings())) wishes.settings = settings;
   return wishes;
 }
 
-void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) const {
+void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) {
   const SceneFacts& facts = viewer.facts();
   const std::size_t slash = facts.name.rfind('/');
   const std::string name = slash == std::string::npos ? facts.name : facts.name.substr(slash + 1);
@@ -87,6 +93,13 @@ void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) const {
     for (const std::string& rule : facts.rules) ImGui::TextUnformatted(rule.c_str());
     ImGui::EndTooltip();
   }
+  constexpr double kOwn = -1;
+  ReadOptions wanted = reading;
+  double radius = reading.radius.value_or(kOwn);
+  bool changed = effects.number("radius", "the file's own", kOwn, radius);
+  if (changed) wanted.radius = radius == kOwn ? std::nullopt : std::optional(radius);
+  if (can_scale_radii) changed = effects.number("radius x", "1", 1, wanted.radius_scale) || changed;
+  if (changed) wishes.reading = wanted;
   ImGui::PushTextWrapPos(0);
   for (const std::string& warning : facts.warnings) ImGui::TextColored(kBad, "%s", warning.c_str());
   ImGui::PopTextWrapPos();
@@ -103,8 +116,6 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("%s", viewer.has_gl() ? viewer.gl_description().c_str() : "no graphics processor that can do it");
 
-  if (settings.engine == ViewerEngine::gpu) ImGui::TextColored(kDim, "GPU: the style plain, on a colour");
-
   label("view");
   if (ImGui::BeginCombo("##view", name_of(kViews, settings.view).c_str(), ImGuiComboFlags_HeightLarge)) {
     int number = 1;
@@ -115,9 +126,12 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
     ImGui::EndCombo();
   }
   slider("recursion", settings.recursion, kMostRecursion);
+  ImGui::BeginDisabled(settings.effects.adaptive_samples);
   slider("samples", settings.samples_per_pixel, kMostSamples, ImGuiSliderFlags_Logarithmic);
-  label("shadows");
-  ImGui::Checkbox("##shadows", &settings.shadows);
+  ImGui::EndDisabled();
+  label("more on edges");
+  ImGui::Checkbox("##adaptive", &settings.effects.adaptive_samples);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("4 samples a pixel, and 16 on edges");
 }
 
 void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {
@@ -126,7 +140,7 @@ void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {
   if (ImGui::BeginCombo("##projection", name_of(kProjections, settings.camera.projection).c_str())) {
     for (const auto& [name, projection] : kProjections)
       if (ImGui::Selectable(name.c_str(), settings.camera.projection == projection))
-        settings.camera = with_projection(settings.camera, projection);
+        settings.camera = projected(settings.camera, projection);
     ImGui::EndCombo();
   }
   const float space = ImGui::GetStyle().ItemSpacing.x;

@@ -6,9 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "bihive/io/read_spheres.h"
 #include "bihive/scene/framing.h"
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/viewer.h"
+#include "effects_panel.h"
 #include "look_panel.h"
 #include "tree_table.h"
 
@@ -20,6 +22,7 @@ struct PanelWishes {
   std::optional<ViewerLook> look;
   std::optional<ViewFrom> side;
   std::optional<std::string> built_in;  ///< a scene to be opened
+  std::optional<ReadOptions> reading;   ///< the same input with these radii
   bool home = false, save = false;
 };
 
@@ -33,11 +36,14 @@ class Panel {
 
   TreeTable table;
   LookPanel look;
+  EffectsPanel effects;
+  ReadOptions reading;                   ///< how the input on show was read
+  bool can_scale_radii = true;           ///< the input is a file, or the demo
   std::string file_name = "bihive.png";  ///< where pictures are saved
   PictureSizePx save_size{0, 0};         ///< 0: as on the screen
 
  private:
-  void draw_scene(const Viewer& viewer, PanelWishes& wishes) const;
+  void draw_scene(const Viewer& viewer, PanelWishes& wishes);
   void draw_picture(const Viewer& viewer, ViewerSettings& settings) const;
   void draw_tree(ViewerSettings& settings) const;
   void draw_camera(ViewerSettings& settings, PanelWishes& wishes) const;

@@ -21,7 +21,20 @@ Request take(const json& document) {
   }
   request.reading.radius_scale = document.value("radius_scale", request.reading.radius_scale);
   request.reading.recenter = document.value("recenter", false);
+  request.reading.trajectory = document.value("trajectory", "");
   request.reading.assembly = document.value("assembly", "");
+  request.reading.replicate = document.value("replicate", request.reading.replicate);
+  const auto vector = [](const json& v) {
+    return Vec3d{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+  };
+  if (document.contains("cell_vectors")) {
+    const json& v = document.at("cell_vectors");
+    request.reading.cell_vectors = {vector(v.at(0)), vector(v.at(1)), vector(v.at(2))};
+  }
+  if (document.contains("cell_origin")) request.reading.cell_origin = vector(document.at("cell_origin"));
+  const std::string wrapping = document.value("wrapping", "");
+  if (wrapping == "wrap") request.reading.wrapping = Wrapping::wrap;
+  if (wrapping == "unwrap") request.reading.wrapping = Wrapping::unwrap;
   request.reading.frame = document.value("frame", request.reading.frame);
   if (document.contains("size")) {
     request.width = document.at("size").at(0).get<int>();

@@ -9,6 +9,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
+#include "bihive/scene/camera_lights.h"
 #include "bihive/scene/colour_maps.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
@@ -56,6 +57,26 @@ std::string done_or(const Status& status) {
   return status ? "{}" : failure(status.error());
 }
 
+// A radius below 0: the file's own.
+ReadOptions reading_of(double radius, double radius_scale) {
+  ReadOptions reading;
+  if (radius >= 0) reading.radius = radius;
+  reading.radius_scale = radius_scale;
+  return reading;
+}
+
+// What colours the spheres: for the words beside the controls. A continuous map has a range.
+ordered_json coloured_by_json(const Scene& scene) {
+  ordered_json list = ordered_json::array();
+  for (const ColourBy& how : scene.coloured_by) {
+    ordered_json one;
+    one["attribute"] = how.attribute;
+    if (how.range) one["range"] = {how.range->first, how.range->second};
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
 // Lack of memory is the only failure that throws.
 template <class Work>
 std::string with_memory(const Work& work) {
@@ -89,21 +110,23 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
                    {"attributes", facts->attributes}};
   json["settings"] = ordered_json::parse(settings());
   json["look"] = ordered_json::parse(look());
+  json["coloured_by"] = coloured_by_json(viewer_.scene());
   return text_of(json);
 }
 
-std::string Page::load(const std::string& name) {
+std::string Page::load(const std::string& name, double radius, double radius_scale) {
   return with_memory([&] {
     const std::string bytes = std::exchange(input_, {});
-    return loaded(viewer_.load(bytes, name));
+    return loaded(viewer_.load(bytes, name, reading_of(radius, radius_scale)));
   });
 }
 
-std::string Page::load_built_in(const std::string& name, double count) {
+std::string Page::load_built_in(const std::string& name, double count, double radius, double radius_scale) {
   return with_memory([&] {
     ScenarioParameters parameters;
     if (count >= 1) parameters.count = static_cast<std::int64_t>(count);
-    return loaded(viewer_.load_built_in(name, parameters));
+    if (radius >= 0) parameters.radius = static_cast<float>(radius);
+    return loaded(viewer_.load_built_in(name, parameters, reading_of(radius, radius_scale)));
   });
 }
 
@@ -125,6 +148,8 @@ std::string Page::choices() const {
   json["actions"] = look_action_names();
   json["maps"] = kColourMapNames;
   json["materials"] = names_json(named_materials());
+  json["lights"] = names_json(light_presets());
+  json["tones"] = names_json(kToneCurves);
   return text_of(json);
 }
 
@@ -138,7 +163,7 @@ std::string Page::set_look(const std::string& changes) {
     if (!look) return failure(look.error());
     std::size_t row = look->rows.size();
     const Result<std::vector<std::int64_t>> counts = viewer_.set_look(*look, &row);
-    if (counts) return text_of({{"counts", *counts}});
+    if (counts) return text_of({{"counts", *counts}, {"coloured_by", coloured_by_json(viewer_.scene())}});
     ordered_json json = failure_json(counts.error());
     json["error"]["row"] = row < look->rows.size() ? static_cast<int>(row) : -1;
     return text_of(json);

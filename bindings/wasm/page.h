@@ -19,13 +19,14 @@ namespace bihive::page {
 
 class Page {
  public:
-  // The scene. Answers: {"facts": {...}, "settings": {...}}.
+  // The scene. Answers: {"facts": {...}, "settings": {...}, "look": {...}, "coloured_by": [...]}. `radius` below 0: the
+  // file's own; `radius_scale` multiplies every radius of a file.
 
   /// Room for the bytes of a file, as a view of memory. load() takes the bytes written there.
   emscripten::val room(double bytes);
-  std::string load(const std::string& name);
+  std::string load(const std::string& name, double radius, double radius_scale);
   /// `count` 0: the scenario's own number of spheres.
-  std::string load_built_in(const std::string& name, double count);
+  std::string load_built_in(const std::string& name, double count, double radius, double radius_scale);
 
   // The settings, as JSON texts (viewer/viewer_json.h). set() leaves settings unchanged that its text does not name.
 
@@ -40,9 +41,11 @@ class Page {
 
   // The look (viewer/viewer_json.h).
 
-  std::string choices() const;  ///< {"styles": [{"name", "description"}], "actions": [names], "maps": "a, b", "materials": [names]}
+  /// {"styles": [{"name", "description"}], "actions": [names], "maps": "a, b", "materials": [names], "lights": [names],
+  /// "tones": [names]}
+  std::string choices() const;
   std::string look() const;
-  /// {"counts": [spheres of each row]}. An error has {"row": the row to blame, or -1} besides.
+  /// {"counts": [spheres of each row], "coloured_by": [{"attribute", "range": [min, max]}]}; categories have no range. An error has {"row": the row to blame, or -1} besides.
   std::string set_look(const std::string& changes);
 
   // The graphics processor: WebGL2's current context.

@@ -109,6 +109,20 @@ class BadFiles(ProgramTest):
             self.write(name, BAD_FILES[name])
             self.assertIn(place, self.fail_input("info", name))
 
+    def test_formats_that_are_not_read_are_named(self):
+        files = {
+            "a.vtk": (b"# vtk DataFile Version 3.0\npoints\nASCII\n", "a VTK file"),
+            "a": (b"CDF\x02" + bytes(100), "a NetCDF file"),
+            "a.json": (b'{"1": {"numbers": [1, 8]}}', "a database of ASE in JSON"),
+            "a.xyz.bz2": (b"BZh91AY&SY", "a file packed with bzip2"),
+            "a.npz": (b"PK\x03\x04" + bytes(100), "a zip archive"),
+        }
+        for name, (content, what) in files.items():
+            self.write(name, content)
+            error = self.fail_input("info", name)
+            self.assertIn(what, error)
+            self.assertIn("which bihive does not read; ", error)
+
     def test_missing_file_and_folder(self):
         os.mkdir(self.path("folder"))
         self.assertIn("missing.pdb", self.fail_input("info", "missing.pdb"))
@@ -133,6 +147,7 @@ class BadOutputs(ProgramTest):
             ["scene", "scenario1", "-o", path + ".json"],
             ["trace", "demo", "--rays", "rays.npy", "--t", path + ".npy", "--id", "id.npy"],
             ["trace", "demo", "--rays", "rays.npy", "--t", "t.npy", "--id", path + ".npy"],
+            ["convert", "demo", "-o", path + ".npy"],
         ]
 
     def test_missing_folder(self):

@@ -7,7 +7,7 @@ import subprocess
 from program import PATIENCE_S, ProgramTest, main
 
 BENCH = os.environ["BIHIVE_BENCH"]
-KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3", "ao", "ao_random"]
+KINDS = ["primary", "random", "shadow", "mirror1", "mirror2", "mirror3", "mirror_shadow2", "mirror_shadow3", "ao", "ao_random", "comb"]
 QUICK = ["--rays", "4096", "--reps", "1"]
 
 
@@ -73,6 +73,13 @@ class BenchTest(ProgramTest):
         self.assertIsNone(report["mray_per_s"]["mirror2"])
         self.assertIsNone(report["ratio"]["mirror2"])
         self.assertEqual(report["rays"]["mirror2"], 0)
+
+    def test_calls_of_few_rays(self):
+        for call in ["1", "64", "1024"]:
+            report = self.succeed_json("s1", "--peer", "embree", "--only", "comb,shadow,random", "--call", call, *QUICK)
+            self.assertEqual(report["mismatches"], 0, call)
+            self.assertGreater(report["mray_per_s"]["comb"], 0)
+        self.assertIn("--call", self.fail_usage("s1", "--call", "0"))
 
     def test_a_target_may_be_forced(self):
         report = self.succeed_json("s2", "--target", "sse4", "--peer", "embree", "--only", "primary", *QUICK)

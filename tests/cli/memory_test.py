@@ -16,7 +16,7 @@ class Memory(ProgramTest):
         for arguments in (small_picture, ["stats", "demo"]):
             message = self.refused(20000, *arguments)
             self.assertIn("the tree of 1,631 spheres would take about", message)
-            self.assertIn("of memory, and this machine has 20 kB", message)
+            self.assertIn("of memory, and BIHIVE_MEMORY allows 20 kB", message)
         self.assertFalse(os.path.exists(self.path("a.png")))
         done = self.run_bihive(*small_picture, env={**os.environ, "BIHIVE_MEMORY": "1000000"})
         self.assertEqual((done.returncode, done.stderr), (0, ""))

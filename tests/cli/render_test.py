@@ -170,7 +170,6 @@ class Render(ProgramTest):
             (["--crease", ""], 2, ["--crease"]),
             (["--fog", "1.5"], 2, ["--fog"]),
             (["--style", "--fog"], 2, ["--style"]),
-            (["--engine", "gpu", "--style", "studio"], 2, ["--engine gpu draws no", "--style plain"]),
         ]:
             done = self.run_bihive("render", "demo", "-o", "c.png", *arguments)
             self.assertEqual(done.returncode, code, (arguments, done.stderr))
@@ -182,7 +181,7 @@ class Render(ProgramTest):
         self.assertFalse(os.path.exists(self.path("c.png")))
 
     def test_bad_ambient_occlusion_is_refused(self):
-        for arguments in (["--ao-distance", "0"], ["--ao-directions", "0"], ["--ao", "--no-ao"], ["--ao", "--engine", "gpu"]):
+        for arguments in (["--ao-distance", "0"], ["--ao-directions", "0"], ["--ao", "--no-ao"]):
             done = self.run_bihive("render", "demo", "-o", "c.png", *arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn(arguments[0] if len(arguments) == 2 else arguments[-1], done.stderr)

@@ -60,7 +60,7 @@ class Scene(ProgramTest):
     def test_the_documents_of_the_documentation_are_scenes(self):
         with open(os.path.join(os.environ["BIHIVE_SOURCE"], "docs", "scene_format.md"), encoding="utf-8") as file:
             documents = re.findall(r"```json\n(.*?)```", file.read(), re.DOTALL)
-        self.assertEqual(len(documents), 5)
+        self.assertEqual(len(documents), 6)
         self.write("molecule.pdb", "HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O  \n")
         for document in documents:
             self.write("s.json", document)

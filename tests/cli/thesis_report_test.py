@@ -126,7 +126,7 @@ class Report(ProgramTest):
         changed = "values/" + experiment + "/values.json"
         document = json.loads(self.read(changed))
         before = document["values"][name]["printed"]
-        document["values"][name] = {"value": 4321987, "sentence": "changed"}
+        document["values"][name] = {"value": 4321987, "kind": "stated", "sentence": "changed"}
         self.write(changed, json.dumps(document))
 
         self.succeed("thesis", experiment, "--quick", "--out", "as_it_is")
@@ -153,7 +153,8 @@ class Report(ProgramTest):
         document = json.loads(self.read(changed))
         for value in document["values"].values():
             value["sentence"] = "<script>alert(1)</script> & \"'"
-        document["values"].update({"scenarios": {"value": [1], "sentence": "one"}, "spheres_list": {"value": [64], "sentence": "one"}})
+        one = {"kind": "stated", "sentence": "one"}
+        document["values"].update({"scenarios": {"value": [1], **one}, "spheres_list": {"value": [64], **one}})
         self.write(changed, json.dumps(document))
         self.succeed("thesis", "figure-4.4", "--quick", "--out", "out", "--values", "values")
         report = self.report("out")
@@ -167,6 +168,151 @@ class Report(ProgramTest):
         for word in ["http://", "https://", "<script", "<link rel=\"stylesheet", "@import", "url("]:
             outside = report.replace('xmlns="http://www.w3.org/2000/svg"', "")
             self.assertNotIn(word, outside)
+
+    def test_it_says_on_which_machine_and_how_it_was_made(self):
+        self.succeed("thesis", "figure-4.5", "--quick", "--seed", "3", "--out", "out")
+        results, report = self.results("out"), self.report("out")
+        self.assertEqual(results["command"], "bihive thesis figure-4.5 --out out --quick --seed 3")
+        self.assertRegex(results["compiler"], r"^(gcc|clang) \d+.*; vectors: \w+$")
+        for text in [results["command"], results["compiler"], results["machine"]]:
+            self.assertIn(text.replace("&", "&amp;"), report)
+        self.assertIn("Efficient Ray Tracing for Mobile Devices", report)
+        self.assertNotIn("as in the thesis", report)
+
+    def with_load(self, others):
+        """A report whose steps were measured beside so much other work."""
+        for name in self.step_files("out", "table-4.2"):
+            path = "out/steps/table-4.2/" + name + ".json"
+            step = json.loads(self.read(path))
+            step["load"] = {"seconds": 10, "others": others, "known": True, "most_others": others}
+            self.write(path, json.dumps(step))
+        self.succeed("thesis", "table-4.2", "--quick", "--out", "out")
+        return self.results("out"), self.report("out")
+
+    def test_a_busy_machine_is_told_at_the_top(self):
+        self.succeed("thesis", "table-4.2", "--quick", "--out", "out")
+        idle, report = self.with_load(0.01)
+        self.assertEqual((idle["load"]["busy"], 'class="banner busy"' in report), (False, False))
+        busy, report = self.with_load(0.5)
+        self.assertEqual((busy["load"]["busy"], busy["load"]["others"]), (True, 0.5))
+        self.assertLess(report.index('class="banner busy"'), report.index("<nav"))
+
+    def test_an_older_run_beside_a_new_one(self):
+        run = ["thesis", "section-d", "figure-4.5", "--quick", "--out"]
+        self.succeed(*run, "old")
+        self.succeed(*run, "new", "--against", "old/results.json")
+        untimed = lambda results: [each for each in results["against"] if not self.finding(results, each)["timed"]]
+        self.assertEqual(untimed(self.results("new")), [])
+        self.assertIn("Beside an older run", self.report("new"))
+
+        # Another verdict, another value, and a finding that is gone, as if the older run had had them.
+        older = json.loads(self.read("old/results.json"))
+        findings = {finding["name"]: finding for finding in older["experiments"][1]["findings"]}
+        findings["depth3.leaves"]["verdict"] = "differs"
+        findings["depth3.depth"]["ours"] = "17"
+        older["experiments"][0]["findings"].pop()
+        self.write("old/results.json", json.dumps(older))
+        self.succeed(*run, "new", "--against", "old/results.json")
+        changed = {each["name"]: (each["changed"], each["then"], each["now"]) for each in untimed(self.results("new"))}
+        self.assertEqual(
+            changed,
+            {"depth3.leaves": ("verdict", "differs", "agrees"), "depth3.depth": ("value", "agrees", "agrees")},
+        )
+        self.assertIn("1 are new", self.report("new"))
+
+    def finding(self, results, wanted):
+        (found,) = [
+            finding
+            for experiment in results["experiments"]
+            for finding in experiment["findings"]
+            if (experiment["id"], finding["name"]) == (wanted["experiment"], wanted["name"])
+        ]
+        return found
+
+    def test_runs_of_other_devices_stand_beside_the_phone(self):
+        run = {"experiment": "figure-4.4", "engine": "gpu", "device": "a <phone>", "width_px": 284, "height_px": 160, "quick": True, "rounds": 2, "complete": True, "configurations": []}
+        for scenario in (1, 2, 3):
+            for spheres in (64, 128, 256):
+                for max_prims, ms in [(None, 1000.0), (1, 200.0), (8, 100.0)]:
+                    run["configurations"].append({"scenario": scenario, "spheres": spheres, "max_prims": max_prims, "fps": 1000 / ms, "frame_ms": [ms, ms * 1.1]})
+        self.write("one.json", json.dumps(run))
+        run["device"], run["configurations"] = "another", run["configurations"][:3]
+        self.write("two.json", json.dumps({**run, "complete": False}))
+        self.succeed("thesis", "section-d", "--quick", "--out", "out", "--device", "one.json", "--device", "two.json")
+        devices, report = self.results("out")["devices"], self.report("out")
+        self.assertEqual([each["device"] for each in devices], ["a <phone>", "another"])
+        self.assertEqual([each["configurations"] for each in devices], [9, 1])
+        self.assertAlmostEqual(devices[0]["drift"], 1.1)
+        self.assertAlmostEqual(devices[0]["best_fps"], 1000 / 105)
+        self.assertIn("a &lt;phone&gt;", report)
+        self.assertIn("iPhone 5s, stated by the text", report)
+        self.assertIn("900 to 900 %, mean 900", report)
+        run["configurations"][0]["frame_ms"] = [0]
+        self.write("bad.json", json.dumps(run))
+        self.write("worse.json", "[1]")
+        for file in ("bad.json", "worse.json", "none.json"):
+            done = self.run_bihive("thesis", "section-d", "--quick", "--out", "bad", "--device", file)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(file, done.stderr)
+
+    def test_an_older_run_that_is_none(self):
+        self.write("bad.json", "{}")
+        self.write("worse.json", '{"bihive_results": 2, "experiments": [{"id": "a", "findings": [{"name": 1}]}]}')
+        for file, words in [("bad.json", "expected results.json of bihive thesis"), ("worse.json", "a finding is not"), ("none.json", "")]:
+            done = self.run_bihive("thesis", "section-d", "--quick", "--out", "out", "--against", file)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(file, done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertFalse(os.path.exists(self.path("out/report.html")))
+
+    def test_every_claim_is_decided_by_findings_that_exist(self):
+        with open(os.path.join(SOURCE, "thesis/report/claims.json")) as file:
+            claims = json.load(file)["claims"]
+        os.environ["BIHIVE_EGL"], before = "/nowhere", os.environ.get("BIHIVE_EGL")
+        try:
+            self.succeed("thesis", "all", "--quick", "--out", "out")
+        finally:
+            del os.environ["BIHIVE_EGL"]
+            if before is not None:
+                os.environ["BIHIVE_EGL"] = before
+        results = self.results("out")
+        names = {experiment["id"]: [finding["name"] for finding in experiment["findings"]] for experiment in results["experiments"]}
+        for experiment, all_names in names.items():
+            self.assertEqual(len(set(all_names)), len(all_names), experiment)
+        for claim in claims:
+            for pattern in claim["findings"]:
+                found = [
+                    name for name in names[claim["experiment"]]
+                    if (name.startswith(pattern[:-1]) if pattern.endswith("*") else name == pattern)
+                ]
+                self.assertNotEqual(found, [], (claim["claim"], pattern))
+        self.assertEqual(len(results["verdicts"]), len(claims))
+        verdicts = {each["claim"]: each["verdict"] for each in results["verdicts"]}
+        self.assertNotIn("not_run", verdicts.values())
+        for claim in claims:
+            self.assertEqual(verdicts[claim["claim"]] == "value_lost", claim.get("lost", False), claim["claim"])
+        for words, verdict in [
+            ("Table 4.2, Scenario 1: every row", "reproduced"),
+            ("(b) has four leaves with 16 primitives each", "reproduced"),
+            ("The first three images had MAX_PRIMS equal to infinity", "text_inconsistent"),
+            ("It gives each primitive a leaf of its own", "text_inconsistent"),
+            ("A larger MAX_PRIMS needs less memory", "shape_only"),
+            ("At recursion depth 1 the transparent sphere is dark grey", "inferred"),
+            ("Radii of 0.001 avoid overlaps that could make a wrong tree", "own_check"),
+            ("In Scenario 1 nodes overlap more, since many primitives lie in a small volume", "contradicted"),
+        ]:
+            self.assertEqual(verdicts[words], verdict, words)
+        report = self.report("out")
+        self.assertLess(report.index('id="verdicts"'), report.index('id="figure-4.1"'))
+
+        # Only what the text states and what agrees with it is green.
+        for experiment in results["experiments"]:
+            green = sum(
+                cell["verdict"] == "agrees" and cell["kind"] == "stated"
+                for table in experiment["tables"] for row in table["rows"] for cell in row if "kind" in cell
+            )
+            self.assertEqual(green, experiment["counts"]["stated"]["agrees"], experiment["id"])
+        self.assertEqual(results["experiments"][5]["counts"]["stated"], {"agrees": 0, "differs": 0, "undecided": 0})
 
     def small_values(self):
         """A folder of stated values with one configuration of Figure 4.4."""

@@ -66,8 +66,6 @@ class Tone(ProgramTest):
             said = self.fail_usage("render", "demo", "-o", "a.png", "--exposure=" + value)
             self.assertIn("--exposure: expected a number", said)
         self.assertIn("--tone: expected one of none, soft, filmic", self.fail_usage("render", "demo", "-o", "a.png", "--tone", "aces"))
-        said = self.fail_usage("render", "demo", "-o", "a.png", "--engine", "gpu", "--tone", "soft")
-        self.assertIn("--engine gpu", said)
         for text, place in [('"exposure": 40', "/picture/exposure: expected a number from -32 to 32"),
                             ('"tone": "hard"', '/picture/tone: expected "none", "soft" or "filmic"')]:
             self.write("s.json", SPHERE % (', "picture": {%s}' % text))

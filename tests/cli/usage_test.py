@@ -65,7 +65,7 @@ class WrongUsage(ProgramTest):
     def test_words_that_do_not_exist(self):
         self.assertIn("paint", self.fail_usage("paint"))
         self.assertIn("--paint", self.render("--paint"))
-        self.assertIn("extra", self.render("extra"))
+        self.assertIn("extra", self.render("run.xtc", "extra"))
         self.assertIn("there is no command 'veiw'", self.fail_usage("veiw", "demo"))
 
     def test_what_is_required(self):

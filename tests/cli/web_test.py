@@ -321,6 +321,30 @@ class Refuses(WebTest):
                      "localhost/", "localhost evil", "::1", "loc\u00e4l"]:
             self.assertIn(self.status_of(b"/", host)[0], [400, 403], host)
 
+    def test_head_never_has_a_body(self):
+        self.start()
+        for head in ["HEAD / HTTP/1.1\r\n\r\n", "HEAD / HTTP/1.1\r\nHost: evil.example\r\n\r\n", "HEAD /none HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                     "HEAD / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n\r\n", "HEAD /%zz HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                     "HEAD / HTTP/1.1\r\nHost: localhost\r\nX: " + "x" * 20000 + "\r\n\r\n"]:
+            with socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S) as connection:
+                connection.sendall(head.encode())
+                connection.shutdown(socket.SHUT_WR)
+                answer = b""
+                while chunk := connection.recv(65536):
+                    answer += chunk
+            self.assertRegex(answer, rb"\AHTTP/1.1 4\d\d ", head[:60])
+            self.assertTrue(answer.endswith(b"\r\n\r\n"), (head[:60], answer[-60:]))
+
+    def test_idle_connections_keep_nobody_out(self):
+        self.start()
+        idle = [socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S) for _ in range(260)]
+        self.addCleanup(lambda: [connection.close() for connection in idle])
+        idle[0].sendall(b"GET / HT")
+        begin = time.monotonic()
+        for _ in range(20):
+            self.assertEqual(self.ask("/")[0], 200)
+        self.assertLess(time.monotonic() - begin, 10)
+
 
 class Addresses(WebTest):
     def test_ipv6(self):
@@ -516,7 +540,6 @@ class Browser(WebTest):
         self.environment.update(DISPLAY=":99", PATH=self.path("nowhere"))
         self.start(browser=True)
         self.assertEqual(self.ask("/")[0], 200)
-
 
 if __name__ == "__main__":
     main()

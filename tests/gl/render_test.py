@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cli"))
-from program import BIHIVE, PATIENCE_S, ProgramTest, main, png_pixels, png_text  # noqa: E402
+from program import BIHIVE, PATIENCE_S, ProgramTest, main, png_numbers, png_pixels, png_text  # noqa: E402
 
 SIZE = ["--size", "96x64"]
 
@@ -52,6 +52,30 @@ class RenderOnGpu(ProgramTest):
         out, err = process.communicate(timeout=PATIENCE_S)
         self.assertEqual((process.returncode, out, err), (130, b"", b""))
         self.assertEqual(self.contents(), {})
+
+    def test_looks_are_those_of_the_cpu(self):
+        looks = {
+            "default": [],
+            "studio": ["--style", "studio", "--exposure", "0.5", "--tone", "filmic"],
+            "xray": ["--style", "xray", "--crop", "20,10,80,50"],
+            "lines": ["--style", "illustrative", "--select", "chain A", "--outline", "2"],
+            "clear": ["--style", "flat", "--background", "none", "--title", "Title", "--aperture", "2"],
+            "ids": ["--no-water", "--view", "id"],
+        }
+        for name, look in looks.items():
+            given = ["render", "demo", *SIZE, "--samples", "2", *look]
+            self.succeed(*given, "--engine", "gpu", "-o", "gpu.png")
+            self.succeed(*given, "-o", "cpu.png")
+            ours, theirs = (sum(png_numbers(self.read(file)), []) for file in ("gpu.png", "cpu.png"))
+            self.assertEqual(len(ours), len(theirs), name)
+            apart = sum(max(abs(a - b) for a, b in zip(p, q)) > 8 for p, q in zip(ours, theirs))
+            self.assertLessEqual(apart, 0.01 * len(ours), name)
+
+    def test_what_it_does_not_draw(self):
+        cut = ["--select", "all", "--clip", "plane:0,0,1,0"]
+        for options, words in [(["--samples", "auto"], "adaptive samples"), (cut, "cut spheres")]:
+            said = self.fail_usage("render", "demo", "--engine", "gpu", *options, "-o", "a.png")
+            self.assertIn("--engine gpu draws no " + words, said)
 
     def test_samples_smooth_edges(self):
         colours = []

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "bihive/image/image_diff.h"
@@ -120,6 +121,7 @@ TEST(GpuViewer, moves_and_shows_the_last_picture_meanwhile) {
   viewer.resize(400, 300);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose_plain(viewer);
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   const Image before = shown(viewer, 400, 300);
@@ -145,6 +147,7 @@ TEST(GpuViewer, a_picture_to_be_saved_does_not_disturb) {
   viewer.resize(kWidth, kHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose_plain(viewer);
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   const Image before = shown(viewer);
@@ -165,6 +168,7 @@ TEST(GpuViewer, a_picture_to_be_saved_comes_in_steps_and_may_be_dropped) {
   viewer.resize(kWidth, kHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose_plain(viewer);
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   const Image before = shown(viewer);
@@ -221,44 +225,104 @@ TEST(GpuViewer, a_lost_context_comes_back) {
   }
 }
 
-TEST(GpuViewer, draws_the_style_plain_with_the_users_looks) {
+// Both engines' pictures at rest, and as they are saved.
+void expect_same_pictures(Viewer& viewer, const std::string& what) {
+  SCOPED_TRACE(what);
+  choose(viewer, ViewerEngine::cpu);
+  settle(viewer);
+  const Image by_cpu = viewer.image();
+  const Result<PngPixels> cpu_file = viewer.picture(kWidth, kHeight, 2);
+  choose(viewer, ViewerEngine::gpu);
+  settle(viewer);
+  EXPECT_LE(share_off(shown(viewer), by_cpu), 0.005);
+  const Result<PngPixels> gpu_file = viewer.picture(kWidth, kHeight, 2);
+  ASSERT_TRUE(cpu_file && gpu_file);
+  ASSERT_EQ(gpu_file->channels, cpu_file->channels);
+  std::int64_t apart = 0;
+  for (std::size_t i = 0; i < cpu_file->bytes.size(); ++i)
+    apart += std::abs(int(cpu_file->bytes[i]) - int(gpu_file->bytes[i])) > 2 ? 1 : 0;
+  EXPECT_LE(static_cast<double>(apart), 0.005 * static_cast<double>(cpu_file->bytes.size()));
+}
+
+TEST(GpuViewer, draws_styles_and_looks) {
   Viewer viewer;
   viewer.resize(kWidth, kHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
-  ViewerLook plain;
-  plain.style = "plain";
-  plain.rows = {{"chain A", "colour", "orange"}, {"water", "hide", ""}};
-  ASSERT_TRUE(viewer.set_look(plain));
-  settle(viewer);
-  const Image by_cpu = viewer.image();
+  ViewerSettings settings = viewer.settings();
+  settings.samples_per_pixel = 2;
+  ASSERT_TRUE(viewer.set(settings));
+  expect_same_pictures(viewer, "the style default");
 
-  // Any style, and a transparent background, are kept for the CPU.
-  ViewerLook xray = plain;
-  xray.style = "xray";
-  xray.background = "none";
-  ASSERT_TRUE(viewer.set_look(xray));
-  settle(viewer);
-  const Image clear = viewer.image();
-  EXPECT_EQ(viewer.settings().recursion, 16);
-  choose(viewer, ViewerEngine::gpu);
-  EXPECT_EQ(viewer.look(), xray);
-  EXPECT_EQ(viewer.settings().recursion, 5) << "the style plain's";
-  settle(viewer);
-  EXPECT_LE(share_off(shown(viewer), by_cpu), 0.005);
-  EXPECT_EQ(viewer.picture(kWidth, kHeight, 1)->channels, 3);
+  ViewerLook look;
+  look.style = "xray";
+  look.background = "none";
+  look.rows = {{"chain A", "colour", "orange"}, {"water", "hide", ""}, {"chain B", "opacity", "0.2"}};
+  ASSERT_TRUE(viewer.set_look(look));
+  expect_same_pictures(viewer, "the style xray on a transparent background");
+  EXPECT_EQ(viewer.look(), look);
+  EXPECT_EQ(viewer.picture(kWidth, kHeight, 1)->channels, 4);
 
   // A change of the look while the graphics processor draws.
-  ViewerLook hidden = xray;
-  hidden.rows.push_back({"chain B", "hide", ""});
+  ViewerLook other;
+  other.style = "illustrative";
+  other.rows = {{"chain A", "outline", "3"}};
   const Image before = shown(viewer);
-  ASSERT_TRUE(viewer.set_look(hidden));
+  ASSERT_TRUE(viewer.set_look(other));
   settle(viewer);
   EXPECT_GT(share_off(shown(viewer), before), 0.05);
-  ASSERT_TRUE(viewer.set_look(xray));
-  viewer.detach_gl(true);
+  expect_same_pictures(viewer, "the style illustrative");
+}
+
+TEST(GpuViewer, draws_lens_tone_and_labels) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose_plain(viewer);
+  expect_same_pictures(viewer, "plain");
+  const Image plain = shown(viewer);
+  ViewerSettings settings = viewer.settings();
+  settings.effects.tone = Tone{1, ToneCurve::soft};
+  settings.effects.labels.title = "A title";
+  settings.effects.labels.axes = true;
+  settings.effects.labels.legend = true;
+  settings.camera.aperture = 3;
+  settings.samples_per_pixel = 4;
+  ASSERT_TRUE(viewer.set(settings));
+  expect_same_pictures(viewer, "with effects");
+  EXPECT_GT(share_off(shown(viewer), plain), 0.05);
+
+  // Letters stay sharp while something moves.
+  viewer.orbit(40, 0);
+  for (int i = 0; i < 1000; ++i)
+    if (viewer.frame(1e-3)->drawn) break;
+  settings = viewer.settings();
+  settings.effects.labels = {};
+  const Image moving = shown(viewer);
+  ASSERT_TRUE(viewer.set(settings));
+  for (int i = 0; i < 1000; ++i)
+    if (viewer.frame(1e-3)->drawn) break;
+  EXPECT_GT(share_off(shown(viewer), moving), 0.01) << "labels were there";
+}
+
+TEST(GpuViewer, cut_spheres_stay_with_the_cpu) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  ViewerLook look;
+  look.rows = {{"", "clip", "plane:0,0,1,0"}};
+  ASSERT_TRUE(viewer.set_look(look));
+  ViewerSettings settings = viewer.settings();
+  settings.engine = ViewerEngine::gpu;
+  EXPECT_THAT(viewer.set(settings).error().to_string(), HasSubstr("no cut spheres"));
+  EXPECT_EQ(viewer.settings().engine, ViewerEngine::cpu);
+  ASSERT_TRUE(viewer.set_look({}));
+  choose(viewer, ViewerEngine::gpu);
+  EXPECT_FALSE(viewer.set_look(look)) << "the look before stays";
+  EXPECT_TRUE(viewer.look().rows.empty());
   settle(viewer);
-  EXPECT_EQ(picture_hash(viewer.image()), picture_hash(clear));
 }
 
 TEST(GpuViewer, refuses_what_it_cannot_draw_and_goes_on) {

@@ -64,7 +64,7 @@ bool set_up(const Pair& pair, OneRay& local) {
   const ScaledRay scaled(pair.ray, 1.0);
   const double farthest = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
   double length = 0, shift = 0;
-  return farthest <= kFarthestOrigin && here::set_up_single_ray(pair.ray, 1.0, local, length, shift);
+  return farthest <= kFarthestOrigin && here::set_up_single_ray(pair.ray, WideTree(), local, length, shift);
 }
 
 // The largest value of `used` over pairs that the filter may get.
@@ -219,13 +219,13 @@ TEST(FilterBounds, ManyRaysAreSetUpAsOne) {
       batch.push_back(ray);
     }
     here::LocalRays many;
-    here::set_up_16(batch.span(), 0, 1.0, many);
+    here::set_up_16(batch.span(), 0, WideTree(), many);
     float farthest_origin = 0;
     for (int i = 0; i < 16; ++i) {
       const ScaledRay scaled(batch.span().at(i), 1.0);
       OneRay one;
       double length = 0, shift = 0;
-      const bool alive = here::set_up_single_ray(batch.span().at(i), 1.0, one, length, shift);
+      const bool alive = here::set_up_single_ray(batch.span().at(i), WideTree(), one, length, shift);
       const double size = std::max({std::abs(scaled.origin.x), std::abs(scaled.origin.y), std::abs(scaled.origin.z)});
       ASSERT_EQ((many.far >> i & 1) != 0, size > kFarthestOrigin) << test::text_of(batch.span().at(i));
       if ((many.dead >> i & 1) != 0) {

@@ -87,7 +87,8 @@ TEST_P(EveryEngine, answers_with_no_spheres_at_all) {
   EXPECT_FALSE(tracer.occluded(ray));
 }
 
-INSTANTIATE_TEST_SUITE_P(all, EveryEngine, ::testing::Values(Engine::automatic, Engine::wide, Engine::reference));
+INSTANTIATE_TEST_SUITE_P(all, EveryEngine,
+                         ::testing::Values(Engine::automatic, Engine::wide, Engine::reference, Engine::wide_brute));
 
 TEST(Tracer, says_what_it_is) {
   const Scene scene = four_spheres_scene();

@@ -4,7 +4,7 @@
 // with each other, and fails if a picture differs. The pictures: the three scenarios, the four spheres and the bundled
 // molecule; recursion 1 to 5, ambient occlusion, soft shadows with effects of materials, outlines and fog, every view,
 // parallel rays, labels, a lens, tone curves, adaptive samples, a part with opacity, the sRGB curve, shadows, several
-// samples.
+// samples; a replicated set with its cell.
 #include <cinttypes>
 #include <cstdio>
 #include <string>
@@ -217,6 +217,38 @@ bool print_hashes(const bihive::Scene& scene) {
   return print_labels(scene) && good;
 }
 
+// Copies of a set along a skewed cell, with its edges; the last ones coloured by their places.
+bool print_replicated(bihive::Scene scene) {
+  scene.name = "replicated";
+  const bihive::SphereSet::Bounds bounds = scene.spheres.bounds();
+  const bihive::Vec3d size = bounds.hi - bounds.lo;
+  const bihive::Cell cell{bounds.lo,
+                          {bihive::Vec3d{size.x, 0, 0}, bihive::Vec3d{0.3 * size.x, size.y, 0.1 * size.z},
+                           bihive::Vec3d{0, 0, -1.1 * size.z}}};
+  scene.spheres.cell() = cell;
+  if (!scene.spheres.replicate(cell.vectors, {2, 1, 3})) return false;
+  scene.camera = bihive::frame_spheres(scene.spheres, bihive::ViewFrom::iso, 30, kWidthPx, kHeightPx);
+  bihive::RenderSettings settings = bihive::settings_from(scene.picture);
+  settings.width_px = kWidthPx;
+  settings.height_px = kHeightPx;
+  settings.recursion = 3;
+  settings.cell_lines.emplace();
+  bool good = print_hash(scene, settings, "shaded");
+  settings = look_settings(settings);
+  settings.opacity_rule = bihive::OpacityRule::once;
+  settings.ambient_occlusion = {10, 4};
+  good = print_hash(with_opacities(with_look(scene)), settings, "shaded with opacity once") && good;
+  bihive::ColourBy by_depth;
+  by_depth.attribute = "z";
+  if (!bihive::apply_looks(scene, {{"all", {by_depth}}})) return false;
+  scene.camera = bihive::with_projection(scene.camera, bihive::Projection::orthographic);
+  settings.transparent = true;
+  good = print_hash(scene, settings, "shaded orthographic transparent") && good;
+  settings.transparent = false;
+  settings.view = View::id;
+  return print_hash(scene, settings, "id") && good;
+}
+
 }  // namespace
 
 int main() {
@@ -231,5 +263,7 @@ int main() {
   const auto molecule = molecule_scene();
   if (!molecule) std::fprintf(stderr, "%s\n", molecule.error().to_string().c_str());
   good = molecule && print_hashes(*molecule) && good;
+  const auto repeated = bihive::scenario_scene(bihive::Scenario::mixed, parameters);
+  good = repeated && print_replicated(*repeated) && good;
   return good ? 0 : 1;
 }

@@ -43,8 +43,8 @@ TEST(FrameRatePlan, IsTheThesis) {
 }
 
 TEST(FrameRatePlan, SaysWhichValueIsMissing) {
-  const Result<StatedValues> values =
-      StatedValues::parse(R"({"values": {"scenarios": {"value": [1], "sentence": ""}}})", "values.json");
+  const Result<StatedValues> values = StatedValues::parse(
+      R"({"values": {"scenarios": {"value": [1], "kind": "stated", "sentence": ""}}})", "values.json");
   ASSERT_TRUE(values) << values.error().to_string();
   const Result<FrameRatePlan> plan = FrameRatePlan::from_values(*values);
   ASSERT_FALSE(plan);
@@ -88,7 +88,8 @@ TEST(FrameContest, MeasuresBruteForceInEveryScenario) {
   Result<FrameContest> contest = FrameContest::of_scenarios(small_plan(), {}, 64);
   ASSERT_TRUE(contest) << contest.error().to_string();
   while (!contest->finished()) ASSERT_TRUE(contest->step());
-  ASSERT_EQ(contest->rates().size(), 2u);
+  ASSERT_EQ(contest->rates().size(), 3u);
+  EXPECT_EQ(contest->rates()[2].scenario, kOnePlace);
   for (const MeasuredRate& rate : contest->rates()) {
     EXPECT_FALSE(rate.max_prims);
     EXPECT_EQ(rate.spheres, 64);
@@ -137,7 +138,7 @@ TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
       std::max(json["configurations"][1]["fps"].get<double>(), json["configurations"][2]["fps"].get<double>());
   EXPECT_NEAR(gain, 100 * (best / brute - 1), 1e-9 * std::abs(gain) + 1e-9);
   EXPECT_EQ(json["stated"]["brute.fps.spheres256"]["value"], 1.87);
-  // Values that were chosen, because the thesis states none, do not count as stated.
+  // Values that we inferred, because the thesis states none, do not count as stated.
   EXPECT_FALSE(json["stated"].contains("width_px"));
 }
 

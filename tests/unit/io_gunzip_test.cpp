@@ -42,6 +42,18 @@ TEST(Gunzip, GoesOnWithFurtherMembersAndPadding) {
   EXPECT_EQ(*gunzip(gzip("one ") + gzip("two") + std::string(512, '\0'), "a.gz"), "one two");
 }
 
+// 64 MB of zeros take 64 kB. The limit counts, and is named, before the memory is taken.
+TEST(Gunzip, RefusesMoreThanTheMemoryHolds) {
+  const std::string packed = gzip(std::string(std::size_t{1} << 26, '0'));
+  ASSERT_EQ(setenv("BIHIVE_MEMORY", "20000000", 1), 0);
+  const Result<std::string> unpacked = gunzip(packed, "bomb.gz");
+  ASSERT_EQ(unsetenv("BIHIVE_MEMORY"), 0);
+  ASSERT_FALSE(unpacked.ok());
+  EXPECT_NE(unpacked.error().to_string().find("BIHIVE_MEMORY allows 20 MB"), std::string::npos)
+      << unpacked.error().to_string();
+  EXPECT_TRUE(gunzip(packed, "bomb.gz").ok());
+}
+
 TEST(Gunzip, RefusesCutData) {
   const std::string packed = gzip("some text that is packed") + gzip("and more of it");
   const std::size_t first = gzip("some text that is packed").size();

@@ -107,10 +107,57 @@ TEST(Mmcif, NamesLineAndColumnOfAFault) {
   EXPECT_EQ(error_of(head + "4 5 6x\n", "a.cif"), "a.cif:7:5: expected a number for Cartn_z but found '6x'");
   EXPECT_EQ(error_of(head + "4 5\n", "a.cif"), "a.cif:7:3: the last row of this loop has 2 of its 3 values");
   EXPECT_EQ(error_of("data_T\n_cell.length_a 1\n", "a.cif"),
-            "a.cif: there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it; crystal files with "
-            "fractional coordinates are not read");
+            "a.cif: there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it; bihive reads the "
+            "atoms of mmCIF files alone");
   EXPECT_EQ(error_of(head + "1 2 'open\n", "a.cif"), "a.cif:7:10: this is no CIF: unterminated 'string'");
   EXPECT_EQ(error_of("nothing of the kind\n", "a.cif"), "a.cif:1:1: this is no CIF: expected block header (data_)");
+}
+
+TEST(Mmcif, RefusesTwoColumnsOfOneName) {
+  EXPECT_EQ(
+      error_of(
+          "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.CARTN_X\n1 2 3 4\n",
+          "a.cif"),
+      "a.cif:6:1: the item _atom_site.CARTN_X stands twice in one table");
+  EXPECT_EQ(error_of("data_T\n_atom_site.Cartn_x 1\n_atom_site.Cartn_x 2\n", "a.cif"),
+            "a.cif:3:1: the item _atom_site.Cartn_x stands twice in one table");
+}
+
+TEST(Mmcif, NamesTheKindOfCifWithoutAtomsOfIts) {
+  const std::string none = "a.cif: there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it";
+  EXPECT_EQ(error_of("data_T\nloop_\n_chem_comp_atom.atom_id\n_chem_comp_atom.x\nC 1\n", "a.cif"),
+            none +
+                ": this CIF describes a monomer (_chem_comp_atom); convert it with 'gemmi convert FILE.cif OUT.pdb' or "
+                "'obabel FILE.cif -O OUT.xyz'");
+  EXPECT_EQ(error_of("data_T\nloop_\n_atom_site_label\n_atom_site_fract_x\nC 1\n", "a.cif"),
+            none +
+                ": this CIF is of a small molecule or crystal (fractional coordinates); convert it with 'ase convert "
+                "FILE.cif OUT.xyz' or 'obabel FILE.cif --fillUC strict -O OUT.xyz'");
+  EXPECT_EQ(error_of("data_T\nloop_\n_refln.index_h\n1\n", "a.cif"),
+            none + ": this CIF holds reflections, not atoms; take the entry's file of coordinates");
+}
+
+TEST(Mmcif, KeepsOneOfSeveralResiduesAtOnePlaceAsAWhole) {
+  const std::string head =
+      "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.occupancy\n"
+      "_atom_site.label_alt_id\n_atom_site.auth_asym_id\n_atom_site.auth_seq_id\n_atom_site.auth_comp_id\n"
+      "_atom_site.auth_atom_id\n";
+  const SphereFile file = read_text(head +
+                                        "0 0 0 1 . A 14 GLY CA\n"
+                                        "1 0 0 0.50 A A 15 LYS CA\n2 0 0 0.50 A A 15 LYS CE\n"
+                                        "3 0 0 0.25 B A 15 GLU CA\n4 0 0 0.25 B A 15 GLU OE1\n"
+                                        "5 0 0 0.25 C A 15 ARG CA\n6 0 0 0.90 C A 15 ARG NE\n",
+                                    "a.cif");
+  EXPECT_EQ(xs(file), (Xs{0, 5, 6})) << "arginine has the highest mean";
+}
+
+TEST(Mmcif, WarnsOfALastLineWithoutEnd) {
+  const SphereFile file = read_text(
+      "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.type_symbol\n1 2 3 C\n1 2 "
+      "3 C",
+      "a.cif");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0], "the last line of a.cif has no end: the file may be cut");
 }
 
 }  // namespace

@@ -50,6 +50,16 @@ void expect_rows(const std::string& bytes, const std::string& what) {
   EXPECT_EQ(array->values, kRows) << what;
 }
 
+// No numbers, and a side that would take days to count up to.
+TEST(Npy, AnEmptyArrayIsReadAtOnce) {
+  for (const char* const order : {"True", "False"})
+    for (const char* const shape : {"(0, 1099511627776)", "(1099511627776, 0)", "(0, 9223372036854775807)", "(0,)"}) {
+      const Result<NpyArray> array = parse_npy(npy_file(header("<f4", shape, order), ""), "a.npy");
+      ASSERT_TRUE(array.ok()) << shape << ": " << array.error().to_string();
+      EXPECT_TRUE(array->values.empty());
+    }
+}
+
 TEST(Npy, ReadsFloatsOfBothSizesOrdersAndEnds) {
   for (const bool big : {false, true}) {
     const std::string end = big ? ">" : "<";

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -18,13 +19,13 @@ struct Atom {
   double x = 0;
   std::string name = " CA ", alternate = " ", chain = " A", residue = "   1", insertion = " ", element = " C";
   double occupancy = 1;
-  std::string record = "ATOM  ", serial = "    1";
+  std::string record = "ATOM  ", serial = "    1", component = "ALA";
 
   std::string line() const {
     char text[128];
-    std::snprintf(text, sizeof text, "%s%s %s%sALA%s%s%s   %8.3f%8.3f%8.3f%6.2f%6.2f          %s  \n", record.c_str(),
-                  serial.c_str(), name.c_str(), alternate.c_str(), chain.c_str(), residue.c_str(), insertion.c_str(), x,
-                  0.0, 0.0, occupancy, 20.0, element.c_str());
+    std::snprintf(text, sizeof text, "%s%s %s%s%s%s%s%s   %8.3f%8.3f%8.3f%6.2f%6.2f          %s  \n", record.c_str(),
+                  serial.c_str(), name.c_str(), alternate.c_str(), component.c_str(), chain.c_str(), residue.c_str(),
+                  insertion.c_str(), x, 0.0, 0.0, occupancy, 20.0, element.c_str());
     return text;
   }
 };
@@ -169,10 +170,11 @@ TEST(Pdb, GuessesTheElementFromTheNameWhereColumnsAreShort) {
   const std::pair<const char*, int> cases[] = {{" CA ", 6}, {"CA  ", 20}, {" N  ", 7}, {"FE  ", 26}, {"HG11", 1},
                                                {"1HB ", 1}, {"HG  ", 80}, {" OXT", 8}, {"ZN  ", 30}, {"C210", 6},
                                                {"1C4A", 6}, {" Q  ", 0},  {" DT ", 1}, {"O5' ", 8},  {"HB1 ", 1},
-                                               {"OD1 ", 8}, {"QQ  ", 0},  {"    ", 0}};
+                                               {"OD1 ", 8}, {"QQ  ", 0},  {"    ", 0}, {"  Ag", 47}, {"NA1B", 7}};
   for (const auto& [name, number] : cases) {
     Atom atom;
     atom.name = name;
+    atom.component = "LIG";
     const SphereFile file = read_text(atom.line().substr(0, 66) + "\n", "a.pdb");
     const auto& element = file.spheres.attributes().element;
     EXPECT_EQ(element.empty() ? 0 : int(element[0]), number) << "'" << name << "'";
@@ -180,11 +182,157 @@ TEST(Pdb, GuessesTheElementFromTheNameWhereColumnsAreShort) {
   }
 }
 
+// Names without element columns: "name residue element".
+std::vector<int> elements_of(const std::vector<std::array<std::string, 2>>& atoms) {
+  std::string text;
+  int number = 0;
+  for (const auto& [name, component] : atoms) {
+    Atom atom;
+    atom.x = ++number;
+    atom.name = name;
+    atom.component = component;
+    text += atom.line().substr(0, 66) + "\n";
+  }
+  const SphereFile file = read_text(text, "a.pdb");
+  std::vector<int> elements(file.spheres.attributes().element.begin(), file.spheres.attributes().element.end());
+  return elements;
+}
+using Elements = std::vector<int>;
+
+TEST(Pdb, KnowsTheElementsOfStandardResidues) {
+  // CHARMM writes all names from column 13 on.
+  EXPECT_EQ(elements_of({{"N   ", "MET"},
+                         {"HT1 ", "MET"},
+                         {"CA  ", "MET"},
+                         {"HG1 ", "MET"},
+                         {"SD  ", "MET"},
+                         {"CE  ", "MET"},
+                         {"CD  ", "LYS"},
+                         {"NE2 ", "HSD"},
+                         {"OT1 ", "LEU"},
+                         {"P   ", "ADE"},
+                         {"HO2'", "URA"},
+                         {"SE  ", "MSE"}}),
+            (Elements{7, 1, 6, 1, 16, 6, 6, 7, 8, 15, 1, 34}));
+  // Water, with places that are no atoms.
+  EXPECT_EQ(elements_of({{" OH2", "TIP"}, {" H1 ", "TIP"}, {" MW ", "SOL"}, {"HW1 ", "SOL"}, {" OW ", "SOL"}}),
+            (Elements{8, 1, 0, 1, 8}));
+}
+
+TEST(Pdb, KnowsIonsByName) {
+  EXPECT_EQ(elements_of({{"SOD ", "SOD"},
+                         {"POT ", "POT"},
+                         {" CLA", "CLA"},
+                         {"CES ", "CES"},
+                         {"CAL ", "CAL"},
+                         {" NA ", "NA+"},
+                         {" CL ", "CL-"},
+                         {" CA ", " CA"},
+                         {"CA  ", " CA"},
+                         {"FE  ", "FE2"},
+                         {" NA ", "ION"},
+                         {"K   ", " K "},
+                         {" ZN ", " ZN"},
+                         {" CHA", "CLA"}}),
+            (Elements{11, 19, 17, 55, 20, 11, 17, 20, 20, 26, 11, 19, 30, 6}));
+}
+
+TEST(Pdb, SeesThatNamesDoNotKeepToTheirColumns) {
+  // C1 and O2 from column 13 on: here CA, NB and CD are no calcium, niobium and cadmium. FE and CL1 are what they say,
+  // and an atom alone in its residue may be a metal.
+  std::string text;
+  const auto add = [&text](const char* name, const char* component, const char* residue) {
+    Atom atom;
+    atom.x = static_cast<double>(text.size());
+    atom.name = name;
+    atom.component = component;
+    atom.residue = residue;
+    text += atom.line().substr(0, 66) + "\n";
+  };
+  for (const char* name : {"C1  ", "O2  ", "CA  ", "NB  ", "CD  ", "FE  ", "CL1 ", "HG  "}) add(name, "LIG", "   1");
+  add("CD  ", "XYZ", "   2");
+  const SphereFile file = read_text(text, "a.pdb");
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{6, 8, 6, 7, 6, 26, 17, 1, 48}));
+  EXPECT_NE(file.rules[1].find("names begin in column 13 whatever their element"), std::string::npos) << file.rules[1];
+  EXPECT_TRUE(file.warnings.empty());
+}
+
+TEST(Pdb, WarnsWhereColumnsAndNamesContradict) {
+  std::string text;
+  for (const char* element : {" C", "CA", "CA"}) {
+    Atom atom;
+    atom.x = static_cast<double>(text.size());
+    atom.element = element;
+    text += atom.line();
+  }
+  const SphereFile file = read_text(text, "a.pdb");
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{6, 20, 20})) << "the columns count";
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0],
+            "a.pdb:2: 2 atoms have an element in columns 77-78 that contradicts the atom's name ('CA' of 'ALA' is "
+            "stated as "
+            "'CA'); the columns count");
+}
+
+TEST(Pdb, ALineCutInItsCoordinatesIsAnErrorAndOneWithoutEndAWarning) {
+  Atom atom;
+  atom.x = 12.75;
+  const std::string line = atom.line().substr(0, 80), whole = line + "\n";
+  for (std::size_t length = 0; length < 54; ++length) {
+    const Result<SphereFile> cut = read_spheres_from_memory(whole + line.substr(0, length), "a.pdb", {});
+    if (length < 4) continue;
+    ASSERT_FALSE(cut.ok()) << length;
+    EXPECT_EQ(cut.error().line, 2);
+  }
+  EXPECT_EQ(error_of(whole + line.substr(0, 52), "a.pdb"),
+            "a.pdb:2:47: expected z in columns 47 to 54, but the line ends in column 52; the file is cut on this line");
+  EXPECT_EQ(error_of(line.substr(0, 53) + "\n" + whole, "a.pdb"),
+            "a.pdb:1:47: expected z in columns 47 to 54, but the line ends in column 53");
+  for (std::size_t length = 54; length <= 80; ++length) {
+    const SphereFile file = read_text(whole + line.substr(0, length), "a.pdb");
+    ASSERT_EQ(file.warnings.size(), 1u) << length;
+    EXPECT_EQ(file.warnings[0], "the last line of a.pdb has no end: the file may be cut");
+  }
+}
+
+TEST(Pdb, KeepsOneOfSeveralResiduesAtOnePlaceAsAWhole) {
+  // Marks A and B are serine, C is threonine: the likeliest is C, though its CB is the least likely of the CBs.
+  std::string text;
+  const auto add = [&text](double x, const char* name, const char* component, const char* mark, double occupancy) {
+    Atom atom;
+    atom.x = x;
+    atom.name = name;
+    atom.component = component;
+    atom.alternate = mark;
+    atom.occupancy = occupancy;
+    text += atom.line();
+  };
+  add(0, " N  ", "SER", "A", 0.3);
+  add(1, " N  ", "SER", "B", 0.3);
+  add(2, " N  ", "THR", "C", 0.4);
+  add(3, " CB ", "SER", "A", 0.35);
+  add(4, " CB ", "SER", "B", 0.35);
+  add(5, " CB ", "THR", "C", 0.34);
+  add(6, " OG ", "SER", "A", 0.3);
+  add(7, " OG1", "THR", "C", 0.4);
+  const SphereFile file = read_text(text, "a.pdb");
+  EXPECT_EQ(xs(file), (Xs{2, 5, 7}));
+  EXPECT_EQ(file.rules[2], "residues of several names at one place: the likeliest as a whole; 1 residue");
+
+  // Two names with one mark are no alternatives: a number was used again.
+  text.clear();
+  add(0, " N  ", "SER", "A", 0.3);
+  add(1, " CA ", "THR", "A", 0.4);
+  add(2, " CB ", "THR", "B", 0.4);
+  EXPECT_EQ(xs(read_text(text, "a.pdb")), (Xs{0, 1, 2}));
+}
+
 TEST(Pdb, TakesElementsInAnyCaseAndGuessesTheRadiusOfUnknownOnes) {
   Atom calcium, unknown, deuterium;
   calcium.element = "Ca";
   unknown.element = " X";
   deuterium.element = " D";
+  calcium.component = deuterium.component = "LIG";
   const SphereFile file = read_text(calcium.line() + unknown.line() + deuterium.line(), "a.pdb");
   EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{20, 0, 1}));
   EXPECT_EQ(file.spheres.radius(1), 0.5);

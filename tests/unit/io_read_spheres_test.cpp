@@ -36,7 +36,7 @@ TEST(Detect, GoesByContentFirst) {
   };
   for (const auto& [text, format] : cases)
     for (const char* name : {"a", "a.pdb", "a.npy", "a.xyz.gz"})
-      EXPECT_EQ(detect_format(text, name), format) << text << " as " << name;
+      EXPECT_EQ(format_by_content(text, name), format) << text << " as " << name;
 }
 
 TEST(Detect, GoesByNameWhereContentSaysNothing) {
@@ -47,11 +47,12 @@ TEST(Detect, GoesByNameWhereContentSaysNothing) {
       {"a.dump", Format::lammps_dump}, {"a.lammpstrj", Format::lammps_dump},
       {"a.csv", Format::csv},          {"a.tsv", Format::csv},
       {"a.txt.GZ", Format::csv},       {"a.dat", Format::csv},
-      {"a.npy", Format::npy},
+      {"a.npy", Format::npy},          {"a.pqr", Format::pqr},
   };
-  for (const auto& [name, format] : cases) EXPECT_EQ(detect_format("what is this?", name), format) << name;
+  for (const auto& [name, format] : cases) EXPECT_EQ(format_by_name(name), format) << name;
   for (const char* name : {"a", "pdb", "a.", "a.zip", "a.pdb.zip", ".gz"})
-    EXPECT_FALSE(detect_format("what is this?", name).has_value()) << name;
+    EXPECT_FALSE(format_by_name(name).has_value()) << name;
+  EXPECT_FALSE(format_by_content("what is this?", "a.pdb").has_value());
 }
 
 TEST(Elements, KnowTheirSymbolsAndRadii) {
@@ -147,8 +148,9 @@ TEST(ReadSpheres, WarnsOfVanishingRadii) {
 
 TEST(ReadSpheres, NamesWhatItCannotRead) {
   const std::string known =
-      "; known are PDB (.pdb .ent), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), LAMMPS dump (.dump "
-      ".lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+      "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), "
+      "LAMMPS "
+      "dump (.dump .lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;

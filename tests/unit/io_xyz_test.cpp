@@ -116,6 +116,27 @@ TEST(Xyz, NamesLineAndColumnOfAFault) {
             "a.xyz:4:3: expected nothing but the number of spheres on this line, but found '4'");
 }
 
+TEST(Xyz, LeavesTextBehindTheLastFrameOutAndSaysSo) {
+  const std::string frame = "1\n\nC 1 2 3\n";
+  const SphereFile file = read_text(frame + frame + "\nVibrations follow\n 1 2 3\n", "a.xyz");
+  EXPECT_EQ(file.frames, 2);
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0],
+            "a.xyz:8: the text from here on begins no frame and is left out ('Vibrations follow'); 2 frames were read");
+  EXPECT_EQ(read_text(frame + "VEC1 5 0 0\n", "a.xyz").spheres.size(), 1);
+  // A frame behind the text cannot be had, and one more sphere than the count is a fault.
+  EXPECT_EQ(error_of(frame + "end\n", "a.xyz", at_frame(1)),
+            "a.xyz:4:1: expected the number of spheres of frame 1 but found 'end'");
+  EXPECT_EQ(error_of(frame + "H 1 2 3\n", "a.xyz"),
+            "a.xyz:4:1: expected the number of spheres of frame 1 but found 'H'");
+}
+
+TEST(Xyz, WarnsOfALastLineWithoutEnd) {
+  const SphereFile file = read_text("1\n\nC 1 2 12.7", "a.xyz");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0], "the last line of a.xyz has no end: the file may be cut");
+}
+
 TEST(Xyz, FindsACutInAFrameThatIsNotAskedFor) {
   const std::string first = "1\n\nC 1 2 3\n";
   EXPECT_EQ(error_of(first + "2\n\nC 1 2 3\n", "a.xyz"),

@@ -352,6 +352,11 @@ TEST(SceneFileErrors, BrokenJsonHasAPlace) {
   EXPECT_THAT(error_of("{\"name\": \"\xff\"}"), StartsWith("a.json:1:"));
 }
 
+TEST(SceneFileErrors, BytesThatAreNoTextStayOutOfMessages) {
+  EXPECT_THAT(error_of("{\"name\": \xff}"), testing::EndsWith("last read: '\"name\": ?'"));
+  EXPECT_THAT(error_of("{\"na\x7f\": 1}"), HasSubstr("unknown key \"na?\""));
+}
+
 TEST(SceneFileErrors, TheVersionMustBeKnown) {
   EXPECT_EQ(error_of(R"({"spheres": [[0,0,0,1]]})"), "a.json: /: the key \"bihive_scene\" is missing");
   EXPECT_EQ(error_of(R"({"bihive_scene": 3, "spheres": [[0,0,0,1]]})"),

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "bihive/thesis/builtin_values.h"
 
 namespace bihive {
 namespace {
@@ -18,9 +21,10 @@ std::string message_of(const Result<StatedValues>& values) {
 }
 
 TEST(StatedValues, GivesNumbersListsAndPrint) {
-  const auto values = with(R"("a": {"value": 4095, "printed": "4,095", "sentence": "s"},
-                              "b": {"value": [1, 2.5], "sentence": ""}, "c": {"value": 7, "printed": "8%", "sentence": ""},
-                              "d": {"value": 0, "printed": "did not vary", "sentence": ""})");
+  const auto values = with(R"("a": {"value": 4095, "kind": "stated", "printed": "4,095", "sentence": "s"},
+                              "b": {"value": [1, 2.5], "kind": "inferred", "sentence": ""},
+                              "c": {"value": 7, "kind": "own_check", "printed": "8%", "sentence": ""},
+                              "d": {"value": 0, "kind": "stated", "printed": "did not vary", "sentence": ""})");
   ASSERT_TRUE(values) << message_of(values);
   EXPECT_EQ(values->number("a").value(), 4095);
   EXPECT_EQ(values->integer("a").value(), 4095);
@@ -32,6 +36,9 @@ TEST(StatedValues, GivesNumbersListsAndPrint) {
   EXPECT_EQ(values->printed("d").value(), "did not vary");
   EXPECT_EQ(values->sentence("a").value(), "s");
   EXPECT_FALSE(values->has("e"));
+  EXPECT_EQ(values->kind("a").value(), ValueKind::stated);
+  EXPECT_EQ(values->kind("b").value(), ValueKind::inferred);
+  EXPECT_EQ(values->kind("c").value(), ValueKind::own_check);
 }
 
 TEST(StatedValues, SaysWhatIsWrongWithAFile) {
@@ -42,15 +49,39 @@ TEST(StatedValues, SaysWhatIsWrongWithAFile) {
             "file.json: /values/a/value: expected a number or a list of numbers");
   EXPECT_EQ(message_of(with(R"("a": {"value": 1})")),
             "file.json: /values/a/sentence: expected the sentence that it comes from");
+  const std::string kinds = R"(file.json: /values/a/kind: expected "stated", "inferred" or "own_check")";
+  EXPECT_EQ(message_of(with(R"("a": {"value": 1, "sentence": ""})")), kinds) << "nothing is the thesis's by default";
+  EXPECT_EQ(message_of(with(R"("a": {"value": 1, "kind": "chosen", "sentence": ""})")), kinds);
+  EXPECT_EQ(message_of(with(R"("a": {"value": 1, "kind": 1, "sentence": ""})")), kinds);
 }
 
 TEST(StatedValues, SaysWhatIsWrongWithAValue) {
-  const auto values = with(R"("list": {"value": [1, 2.5], "sentence": ""}, "half": {"value": 0.5, "sentence": ""})");
+  const auto values = with(R"("list": {"value": [1, 2.5], "kind": "stated", "sentence": ""},
+                              "half": {"value": 0.5, "kind": "stated", "sentence": ""})");
   ASSERT_TRUE(values) << message_of(values);
   EXPECT_EQ(values->number("gone").error().to_string(), "file.json: /values/gone: expected a value of this name");
   EXPECT_EQ(values->number("list").error().to_string(), "file.json: /values/list/value: expected one number");
   EXPECT_EQ(values->integer("half").error().to_string(), "file.json: /values/half/value: expected a whole number");
   EXPECT_EQ(values->integers("list").error().to_string(), "file.json: /values/list: expected whole numbers");
+}
+
+TEST(StatedValues, BuiltinOnesSayWhoseTheyAre) {
+  const std::string_view texts[] = {
+      builtin_values_figure_4_1(), builtin_values_figure_4_2(), builtin_values_figure_4_3(), builtin_values_table_4_2(),
+      builtin_values_figure_4_4(), builtin_values_figure_4_5(), builtin_values_section_d()};
+  for (const std::string_view text : texts) {
+    const auto values = StatedValues::parse(text, "values.json");
+    ASSERT_TRUE(values) << message_of(values);
+    for (const std::string name : {"width_px", "height_px"}) {
+      if (values->has(name)) {
+        EXPECT_EQ(values->kind(name).value(), ValueKind::inferred);
+      }
+    }
+  }
+  const auto memory = StatedValues::parse(builtin_values_figure_4_5(), "values.json");
+  EXPECT_EQ(memory->kind("node_bytes").value(), ValueKind::inferred);
+  EXPECT_EQ(memory->kind("ours.scenario1.spheres1024.max_prims1.bytes").value(), ValueKind::own_check);
+  EXPECT_EQ(memory->kind("radius").value(), ValueKind::stated);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bihive/scene/builtin_styles.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/named_materials.h"
 
@@ -11,6 +12,15 @@ namespace bihive {
 namespace {
 
 using ::testing::HasSubstr;
+
+// The program does not ask the schema about its own texts.
+TEST(Style, TheProgramsOwnTextsFitTheSchema) {
+  for (const std::string_view text : {style_text_default(), style_text_plain(), style_text_illustrative(),
+                                      style_text_studio(), style_text_glossy(), style_text_flat(), style_text_xray()}) {
+    const Result<Style> style = parse_style(text, "own");
+    EXPECT_TRUE(style.ok()) << style.error().to_string();
+  }
+}
 
 TEST(Style, the_shipped_ones_are_valid_and_say_what_they_are) {
   EXPECT_EQ(style_names().front(), "default");

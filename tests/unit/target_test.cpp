@@ -38,6 +38,18 @@ TEST(Target, EachRunsItsOwnCode) {
   EXPECT_EQ(active_target(), names.front());
 }
 
+TEST(Target, AskingChangesNothing) {
+  for (const std::string& name : available_targets()) {
+    ASSERT_TRUE(use_target(name).ok());
+    const std::string code = compiled_target().name;
+    EXPECT_EQ(available_targets().size(), available_targets().size());
+    EXPECT_FALSE(use_target("avx9").ok());
+    EXPECT_EQ(compiled_target().name, code) << name;
+    EXPECT_EQ(active_target(), name);
+  }
+  ASSERT_TRUE(use_target("").ok());
+}
+
 TEST(Target, AnUnknownOneIsRefusedAndChangesNothing) {
   const std::string before = active_target();
   for (const char* name : {"avx9", "AVX2", "avx2 ", "Scalar"}) {

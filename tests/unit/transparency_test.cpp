@@ -93,6 +93,39 @@ TEST(Transparency, faint_rays_are_not_followed) {
   }
 }
 
+TEST(Transparency, faint_layers_ask_fewer_directions_and_points) {
+  EXPECT_EQ(faint_level(1), 0);
+  EXPECT_EQ(faint_level(std::nextafter(0.5, 1.0)), 0);
+  EXPECT_EQ(faint_level(0.5), 1);
+  EXPECT_EQ(faint_level(0.125), 3);
+  EXPECT_EQ(faint_level(0), kFaintLevels - 1);
+  EXPECT_EQ(asked_at_level(64, 2), 16);
+  EXPECT_EQ(asked_at_level(64, 4), kFewestOfFaint);
+  EXPECT_EQ(asked_at_level(5, 4), 5);
+
+  // One layer of opacity 1/4 before nothing: a quarter of the rays of an opaque sphere.
+  const AmbientRays ambient({10, 256}, 1);
+  const LightPointSets points(256, 1);
+  RenderCounts rays[2];
+  for (const float opacity : {0.25F, 1.0F}) {
+    Scene scene = scene_of({{{0, 0, 0}, 1, opacity}, {{50, 0, 0}, 1, 0.5F}});
+    scene.lights = {{{0, 0, 100}, {1, 1, 1}}};
+    scene.lights[0].radius = 5;
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+    const Transparency parts = parts_of(scene);
+    Integrator integrator(scene, tracer, 1, true, &ambient, &points, &parts);
+    Ray ray;
+    ray.origin = {0, 0, 10};
+    ray.direction = kAhead;
+    integrator.radiance(ray);
+    rays[opacity == 1] = integrator.rays();
+  }
+  EXPECT_EQ(rays[1].shadow, 256);
+  EXPECT_EQ(rays[0].shadow, 64);
+  EXPECT_NEAR(static_cast<double>(rays[1].ambient), 128, 2);
+  EXPECT_NEAR(static_cast<double>(rays[0].ambient), 32, 2);
+}
+
 TEST(Transparency, mirrors_in_layers_send_few_rays) {
   // Sixteen layers, and as many before each mirrored ray: 16 to the power of the generation, if all were followed.
   std::vector<Ball> balls;
@@ -248,6 +281,46 @@ TEST(Transparency, crossings_are_those_of_all_spheres) {
       EXPECT_EQ(divided->closest_opaque(ray).t, opaque.t);
     }
   }
+}
+
+// Many rays at a time find what each finds alone, also before their start and behind it.
+TEST(Transparency, crossings_of_many_rays_are_those_of_each) {
+  SplitMix64 random(23);
+  std::vector<double> x, y, z, r, passing;
+  for (int i = 0; i < 300; ++i) {
+    x.push_back(10 * random.next_double());
+    y.push_back(10 * random.next_double());
+    z.push_back(10 * random.next_double());
+    r.push_back(0.7);
+    passing.push_back(i % 3 == 0 ? 0 : 0.5);
+  }
+  const SphereSet spheres = SphereSet::from_world(x, y, z, r).value();
+  const auto divided = TransparentSpheres::divide(spheres, passing, Engine::wide, 1).value();
+  RayBatch rays;
+  for (int i = 0; i < 500; ++i) {
+    Ray ray;
+    ray.origin = to_float(Vec3d{10 * random.next_double(), 10 * random.next_double(), 5});
+    ray.direction = {float(random.next_double()) - 0.5F, float(random.next_double()) - 0.5F, 1};
+    ray.t_min = i % 2 == 0 ? -20 * random.next_double() : 3 * random.next_double();
+    ray.t_max = ray.t_min + 6 * random.next_double() - 0.5;
+    if (i % 7 == 0) ray.t_max = ray.t_min;
+    rays.push_back(ray);
+  }
+  std::vector<RayHit> found;
+  divided->find_crossings(rays.span(), RayOrder::any, found);
+  std::size_t next = 0;
+  for (std::int64_t i = 0; i < rays.size(); ++i) {
+    std::vector<Crossing> alone;
+    divided->find_crossings(rays.span().at(i), alone);
+    for (const Crossing& crossing : alone) {
+      ASSERT_LT(next, found.size());
+      EXPECT_EQ(found[next].ray, i);
+      EXPECT_EQ(found[next].t, crossing.t);
+      EXPECT_EQ(found[next++].sphere_id, crossing.id);
+    }
+  }
+  EXPECT_EQ(next, found.size());
+  EXPECT_GT(next, 100U);
 }
 
 TEST(Transparency, a_transparent_picture_shows_what_gets_through) {

@@ -90,17 +90,45 @@ TEST(TreeTextures, opacity_is_folded_into_looks) {
   EXPECT_EQ(unpack_look(textures, unpack_sphere(textures, 1).look).refraction_index, 1);
 }
 
+TEST(TreeTextures, hold_what_layers_and_lines_need) {
+  Scene scene;
+  scene.spheres = SphereSet::from_world(std::vector<double>{0, 3, 6}, {0, 0, 0}, {0, 0, 0}, {1, 1, 1}).value();
+  scene.materials = {matte_material(), transparent_material()};
+  scene.material_of_sphere = {0, 0, 1};
+  scene.spheres.attributes().opacity = {1.0F, 0.25F, 1.0F};
+  scene.spheres.attributes().crease = {7, 7, 9};
+  scene.spheres.attributes().outline_px = {-1, 2.5F, 0};
+  scene.id_in_input = {10, 20, 30};
+  const SceneTextures textures = pack_scene(scene, nullptr, 2048).value();
+  // Straight through 0.75 of the light, for rays that see and that ask for light; glass bends rays that see.
+  const double glass = transparent_material().transmissive;
+  ASSERT_NE(transparent_material().refraction_index, 1);
+  const std::vector<double> to_eye{0, 0.75, 0}, to_light{0, 0.75, glass};
+  for (std::int64_t i = 0; i < 3; ++i) {
+    const PackedSphere sphere = unpack_sphere(textures, i);
+    const float* const look = &textures.looks.channels[std::size_t(16) * sphere.look];
+    const auto k = static_cast<std::size_t>(i);
+    EXPECT_EQ(look[13], float(to_eye[k]));
+    EXPECT_EQ(look[14], float(to_light[k]));
+    EXPECT_EQ(sphere.id, 10 * (i + 1)) << "hidden spheres count";
+    EXPECT_EQ(sphere.group, scene.spheres.attributes().crease[k]);
+    EXPECT_EQ(sphere.outline_px, scene.spheres.attributes().outline_px[k]);
+  }
+}
+
 TEST(TreeTextures, lights_are_in_stored_units) {
   Scene scene = scene_of(10);
-  scene.lights = {{{1, 2, -3}, {0.5, 0.25, 1}}, {{1e300, 0, 0}, {1, 1, 1}}};
+  scene.lights = {{{1, 2, -3}, {0.5, 0.25, 1}, 4}, {{1e300, 0, 0}, {1, 1, 1}, 1e299}};
   const SceneTextures textures = pack_scene(scene, nullptr, 2048).value();
   const double scale = scene.spheres.scale();
   const std::vector<float>& numbers = textures.lights.channels;
   EXPECT_EQ(textures.light_count, 2);
   EXPECT_EQ(numbers[1], static_cast<float>(2 * scale));
   EXPECT_EQ(numbers[2], static_cast<float>(-3 * scale));
+  EXPECT_EQ(numbers[3], static_cast<float>(4 * scale));
   EXPECT_EQ(numbers[5], 0.25F);
   EXPECT_FLOAT_EQ(numbers[8], 1e15F);  // too far away for binary32's squares: brought nearer
+  EXPECT_FLOAT_EQ(numbers[11], 1e14F);
 }
 
 TEST(TreeTextures, too_many_of_anything_is_an_error) {

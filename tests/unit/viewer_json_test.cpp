@@ -49,6 +49,62 @@ TEST(ViewerJson, comes_back_exactly) {
   EXPECT_EQ(settings_to_json(*back), settings_to_json(settings));
 }
 
+TEST(ViewerJson, effects_and_lens_come_back_exactly) {
+  ViewerSettings settings;
+  settings.effects.adaptive_samples = true;
+  settings.effects.ambient_occlusion = true;
+  settings.effects.ambient_distance = 1.0 / 3;
+  settings.effects.ambient_directions = 4096;
+  settings.effects.light_points = 1024;
+  settings.effects.opacity_rule = OpacityRule::once;
+  settings.effects.fog = 0.1;
+  settings.effects.outline_px = 1.5;
+  settings.effects.tone = {-32, ToneCurve::filmic};
+  settings.effects.labels = {true, true, true, "a \"title\" of \u00C5", "nm"};
+  settings.focus_on = "resname LIG";
+  settings.camera.aperture = 0.7;
+  settings.camera.focus = 12.3;
+  const Result<ViewerSettings> back = settings_from_json(settings_to_json(settings));
+  ASSERT_TRUE(back) << back.error().to_string();
+  const ViewerEffects& effects = back->effects;
+  EXPECT_TRUE(effects.adaptive_samples);
+  EXPECT_TRUE(effects.ambient_occlusion);
+  EXPECT_EQ(effects.ambient_distance, 1.0 / 3);
+  EXPECT_EQ(effects.ambient_directions, 4096);
+  EXPECT_EQ(effects.light_points, 1024);
+  EXPECT_EQ(effects.opacity_rule, OpacityRule::once);
+  EXPECT_EQ(effects.fog, 0.1);
+  EXPECT_EQ(effects.outline_px, 1.5);
+  EXPECT_EQ(effects.tone.exposure_stops, -32);
+  EXPECT_EQ(effects.tone.curve, ToneCurve::filmic);
+  EXPECT_TRUE(effects.labels.legend && effects.labels.scale_bar && effects.labels.axes);
+  EXPECT_EQ(effects.labels.title, "a \"title\" of \u00C5");
+  EXPECT_EQ(effects.labels.length_unit, "nm");
+  EXPECT_EQ(back->focus_on, "resname LIG");
+  EXPECT_EQ(back->camera, settings.camera);
+
+  // No limit of distance, and the input's own unit, are null.
+  const Result<ViewerSettings> none = settings_from_json(R"({"ao_distance": null, "length_unit": null})", settings);
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->effects.ambient_distance, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(none->effects.labels.length_unit, std::nullopt);
+  EXPECT_THAT(settings_to_json(*none), HasSubstr("\"ao_distance\":null"));
+  EXPECT_THAT(settings_to_json(*none), HasSubstr("\"length_unit\":null"));
+  EXPECT_EQ(none->effects.fog, 0.1) << "what is left out stays";
+
+  EXPECT_THAT(error_of(R"({"fog": 1.5})"), HasSubstr("/fog: expected a number from 0.0 to 1.0, found 1.5"));
+  EXPECT_THAT(error_of(R"({"ao_distance": 0})"), HasSubstr("/ao_distance: expected a number above 0, or null"));
+  EXPECT_THAT(error_of(R"({"ao_directions": 0})"), HasSubstr("/ao_directions: expected a whole number from 1 to 4096"));
+  EXPECT_THAT(error_of(R"({"light_points": 1025})"), HasSubstr("/light_points"));
+  EXPECT_THAT(error_of(R"({"outline_px": 17})"), HasSubstr("/outline_px"));
+  EXPECT_THAT(error_of(R"({"exposure": "bright"})"), HasSubstr("/exposure: expected a number from -32.0 to 32.0"));
+  EXPECT_THAT(error_of(R"({"tone": "loud"})"), HasSubstr("/tone: expected one of none, soft, filmic"));
+  EXPECT_THAT(error_of(R"({"opacity_rule": 1})"), HasSubstr("/opacity_rule: expected one of each_surface, once"));
+  EXPECT_THAT(error_of(R"({"legend": "on"})"), HasSubstr("/legend: expected true or false"));
+  EXPECT_THAT(error_of(R"({"length_unit": 1})"), HasSubstr("/length_unit: expected a text or null"));
+  EXPECT_THAT(error_of(R"({"camera": {"aperture": "wide"}})"), HasSubstr("/camera/aperture: expected a number"));
+}
+
 TEST(ViewerJson, what_is_left_out_stays) {
   ViewerSettings base;
   base.recursion = 7;
@@ -79,6 +135,10 @@ TEST(ViewerJson, looks_come_back) {
   look.style = "studio";
   look.element_colours = "cpk";
   look.background = "none";
+  look.lights = {"studio", "from:-1,1,1::2:20"};
+  look.colour_by = "charge:magma:0,1:log";
+  look.nan_colour = "#112233";
+  look.crease = "chain";
   look.rows = {{"chain \"A\"", "colour", "0.1,0.2,0.3"}, {"", "hide", ""}};
   const Result<ViewerLook> back = viewer_look_from_json(viewer_look_to_json(look));
   ASSERT_TRUE(back) << back.error().to_string();
@@ -97,6 +157,8 @@ TEST(ViewerJson, looks_come_back) {
   };
   EXPECT_THAT(look_error("["), HasSubstr("look:1:"));
   EXPECT_THAT(look_error(R"({"style": 1})"), HasSubstr("/style: expected a text, found 1"));
+  EXPECT_THAT(look_error(R"({"lights": "studio"})"), HasSubstr("/lights: expected a list of texts, found"));
+  EXPECT_THAT(look_error(R"({"lights": [1]})"), HasSubstr("/lights: expected a list of texts, found [1]"));
   EXPECT_THAT(look_error(R"({"rows": {}})"), HasSubstr("/rows: expected an array"));
   EXPECT_THAT(look_error(R"({"rows": [{}, 5, {}]})"), HasSubstr("/rows/1: expected an object, found 5"));
   EXPECT_THAT(look_error(R"({"rows": [{"select": null}]})"), HasSubstr("/rows/0/select: expected a text"));

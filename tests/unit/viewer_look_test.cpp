@@ -2,14 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "bihive/render/draw_labels.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/element_colours.h"
+#include "bihive/scene/focus.h"
+#include "bihive/scene/light_text.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/viewer/viewer.h"
@@ -260,6 +264,283 @@ TEST(LookText, light_may_be_three_numbers) {
   EXPECT_EQ(std::get<std::string>(*colour_choice_from_text("orange")), "orange");
   for (const char* bad : {"", "1,2,3", "0,0", "0,0,0,0", "0,0,", "a,b,c", "#12345"})
     EXPECT_FALSE(colour_choice_from_text(bad)) << bad;
+}
+
+// The picture of `bihive render` of the demo with these settings, by the library's own parts; labels over it.
+std::uint64_t demo_with(const Camera& camera, const std::function<void(Scene&, RenderSettings&)>& change) {
+  LoadedScene loaded = demo_in("default");
+  Scene& scene = loaded.scene;
+  scene.camera = camera;
+  scene.lights = lights_around(loaded.rig, camera);
+  RenderSettings settings = settings_from(scene.picture);
+  settings.width_px = kWidth;
+  settings.height_px = kHeight;
+  change(scene, settings);
+  const Result<Tracer> tracer = Tracer::build(scene.spheres, Engine::wide);
+  const Result<Rendered> picture = render(scene, *tracer, settings);
+  PngPixels pixels = png_pixels_from_film(picture->film, scene.picture.transfer, 8);
+  EXPECT_TRUE(check_labels(scene, settings));
+  draw_labels(pixels, scene, settings);
+  return picture_hash(Image{pixels.width, pixels.height, pixels.bytes});
+}
+
+struct EffectCase {
+  std::string name;
+  std::function<void(ViewerSettings&)> choose;
+  std::function<void(Scene&, RenderSettings&)> as_rendered;
+};
+
+TEST(ViewerLook, every_effect_is_the_programs) {
+  const std::vector<EffectCase> cases{
+      {"no ao", [](ViewerSettings& s) { s.effects.ambient_occlusion = false; },
+       [](Scene&, RenderSettings& r) { r.ambient_occlusion.reset(); }},
+      {"ao",
+       [](ViewerSettings& s) {
+         s.effects.ambient_distance = 3;
+         s.effects.ambient_directions = 20;
+       },
+       [](Scene&, RenderSettings& r) {
+         r.ambient_occlusion = AmbientOcclusion{3, 20};
+       }},
+      {"light points", [](ViewerSettings& s) { s.effects.light_points = 3; },
+       [](Scene&, RenderSettings& r) { r.light_points = 3; }},
+      {"samples", [](ViewerSettings& s) { s.effects.adaptive_samples = true; },
+       [](Scene&, RenderSettings& r) { r.adaptive_samples = true; }},
+      {"fog", [](ViewerSettings& s) { s.effects.fog = 0.8; },
+       [](Scene&, RenderSettings& r) {
+         r.fog = r.fog.value_or(Fog{});
+         r.fog->strength = 0.8;
+       }},
+      {"outline", [](ViewerSettings& s) { s.effects.outline_px = 2; },
+       [](Scene&, RenderSettings& r) {
+         r.outline = r.outline.value_or(Outline{});
+         r.outline->width_px = 2;
+       }},
+      {"tone",
+       [](ViewerSettings& s) {
+         s.effects.tone = {0.5, ToneCurve::filmic};
+       },
+       [](Scene&, RenderSettings& r) {
+         r.tone = {0.5, ToneCurve::filmic};
+       }},
+      {"lens",
+       [](ViewerSettings& s) {
+         s.camera.aperture = 3;
+         s.camera.focus = 60;
+       },
+       [](Scene& scene, RenderSettings&) {
+         scene.camera.aperture = 3;
+         scene.camera.focus = 60;
+       }},
+      {"focus on a selection",
+       [](ViewerSettings& s) {
+         s.camera.aperture = 3;
+         s.focus_on = "resname 478";
+       },
+       [](Scene& scene, RenderSettings&) {
+         scene.camera.aperture = 3;
+         scene.camera.focus = *focus_on(scene.spheres, scene.camera, "resname 478");
+       }},
+      {"labels",
+       [](ViewerSettings& s) {
+         s.effects.labels = {true, false, true, "HIV-1", std::nullopt};
+       },
+       [](Scene&, RenderSettings& r) {
+         r.labels = {true, false, true, "HIV-1", std::nullopt};
+       }},
+      {"scale bar",
+       [](ViewerSettings& s) {
+         s.camera = with_projection(s.camera, Projection::orthographic);
+         s.effects.labels.scale_bar = true;
+         s.effects.labels.length_unit = "nm";
+       },
+       [](Scene&, RenderSettings& r) {
+         r.labels.scale_bar = true;
+         r.labels.length_unit = "nm";
+       }},
+  };
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  const ViewerSettings first = viewer.settings();
+  const std::uint64_t plain = shown(viewer);
+  for (const EffectCase& one : cases) {
+    ViewerSettings settings = first;
+    one.choose(settings);
+    const Status set = viewer.set(settings);
+    ASSERT_TRUE(set) << one.name << set.error().to_string();
+    Camera camera = viewer.settings().camera;
+    camera.aperture = camera.focus = 0;
+    const std::uint64_t hash = shown(viewer);
+    EXPECT_EQ(hash, demo_with(camera, one.as_rendered)) << one.name;
+    EXPECT_NE(hash, plain) << one.name;
+    // As a file too.
+    const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, 4);
+    ASSERT_TRUE(saved);
+    EXPECT_EQ(picture_hash(Image{saved->width, saved->height, saved->bytes}), hash) << one.name;
+    viewer.look_from(ViewFrom::front);
+    ASSERT_TRUE(viewer.set(first)) << one.name;
+  }
+  EXPECT_EQ(shown(viewer), plain) << "all of it goes again";
+}
+
+TEST(ViewerLook, lights_colours_and_creases_of_all_spheres) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  ViewerLook look;
+  look.lights = {"cloudy", "from:1,0,0:orange:0.5:10"};
+  ASSERT_TRUE(viewer.set_look(look));
+  const Camera camera = viewer.settings().camera;
+  LightChoice choice;
+  for (const std::string& text : look.lights) ASSERT_TRUE(add_light(text, choice));
+  EXPECT_EQ(shown(viewer), demo_with(camera, [&](Scene& scene, RenderSettings&) {
+              const LightRig rig = rig_of(choice, scene.ambient_light);
+              scene.lights = lights_around(rig, scene.camera);
+              scene.ambient_light = rig.ambient_light;
+            }));
+
+  // A scene file's own lights give way, and come back.
+  const std::string lit = R"({"bihive_scene": 1, "camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0]},
+      "lights": [{"position": [9, 9, 9]}], "spheres": [[0, 0, 0, 1]]})";
+  ASSERT_TRUE(viewer.load(lit, "lit.json"));
+  const std::uint64_t own = shown(viewer);
+  ViewerLook other;
+  other.lights = {"headlight"};
+  ASSERT_TRUE(viewer.set_look(other));
+  EXPECT_NE(shown(viewer), own);
+  ASSERT_TRUE(viewer.set_look({}));
+  EXPECT_EQ(shown(viewer), own);
+
+  // Colours by an attribute before the rows, and one colour of unknown numbers for all.
+  constexpr const char* kUnknown = "x,y,z,r,charge\n0,0,0,1,-1\n2.5,0,0,1,nan\n0,2.5,1,1,1\n";
+  ASSERT_TRUE(viewer.load(kUnknown, "unknown.csv"));
+  ViewerLook by;
+  by.colour_by = "charge:magma:-2,2";
+  by.nan_colour = "lime";
+  by.crease = "charge";
+  by.rows = {{"index 2", "colour", "red"}};
+  Result<std::vector<std::int64_t>> counts = viewer.set_look(by);
+  ASSERT_FALSE(counts);
+  by.nan_colour = "magenta";
+  counts = viewer.set_look(by);
+  ASSERT_TRUE(counts) << counts.error().to_string();
+  EXPECT_THAT(*counts, ElementsAre(1)) << "of the rows alone";
+  const Style style = *style_named("default");
+  Look all{"all", {*look_action_from_text("crease", "charge"), *look_action_from_text("colour-by", by.colour_by)}};
+  std::get<ColourBy>(all.actions[1]).nan_colour = *colour_choice_from_text("magenta");
+  EXPECT_EQ(shown(viewer), rendered(*load_scene(kUnknown, "unknown.csv", {}, LooksOfFile::keep, &style),
+                                    viewer.settings().camera, {all, look_of("index 2", "colour", "red")}));
+
+  const auto refused = [&](const ViewerLook& bad) {
+    std::size_t row = 7;
+    const auto answer = viewer.set_look(bad, &row);
+    EXPECT_EQ(row, bad.rows.size()) << "no row is to blame";
+    EXPECT_EQ(viewer.look(), by);
+    return answer ? std::string("no error") : answer.error().to_string();
+  };
+  ViewerLook bad;
+  bad.lights = {"candle"};
+  EXPECT_THAT(refused(bad), HasSubstr("light: expected one of thesis, studio"));
+  bad = {};
+  bad.colour_by = "mass";
+  EXPECT_THAT(refused(bad), HasSubstr("mass"));
+  bad.colour_by = "charge:rainbow";
+  EXPECT_THAT(refused(bad), HasSubstr("rainbow"));
+  bad = {};
+  bad.crease = "mass";
+  EXPECT_THAT(refused(bad), HasSubstr("mass"));
+}
+
+TEST(ViewerLook, effects_follow_the_style_unless_they_were_changed) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  EXPECT_TRUE(viewer.settings().effects.ambient_occlusion) << "of the style default";
+  ViewerSettings settings = viewer.settings();
+  settings.effects.fog = 0.25;
+  ASSERT_TRUE(viewer.set(settings));
+  ViewerLook look;
+  look.style = "illustrative";
+  ASSERT_TRUE(viewer.set_look(look));
+  const PictureDefaults& style = style_named("illustrative")->picture;
+  EXPECT_EQ(viewer.settings().effects.ambient_occlusion, style.ambient_occlusion.has_value());
+  EXPECT_EQ(viewer.settings().effects.outline_px, style.outline->width_px);
+  EXPECT_EQ(viewer.settings().effects.fog, 0.25) << "the user's";
+
+  // Those of a scene file are shown, and kept by a change of something else.
+  const std::string document = R"({"bihive_scene": 2, "camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0]},
+      "picture": {"ambient_occlusion": {"distance": 2, "directions": 12}, "fog": {"strength": 0.75, "start": 0.5},
+                  "outline": {"width_px": 3}}, "spheres": [[0, 0, 0, 1], [1, 0, -3, 1]]})";
+  ASSERT_TRUE(viewer.load(document, "a.json"));
+  settings = viewer.settings();
+  EXPECT_EQ(settings.effects.ambient_distance, 2);
+  EXPECT_EQ(settings.effects.ambient_directions, 12);
+  EXPECT_EQ(settings.effects.fog, 0.75);
+  EXPECT_EQ(settings.effects.outline_px, 3);
+  settings.effects.outline_px = 2;
+  ASSERT_TRUE(viewer.set(settings));
+  LoadedScene file = *load_scene(document, "a.json", {}, LooksOfFile::keep);
+  file.scene.picture.outline->width_px = 2;
+  EXPECT_EQ(shown(viewer), rendered(std::move(file), viewer.settings().camera));
+}
+
+TEST(ViewerLook, labels_that_a_picture_cannot_have) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("four-spheres"));
+  const std::uint64_t without = shown(viewer);
+  ViewerSettings settings = viewer.settings();
+  settings.effects.labels.scale_bar = true;
+  Status refused = viewer.set(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("orthographic"));
+  settings.effects.labels = {true};
+  refused = viewer.set(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("legend"));
+  EXPECT_FALSE(viewer.settings().effects.labels.legend);
+
+  // A scale bar in parallel rays; it is left out in perspective, and comes back.
+  settings = viewer.settings();
+  settings.effects.labels.scale_bar = true;
+  settings.camera = with_projection(settings.camera, Projection::orthographic);
+  ASSERT_TRUE(viewer.set(settings));
+  settings = viewer.settings();
+  settings.camera = with_projection(settings.camera, Projection::perspective);
+  ASSERT_TRUE(viewer.set(settings));
+  EXPECT_TRUE(viewer.settings().effects.labels.scale_bar);
+  EXPECT_EQ(shown(viewer), without);
+
+  settings.camera.aperture = 1;
+  settings.effects.adaptive_samples = true;
+  refused = viewer.set(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("choose a number of samples"));
+  settings.effects.adaptive_samples = false;
+  settings.focus_on = "chain Q";
+  EXPECT_FALSE(viewer.set(settings));
+}
+
+// Labels stay as they are while the picture under them is coarse.
+TEST(ViewerLook, labels_are_sharp_in_coarse_pictures) {
+  Viewer viewer;
+  viewer.resize(400, 800);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  ViewerSettings settings = viewer.settings();
+  settings.effects.labels.title = "a title";
+  ASSERT_TRUE(viewer.set(settings));
+  FrameReport report;
+  for (int i = 0; i < 1000 && !report.drawn; ++i) report = *viewer.frame(1e-3);
+  ASSERT_TRUE(report.drawn);
+  EXPECT_GT(report.divisor, 1);
+  EXPECT_EQ(viewer.image().width, 400);
+  const auto top = [&] {
+    return std::vector<std::uint8_t>(viewer.image().rgb.begin(), viewer.image().rgb.begin() + 400 * 3 * 60);
+  };
+  const std::vector<std::uint8_t> coarse = top();
+  settle(viewer);
+  EXPECT_TRUE(top() == coarse) << "above the molecule there is the title alone";
 }
 
 }  // namespace

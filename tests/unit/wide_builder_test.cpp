@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "bihive/simd/target.h"
+#include "bihive/wide/build/count_limit.h"
+#include "bihive/wide/queries.h"
 #include "bihive/wide/wide_validate.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"
@@ -32,11 +34,13 @@ std::string bytes_of(const WideTree& tree) {
     if (data != nullptr) bytes.append(static_cast<const char*>(data), size);
   };
   add(tree.nodes, static_cast<std::size_t>(tree.node_count) * sizeof(WideNode));
-  const std::size_t an_array = tree.size > 0 ? static_cast<std::size_t>(tree.size + kWidth) * 4 : 0;
+  const std::size_t an_array = tree.placed > 0 ? static_cast<std::size_t>(tree.placed + kWidth) * 4 : 0;
   for (const float* array : {tree.spheres.x, tree.spheres.y, tree.spheres.z, tree.spheres.r}) add(array, an_array);
   add(tree.spheres.word, an_array);
   add(tree.spheres.palette.data(), sizeof(tree.spheres.palette));
   add(tree.repeated.data(), tree.repeated.size() * sizeof(RepeatedSphere));
+  add(tree.piles.data(), tree.piles.size() * sizeof(Pile));
+  add(tree.others_in_piles.data(), tree.others_in_piles.size() * sizeof(std::uint32_t));
   return bytes;
 }
 
@@ -64,7 +68,7 @@ TEST(WideBuilder, BuildsRightTrees) {
         EXPECT_LE(tree->largest_leaf, kWidth) << world.name;
       }
       if (parameters.max_depth == 1) {
-        EXPECT_EQ(tree->largest_leaf, spheres.size()) << world.name;
+        EXPECT_EQ(tree->largest_leaf, tree->placed) << world.name;
       }
     }
   }
@@ -97,6 +101,45 @@ TEST(WideBuilder, KnowsSpheresThatAreEqual) {
   std::vector<std::uint32_t> ids;
   for (const RepeatedSphere& sphere : tree->repeated) ids.push_back(sphere.id);
   EXPECT_EQ(ids, (std::vector<std::uint32_t>{3, 500, 900, 1000, 1001, 1002, 1003, 1005, 1006}));
+}
+
+// A ray tests one sphere of a pile, however high it is.
+TEST(WideBuilder, APileTakesOnePlace) {
+  WideBuilder builder;
+  test::World world = test::random_world("some", 5, 1000, 10, 0.5, 0.5);
+  for (int i = 0; i < 10000; ++i) world.add(world.x[3], world.y[3], world.z[3], world.r[3]);
+  for (int i = 0; i < 20; ++i) world.add(20, 20, 20, i % 2 == 0 ? 0.5 : 0.25);
+  const SphereSet spheres = test::sphere_set(world);
+  const TreePointer tree = built(builder, spheres);
+  EXPECT_EQ(tree->size, 11020);
+  EXPECT_EQ(tree->placed, 1020) << "ten equal ones are no pile";
+  ASSERT_EQ(tree->piles.size(), 1U);
+  EXPECT_EQ(tree->piles[0].id, 3U);
+  EXPECT_EQ(tree->others_in_piles.size(), 10000U);
+  EXPECT_EQ(tree->repeated.size(), 10021U);
+  EXPECT_LE(tree->largest_leaf, kWidth);
+  const Status status = validate_wide_tree(*tree, spheres);
+  EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().to_string());
+
+  // All hits are those of all spheres.
+  RayBatch rays;
+  Ray ray;
+  ray.origin = {world.x[3], world.y[3], world.z[3] + 100};
+  ray.direction = {0, 0, -1};
+  rays.push_back(ray);
+  ray.leaves = 1005;
+  rays.push_back(ray);
+  std::vector<RayHit> hits;
+  all_hits(*tree, rays.span(), hits);
+  std::int64_t of_pile[2] = {0, 0};
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].sphere_id == 3 || (hits[i].sphere_id >= 1000 && hits[i].sphere_id < 11000)) ++of_pile[hits[i].ray];
+    if (i > 0 && hits[i].ray == hits[i - 1].ray && hits[i].t == hits[i - 1].t) {
+      EXPECT_LT(hits[i - 1].sphere_id, hits[i].sphere_id);
+    }
+  }
+  EXPECT_EQ(of_pile[0], 10001);
+  EXPECT_EQ(of_pile[1], 0) << "a ray that leaves one of them leaves all";
 }
 
 TEST(WideBuilder, TheSameTreeForEveryNumberOfThreadsAndEveryTarget) {
@@ -165,6 +208,16 @@ TEST(WideBuilder, AHeldTreeStaysAsItIs) {
   }
   // The tree outlives its builder.
   EXPECT_TRUE(validate_wide_tree(*held, spheres).ok());
+}
+
+// By the function that build() asks first: no machine has the memory for such a set.
+TEST(WideBuilder, RefusesMoreSpheresThanNumbers) {
+  EXPECT_TRUE(check_wide_count(0));
+  EXPECT_TRUE(check_wide_count(std::int64_t{4294967295}));
+  const Status refused = check_wide_count(std::int64_t{4294967296});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("at most 4294967295 spheres, and there are 4294967296"), std::string::npos);
+  EXPECT_FALSE(check_wide_count(std::int64_t{1} << 62));
 }
 
 TEST(WideBuilder, NoSpheresNoNodes) {

@@ -36,7 +36,7 @@ class ByHand {
     tree_.nodes = nodes_;
     tree_.node_count = 3;
     tree_.levels = 2;
-    tree_.size = 45;
+    tree_.size = tree_.placed = 45;
     tree_.aabb = {{0, 0, 0}, {5, 2, 2}};
     tree_.spheres.has_palette = true;
   }

@@ -53,7 +53,8 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
   await choose_gpu(page);
   await and_settle(page, () => set_value(page, '#samples', 1));
   for (const scene of ['demo', 'four-spheres', 'scenario1', 'scenario2', 'scenario3']) {
-    if (scene !== 'demo') await and_settle(page, () => page.selectOption('#built_in', scene));
+    if (scene === 'demo') await and_settle(page, () => page.check('#style input[value=plain]', { force: true }));
+    else await and_settle(page, () => page.selectOption('#built_in', scene));
     await and_settle(page, () => set_value(page, '#samples', 1));
     for (const recursion of [1, 5]) {
       await and_settle(page, () => set_value(page, '#recursion', recursion));
@@ -71,17 +72,21 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
   await context.close();
 });
 
-test('the GPU engine draws the style plain, and another style brings the CPU', async () => {
+test('the GPU engine draws styles, and a transparent background', async () => {
   const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
-  assert.ok(await page.isHidden('#engine_plain'));
   await choose_gpu(page);
-  assert.match(await page.textContent('#engine_plain'), /style plain/);
-  assert.ok(await page.isVisible('#engine_plain'));
-  await and_settle(page, () => page.check('#style input[value=flat]', { force: true }));
-  await page.waitForSelector('#cpu_canvas:not([hidden])');
-  assert.ok(await page.isHidden('#engine_plain'));
-  const { settings, look } = await link_state(page);
-  assert.deepEqual([settings.engine, settings.shadows, look.style], ['cpu', false, 'flat']);
+  await and_settle(page, () => set_value(page, '#samples', 2));
+  for (const style of ['default', 'xray']) {
+    await and_settle(page, () => page.check(`#style input[value=${style}]`, { force: true }));
+    await and_settle(page, () => set_value(page, '#samples', 2));
+    const { settings, look } = await link_state(page);
+    assert.equal(settings.engine, 'gpu');
+    assert.ok(look.style === style || (style === 'default' && !look.style));
+    const saved = await saved_picture(page, 96, 60);
+    const native = native_picture('demo', `native-${style}`, '--style', style, '--size', '96x60', '--samples', '2');
+    const { share } = await compare(page, saved, native, 8);
+    assert.ok(share <= 0.01, `${style}: ${share}`);
+  }
   no_complaints(complaints);
   await context.close();
 });

@@ -48,6 +48,13 @@ export async function open_page(browser, url, options = {}) {
 /** Waits until all of the picture is drawn. */
 export const settled = (page) => page.waitForSelector('#picture[data-settled=true]', { timeout: patience });
 
+/** Waits until the sheet of controls of a narrow window has come up or gone down. */
+export const sheet_still = (page) =>
+  page.evaluate(async () => {
+    await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+    await Promise.all(document.getElementById('panel').getAnimations().map(({ finished }) => finished));
+  });
+
 /** Does something that begins a new picture, and waits for the end of it. */
 export async function and_settle(page, work) {
   await page.evaluate(() => (document.getElementById('picture').dataset.settled = 'false'));

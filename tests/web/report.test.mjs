@@ -75,10 +75,27 @@ async function look({ width, largestShare, leastTextHeight }) {
   for (const entry of entries) {
     const link = entry.querySelector('a');
     check(document.getElementById(link.hash.slice(1)), `the contents lead nowhere: ${link.hash}`);
-    check(['agrees', 'differs', 'open'].includes(entry.className), `no state of ${link.hash}`);
+    const states = ['agrees', 'differs', 'inconsistent', 'undecided', 'inferred', 'check', 'open'];
+    check(states.includes(entry.className), `no state of ${link.hash}`);
     check(entry.querySelector('.state').textContent.trim() !== '', `no words on ${link.hash}`);
   }
-  return { faults, drawings: drawings.length, pictures: pictures.length, entries: entries.length };
+
+  // Each claim of the page of verdicts leads to its figure, and has a colour and a word.
+  const claims = [...document.querySelectorAll('#verdicts tbody tr')];
+  for (const claim of claims) {
+    const link = claim.querySelector('a');
+    check(link && document.getElementById(link.hash.slice(1)), `a claim leads nowhere: ${claim.textContent}`);
+    check(claim.className !== '' && claim.cells[1].textContent.trim() !== '', `a claim without a verdict: ${claim.textContent}`);
+  }
+
+  // Green is what agrees with the text alone: nothing inferred, no check of our own.
+  const papers = ['agrees', 'inferred', 'check', 'differs'].map((state) => {
+    const row = document.querySelector(`section tr.${state}`);
+    return row && getComputedStyle(row).backgroundColor;
+  });
+  const shown = papers.filter(Boolean);
+  check(new Set(shown).size === shown.length, `two states share a colour: ${papers}`);
+  return { claims: claims.length, faults, drawings: drawings.length, pictures: pictures.length, entries: entries.length };
 }
 
 // Opens the file in a window; errors of the browser also count as faults.
@@ -106,6 +123,8 @@ for (const [name, window] of Object.entries(windows))
     const found = await inspect(report, window);
     assert.deepEqual(found.faults, []);
     assert.equal(found.entries, results.experiments.length);
+    assert.equal(found.claims, results.verdicts.length);
+    assert.ok(found.claims > 0);
     assert.equal(found.drawings, files.filter((file) => file.endsWith('.svg')).length);
     assert.equal(found.pictures, files.filter((file) => file.endsWith('.png')).length);
     assert.ok(found.drawings > 0 && found.pictures > 0);
@@ -123,10 +142,12 @@ const damages = {
   'a request': ['</main>', '<img src="http://127.0.0.1:9/a.png"></main>', /leaves the file/],
   'an error': ['</main>', '<script>console.error("bad")</script></main>', /console: bad/],
   'a dead link': ['href="#', 'href="#no-', /lead nowhere/],
+  'a claim that leads nowhere': [/(id="verdicts"[\s\S]*?)href="#/, (all, before) => `${before}href="#no-`, /a claim leads nowhere/],
+  'a check that looks like agreement': ['--check-paper: #24223a', '--check-paper: #17301e', /share a colour/],
 };
 for (const [name, [what, instead, fault]] of Object.entries(damages))
   test(`the test finds ${name}`, async () => {
-    const damaged = html.replace(what, () => instead);
+    const damaged = html.replace(what, typeof instead === 'function' ? instead : () => instead);
     assert.ok(damaged !== html, 'nothing to damage');
     const file = join(dirname(report), 'damaged.html');
     writeFileSync(file, damaged);

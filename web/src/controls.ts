@@ -1,36 +1,12 @@
 // The panel's controls for settings. They show the settings, and report the user's changes.
 import { element, RadioGroup } from './dom';
+import { EffectControls } from './effects';
 import type { Camera, Changes, EngineName, Move, Settings, SideName, ViewName } from './protocol';
+import { Slider } from './slider';
 
 export interface ControlActions {
   change(changes: Changes): void;
   move(move: Move): void;
-}
-
-// A slider with its value beside it.
-class Slider {
-  private readonly input: HTMLInputElement;
-  private readonly output: HTMLOutputElement;
-
-  constructor(id: string, private readonly words: (value: number) => string, on_change: (value: number) => void) {
-    this.input = element<HTMLInputElement>(id);
-    this.output = document.querySelector<HTMLOutputElement>(`output[for=${id}]`)!;
-    this.input.addEventListener('input', () => {
-      this.show();
-      on_change(Number(this.input.value));
-    });
-  }
-
-  set value(value: number) {
-    this.input.value = String(value);
-    this.show(value);
-  }
-
-  // A value beyond the slider's end is shown as it is.
-  private show(value = Number(this.input.value)): void {
-    this.output.textContent = this.words(value);
-    this.input.setAttribute('aria-valuetext', this.words(value));
-  }
 }
 
 // A limit of the tree on a slider: 0 is the engine's choice.
@@ -40,7 +16,7 @@ const limit_of = (value: Settings['max_prims']) => (value === null ? 0 : value =
 export class Controls {
   private readonly engine: RadioGroup;
   private readonly view = element<HTMLSelectElement>('view');
-  private readonly shadows = element<HTMLInputElement>('shadows');
+  private readonly effects: EffectControls;
   private readonly projection = element<HTMLSelectElement>('projection');
   private readonly recursion: Slider;
   private readonly samples: Slider;
@@ -54,12 +30,14 @@ export class Controls {
     this.view.addEventListener('change', () => this.set_view(this.view.value as ViewName));
     this.recursion = new Slider('recursion', String, (recursion) => change({ recursion }));
     this.samples = new Slider('samples', String, (samples_per_pixel) => change({ samples_per_pixel }));
-    this.shadows.addEventListener('change', () => change({ shadows: this.shadows.checked }));
+    this.effects = new EffectControls(change);
     this.max_prims = new Slider('max_prims', limit_words, (value) => change({ max_prims: value || null }));
     this.max_depth = new Slider('max_depth', limit_words, (value) => change({ max_depth: value || null }));
-    this.projection.addEventListener('change', () =>
-      change({ camera: { projection: this.projection.value as Camera['projection'] } }),
-    );
+    // Only a perspective camera has a lens.
+    this.projection.addEventListener('change', () => {
+      const projection = this.projection.value as Camera['projection'];
+      change({ camera: projection === 'orthographic' ? { projection, aperture: 0 } : { projection } });
+    });
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-side]'))
       button.addEventListener('click', () =>
         actions.move({ kind: 'look_from', side: button.dataset['side'] as SideName }),
@@ -89,10 +67,11 @@ export class Controls {
     this.shown = settings;
     this.engine.value = settings.engine;
     this.view.value = settings.view;
-    this.shadows.checked = settings.shadows;
+    this.effects.show(settings);
     this.projection.value = settings.camera.projection;
     this.recursion.value = settings.recursion;
     this.samples.value = settings.samples_per_pixel;
+    this.samples.disabled = settings.samples_auto;
     this.max_prims.value = limit_of(settings.max_prims);
     this.max_depth.value = limit_of(settings.max_depth);
   }

@@ -1,4 +1,4 @@
-// Moves the picture by keys.
+// Moves the picture by keys, wherever the focus is, unless a control takes the key itself.
 import type { EngineName, Move, ViewName } from './protocol';
 
 const step_px = 24; // of the page
@@ -20,9 +20,20 @@ export interface KeyActions {
   set_engine(engine: EngineName): void;
 }
 
-export function listen_for_keys(picture: HTMLElement, actions: KeyActions): void {
-  picture.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+// Fields take letters and digits; sliders, radio buttons and the scrolled panel take arrows and Home.
+function takes(target: EventTarget | null, key: string): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target.closest('dialog, select, textarea')) return true;
+  const scrolls = key in arrows || key === 'Home';
+  if (target instanceof HTMLInputElement)
+    return !['checkbox', 'radio', 'range', 'file'].includes(target.type) || (scrolls && target.type !== 'checkbox');
+  return scrolls && target.closest('#panel') !== null && target.closest('button, summary, label') === null;
+}
+
+export function listen_for_keys(actions: KeyActions): void {
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (takes(event.target, event.key) || document.querySelector('dialog[open]')) return;
     const arrow = arrows[event.key];
     const zoom = { '+': zoom_step, '=': zoom_step, '-': 1 / zoom_step, _: 1 / zoom_step }[event.key];
     const view = views[Number(event.key) - 1];

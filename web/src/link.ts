@@ -1,9 +1,9 @@
 // The whole state as a link: scene and settings in the address behind "#".
-import type { Look, Settings, Source } from './protocol';
+import type { Changes, Look, Reading, Source } from './protocol';
 
 export interface State {
   source: Source;
-  settings: Partial<Settings> | null;
+  settings: Changes | null;
   look: Partial<Look> | null;
 }
 
@@ -17,9 +17,18 @@ export function link_of(state: State): string {
   return new URL(prefix + text, location.href).href;
 }
 
+function is_reading(value: unknown): value is Reading {
+  if (typeof value !== 'object' || value === null) return false;
+  return Object.entries(value).every(
+    ([key, number]) => ['radius', 'radius_scale'].includes(key) && typeof number === 'number' && number >= 0,
+  );
+}
+
 function is_source(value: unknown): value is Source {
   if (typeof value !== 'object' || value === null) return false;
   const source = value as Record<string, unknown>;
+  if (source['reading'] !== undefined && !is_reading(source['reading'])) return false;
+  if (typeof source['file'] === 'string') return true;
   if (typeof source['built_in'] === 'string') return ['undefined', 'number'].includes(typeof source['count']);
   return typeof source['url'] === 'string';
 }
@@ -31,7 +40,7 @@ export function state_from(document: unknown): State | null {
   if (!is_source(source)) return null;
   return {
     source,
-    settings: typeof settings === 'object' ? (settings as Partial<Settings> | null) : null,
+    settings: typeof settings === 'object' ? (settings as Changes | null) : null,
     look: typeof look === 'object' ? (look as Partial<Look> | null) : null,
   };
 }
@@ -49,4 +58,19 @@ export function state_of(hash: string): State | null {
     // reported below
   }
   throw new Error('The link is damaged: it does not hold a scene');
+}
+
+/** The reading that an address asks for: `?radius=0.5&radius_scale=2`. Throws words for the user. */
+export function reading_of(search: string): Reading | undefined {
+  const asked = new URLSearchParams(search);
+  const reading: Reading = {};
+  for (const key of ['radius', 'radius_scale'] as const) {
+    const text = asked.get(key);
+    if (text === null) continue;
+    const number = Number(text);
+    if (text.trim() === '' || !(number >= 0 && number < Infinity))
+      throw new Error(`${key}=${text} in the address: expected a number from 0`);
+    reading[key] = number;
+  }
+  return Object.keys(reading).length > 0 ? reading : undefined;
 }

@@ -1,6 +1,8 @@
-// The panel's section of the look: style, colours of elements, background, and the rows of selections with actions.
+// The panel's controls of the look: style, colours of elements, background, the rows of selections with actions, and
+// what is for all spheres.
+import { ColourControls } from './colours';
 import { element, RadioGroup } from './dom';
-import type { Facts, Look, LookFault, LookRow } from './protocol';
+import type { ColouredBy, Facts, Look, LookFault, LookRow } from './protocol';
 
 const value_words: Record<string, { hint: string; list: string; mode: string }> = {
   colour: { hint: 'orange or #ff8800', list: 'colour_names', mode: 'text' },
@@ -76,12 +78,14 @@ export class LookControls {
   private readonly background = element<HTMLSelectElement>('background');
   private readonly background_colour = element<HTMLInputElement>('background_colour');
   private readonly list = element('look_rows');
+  private readonly of_all: ColourControls;
   private rows: RowControls[] = [];
   private sent: RowControls[] = []; // the rows of the last request, without incomplete ones
   private made = 0;
   private file_of_spheres = true;
 
   constructor(private readonly change: (changes: Partial<Look>) => void) {
+    this.of_all = new ColourControls(change);
     this.colours.addEventListener('change', () => change({ element_colours: this.colours.value }));
     this.background.addEventListener('change', () => this.change_background());
     this.background_colour.addEventListener('input', () => this.change_background());
@@ -91,6 +95,7 @@ export class LookControls {
   /** What there is to choose from. */
   show_facts(facts: Facts): void {
     this.file_of_spheres = facts.is_file_of_spheres;
+    this.of_all.show_facts(facts);
     element('style').hidden = !facts.takes_style;
     element('style_note').hidden = facts.takes_style;
     element('own_style').hidden = facts.is_file_of_spheres;
@@ -102,8 +107,9 @@ export class LookControls {
   }
 
   /** The look of a scene that has just been loaded. */
-  show(look: Look): void {
+  show(look: Look, coloured_by: ColouredBy[]): void {
     this.show_choices(look);
+    this.of_all.show_ranges(coloured_by);
     this.rows = [];
     this.list.replaceChildren();
     for (const row of look.rows) this.add(row);
@@ -113,6 +119,7 @@ export class LookControls {
   private show_choices(look: Look): void {
     this.style.value = look.style === '' && this.file_of_spheres ? 'default' : look.style;
     this.colours.value = look.element_colours;
+    this.of_all.show(look);
     const is_colour = look.background !== '' && look.background !== 'none';
     this.background.value = is_colour ? 'colour' : look.background;
     this.background_colour.hidden = !is_colour;
@@ -120,8 +127,9 @@ export class LookControls {
   }
 
   /** The answer to the last request for a look. Rows keep what the user wrote. */
-  answer(look: Look, counts: number[], fault: LookFault | null): void {
+  answer(look: Look, counts: number[], coloured_by: ColouredBy[] | null, fault: LookFault | null): void {
     this.show_choices(look);
+    if (coloured_by) this.of_all.show_ranges(coloured_by);
     if (fault) this.sent[fault.row]?.say(fault.message, true);
     // The rows in the answer may be older than those with a fault.
     else if (JSON.stringify(this.sent.map(({ row }) => row)) === JSON.stringify(look.rows))

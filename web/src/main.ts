@@ -4,13 +4,16 @@ import { element, grouped } from './dom';
 import { Engine } from './engine';
 import { listen_for_keys } from './keyboard';
 import { LookControls } from './look';
-import { link_of, state_from, state_of, type State } from './link';
-import { busy, clear_errors, fail, note } from './messages';
+import { ask_for, type Ask } from './ask';
+import { link_of, reading_of, state_from, state_of, type State } from './link';
+import { busy, clear_errors, clear_notes, fail, note } from './messages';
 import { start_panel } from './panel';
 import { listen_for_pointers } from './pointer';
-import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Settings, Source } from './protocol';
+import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Move, Reading, Settings, Source } from './protocol';
 import { Saving } from './saving';
-import { listen_for_sources, show_source, wanted_file, wanted_source, type Wanted } from './sources';
+import {
+  listen_for_reading, listen_for_sources, show_source, wanted_file, wanted_source, with_reading, type Wanted,
+} from './sources';
 import { show_statistics } from './statistics';
 import { start_theme } from './theme';
 import { ThesisDialog } from './thesis';
@@ -30,6 +33,11 @@ let gpu: GpuState = { here: false, software: false, why_not: '', description: ''
 let serial = 0;
 let look_serial = 0;
 let loading = 0; // id of the load that is awaited
+let first_frame = false; // of the scene that has just been loaded: it is awaited
+let chosen_file: File | null = null; // that is on show, or being loaded
+let asked: Ask | null = null; // a file of the user's own that a link was made for
+let address_reading: Reading | undefined;
+let framed = true; // nobody has moved the camera since it showed the whole scene, or was the scene's own
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -42,7 +50,11 @@ const engine = new Engine(
         `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. No request leaves this page's server.`;
     },
     loaded: (answer) => {
-      if (answer.id === loading) busy(null);
+      if (answer.id === loading) {
+        busy('Drawing');
+        first_frame = true;
+      }
+      clear_notes();
       source = answer.source;
       show_facts(answer.facts);
       show_source(source);
@@ -50,11 +62,12 @@ const engine = new Engine(
       controls.show(answer.settings);
       look = answer.look;
       looks.show_facts(answer.facts);
-      looks.show(look);
+      looks.show(look, answer.coloured_by);
       for (const text of answer.notes) note(text);
     },
     failed: ({ id, message }) => {
       busy(null);
+      first_frame = false;
       saving.failed(id);
       if (id === loading) show_source(source);
       fail(message);
@@ -70,13 +83,15 @@ const engine = new Engine(
     },
     look: (answer) => {
       look = answer.look;
-      if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.fault);
+      if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.coloured_by, answer.fault);
     },
     frame: (answer) => {
       show_settings(answer.settings);
       if (answer.serial === serial) controls.show(answer.settings);
       show_engine(answer.settings.engine);
       show_frame(answer.report, answer.width_px, answer.height_px);
+      if (first_frame && answer.report.drawn) busy(null);
+      if (answer.report.drawn) first_frame = false;
     },
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
@@ -95,7 +110,12 @@ function change(changes: Changes): void {
   engine.send({ type: 'set', serial: ++serial, changes });
 }
 
-const controls = new Controls({ change, move: (move) => engine.send({ type: 'move', move }) });
+function move_camera(move: Move): void {
+  framed = move.kind === 'look_from' || move.kind === 'home';
+  engine.send({ type: 'move', move });
+}
+
+const controls = new Controls({ change, move: move_camera });
 const looks = new LookControls((changes) => {
   picture.dataset['settled'] = 'false';
   engine.send({ type: 'look', serial: ++look_serial, changes });
@@ -122,7 +142,6 @@ function device_words(): string {
 
 function show_settings(now: Settings): void {
   settings = now;
-  element('engine_plain').hidden = now.engine !== 'gpu';
 }
 
 function show_engine(name: EngineName): void {
@@ -165,6 +184,7 @@ function show_frame(report: FrameReport, width: number, height: number): void {
   element('badge_frame').textContent = report.settled
     ? `${width} × ${height}`
     : `${width} × ${height}${report.divisor > 1 ? ` / ${report.divisor}` : ''} · ${Math.floor(100 * report.done)} %`;
+  element('stage').classList.toggle('titled', settings?.title !== '');
   picture.dataset['settled'] = String(report.settled);
   // For measurements of the page's start.
   if (report.drawn && performance.getEntriesByName('first picture').length === 0) performance.mark('first picture');
@@ -174,6 +194,7 @@ function show_frame(report: FrameReport, width: number, height: number): void {
 
 async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'source'> | null = null): Promise<void> {
   const id = (loading = engine.new_id());
+  clear_notes();
   clear_errors();
   picture.dataset['settled'] = 'false';
   busy(`Loading ${name}`);
@@ -181,6 +202,7 @@ async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'so
     const { source: from, bytes, name: called } = await what;
     if (id !== loading) return; // another one was asked for meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
+    framed = !state.settings?.camera?.eye;
     engine.send({ type: 'load', id, source: from, bytes, name: called, ...state }, bytes ? [bytes] : []);
   } catch (error) {
     busy(null);
@@ -189,9 +211,37 @@ async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'so
   }
 }
 
-const open_source = (from: Source, wanted: Omit<State, 'source'> | null = null) =>
-  open(wanted_source(from), 'built_in' in from ? from.built_in : 'url' in from ? from.url : from.file, wanted);
-const open_file = (file: File) => open(wanted_file(file), file.name);
+const name_of = (from: Source) => ('built_in' in from ? from.built_in : 'url' in from ? from.url : from.file);
+
+function open_source(from: Source, wanted: Omit<State, 'source'> | null = null): Promise<void> {
+  chosen_file = null;
+  return open(wanted_source(from.reading ? from : with_reading(from, address_reading)), name_of(from), wanted);
+}
+
+function forget_asked(): void {
+  asked?.close();
+  asked = null;
+}
+
+// The state of a link goes to the file that it was made for.
+async function open_file(file: File): Promise<void> {
+  const waiting = asked;
+  const fits = waiting?.file === file.name;
+  chosen_file = file;
+  if (fits) forget_asked();
+  await open(wanted_file(file, (fits && waiting?.state.source.reading) || address_reading), file.name, fits ? waiting!.state : null);
+  if (waiting && !fits) waiting.say_other(file.name);
+}
+
+// The same file with other radii. A camera that nobody has moved is placed anew.
+function read_again(reading: Reading | undefined): void {
+  if (!settings) return;
+  const { fov_deg, projection, aperture, focus } = settings.camera;
+  const camera = framed ? { fov_deg, projection, aperture, focus } : settings.camera;
+  const state = { settings: { ...settings, camera }, look };
+  if (chosen_file) void open(wanted_file(chosen_file, reading), chosen_file.name, state);
+  else void open(wanted_source(with_reading(source, reading)), name_of(source), state);
+}
 
 function watch_size(): void {
   const fit = () => {
@@ -210,10 +260,9 @@ function watch_size(): void {
 
 async function copy_link(): Promise<void> {
   if (!settings) return;
-  const is_file = 'file' in source;
-  const link = link_of({ source: is_file ? { built_in: 'demo' } : source, settings, look });
+  const link = link_of({ source, settings, look });
   history.replaceState(null, '', link);
-  const words = is_file ? `The file ${(source as { file: string }).file} itself is not in it.` : '';
+  const words = 'file' in source ? `It asks for the file ${source.file}, which is not in it.` : '';
   try {
     await navigator.clipboard.writeText(link);
     note(`The link is copied. ${words}`);
@@ -232,11 +281,26 @@ async function first_state(): Promise<State> {
   return state_from(started) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 }
 
+// What the browser lacks, or nothing.
+function lacking(): string {
+  if (typeof WebAssembly === 'undefined') return 'WebAssembly';
+  const has_canvas = typeof OffscreenCanvas !== 'undefined' && 'transferControlToOffscreen' in HTMLCanvasElement.prototype;
+  return has_canvas ? '' : 'OffscreenCanvas';
+}
+
 async function start(): Promise<void> {
   start_theme();
   start_panel();
-  const asked = new URLSearchParams(location.search).get('threads');
-  const threads = globalThis.crossOriginIsolated && typeof SharedArrayBuffer !== 'undefined' && asked !== '0';
+  const lack = lacking();
+  if (lack !== '') {
+    fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`);
+    element('badge').hidden = true;
+    picture.setAttribute('aria-label', 'No picture');
+    element('panel').inert = true;
+    return;
+  }
+  const threads_asked = new URLSearchParams(location.search).get('threads');
+  const threads = globalThis.crossOriginIsolated && typeof SharedArrayBuffer !== 'undefined' && threads_asked !== '0';
   const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
   busy('Starting');
   engine.send(
@@ -245,23 +309,32 @@ async function start(): Promise<void> {
   );
   watch_size();
 
-  const move = (what: Parameters<typeof controls.move>[0]) => controls.move(what);
-  listen_for_pointers(picture, () => scale, move);
-  listen_for_keys(picture, {
+  listen_for_pointers(picture, () => scale, move_camera);
+  listen_for_keys({
     scale: () => scale,
     size: () => size,
-    move,
+    move: move_camera,
     view: (view) => controls.set_view(view),
     engine: () => settings?.engine ?? 'cpu',
     set_engine: (name) => controls.set_engine(name),
   });
-  listen_for_sources((from) => void open_source(from), (file) => void open_file(file));
+  listen_for_sources((from) => {
+    forget_asked();
+    void open_source(from);
+  }, (file) => void open_file(file));
+  listen_for_reading(read_again);
   element('copy_link').addEventListener('click', () => void copy_link());
 
   const open_state = async () => {
     try {
+      address_reading = reading_of(location.search);
       const state = await first_state();
-      await open_source(state.source, state);
+      forget_asked();
+      if ('file' in state.source) {
+        // Another file in front of the same camera would be a riddle.
+        asked = ask_for({ file: state.source.file, state });
+        await open_source({ built_in: 'demo' });
+      } else await open_source(state.source, state);
     } catch (error) {
       const opened = open_source({ built_in: 'demo' });
       fail((error as Error).message);

@@ -29,6 +29,11 @@ export function fail(text: string): void {
   show(element('errors'), text, 'error');
 }
 
+/** Notes belong to the scene on show: another one begins without them. */
+export function clear_notes(): void {
+  element('messages').replaceChildren();
+}
+
 export function clear_errors(): void {
   element('errors').replaceChildren();
 }

@@ -1,9 +1,10 @@
 // The C++ module: the choice of one of its two builds, and its functions (bindings/wasm/page.h).
+import { in_words_of_the_page } from './words';
 
 export interface Page {
   room(bytes: number): Uint8Array;
-  load(name: string): string;
-  load_built_in(name: string, count: number): string;
+  load(name: string, radius: number, radius_scale: number): string;
+  load_built_in(name: string, count: number, radius: number, radius_scale: number): string;
   settings(): string;
   set(changes: string): string;
   look(): string;
@@ -76,5 +77,5 @@ export function value_of<T>(answer: string): T {
   if (!value.error) return value;
   const { message, file, line, column, hint, row } = value.error;
   const place = [file, line > 0 ? `line ${line}` : '', column > 0 ? `column ${column}` : ''].filter(Boolean).join(', ');
-  throw new BadInput(`${place ? `${place}: ` : ''}${message}${hint ? `; ${hint}` : ''}`, row);
+  throw new BadInput(in_words_of_the_page(`${place ? `${place}: ` : ''}${message}${hint ? `; ${hint}` : ''}`), row);
 }

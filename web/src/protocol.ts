@@ -12,6 +12,8 @@ export interface Camera {
   fov_deg: number;
   projection: 'perspective' | 'orthographic';
   shorter_side: number;
+  aperture: number;
+  focus: number; // 0: where look_at is
 }
 
 /** As ViewerSettings of the library; a limit of the tree that is null leaves the choice to the engine. */
@@ -23,6 +25,22 @@ export interface Settings {
   shadows: boolean;
   max_prims: number | 'unlimited' | null;
   max_depth: number | 'unlimited' | null;
+  samples_auto: boolean;
+  ao: boolean;
+  ao_distance: number | null; // null: no limit
+  ao_directions: number;
+  light_points: number;
+  opacity_rule: 'each_surface' | 'once';
+  fog: number;
+  outline_px: number;
+  exposure: number;
+  tone: 'none' | 'soft' | 'filmic';
+  legend: boolean;
+  scale_bar: boolean;
+  axes: boolean;
+  title: string;
+  length_unit: string | null; // null: the input's
+  focus_on: string;
   camera: Camera;
 }
 
@@ -38,6 +56,10 @@ export interface Look {
   style: string;
   element_colours: string;
   background: string;
+  lights: string[];
+  colour_by: string;
+  nan_colour: string;
+  crease: string;
   rows: LookRow[];
 }
 
@@ -50,11 +72,20 @@ export interface LookFault {
 /** Changes of settings; what a camera leaves out stays. */
 export type Changes = Omit<Partial<Settings>, 'camera'> & { camera?: Partial<Camera> };
 
-/** Where a scene comes from. A dropped file has no address, so that no link can bring it back. */
-export type Source =
-  | { built_in: string; count?: number }
-  | { url: string }
-  | { file: string };
+/** How the radii of a file are read; what is left out is the file's own. */
+export interface Reading {
+  radius?: number;
+  radius_scale?: number;
+}
+
+/** Where a scene comes from. A dropped file has no address: a link names it, and the page asks for it. */
+export type Source = ({ built_in: string; count?: number } | { url: string } | { file: string }) & { reading?: Reading };
+
+/** What colours the spheres; categories have no range. */
+export interface ColouredBy {
+  attribute: string;
+  range?: [number, number];
+}
 
 export interface Facts {
   name: string;
@@ -99,7 +130,7 @@ export type Move =
 /** To the worker. `id` comes back with the answer. */
 export type Request =
   | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
-  | { type: 'load'; id: number; source: Source; bytes: ArrayBuffer | null; name: string; settings: Partial<Settings> | null; look: Partial<Look> | null }
+  | { type: 'load'; id: number; source: Source; bytes: ArrayBuffer | null; name: string; settings: Changes | null; look: Partial<Look> | null }
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
@@ -112,12 +143,12 @@ export type Request =
 /** From the worker. `serial`: of the last request to set something that is in these settings. */
 export type Answer =
   | { type: 'ready'; version: string; threads: number; gpu: GpuState }
-  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; notes: string[] }
+  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; coloured_by: ColouredBy[]; notes: string[] }
   | { type: 'failed'; id: number | null; message: string }
   | { type: 'note'; message: string }
   | { type: 'gpu'; gpu: GpuState }
   | { type: 'settings'; serial: number; settings: Settings }
-  | { type: 'look'; serial: number; look: Look; counts: number[]; fault: LookFault | null }
+  | { type: 'look'; serial: number; look: Look; counts: number[]; coloured_by: ColouredBy[] | null; fault: LookFault | null }
   | { type: 'frame'; report: FrameReport; serial: number; settings: Settings; width_px: number; height_px: number }
   | { type: 'statistics'; json: string }
   | { type: 'picture_progress'; done: number }

@@ -1,7 +1,7 @@
 // The sources of scenes: built-in names, files that are picked or dropped, addresses on this server.
 import { element } from './dom';
 import { busy } from './messages';
-import type { Source } from './protocol';
+import type { Reading, Source } from './protocol';
 
 /** A scene to be loaded, and its bytes where it is not built in. */
 export interface Wanted {
@@ -11,7 +11,8 @@ export interface Wanted {
 }
 
 /** Fetches an address of this origin. Throws with words for the user. */
-async function fetched(url: string): Promise<Wanted> {
+async function fetched(source: Source & { url: string }): Promise<Wanted> {
+  const { url } = source;
   let address: URL;
   try {
     address = new URL(url, document.baseURI);
@@ -25,7 +26,7 @@ async function fetched(url: string): Promise<Wanted> {
     throw new Error(`${address.href} could not be fetched`);
   });
   if (!response.ok) throw new Error(`${address.href}: the server answered ${response.status} ${response.statusText}`);
-  return { source: { url }, bytes: await with_progress(response, name), name };
+  return { source, bytes: await with_progress(response, name), name };
 }
 
 async function with_progress(response: Response, name: string): Promise<ArrayBuffer> {
@@ -45,14 +46,35 @@ async function with_progress(response: Response, name: string): Promise<ArrayBuf
   }
 }
 
-export async function wanted_source(source: Source): Promise<Wanted> {
-  if ('built_in' in source) return { source, bytes: null, name: source.built_in };
-  if ('url' in source) return fetched(source.url);
-  throw new Error(`The file ${source.file} is not in the link: open it again`);
+/** A source whose radii are read like this. */
+export function with_reading(source: Source, reading: Reading | undefined): Source {
+  const { reading: _, ...place } = source;
+  return reading ? { ...place, reading } : place;
 }
 
-export async function wanted_file(file: File): Promise<Wanted> {
-  return { source: { file: file.name }, bytes: await file.arrayBuffer(), name: file.name };
+export async function wanted_source(source: Source): Promise<Wanted> {
+  if ('built_in' in source) return { source, bytes: null, name: source.built_in };
+  if ('url' in source) return fetched(source);
+  throw new Error(`The file ${source.file} must be opened`);
+}
+
+export async function wanted_file(file: File, reading?: Reading): Promise<Wanted> {
+  return { source: with_reading({ file: file.name }, reading), bytes: await file.arrayBuffer(), name: file.name };
+}
+
+const reading_inputs = () => [element<HTMLInputElement>('radius'), element<HTMLInputElement>('radius_scale')] as const;
+
+/** Calls `read` with the radii that the panel asks for. */
+export function listen_for_reading(read: (reading: Reading | undefined) => void): void {
+  const [radius, scale] = reading_inputs();
+  for (const input of [radius, scale])
+    input.addEventListener('change', () => {
+      if (!radius.reportValidity() || !scale.reportValidity()) return;
+      const reading: Reading = {};
+      if (radius.value !== '') reading.radius = Number(radius.value);
+      if (scale.value !== '') reading.radius_scale = Number(scale.value);
+      read(Object.keys(reading).length > 0 ? reading : undefined);
+    });
 }
 
 /** Calls `open` with files that are picked or dropped anywhere, and with sources that are chosen in the panel. */
@@ -101,5 +123,11 @@ export function show_source(source: Source): void {
   const name = 'built_in' in source ? source.built_in : '';
   element<HTMLSelectElement>('built_in').value = name;
   element('count_row').hidden = !name.startsWith('scenario');
+  const [radius, scale] = reading_inputs();
+  radius.value = String(source.reading?.radius ?? '');
+  scale.value = String(source.reading?.radius_scale ?? '');
+  // The thesis's scenes have radii of their own: scenarios take another one.
+  radius.disabled = name === 'four-spheres';
+  element('radius_scale_row').hidden = name !== '' && name !== 'demo';
   if ('built_in' in source && source.count) element<HTMLInputElement>('count').value = String(source.count);
 }

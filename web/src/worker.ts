@@ -3,7 +3,8 @@ import { BadInput, load_module, value_of, type Module, type Page } from './modul
 import { GlCanvas } from './gl_canvas';
 import { unpacked } from './gunzip';
 import { PictureRun } from './picture_run';
-import type { Answer, Changes, Facts, FrameReport, Look, Move, Request, Settings, ThesisProgress } from './protocol';
+import { in_words_of_the_page } from './words';
+import type { Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, Request, Settings, ThesisProgress } from './protocol';
 
 const frame_budget_ms = 25;
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
@@ -92,6 +93,12 @@ function on_restored(): void {
 
 // Frames.
 
+// Cameras change in parts.
+function merged(before: Changes, next: Changes): Changes {
+  const camera = before.camera || next.camera ? { camera: { ...before.camera, ...next.camera } } : {};
+  return { ...before, ...next, ...camera };
+}
+
 function ask_for_frame(): void {
   if (frame_pending || !has_scene || thesis || saving) return;
   frame_pending = true;
@@ -124,28 +131,23 @@ function apply_changes(): void {
   if ('max_prims' in changes || 'max_depth' in changes) statistics_wanted = true;
 }
 
-// A look that the GPU engine cannot draw.
-const is_beyond_gpu = ({ style, background }: Partial<Look>) => (style && style !== 'plain') || background === 'none';
-
 // A fault of one row is shown below it; any other fault is an error of the page.
 function apply_look(): void {
   if (!wanted_look) return;
   const changes = wanted_look;
   wanted_look = null;
   let counts: number[] = [];
+  let coloured_by: ColouredBy[] | null = null;
   let fault: BadInput | null = null;
   try {
-    ({ counts } = value_of<{ counts: number[] }>(page.set_look(JSON.stringify(changes))));
-    if (settings().engine === 'gpu' && is_beyond_gpu(changes)) {
-      value_of(page.set(JSON.stringify({ engine: 'cpu' })));
-      send({ type: 'note', message: 'The CPU engine draws now: the GPU engine draws the style plain, on a colour.' });
-    }
+    const done = value_of<{ counts: number[]; coloured_by: ColouredBy[] }>(page.set_look(JSON.stringify(changes)));
+    ({ counts, coloured_by } = done);
   } catch (error) {
     if (!(error instanceof BadInput)) throw error;
     fault = error;
   } finally {
     const words = fault && { row: fault.row, message: fault.message };
-    send({ type: 'look', serial: look_serial, look: look(), counts, fault: words });
+    send({ type: 'look', serial: look_serial, look: look(), counts, coloured_by, fault: words });
   }
   if (fault && fault.row < 0) throw fault;
   statistics_wanted = true;
@@ -211,15 +213,17 @@ async function next_frame(): Promise<void> {
 interface Loaded {
   facts: Facts;
   settings: Settings;
+  coloured_by: ColouredBy[];
 }
 
 // The look and the settings of a link, or of the scene. The engine is the user's choice, at first the one that draws
-// every style. Returns the messages of what failed.
-function choose(wanted_settings: Partial<Settings>, wanted: Partial<Look> | null): string[] {
+// every style. Returns what colours the spheres then, null where no look was wanted, and the messages of what failed.
+function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   const notes: string[] = [];
+  let coloured_by: ColouredBy[] | null = null;
   if (wanted) {
     try {
-      value_of(page.set_look(JSON.stringify(wanted)));
+      coloured_by = value_of<{ coloured_by: ColouredBy[] }>(page.set_look(JSON.stringify(wanted))).coloured_by;
     } catch (error) {
       notes.push(`The look does not fit this scene and was left out: ${(error as Error).message}`);
     }
@@ -234,31 +238,33 @@ function choose(wanted_settings: Partial<Settings>, wanted: Partial<Look> | null
     }
   }
   try {
-    // The engine first, because it may bring a look with other values along.
     if (engine) value_of(page.set(JSON.stringify({ engine })));
     value_of(page.set(JSON.stringify(others)));
   } catch (error) {
     notes.push(`Some settings do not fit this scene and were left out: ${(error as Error).message}`);
   }
-  return notes;
+  return { notes, coloured_by };
 }
 
 async function load(request: Request & { type: 'load' }): Promise<void> {
   let loaded: Loaded;
+  const { radius = -1, radius_scale = 1 } = request.source.reading ?? {};
   if ('built_in' in request.source) {
-    loaded = value_of(page.load_built_in(request.source.built_in, request.source.count ?? 0));
+    loaded = value_of(page.load_built_in(request.source.built_in, request.source.count ?? 0, radius, radius_scale));
   } else {
     const bytes = await unpacked(new Uint8Array(request.bytes!), request.name);
     page.room(bytes.byteLength).set(bytes);
-    loaded = value_of(page.load(request.name));
+    loaded = value_of(page.load(request.name, radius, radius_scale));
   }
   saving?.cancel();
   moves = [];
   wanted_look = null;
   has_scene = true;
   const { id, source } = request;
-  const notes = [...loaded.facts.warnings, ...choose(request.settings ?? {}, request.look)];
-  send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), notes });
+  const chosen = choose(request.settings ?? {}, request.look);
+  const coloured_by = chosen.coloured_by ?? loaded.coloured_by;
+  const notes = [...loaded.facts.warnings.map(in_words_of_the_page), ...chosen.notes];
+  send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), coloured_by, notes });
   statistics_wanted = true;
   ask_for_frame();
 }
@@ -337,7 +343,7 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
     case 'load':
       return attempt(request.id, () => load(request));
     case 'set':
-      wanted_changes = { ...wanted_changes, ...request.changes };
+      wanted_changes = merged(wanted_changes ?? {}, request.changes);
       serial = request.serial;
       return ask_for_frame();
     case 'look':

@@ -3,6 +3,7 @@
 #include "bihive/render/tree_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
+#include "bihive/scene/framing_cell.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -13,8 +14,9 @@ bool parallel(Vec3d a, Vec3d b) {
 }
 
 Camera framed(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings) {
-  return settings.view == View::tree
-             ? frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px)
+  return settings.view == View::tree ? frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px)
+         : settings.cell_lines
+             ? frame_with_cell(RemainingSpheres(scene).set(), side, lens, settings.width_px, settings.height_px)
              : frame_spheres(RemainingSpheres(scene).set(), side, lens, settings.width_px, settings.height_px);
 }
 
@@ -31,6 +33,16 @@ Camera placed(const Camera& before, const Input& input, const RenderOptions& opt
   else if (parallel(camera.up, view))
     camera.up = parallel({0, 1, 0}, view) ? Vec3d{0, 0, -1} : Vec3d{0, 1, 0};
   return camera;
+}
+
+// A camera that shows everything under a tiny angle stands too far away for single precision.
+void refuse_bad(const Camera& camera, const RenderOptions& options) {
+  constexpr double kTinyAngle = 1e-3;
+  const Status status = check_camera(camera);
+  if (status) return;
+  if (options.fov_deg && *options.fov_deg < kTinyAngle && !options.eye)
+    fail_usage("--fov: under so small an angle the camera would stand too far away", "choose a larger angle");
+  fail_usage(status.error().message, status.error().hint);
 }
 
 double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& camera) {
@@ -60,7 +72,7 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
     camera.projection = Projection::perspective;
   }
   if (user_places) camera = placed(camera, input, options);
-  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
+  refuse_bad(camera, options);
   camera = with_projection(camera, projection);
   if (options.turn && (user_places || !fitted)) camera = turned(camera, *options.turn);
   camera = enlarged(camera, options.zoom.value_or(1));
@@ -68,7 +80,7 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   camera.focus = options.focus ? focus_of(*options.focus, input.scene.spheres, camera) : input.scene.camera.focus;
   if (options.focus && camera.aperture == 0)
     fail_usage("--focus changes nothing without an aperture", "give the radius of the lens by --aperture");
-  if (const Status status = check_camera(camera); !status) fail_usage(status.error().message, status.error().hint);
+  refuse_bad(camera, options);
   return camera;
 }
 

@@ -60,13 +60,4 @@ void apply_effects(const StyleOptions& options, RenderSettings& settings) {
   settings.tone.curve = options.tone.value_or(settings.tone.curve);
 }
 
-std::string beyond_gpu(const Scene& scene, const RenderSettings& settings) {
-  if (settings.ambient_occlusion) return "ambient occlusion";
-  if (settings.outline || has_own_lines(scene)) return "outlines";
-  if (settings.fog) return "fog";
-  if (has_soft_light(scene) && settings.shadows) return "soft shadows";
-  if (settings.opacity_rule == OpacityRule::once && lets_light_through(scene)) return "opacity that counts once";
-  return "";
-}
-
 }  // namespace bihive::cli

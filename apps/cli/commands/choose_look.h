@@ -16,7 +16,4 @@ void apply_look(const StyleOptions& options, Input& input);
 /// The effects of the picture, with the user's options.
 void apply_effects(const StyleOptions& options, RenderSettings& settings);
 
-/// Whether a scene and its settings need what graphics processors do not draw; a name for it, or empty.
-std::string beyond_gpu(const Scene& scene, const RenderSettings& settings);
-
 }  // namespace bihive::cli

@@ -23,7 +23,7 @@ namespace bihive::cli {
 
 /// The engine that draws a picture: an engine of the CPU, or the graphics processor on the reference tree or on every
 /// sphere.
-enum class RenderEngine { automatic, wide, reference, brute, gpu, gpu_brute };
+enum class RenderEngine { automatic, wide, reference, brute, wide_brute, gpu, gpu_brute };
 
 /// Ambient occlusion: unset values are the scene's. A distance or a number of directions switches it on.
 struct AmbientOptions {
@@ -53,13 +53,11 @@ struct LabelOptions {
 /// Unset: the scene's value.
 /// The word of --background for a transparent picture.
 inline const std::string kNoBackground = "none";
-/// The word of --output for the standard output.
-inline const std::string kStandardOutput = "-";
 
 struct RenderOptions {
   InputOptions input;
   LookOptions looks;
-  std::string output;  ///< a path, or kStandardOutput
+  std::string output;  ///< a path, or "-": the standard output
   std::optional<std::vector<Layer>> layers;
   std::optional<PictureSize> size;
   std::optional<Tile> crop;  ///< not yet compared with the size
@@ -72,6 +70,7 @@ struct RenderOptions {
   std::optional<bool> shadows;
   StyleOptions style;
   LabelOptions labels;
+  bool cell = false;  ///< draw the edges of the cell
   std::optional<Transfer> transfer;
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
   std::optional<std::int64_t> bits;       ///< 8 or 16
@@ -150,13 +149,24 @@ struct SelectOptions {
 };
 void run_select(const SelectOptions& options);
 
+struct ConvertOptions {
+  InputOptions input;
+  std::string output;  ///< a file; "-": the standard output
+  std::string format;  ///< a name of kConvertFormats; empty: by the output's ending
+  std::string select;  ///< an expression; empty: all spheres
+  bool json = false;
+};
+void run_convert(const ConvertOptions& options);
+
 struct ThesisOptions {
   std::vector<std::string> experiments;  ///< names, or "all"; empty: all
   std::string out;                       ///< folder
   bool quick = false;
   std::uint64_t seed = 1;
   std::int64_t threads = 0;
-  std::string values;  ///< folder of other stated values; empty: the built-in ones
+  std::string values;                ///< folder of other stated values; empty: the built-in ones
+  std::vector<std::string> devices;  ///< runs that the page saved on other devices
+  std::string against;               ///< results.json of an older run to compare with; empty: none
   bool json = false;
 };
 void run_thesis(const ThesisOptions& options);

@@ -82,7 +82,7 @@ void print_json(const Facts& facts) {
   const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
   const auto range = [](const MemoryPrediction::Range& r) { return ordered_json{{"low", r.low}, {"high", r.high}}; };
   const Scene& scene = facts.input.scene;
-  ordered_json json;
+  ordered_json json = ordered_json::object();
   json["name"] = scene.name;
   json["format"] = facts.input.format;
   json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
@@ -97,7 +97,16 @@ void print_json(const Facts& facts) {
     json["attributes"].push_back({{"name", attribute.name},
                                   {"min", attribute.known() ? ordered_json(attribute.min) : ordered_json()},
                                   {"max", attribute.known() ? ordered_json(attribute.max) : ordered_json()}});
+  if (const std::optional<Cell>& cell = facts.spheres.cell()) {
+    json["cell"]["origin"] = vector(cell->origin);
+    for (const Vec3d& edge : cell->vectors) json["cell"]["vectors"].push_back(vector(edge));
+  } else {
+    json["cell"] = ordered_json();
+  }
+  json["copies"] = facts.spheres.images().counts;
   json["frames"] = facts.input.frames;
+  json["time_ps"] = facts.input.time_ps ? ordered_json(*facts.input.time_ps) : ordered_json();
+  json["step"] = facts.input.step ? ordered_json(*facts.input.step) : ordered_json();
   json["assemblies"] = facts.input.assemblies;
   json["rules"] = facts.input.rules;
   json["warnings"] = facts.input.warnings;
@@ -120,7 +129,7 @@ void print_json(const Facts& facts) {
 
 void print_text(const Facts& facts) {
   const auto row = [](const std::string& name, const std::string& value) {
-    print(fmt::format("  {:<18}{}\n", name, value));
+    print(fmt::format("  {:<18}{}\n", escaped(name), escaped(value)));
   };
   const auto interval = [](double min, double max) {
     // Adding 0 makes 0 of -0.
@@ -130,7 +139,7 @@ void print_text(const Facts& facts) {
     return readable_bytes(static_cast<double>(r.low)) + " to " + readable_bytes(static_cast<double>(r.high));
   };
   const Scene& scene = facts.input.scene;
-  print(fmt::format("{}: {}, {} spheres\n", scene.name, facts.input.format, grouped(facts.spheres.size())));
+  print(fmt::format("{}: {}, {} spheres\n", escaped(scene.name), facts.input.format, grouped(facts.spheres.size())));
   const char* const axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) row(axes[axis], interval(facts.bounds.lo[axis], facts.bounds.hi[axis]));
   row("radius", interval(facts.radius.min, facts.radius.max));
@@ -139,7 +148,20 @@ void print_text(const Facts& facts) {
     row("", fmt::format("{} radii are below 2^-60 of the set's extent", grouped(facts.spheres.vanishing_radii())));
   for (const Range& attribute : facts.attributes)
     row(attribute.name, attribute.known() ? interval(attribute.min, attribute.max) : "unknown");
+  if (const std::optional<Cell>& cell = facts.spheres.cell()) {
+    const char* const names[] = {"cell a", "cell b", "cell c"};
+    for (std::size_t k = 0; k < 3; ++k)
+      row(names[k], fmt::format("{:.6g}, {:.6g}, {:.6g}", cell->vectors[k].x + 0, cell->vectors[k].y + 0,
+                                cell->vectors[k].z + 0));
+    if (cell->origin != Vec3d{})
+      row("cell from", fmt::format("{:.6g}, {:.6g}, {:.6g}", cell->origin.x, cell->origin.y, cell->origin.z));
+  }
+  if (facts.spheres.has_images())
+    row("copies", fmt::format("{}: {} spheres with their copies", fmt::join(facts.spheres.images().counts, " x "),
+                              grouped(facts.spheres.total_size())));
   row("frames", grouped(facts.input.frames));
+  if (facts.input.time_ps) row("time", fmt::format("{:.9g} ps", *facts.input.time_ps));
+  if (facts.input.step) row("step", grouped(*facts.input.step));
   if (!facts.input.assemblies.empty()) row("assemblies", fmt::format("{}", fmt::join(facts.input.assemblies, ", ")));
   for (const std::string& rule : facts.input.rules) row("read as", rule);
   const Vec3d shift = facts.input.recentred_by;

@@ -81,7 +81,7 @@ std::vector<AttributeFacts> facts_of(const SphereSet& spheres) {
 }
 
 void print_attributes_json(const Input& input, const std::vector<AttributeFacts>& facts) {
-  ordered_json json;
+  ordered_json json = ordered_json::object();
   json["name"] = input.scene.name;
   json["spheres"] = input.scene.spheres.size();
   json["attributes"] = ordered_json::array();
@@ -103,7 +103,7 @@ void print_attributes_json(const Input& input, const std::vector<AttributeFacts>
 }
 
 void print_attributes_text(const Input& input, const std::vector<AttributeFacts>& facts) {
-  print(fmt::format("{}: {} spheres, {} attributes\n", input.scene.name, grouped(input.scene.spheres.size()),
+  print(fmt::format("{}: {} spheres, {} attributes\n", escaped(input.scene.name), grouped(input.scene.spheres.size()),
                     facts.size()));
   for (const AttributeFacts& one : facts) {
     std::string values;
@@ -117,7 +117,7 @@ void print_attributes_text(const Input& input, const std::vector<AttributeFacts>
       values = one.has_range() ? fmt::format("{:.6g} to {:.6g}", one.least + 0, one.most + 0) : "unknown";
       if (one.unknown > 0) values += fmt::format(", {} NaN", grouped(one.unknown));
     }
-    print(fmt::format("  {:<18}{:<26}{}\n", one.name, one.kind, values));
+    print(fmt::format("  {:<18}{:<26}{}\n", escaped(one.name), one.kind, escaped(values)));
   }
 }
 

@@ -9,11 +9,16 @@
 
 namespace bihive::cli {
 
-inline const Names<Engine> kEngines{
-    {"auto", Engine::automatic}, {"wide", Engine::wide}, {"reference", Engine::reference}, {"brute", Engine::brute}};
+inline const Names<Engine> kEngines{{"auto", Engine::automatic},
+                                    {"wide", Engine::wide},
+                                    {"reference", Engine::reference},
+                                    {"brute", Engine::brute},
+                                    {"wide-brute", Engine::wide_brute}};
 inline const Names<RenderEngine> kRenderEngines{
-    {"auto", RenderEngine::automatic}, {"wide", RenderEngine::wide}, {"reference", RenderEngine::reference},
-    {"brute", RenderEngine::brute},    {"gpu", RenderEngine::gpu},   {"gpu-brute", RenderEngine::gpu_brute}};
+    {"auto", RenderEngine::automatic},        {"wide", RenderEngine::wide},
+    {"reference", RenderEngine::reference},   {"brute", RenderEngine::brute},
+    {"wide-brute", RenderEngine::wide_brute}, {"gpu", RenderEngine::gpu},
+    {"gpu-brute", RenderEngine::gpu_brute}};
 inline const Names<Transfer> kTransfers{{"srgb", Transfer::srgb}, {"none", Transfer::none}};
 
 }  // namespace bihive::cli

@@ -1,6 +1,7 @@
 #include "commands/picture_file.h"
 
 #include <algorithm>
+#include <array>
 
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
@@ -9,7 +10,7 @@
 #include "commands/commands.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
+#include "support/outputs.h"
 
 namespace bihive::cli {
 namespace {
@@ -39,11 +40,23 @@ RenderSettings settings_of(const RenderSettings& settings, const Tile& pixels) {
   return of_part;
 }
 
+// In lower case, with its dot; empty: none.
+std::string ending_of(const std::string& output) {
+  const std::size_t dot = output.rfind('.');
+  if (dot == std::string::npos || output.find('/', dot) != std::string::npos) return "";
+  std::string ending = output.substr(dot);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending;
+}
+
 class PngFileOfRows : public PictureFile {
  public:
   PngFileOfRows(PictureToWrite picture, PngEncoder encoder)
       : picture_(std::move(picture)),
         encoder_(std::move(encoder)),
+        output_(output_path(picture_.options.output)),
+        stream_(is_stream(output_)),
         hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()) {}
 
   Status add(const Film& film, const Tile& pixels) override {
@@ -59,7 +72,7 @@ class PngFileOfRows : public PictureFile {
   Status finish() override {
     if (Status status = encoder_.finish(); !status) return status;
     if (Status status = write(); !status) return status;
-    if (!file_) return Done{};
+    if (stream_) return file_->finish();
     const WritingSection section;
     return file_->finish();
   }
@@ -74,13 +87,9 @@ class PngFileOfRows : public PictureFile {
   // The file begins with its first rows, so that a small picture is drawn before there is one.
   Status write() {
     const std::string bytes = encoder_.take_bytes();
-    const std::string& output = picture_.options.output;
-    if (output == kStandardOutput) {
-      print(bytes);
-      return Done{};
-    }
+    const StreamSection nobody_may_read(stream_);
     if (!file_) {
-      Result<GrowingFile> file = GrowingFile::begin(output);
+      Result<GrowingFile> file = GrowingFile::begin(output_);
       if (!file) return file.error();
       file_.emplace(std::move(*file));
       removed_.emplace(file_->path_aside());
@@ -90,7 +99,9 @@ class PngFileOfRows : public PictureFile {
 
   PictureToWrite picture_;
   PngEncoder encoder_;
-  std::optional<GrowingFile> file_;  // none: the standard output
+  std::string output_;
+  bool stream_;
+  std::optional<GrowingFile> file_;
   std::optional<RemovedWhenEnded> removed_;
   PictureHash hash_;
 };
@@ -134,13 +145,17 @@ class ExrFileOfRows : public PictureFile {
 
 }  // namespace
 
+void check_picture_name(const std::string& output) {
+  constexpr std::array kOthers{".jpg", ".jpeg", ".jpe",  ".jp2",  ".jxl",  ".ppm", ".pgm", ".pbm", ".pnm", ".pam",
+                               ".bmp", ".gif",  ".tif",  ".tga",  ".tiff", ".hdr", ".pfm", ".svg", ".pdf", ".eps",
+                               ".ps",  ".webp", ".avif", ".heic", ".psd",  ".ico", ".xpm", ".mp4", ".webm"};
+  const std::string ending = ending_of(output);
+  if (std::find(kOthers.begin(), kOthers.end(), ending) == kOthers.end()) return;
+  fail_usage("bihive writes PNG and OpenEXR, not " + ending, "let the output end in .png or .exr");
+}
+
 bool is_exr(const std::string& output) {
-  constexpr std::string_view kEnding = ".exr";
-  if (output.size() < kEnding.size()) return false;
-  std::string ending = output.substr(output.size() - kEnding.size());
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending == kEnding;
+  return ending_of(output) == ".exr";
 }
 
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings) {

@@ -18,6 +18,9 @@ namespace bihive::cli {
 
 struct RenderOptions;
 
+/// Fails with kBadUsage if the output's name promises a format that is not written: .jpg, .tif, .svg.
+void check_picture_name(const std::string& output);
+
 /// Whether the output's name says so.
 bool is_exr(const std::string& output);
 

@@ -1,7 +1,6 @@
 // bihive render: from an input to a picture.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/base/version.h"
-#include "bihive/base/write_file.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/tree_picture.h"
 #include "bihive/scene/clips.h"
@@ -24,6 +22,7 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
+#include "support/outputs.h"
 
 namespace bihive::cli {
 namespace {
@@ -45,7 +44,7 @@ RenderEngine choose_engine(const RenderOptions& options) {
   if (engine == RenderEngine::automatic) return RenderEngine::reference;
   const std::string view = "--view " + name_of(kViews, options.view);
   const std::string chosen = "--engine " + name_of(kRenderEngines, engine);
-  if (engine == RenderEngine::brute || engine == RenderEngine::gpu_brute)
+  if (engine == RenderEngine::brute || engine == RenderEngine::wide_brute || engine == RenderEngine::gpu_brute)
     fail_usage(view + " shows a tree, and " + chosen + " has none");
   if (engine == RenderEngine::wide)
     fail_usage(view + " shows the reference tree, and --engine wide has another one",
@@ -67,6 +66,8 @@ Engine structure_of(RenderEngine engine) {
     case RenderEngine::brute:
     case RenderEngine::gpu_brute:
       return Engine::brute;
+    case RenderEngine::wide_brute:
+      return Engine::wide_brute;
     case RenderEngine::automatic:
       break;
   }
@@ -77,7 +78,7 @@ Engine structure_of(RenderEngine engine) {
 void describe_effects(const RenderSettings& settings, const Scene& scene, ordered_json& json) {
   if (settings.ambient_occlusion) {
     const AmbientOcclusion& ambient = *settings.ambient_occlusion;
-    ordered_json& object = json["ambient_occlusion"];
+    ordered_json& object = json["ambient_occlusion"] = ordered_json::object();
     if (std::isfinite(ambient.distance)) object["distance"] = ambient.distance;
     object["directions"] = ambient.directions;
   }
@@ -95,7 +96,7 @@ void describe_effects(const RenderSettings& settings, const Scene& scene, ordere
 
 void describe_labels(const Labels& labels, ordered_json& json) {
   if (!labels.any()) return;
-  ordered_json& object = json["labels"];
+  ordered_json& object = json["labels"] = ordered_json::object();
   if (labels.legend) object["legend"] = true;
   if (labels.scale_bar) object["scale_bar"] = true;
   if (labels.axes) object["axes"] = true;
@@ -107,8 +108,9 @@ void describe_labels(const Labels& labels, ordered_json& json) {
 ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene,
                            const std::vector<Layer>& layers) {
   const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
-  ordered_json json;
+  ordered_json json = ordered_json::object();
   json["view"] = name_of(kViews, settings.view);
+  if (!layers.empty()) json["layers"] = ordered_json::array();
   for (const Layer& layer : layers) json["layers"].push_back(name_of_layer(layer));
   json["width_px"] = settings.width_px;
   json["height_px"] = settings.height_px;
@@ -147,8 +149,15 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   if (input.radius) json["radius"] = *input.radius;
   if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
   if (input.frame) json["frame"] = *input.frame;
+  if (!input.trajectory.empty()) json["trajectory"] = input.trajectory;
   if (input.recenter) json["recenter"] = true;
   if (!input.assembly.empty()) json["assembly"] = input.assembly;
+  if (scene.spheres.has_images()) json["replicate"] = scene.spheres.images().counts;
+  if (input.cell_vectors)
+    for (const Vec3d& v : *input.cell_vectors) json["cell_vectors"].push_back({v.x, v.y, v.z});
+  if (input.cell_origin) json["cell_origin"] = {input.cell_origin->x, input.cell_origin->y, input.cell_origin->z};
+  if (input.wrapping != Wrapping::none) json["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
+  if (settings.cell_lines) json["cell"] = true;
   if (!options.looks.element_colours.empty()) json["element_colours"] = options.looks.element_colours;
   if (!options.looks.words.empty()) json["looks"] = options.looks.words;
   return json;
@@ -274,6 +283,12 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
   settings.shadows = options.shadows.value_or(settings.shadows);
   apply_effects(options.style, settings);
+  if (options.cell && !settings.cell_lines) settings.cell_lines.emplace();
+  if (options.cell && !scene.spheres.cell())
+    fail({"there is no periodic cell that --cell could draw", options.input.input, 0, 0,
+          "give one with --cell-vectors"});
+  if (options.cell && options.view != View::shaded)
+    fail_usage("--cell draws on the shaded picture alone", "leave out --view");
   settings.view = options.view;
   settings.threads = static_cast<int>(options.threads);
   scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
@@ -298,25 +313,17 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
     fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + what,
                "leave --engine out, or draw " + without);
   };
-  if (const std::string beyond = beyond_gpu(scene, settings); settings.view == View::shaded && !beyond.empty())
-    refuse(beyond, "without it: --style plain");
-  if (settings.view == View::shaded && settings.tone.any())
-    refuse("exposure and tone curve", "without them: --exposure 0 --tone none");
+  if (settings.cell_lines) refuse("edges of a cell", "without --cell");
   if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: --samples 4");
   if (has_clips(scene)) refuse("cut spheres", "without --clip");
-  if (scene.camera.aperture > 0) refuse("depth of field", "without it: --aperture 0");
-  if (settings.crop) refuse("part of a picture", "the whole picture without --crop");
-  if (settings.transparent) refuse("transparent background", "on a colour: --background white");
+  if (scene.spheres.has_images()) refuse("replicated spheres", "without --replicate");
 }
 
 void check_output(const RenderOptions& options) {
-  if (options.output != kStandardOutput) {
-    if (const Status status = check_writable(options.output); !status) fail(status.error());
-    return;
-  }
-  if (options.json) fail_usage("--json prints where -o - writes the picture", "write the picture into a file");
-  if (isatty(STDOUT_FILENO) != 0)
-    fail_usage("-o - would write the picture to the terminal", "send it to a program or into a file");
+  check_picture_name(options.output);
+  check_outputs({options.output}, {file_of(options.input), options.style.name, options.looks.element_colours});
+  if (options.json && on_standard_output({options.output}))
+    fail_usage("--json prints where -o " + options.output + " writes the picture", "write the picture into a file");
 }
 
 // A picture that does not come in bands, and the tree, must fit the memory.
@@ -330,7 +337,7 @@ ordered_json report_json(const RenderOptions& options, const Input& input, const
                          RenderEngine engine, const Tracer& tracer, const Drawn& drawn) {
   const Scene& scene = input.scene;
   const Tile pixels = drawn_pixels(settings);
-  ordered_json json;
+  ordered_json json = ordered_json::object();
   json["output"] = options.output;
   json["scene"] = scene.name;
   json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
@@ -351,16 +358,19 @@ void run_render(const RenderOptions& options) {
 
   // Load the scene and apply the user's options to it.
   const bool named = !options.style.name.empty();
-  const Style style = is_gpu(engine) && !named ? Style{} : choose_style(options.style);
+  const Style style = choose_style(options.style);
   Input input = load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named);
+  check_outputs({options.output}, input.files);
   if (options.transfer) input.scene.picture.transfer = *options.transfer;
   look(input, options.looks);
-  if (is_gpu(engine) && options.view == View::id && !input.scene.id_in_input.empty())
-    fail_usage("--engine " + name_of(kRenderEngines, engine) + " does not know the ids of a set with hidden spheres",
-               "leave --engine out");
   RenderSettings settings = apply_options(options, input);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of whole spheres", "leave out --clip");
+  if (shows_reference_tree(settings.view) && input.scene.spheres.has_images())
+    fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of the stored spheres",
+               "leave out --replicate");
+  if (input.scene.spheres.has_images() && has_clips(input.scene))
+    fail_usage("--clip does not cut the copies of --replicate", "leave one of them out");
   const Scene& scene = input.scene;
   const std::vector<Layer> layers = choose_layers(options, scene, settings);
   if (is_gpu(engine)) refuse_on_gpu(engine, scene, settings);
@@ -376,15 +386,18 @@ void run_render(const RenderOptions& options) {
                       : is_gpu(engine) ? draw_on_gpu(scene, tracer, settings, *file)
                                        : draw_on_cpu(scene, tracer, settings, *file);
   value_or_fail(file->finish());
-  if (options.output == kStandardOutput) return;
 
   // Print the report.
   const double mray_per_s = drawn.render_ms > 0 ? static_cast<double>(drawn.all_rays) / drawn.render_ms / 1000 : 0;
   if (!options.json) {
     const Tile pixels = drawn_pixels(settings);
-    print(fmt::format("{}: {} x {}, {} spheres; tree {}, picture {} ({:.3g} Mray/s of all kinds)\n", options.output,
-                      pixels.width(), pixels.height(), grouped(scene.spheres.size()), readable_ms(tracer.build_ms()),
-                      readable_ms(drawn.render_ms), mray_per_s));
+    const std::string copies = scene.spheres.has_images()
+                                   ? fmt::format(" in {} copies", grouped(scene.spheres.images().count()))
+                                   : std::string();
+    print_report(fmt::format("{}: {} x {}, {} spheres{}; tree {}, picture {} ({:.3g} Mray/s of all kinds)\n",
+                             escaped(options.output), pixels.width(), pixels.height(), grouped(scene.spheres.size()),
+                             copies, readable_ms(tracer.build_ms()), readable_ms(drawn.render_ms), mray_per_s),
+                 {options.output});
     return;
   }
   ordered_json json = report_json(options, input, settings, engine, tracer, drawn);

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "bihive/base/write_file.h"
 #include "bihive/io/npy.h"
 #include "bihive/scene/scene_file.h"
 #include "commands/commands.h"
 #include "support/failure.h"
-#include "support/interrupt.h"
 #include "support/messages.h"
+#include "support/outputs.h"
+#include "support/write_together.h"
 
 namespace bihive::cli {
 namespace {
@@ -34,20 +34,20 @@ std::string npy_of(const SphereSet& spheres) {
 
 void run_scene(const SceneOptions& options) {
   const bool npy = ends_with(options.output, ".npy");
-  if (!npy && !ends_with(options.output, ".json"))
-    fail_usage("the output's name must end in .npy (spheres alone) or .json (a scene file)");
-  if (const Status status = check_writable(options.output); !status) fail(status.error());
+  if (!npy && !ends_with(options.output, ".json") && options.output != kStandardStream)
+    fail_usage("the output's name must end in .npy (spheres alone) or .json (a scene file)",
+               "- writes a scene file to the standard output");
+  check_outputs({options.output}, {});
   const std::optional<Scene> scene = generated_scene(options.input);
   if (!scene)
     fail_usage("expected scenario1, scenario2, scenario3 or four-spheres, found \"" + options.input.input + "\"");
 
   const std::string bytes = npy ? npy_of(scene->spheres) : scene_to_json(*scene);
-  {
-    const WritingSection section;
-    if (const Status status = write_file(options.output, bytes); !status) fail(status.error());
-  }
+  write_together({{output_path(options.output), bytes}});
   const std::string seed = scene->seed ? fmt::format(", seed {}", *scene->seed) : "";
-  print(fmt::format("{}: {}, {} spheres{}\n", options.output, scene->name, grouped(scene->spheres.size()), seed));
+  print_report(
+      fmt::format("{}: {}, {} spheres{}\n", escaped(options.output), scene->name, grouped(scene->spheres.size()), seed),
+      {options.output});
 }
 
 }  // namespace bihive::cli

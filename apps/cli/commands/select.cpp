@@ -33,11 +33,11 @@ void run_select(const SelectOptions& options) {
   const std::vector<std::uint8_t> mask = selected_or_fail(spheres, options.expression, "EXPRESSION");
   const std::int64_t count = std::count(mask.begin(), mask.end(), std::uint8_t{1});
   if (!options.json) {
-    print(fmt::format("{}: {} of {} spheres\n{}\n", input.scene.name, grouped(count), grouped(spheres.size()),
+    print(fmt::format("{}: {} of {} spheres\n{}\n", escaped(input.scene.name), grouped(count), grouped(spheres.size()),
                       ids_as_ranges(mask)));
     return;
   }
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["name"] = input.scene.name;
   json["expression"] = options.expression;
   json["spheres"] = spheres.size();

@@ -12,7 +12,8 @@
 namespace bihive::cli {
 
 void run_styles(const StylesOptions& options) {
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  json["styles"] = nlohmann::ordered_json::array();
   std::string text;
   for (const std::string& name : style_names()) {
     const Style style = value_or_fail(style_named(name));

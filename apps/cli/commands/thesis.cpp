@@ -11,11 +11,17 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
+#include "bihive/simd/target.h"
 #include "commands/commands.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
+#include "support/outputs.h"
+#include "thesis/against.h"
+#include "thesis/claims.h"
+#include "thesis/devices.h"
 #include "thesis/experiment.h"
+#include "thesis/machine_load.h"
 #include "thesis/report.h"
 #include "thesis/step_store.h"
 
@@ -30,6 +36,7 @@ struct Run {
   Values values;
   std::vector<Step> steps;
   StepResults results;
+  std::map<std::string, MachineLoad> loads;  // of each step with a result
   std::string folder;
   bool asked = false;  // on the command line; else it is shown as an earlier run left it
 
@@ -43,13 +50,45 @@ void make_folder(const std::string& folder) {
     fail({"the folder cannot be made: " + (error ? error.message() : "a file is in its place"), folder, 0, 0, ""});
 }
 
-// Steps make pictures, and somebody may have removed the pictures since.
+// Steps make pictures, and somebody may have removed the pictures since, or changed the steps.
 bool has_its_pictures(const Run& run, const Settings& settings, const std::string& out) {
   if (run.results.empty()) return true;
   make_folder(run.folder);
-  const Section section = run.experiment.section({settings, run.values, run.results, run.folder});
+  Section section;
+  try {
+    section = run.experiment.section({settings, run.values, run.results, run.folder});
+  } catch (const Json::exception&) {
+    warn(out + "/steps/" + run.experiment.id + ": holds what this program did not write; the steps are run again");
+    return false;
+  }
   return std::all_of(section.illustrations.begin(), section.illustrations.end(),
                      [&](const Illustration& picture) { return fs::is_regular_file(out + "/" + picture.file); });
+}
+
+// Other stated values: the folder must be there, with a file for each experiment that is named. Of `all` it may hold
+// some, and the user is told which ones are the bundled ones.
+void check_values(const ThesisOptions& options) {
+  if (options.values.empty()) return;
+  if (!fs::is_directory(options.values)) fail({"there is no such folder", options.values, 0, 0, "--values names one"});
+  const bool all =
+      options.experiments.empty() || std::count(options.experiments.begin(), options.experiments.end(), "all") > 0;
+  std::string bundled;
+  std::int64_t found = 0;
+  for (const Experiment& experiment : all_experiments()) {
+    const bool named = std::count(options.experiments.begin(), options.experiments.end(), experiment.id) > 0;
+    if (!all && !named) continue;
+    const std::string file = options.values + "/" + experiment.id + "/values.json";
+    std::error_code unknown;
+    if (fs::exists(file, unknown) || unknown)
+      ++found;
+    else if (named)
+      fail({"there are no values of " + experiment.id, file, 0, 0, "leave out --values, or name another experiment"});
+    else
+      bundled += (bundled.empty() ? "" : ", ") + experiment.id;
+  }
+  if (found == 0)
+    fail({"there are no values in it", options.values, 0, 0, "expected " + options.values + "/EXPERIMENT/values.json"});
+  if (!bundled.empty()) warn(options.values + ": holds no values of " + bundled + "; the bundled ones are used");
 }
 
 // The requested experiments, and those of an earlier run into the same folder that are still valid.
@@ -57,12 +96,14 @@ std::vector<Run> collect_runs(const ThesisOptions& options, const Settings& sett
   std::vector<Run> runs;
   for (Experiment& experiment : all_experiments()) {
     Values values = load_values(experiment.id, options.values);
-    Run run{std::move(experiment), std::move(values), {}, {}, "", false};
+    Run run{std::move(experiment), std::move(values), {}, {}, {}, "", false};
     run.steps = run.experiment.steps(settings, run.values);
     run.folder = options.out + "/" + run.experiment.id;
     for (const Step& step : run.steps)
-      if (std::optional<Json> result = store.load(run.experiment.id, step.name, run.values))
-        run.results.emplace(step.name, std::move(*result));
+      if (std::optional<StepStore::Saved> saved = store.load(run.experiment.id, step.name, run.values)) {
+        run.results.emplace(step.name, std::move(saved->result));
+        run.loads.emplace(step.name, saved->load);
+      }
     if (!has_its_pictures(run, settings, options.out)) run.results.clear();
     const bool all =
         options.experiments.empty() || std::count(options.experiments.begin(), options.experiments.end(), "all") > 0;
@@ -88,10 +129,13 @@ void run_steps(std::vector<Run>& runs, const Settings& settings, const StepStore
       progress.rename(run.experiment.id + " " + step.name);
       progress.update(done / all);
       StepContext context{settings, run.values, run.folder, CancellableSection::token()};
+      const LoadWatch watch;
       Json result = step.run(context);
       if (CancellableSection::token().cancelled()) return;
-      store.save(run.experiment.id, step.name, run.values, result);
+      const MachineLoad load = watch.so_far();
+      store.save(run.experiment.id, step.name, run.values, {result, load});
       run.results.emplace(step.name, std::move(result));
+      run.loads.emplace(step.name, load);
       done += step.weight;
     }
   }
@@ -100,10 +144,13 @@ void run_steps(std::vector<Run>& runs, const Settings& settings, const StepStore
 std::vector<ReportSection> sections_of(const std::vector<Run>& runs, const Settings& settings) {
   std::vector<ReportSection> sections;
   for (const Run& run : runs) {
-    ReportSection section{run.experiment.id, run.experiment.title, {}, {}, &run.values};
+    ReportSection section{run.experiment.id, run.experiment.title, {}, {}, &run.values, {}};
     section.section = run.experiment.section({settings, run.values, run.results, run.folder});
     for (const Step& step : run.steps)
-      if (!run.done(step)) section.missing_steps.push_back(step.name);
+      if (!run.done(step))
+        section.missing_steps.push_back(step.name);
+      else if (const auto load = run.loads.find(step.name); load != run.loads.end())
+        section.load.add(load->second);
     sections.push_back(std::move(section));
   }
   return sections;
@@ -116,21 +163,59 @@ std::string processor() {
   return "unknown processor";
 }
 
+std::string compiler() {
+#if defined(__clang__)
+  const std::string name = "clang ";
+#else
+  const std::string name = "gcc ";
+#endif
+#ifdef NDEBUG
+  const std::string checks = "";
+#else
+  const std::string checks = ", with assertions";
+#endif
+  return fmt::format("{}{}{}; vectors: {}", name, __VERSION__, checks, active_target());
+}
+
+// The command of this run, as one could write it again; defaults are left out.
+std::string command_of(const ThesisOptions& options) {
+  std::string command = "bihive thesis";
+  for (const std::string& experiment : options.experiments) command += " " + experiment;
+  command += " --out " + options.out;
+  if (options.quick) command += " --quick";
+  if (options.seed != ThesisOptions{}.seed) command += fmt::format(" --seed {}", options.seed);
+  if (options.threads != 0) command += fmt::format(" --threads {}", options.threads);
+  if (!options.values.empty()) command += " --values " + options.values;
+  for (const std::string& device : options.devices) command += " --device " + device;
+  if (!options.against.empty()) command += " --against " + options.against;
+  return command;
+}
+
 std::string now() {
   const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   char text[32];
   return {text, std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&time))};
 }
 
-void print_summary(const std::vector<ReportSection>& sections, const std::string& report) {
+void print_summary(const std::vector<ReportSection>& sections, const std::vector<ReportFront>& fronts,
+                   const std::string& report) {
   for (const ReportSection& section : sections) {
-    const Verdicts verdicts = count_verdicts(section.section);
+    const VerdictCounts counts = count_verdicts(section.section);
     const std::string state =
         section.missing_steps.empty() ? "complete" : fmt::format("{} steps missing", section.missing_steps.size());
-    print(
-        fmt::format("{:<12} {:<18} {} values agree, {} differ\n", section.id, state, verdicts.agree, verdicts.differ));
+    std::string text = fmt::format("{:<12} {:<18} of the text: {} agree, {} differ, {} undecided", section.id, state,
+                                   counts.stated.agrees, counts.stated.differs, counts.stated.undecided);
+    const auto add = [&](const VerdictCounts::OfKind& kind, const char* what) {
+      if (kind.all() > 0) text += fmt::format("; {}: {} of {}", what, kind.agrees, kind.all());
+    };
+    add(counts.inferred, "inferred");
+    add(counts.own_check, "own checks");
+    if (counts.text_inconsistent > 0) text += fmt::format("; text inconsistent: {}", counts.text_inconsistent);
+    print(text + "\n");
   }
-  print(report + "\n");
+  for (const ReportFront& front : fronts)
+    if (front.id != "devices" && !front.paragraphs.empty()) print(front.paragraphs.back() + "\n");
+  print(escaped(report) + "\n");
 }
 
 }  // namespace
@@ -141,9 +226,15 @@ namespace bihive::cli {
 void run_thesis(const ThesisOptions& options) {
   using namespace thesis;
   const Settings settings{options.quick, static_cast<int>(options.threads), options.seed};
+  check_values(options);
+  if (options.out == kStandardStream) fail_usage("--out names a folder, and - is none");
   make_folder(options.out);
   const std::string report = options.out + "/report.html";
   if (const Status status = check_writable(report); !status) fail(status.error());
+  // A file that is none is told before the run.
+  if (!options.against.empty()) compared_with(options.against, {});
+  const Values figure_4_4 = load_values("figure-4.4", options.values);
+  if (!options.devices.empty()) devices_page(options.devices, figure_4_4);
   const StepStore store(options.out, settings);
   std::vector<Run> runs = collect_runs(options, settings, store);
 
@@ -153,18 +244,28 @@ void run_thesis(const ThesisOptions& options) {
   run_steps(runs, settings, store);
   const std::vector<ReportSection> sections = sections_of(runs, settings);
   const int threads = settings.threads > 0 ? settings.threads : hardware_threads();
-  const ReportHeader header{settings, std::string(version()), std::string(commit()),
-                            fmt::format("{}, {} threads", processor(), threads), now()};
-  const std::string json = results_json(header, sections).dump(2) + "\n";
+  ReportHeader header{settings,
+                      std::string(version()),
+                      std::string(commit()),
+                      fmt::format("{}, {} threads", processor(), threads),
+                      compiler(),
+                      command_of(options),
+                      now(),
+                      {}};
+  for (const ReportSection& of_experiment : sections) header.load.add(of_experiment.load);
+  std::vector<ReportFront> fronts{verdict_page(sections)};
+  if (!options.devices.empty()) fronts.push_back(devices_page(options.devices, figure_4_4));
+  if (!options.against.empty()) fronts.push_back(compared_with(options.against, sections));
+  const std::string json = results_json(header, fronts, sections).dump(2) + "\n";
   if (const Status status = write_file(options.out + "/results.json", json); !status) fail(status.error());
-  if (const Status status = write_file(report, report_html(header, sections, options.out)); !status)
+  if (const Status status = write_file(report, report_html(header, fronts, sections, options.out)); !status)
     fail(status.error());
   CancellableSection::leave_if_cancelled();
 
   if (options.json)
     print(json);
   else
-    print_summary(sections, report);
+    print_summary(sections, fronts, report);
 }
 
 }  // namespace bihive::cli

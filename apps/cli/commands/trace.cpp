@@ -10,7 +10,6 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
-#include "bihive/base/write_file.h"
 #include "bihive/geometry/plane.h"
 #include "bihive/io/npy.h"
 #include "bihive/render/memory.h"
@@ -21,6 +20,7 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
+#include "support/outputs.h"
 #include "support/write_together.h"
 
 namespace bihive::cli {
@@ -36,7 +36,7 @@ constexpr std::int64_t kSpheresPerChunk = 1 << 25;  // brute force tests per chu
 class RayFile {
  public:
   explicit RayFile(const std::string& path) {
-    Result<NpyArray> array = parse_npy(value_or_fail(read_file(path)), path);
+    Result<NpyArray> array = parse_npy(read_input(path), path);
     array_ = value_or_fail(std::move(array));
     const std::string& dtype = array_.dtype;
     if (dtype.size() < 2 || dtype.substr(dtype.size() - 2) != "f4")
@@ -149,11 +149,14 @@ Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, con
 
 void run_trace(const TraceOptions& options) {
   if (options.t == options.id) fail_usage("--t and --id name the same file");
-  for (const std::string& path : {options.t, options.id})
-    if (const Status status = check_writable(path); !status) fail(status.error());
+  if (options.rays == kStandardStream && options.input.input == kStandardStream)
+    fail_usage("INPUT and --rays cannot both be the standard input");
+  const std::vector<std::string> outputs{options.t, options.id};
+  check_outputs(outputs, {options.rays, file_of(options.input)});
 
   const RayFile rays(options.rays);
   const Input input = load_input(options.input);
+  check_outputs(outputs, input.files);
   value_or_fail(check_tree_memory(input.scene.spheres, options.engine, options.tree));
   const Tracer tracer =
       value_or_fail(Tracer::build(input.scene, options.engine, options.tree, static_cast<int>(options.threads)));
@@ -173,11 +176,13 @@ void run_trace(const TraceOptions& options) {
 
   const std::string t_bytes = npy_bytes(answers.t, {rays.size()});
   const std::string id_bytes = npy_bytes(answers.id, {rays.size()});
-  write_together({{options.t, t_bytes}, {options.id, id_bytes}});
+  write_together({{output_path(options.t), t_bytes}, {output_path(options.id), id_bytes}});
   const std::string target = tracer.engine() == Engine::wide ? " on " + active_target() : "";
-  print(fmt::format("{}, {}: {} rays, {} hit something; engine {}{}, tree {}, rays {}\n", options.t, options.id,
-                    grouped(rays.size()), grouped(answers.hits), name_of(kEngines, tracer.engine()), target,
-                    readable_ms(tracer.build_ms()), readable_ms(trace_ms)));
+  print_report(
+      fmt::format("{}, {}: {} rays, {} hit something; engine {}{}, tree {}, rays {}\n", escaped(options.t),
+                  escaped(options.id), grouped(rays.size()), grouped(answers.hits), name_of(kEngines, tracer.engine()),
+                  target, readable_ms(tracer.build_ms()), readable_ms(trace_ms)),
+      outputs);
 }
 
 }  // namespace bihive::cli

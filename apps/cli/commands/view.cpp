@@ -11,8 +11,10 @@
 #include "bihive/viewer/viewer_settings.h"
 #include "commands/commands.h"
 #include "commands/names.h"
+#include "commands/picture_file.h"
 #include "support/failure.h"
 #include "support/input.h"
+#include "support/outputs.h"
 
 namespace bihive::cli {
 namespace {
@@ -23,19 +25,25 @@ constexpr const char* kProgram = "bihive-view";
 
 // The JSON object of apps/viewer/request.h.
 ordered_json request_of(const ViewOptions& options) {
-  ordered_json request;
+  ordered_json request = ordered_json::object();
   const auto put = [](ordered_json& object, const char* key, const auto& value) {
     if (value) object[key] = *value;
   };
   const InputOptions& input = options.input;
-  request["input"] = input.input;
+  request["input"] = input.input == kStandardStream ? "/dev/stdin" : input.input;
   put(request, "count", input.count);
   put(request, "seed", input.seed);
   put(request, "radius", input.radius);
   put(request, "radius_scale", input.radius_scale);
   put(request, "frame", input.frame);
+  if (!input.trajectory.empty()) request["trajectory"] = input.trajectory;
   if (input.recenter) request["recenter"] = true;
   if (!input.assembly.empty()) request["assembly"] = input.assembly;
+  put(request, "replicate", input.replicate);
+  if (input.cell_vectors)
+    for (const Vec3d& v : *input.cell_vectors) request["cell_vectors"].push_back({v.x, v.y, v.z});
+  if (input.cell_origin) request["cell_origin"] = {input.cell_origin->x, input.cell_origin->y, input.cell_origin->z};
+  if (input.wrapping != Wrapping::none) request["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
   if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
   if (!options.style.empty()) request["style"] = options.style;
@@ -72,6 +80,12 @@ void run_view(const ViewOptions& options) {
                "leave --engine out, or choose --engine cpu");
   check_input_options(options.input);
   check_style(options);
+  if (!options.screenshot.empty()) {
+    check_picture_name(options.screenshot);
+    if (options.screenshot == kStandardStream || is_exr(options.screenshot))
+      fail_usage("--screenshot writes a PNG file", "name one that ends in .png");
+    check_outputs({options.screenshot}, {file_of(options.input)});
+  }
   const std::string request = request_of(options).dump(-1, ' ', false, ordered_json::error_handler_t::ignore);
 
   // The program lies beside this one, or in the PATH of the shell.

@@ -14,6 +14,7 @@
 #include "server/url.h"
 #include "support/failure.h"
 #include "support/messages.h"
+#include "support/outputs.h"
 
 namespace bihive::cli {
 namespace {
@@ -46,6 +47,8 @@ Site site_of(const WebOptions& options) {
   if (is_built_in(options.input)) {
     start["source"]["built_in"] = options.input;
   } else if (!options.input.empty()) {
+    if (options.input == kStandardStream)
+      fail_usage("the page fetches its file whenever it is opened, so the standard input cannot be one", "name a file");
     value_or_fail(OpenFile::open(options.input));
     const std::filesystem::path path = std::filesystem::absolute(options.input);
     const std::string name = path.filename().string();

@@ -168,7 +168,9 @@ Answer refusal(int status, const std::string& text) {
   return refused;
 }
 
-Answer answer(const Site& site, const Question& question) {
+namespace {
+
+Answer answer_whole(const Site& site, const Question& question) {
   // The body was not read, so the next bytes on this connection are not a request.
   const auto last_words = [](Answer refused) {
     refused.close = true;
@@ -185,7 +187,13 @@ Answer answer(const Site& site, const Question& question) {
   if (!host) return last_words(refusal(400, "the Host header is malformed"));
   if (!site.is_own_host(*host))
     return last_words(refusal(403, "this server answers to the address that it printed, not to " + *host));
-  Answer said = answer_get(site, question);
+  return answer_get(site, question);
+}
+
+}  // namespace
+
+Answer answer(const Site& site, const Question& question) {
+  Answer said = answer_whole(site, question);
   if (question.method == "HEAD") said.send_content = false;
   return said;
 }

@@ -17,6 +17,7 @@
 #include <ctime>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace bihive::cli {
@@ -70,16 +71,26 @@ Question question_from(const http::request_parser<http::empty_body>& parser) {
 // One connection: reads a request, sends the answer, and repeats. It lives as long as an operation is pending.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Tcp::socket socket, const std::function<Answer(const Question&)>& handler, std::function<void()> at_end)
+  Connection(Tcp::socket socket, const std::function<Answer(const Question&)>& handler,
+             std::function<void(Connection*)> at_end)
       : stream_(std::move(socket)), handler_(handler), at_end_(std::move(at_end)) {
     error_code ignored;
     stream_.socket().set_option(Tcp::no_delay(true), ignored);
   }
-  ~Connection() { at_end_(); }
+  ~Connection() { at_end_(this); }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
+  /// When it began to wait for a request; nothing while it answers one.
+  const std::optional<std::chrono::steady_clock::time_point>& waits_since() const { return waits_since_; }
+  /// Ends it soon: its pending operation fails.
+  void drop() {
+    waits_since_.reset();
+    stream_.close();
+  }
+
   void read() {
+    waits_since_ = std::chrono::steady_clock::now();
     parser_.emplace();
     parser_->header_limit(kMostHeaderBytes);
     // The answer refuses bodies, not the parser.
@@ -91,6 +102,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   void on_read(error_code code) {
+    waits_since_.reset();
     if (!code) {
       answer_ = handler_(question_from(*parser_));
       if (!parser_->keep_alive()) answer_.close = true;
@@ -104,6 +116,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     } else {
       return;  // the client has gone
     }
+    // An answer to HEAD never has a body (RFC 9110, 9.3.2), an error neither.
+    if (parser_->get().method() == http::verb::head) answer_.send_content = false;
     write_head();
   }
 
@@ -163,7 +177,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   beast::tcp_stream stream_;
   const std::function<Answer(const Question&)>& handler_;
-  std::function<void()> at_end_;
+  std::function<void(Connection*)> at_end_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   Answer answer_;
@@ -171,6 +185,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::response_serializer<http::empty_body>> serializer_;
   std::vector<char> chunk_;
   std::uint64_t sent_ = 0;
+  std::optional<std::chrono::steady_clock::time_point> waits_since_;
 };
 
 Error cannot_listen(const std::string& address, int port, const error_code& code) {
@@ -195,35 +210,50 @@ struct HttpServer::State {
     signals.async_wait([this](error_code, int) { context.stop(); });
   }
 
+  // Ends the connection that has waited longest for a request, so that those who only wait cannot keep others out.
+  // False if all are at work.
+  bool drop_longest_waiting() {
+    const auto longest = std::min_element(all.begin(), all.end(), [](const Connection* a, const Connection* b) {
+      if (!a->waits_since() || !b->waits_since()) return a->waits_since().has_value() && !b->waits_since();
+      return *a->waits_since() < *b->waits_since();
+    });
+    if (longest == all.end() || !(*longest)->waits_since()) return false;
+    (*longest)->drop();
+    return true;
+  }
+
   void accept() {
-    if (connections >= kMostConnections) {
+    if (static_cast<int>(all.size()) >= kMostConnections && !drop_longest_waiting()) {
       full = true;
       return;
     }
     acceptor.async_accept([this](error_code code, Tcp::socket socket) {
       if (code == asio::error::operation_aborted) return;
       if (code) {  // for example, no more descriptors
+        drop_longest_waiting();
         pause.expires_after(kRestAfterAnError);
         pause.async_wait([this](error_code) { accept(); });
         return;
       }
-      ++connections;
-      std::make_shared<Connection>(std::move(socket), handler, [this] { on_end(); })->read();
+      const auto connection =
+          std::make_shared<Connection>(std::move(socket), handler, [this](Connection* ended) { on_end(ended); });
+      all.insert(connection.get());
+      connection->read();
       accept();
     });
   }
 
-  void on_end() {
-    --connections;
+  void on_end(Connection* ended) {
+    all.erase(ended);
     if (!full) return;
     full = false;
     accept();
   }
 
   std::function<Answer(const Question&)> handler;
-  int connections = 0;
+  std::set<Connection*> all;
   bool full = false;
-  // Declared last, so that it is destroyed first: it ends pending connections, and these decrease the counter above.
+  // Declared last, so that it is destroyed first: it ends pending connections, and these leave the set above.
   asio::io_context context{1};
   asio::signal_set signals{context};
   Tcp::acceptor acceptor{context};

@@ -1,11 +1,17 @@
 #include "support/input.h"
 
+#include <unistd.h>
+
 #include "bihive/base/write_file.h"
+#include "bihive/io/read_spheres.h"
 #include "support/failure.h"
 #include "support/messages.h"
+#include "support/outputs.h"
 
 namespace bihive::cli {
 namespace {
+
+const std::string kNameOfStandardInput = "standard input";
 
 void only_for(bool given, const std::string& option, const std::string& what, const std::string& input) {
   if (given) fail_usage(option + " is for " + what + ", not for " + input);
@@ -20,7 +26,13 @@ void refuse_file_options(const InputOptions& options) {
   only_for(options.radius_scale.has_value(), "--radius-scale", "files", options.input);
   only_for(options.recenter, "--recenter", "files", options.input);
   only_for(options.frame.has_value(), "--frame", "files", options.input);
+  only_for(!options.trajectory.empty(), "a trajectory", "files", options.input);
   only_for(!options.assembly.empty(), "--assembly", "PDB and mmCIF files", options.input);
+  only_for(options.replicate.has_value(), "--replicate", "files", options.input);
+  only_for(options.cell_vectors.has_value(), "--cell-vectors", "files", options.input);
+  only_for(options.cell_origin.has_value(), "--cell-origin", "files", options.input);
+  only_for(options.wrapping == Wrapping::wrap, "--wrap", "files", options.input);
+  only_for(options.wrapping == Wrapping::unwrap, "--unwrap", "files", options.input);
 }
 
 // Made by the program, not read.
@@ -34,11 +46,28 @@ ReadOptions read_options(const InputOptions& options) {
   reading.radius_scale = options.radius_scale.value_or(1);
   reading.recenter = options.recenter;
   reading.frame = options.frame.value_or(0);
+  reading.trajectory = options.trajectory;
   reading.assembly = options.assembly;
+  reading.replicate = options.replicate.value_or(reading.replicate);
+  reading.cell_vectors = options.cell_vectors;
+  reading.cell_origin = options.cell_origin;
+  reading.wrapping = options.wrapping;
   return reading;
 }
 
 }  // namespace
+
+std::string read_input(const std::string& path) {
+  bool grew = false;
+  std::string bytes = value_or_fail(path == kStandardStream ? read_descriptor(STDIN_FILENO, kNameOfStandardInput, &grew)
+                                                            : read_file(path, &grew));
+  if (grew) warn(path + ": grew while it was read; what it held when it was opened counts");
+  return bytes;
+}
+
+std::string file_of(const InputOptions& options) {
+  return is_built_in_scene(options.input) || options.input == kStandardStream ? "" : options.input;
+}
 
 void check_input_options(const InputOptions& options) {
   if (!is_generated(options.input)) return refuse_generator_options(options);
@@ -78,10 +107,13 @@ Input load_input(const InputOptions& options, LooksOfFile looks, const Style* st
   const ReadOptions reading = read_options(options);
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
-    const std::string bytes = value_or_fail(read_file(options.input));
-    return load_scene(bytes, options.input, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);
+    const bool piped = options.input == kStandardStream;
+    const std::string name = piped ? kNameOfStandardInput : options.input;
+    const std::string bytes = value_or_fail(unpack_gzip(read_input(options.input), name));
+    return load_scene(bytes, name, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);
   };
   Input input = value_or_fail(load());
+  if (!options.trajectory.empty()) input.files.push_back(options.trajectory);
   warn(input.warnings);
   return input;
 }

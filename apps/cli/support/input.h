@@ -1,6 +1,7 @@
 // INPUT of every sub-command: a built-in name, a scene file or a file of spheres.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,9 +20,20 @@ struct InputOptions {
   std::optional<std::uint64_t> seed;
   std::optional<double> radius_scale;
   std::optional<std::int64_t> frame;
+  std::string trajectory = "";  ///< a file; empty: none
   bool recenter = false;
   std::string assembly = "";  ///< an id; empty: not asked for
+  std::optional<std::array<std::int32_t, 3>> replicate;
+  std::optional<std::array<Vec3d, 3>> cell_vectors;
+  std::optional<Vec3d> cell_origin;
+  Wrapping wrapping = Wrapping::none;
 };
+
+/// The bytes of a file, or of the standard input for "-". Warns if the file grew meanwhile. Fails with kBadInput.
+std::string read_input(const std::string& path);
+
+/// The path of the input's file; empty for the names of built-in scenes and the standard input.
+std::string file_of(const InputOptions& options);
 
 /// Coloured, at least one sphere; its warnings were already printed on stderr.
 using Input = LoadedScene;
@@ -29,10 +41,10 @@ using Input = LoadedScene;
 /// Fails with kBadUsage on options that do not fit the input.
 void check_input_options(const InputOptions& options);
 
-/// Built-in names come first: scenario1, scenario2, scenario3, four-spheres, demo. Prints warnings on stderr. Fails
-/// with kBadUsage on options that do not fit the input, and with kBadInput on an unreadable file.
-/// `style`: the look of spheres without their own; null: plain. `asked_for`: what scene files leave open takes it too,
-/// and the thesis's scenes, which leave nothing open, refuse it.
+/// "-" is the standard input. Built-in names come first: scenario1, scenario2, scenario3, four-spheres, demo. Prints
+/// warnings on stderr. Fails with kBadUsage on options that do not fit the input, and with kBadInput on an unreadable
+/// file. `style`: the look of spheres without their own; null: plain. `asked_for`: what scene files leave open takes it
+/// too, and the thesis's scenes, which leave nothing open, refuse it.
 Input load_input(const InputOptions& options, LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr,
                  bool asked_for = false);
 

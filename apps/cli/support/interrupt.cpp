@@ -30,12 +30,22 @@ std::int64_t now_ms() {
   return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
 }
 
-// The file to remove; its first byte is 0 if there is none.
-char g_unfinished[PATH_MAX];
+// The files to remove; the first byte is 0 if there is none. No command writes more at a time.
+constexpr int kMostUnfinished = 4;
+char g_unfinished[kMostUnfinished][PATH_MAX];
+
+}  // namespace
+
+void remove_unfinished() {
+  for (const auto& path : g_unfinished)
+    if (path[0] != 0) unlink(path);
+}
+
+namespace {
 
 // Ends the program at any point; clears a progress line on a terminal first.
 [[noreturn]] void end_at_once(int signal) {
-  if (g_unfinished[0] != 0) unlink(g_unfinished);
+  remove_unfinished();
   if (isatty(STDERR_FILENO) != 0) {
     const char wipe[] = "\r\033[K";
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, wipe, sizeof(wipe) - 1);
@@ -59,7 +69,7 @@ void on_signal(int signal) {
 }  // namespace
 
 void handle_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
     if (before.sa_handler == SIG_IGN) continue;
@@ -96,15 +106,30 @@ WritingSection::~WritingSection() {
   g_section.store(kWritten);
 }
 
+StreamSection::StreamSection(bool active) : before_(g_section.load()), active_(active) {
+  if (!active_) return;
+  g_section.store(kOutside);
+  // A signal before this moment only set the token.
+  CancellableSection::leave_if_cancelled();
+}
+StreamSection::~StreamSection() {
+  if (active_) g_section.store(before_);
+}
+
 RemovedWhenEnded::RemovedWhenEnded(const std::string& path) {
-  if (path.empty() || path.size() >= sizeof(g_unfinished)) return;
-  // The first byte comes last, so that a signal finds the whole path.
-  std::memcpy(g_unfinished + 1, path.c_str() + 1, path.size());
-  std::atomic_signal_fence(std::memory_order_release);
-  g_unfinished[0] = path[0];
+  if (path.empty() || path.size() >= PATH_MAX) return;
+  for (auto& place : g_unfinished) {
+    if (place[0] != 0) continue;
+    // The first byte comes last, so that a signal finds the whole path.
+    std::memcpy(place + 1, path.c_str() + 1, path.size());
+    std::atomic_signal_fence(std::memory_order_release);
+    place[0] = path[0];
+    place_ = place;
+    return;
+  }
 }
 RemovedWhenEnded::~RemovedWhenEnded() {
-  g_unfinished[0] = 0;
+  if (place_ != nullptr) place_[0] = 0;
 }
 
 }  // namespace bihive::cli

@@ -1,6 +1,6 @@
-// Ctrl-C (and SIGTERM, SIGHUP): the program ends with 128 + the signal's number, and leaves no partial file.
+// Ctrl-C (and SIGTERM, SIGHUP, SIGXCPU): the program ends with 128 + the signal's number, and leaves no partial file.
 //
-// Outside of the two kinds of sections below the program does nothing that must be finished, so a signal ends it at
+// Outside of cancellable and writing sections the program does nothing that must be finished, so a signal ends it at
 // once.
 #pragma once
 
@@ -39,14 +39,35 @@ class WritingSection {
   WritingSection& operator=(const WritingSection&) = delete;
 };
 
-/// During the life of such an object a signal that ends the program removes this file first. One at a time; an empty
-/// path is none.
+/// During the life of such an object a signal ends the program at once, inside of a cancellable section too: the
+/// program may wait for somebody who reads a pipe, and look at no token.
+class StreamSection {
+ public:
+  /// `active`: false makes it do nothing.
+  explicit StreamSection(bool active = true);
+  ~StreamSection();
+  StreamSection(const StreamSection&) = delete;
+  StreamSection& operator=(const StreamSection&) = delete;
+
+ private:
+  int before_;
+  bool active_;
+};
+
+/// During the life of such an object a signal that ends the program removes this file first; an empty path is
+/// none. At most four live at a time.
 class RemovedWhenEnded {
  public:
   explicit RemovedWhenEnded(const std::string& path);
   ~RemovedWhenEnded();
   RemovedWhenEnded(const RemovedWhenEnded&) = delete;
   RemovedWhenEnded& operator=(const RemovedWhenEnded&) = delete;
+
+ private:
+  char* place_ = nullptr;
 };
+
+/// Removes the files of all that live. For handlers: it only calls unlink().
+void remove_unfinished();
 
 }  // namespace bihive::cli

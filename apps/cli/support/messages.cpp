@@ -18,16 +18,9 @@ constexpr double kFirstDrawMs = 1000;
 constexpr double kRedrawMs = 100;
 constexpr int kBarCharacters = 24;
 
-// File names and other texts of users may hold anything. The message is one line, without control characters for the
-// terminal.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
-}
-
+// File names and other texts of users may hold anything.
 void say(const std::string& text) {
-  const std::string line = "bihive: " + one_line(text) + "\n";
+  const std::string line = "bihive: " + escaped(text) + "\n";
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

@@ -12,8 +12,8 @@ struct FileToWrite {
   std::string_view bytes;
 };
 
-/// Writes all of them beside their paths first and then renames them, so that a full disk leaves every path as it was.
-/// Pipes and devices are written last. Fails with the first error. Signals wait meanwhile (interrupt.h).
+/// Writes the regular files aside first, then the pipes and devices, then all regular files take their places, or none.
+/// Fails with the first error. Signals wait while files are written, but not while a pipe is (interrupt.h).
 void write_together(const std::vector<FileToWrite>& files);
 
 }  // namespace bihive::cli

@@ -1,5 +1,7 @@
 #include "thesis/compare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -47,30 +49,92 @@ Scenario scenario_of(std::int64_t number) {
   fail({"there is no scenario " + std::to_string(number), "values.json", 0, 0, "take 1, 2 or 3"});
 }
 
-std::string verdict_name(Verdict verdict) {
-  if (verdict == Verdict::agrees) return "agrees";
-  return verdict == Verdict::differs ? "differs" : "none";
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::differs:
+      return "differs";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::text_inconsistent:
+      return "text_inconsistent";
+    case Verdict::none:
+      break;
+  }
+  return "none";
+}
+
+std::string words_of(Verdict verdict, ValueKind kind) {
+  switch (verdict) {
+    case Verdict::agrees:
+      return kind == ValueKind::stated ? "agrees" : kind == ValueKind::inferred ? "as inferred" : "check holds";
+    case Verdict::differs:
+      return kind == ValueKind::stated ? "differs" : kind == ValueKind::inferred ? "not as inferred" : "check fails";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::text_inconsistent:
+      return "the text contradicts itself";
+    case Verdict::none:
+      break;
+  }
+  return "";
 }
 
 Verdict verdict_if(bool agrees) {
   return agrees ? Verdict::agrees : Verdict::differs;
 }
 
+Verdict verdict_above(const Quartiles& ours, double limit) {
+  if (ours.lower > limit) return Verdict::agrees;
+  return ours.upper <= limit ? Verdict::differs : Verdict::undecided;
+}
+
+Verdict verdict_between(const Quartiles& ours, double low, double high) {
+  if (ours.lower >= low && ours.upper <= high) return Verdict::agrees;
+  return ours.upper < low || ours.lower > high ? Verdict::differs : Verdict::undecided;
+}
+
+std::string quartiles_text(const Quartiles& quartiles, int decimals) {
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", quartiles.median, decimals, quartiles.lower, decimals,
+                     quartiles.upper, decimals);
+}
+
+std::string source_text(ValueKind kind) {
+  if (kind == ValueKind::stated) return "the text";
+  return kind == ValueKind::inferred ? "inferred" : "own check";
+}
+
 Statements::Statements(std::string title, std::string note) {
   table_.title = std::move(title);
-  table_.columns = {"Statement", "Thesis", "Ours", "Verdict"};
+  table_.columns = {"Statement", "Expected", "By", "Ours", "Verdict"};
   table_.note = std::move(note);
 }
 
-void Statements::add(const std::string& name, const std::string& statement, const std::string& thesis,
-                     const std::string& ours, Verdict verdict, const std::string& undecided) {
-  const std::string shown = verdict == Verdict::none ? undecided : verdict_name(verdict);
-  table_.rows.push_back({{statement}, {thesis}, {ours}, {shown, verdict}});
+void Statements::add(const std::string& name, const std::string& statement, const Expected& expected,
+                     const std::string& ours, Verdict verdict, const std::string& why, bool timed) {
+  const std::string words = words_of(verdict, expected.kind);
+  table_.rows.push_back({{statement},
+                         {expected.text},
+                         {source_text(expected.kind)},
+                         {ours},
+                         {words + (why.empty() ? "" : ": " + why), verdict, expected.kind}});
+  findings_.push_back({name, statement, expected.text, ours, verdict, expected.kind, timed});
   data_.push_back({{"name", name},
                    {"statement", statement},
-                   {"thesis", thesis},
+                   {"thesis", expected.text},
+                   {"kind", name_of(expected.kind)},
                    {"ours", ours},
-                   {"verdict", verdict_name(verdict)}});
+                   {"verdict", name_of(verdict)}});
+}
+
+void Statements::move_into(Section& section, const std::string& prefix) {
+  for (Finding& finding : findings_) {
+    finding.name = prefix + finding.name;
+    section.findings.push_back(std::move(finding));
+  }
+  findings_.clear();
+  section.tables.push_back(std::move(table_));
 }
 
 }  // namespace bihive::cli::thesis

@@ -4,6 +4,7 @@
 // is made from the saved results alone, repeatedly, also while some are still missing.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>

@@ -141,7 +141,7 @@ void add_scene(Statements& statements, const Values& values, const Json& facts) 
     const std::string thesis = found.size() > 1 && values.printed(name).front() == '['
                                    ? vector_text(values.numbers(name))
                                    : values.printed(name);
-    statements.add(name, statement, thesis, text, verdict_if(values.numbers(name) == found));
+    statements.add(name, statement, {thesis, values.kind(name)}, text, verdict_if(values.numbers(name) == found));
   };
   add("camera.eye", "Camera", facts.at("camera").at("eye"));
   add("lights", "Lights", facts.at("lights"));
@@ -173,7 +173,7 @@ void add_places(Statements& statements, const Values& values, std::int64_t numbe
   if (number == 2) {
     const auto clusters = result.at("clusters").get<std::int64_t>();
     statements.add("scenario2.clusters", scenario + "smaller cubes in the corners, with all spheres",
-                   values.printed("scenario2.clusters"), fmt::format("{}", clusters),
+                   {values, "scenario2.clusters"}, fmt::format("{}", clusters),
                    verdict_if(clusters == values.integer("scenario2.clusters")));
   }
   if (number == 3) {
@@ -181,7 +181,7 @@ void add_places(Statements& statements, const Values& values, std::int64_t numbe
     const double share = result.at("clustered_share").get<double>();
     const double most = values.number("scenario3.clustered_share") * double(count);
     statements.add("scenario3.clustered_share", scenario + "share of the spheres that are clustered",
-                   values.printed("scenario3.clustered_share"), fmt::format("{:.4g}", share),
+                   {values, "scenario3.clustered_share"}, fmt::format("{:.4g}", share),
                    verdict_if(std::floor(most) == share * double(count)));
   }
 }
@@ -206,8 +206,8 @@ Section section_of(const SectionContext& context) {
       "The scenes in which everything is measured: spheres of one size, red and transparent in turn, above a plane. "
       "They "
       "are drawn without shadows, which the text does not name, and without a curve to the screen."};
-  if (!statements.empty()) section.tables.push_back(statements.table());
   section.data = {{"scenarios", std::move(scenarios)}, {"statements", statements.data()}};
+  if (!statements.empty()) statements.move_into(section);
   return section;
 }
 

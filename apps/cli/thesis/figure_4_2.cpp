@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/base/timer.h"
 #include "bihive/image/image_diff.h"
 #include "bihive/math/quartiles.h"
 #include "bihive/render/scene_hit.h"
@@ -18,6 +19,8 @@ namespace {
 
 const std::string kId = "figure-4.2";
 constexpr int kQuickDivisor = 4;
+constexpr const char* kTimesStep = "times";
+constexpr int kTimeRounds = 9, kQuickTimeRounds = 7;  // a round before them warms up
 // Half a step of a picture's 8 bits.
 constexpr double kHalfStep = 0.5 / 255;
 
@@ -118,12 +121,33 @@ Json draw_coding(const StepContext& context) {
           {"transparent_spheres", transparent}};
 }
 
+// Milliseconds of a frame of each depth, round by round, by the reference engine and by the wide one.
+Json time_depths(const StepContext& context) {
+  const Scene scene = four_spheres_scene();
+  const PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
+  Json all = Json::object();
+  for (const auto& [name, engine] : {std::pair{"reference", Engine::reference}, {"wide", Engine::wide}}) {
+    const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, engine));
+    Json& times = all[name] = Json::object();
+    for (int round = 0; round <= (context.settings.quick ? kQuickTimeRounds : kTimeRounds); ++round)
+      for (const double depth : context.values.numbers("depths")) {
+        RenderSettings settings = picture_settings(context, scene, size, View::shaded);
+        settings.recursion = depth_of(depth);
+        const Timer timer;
+        if (!draw(context, scene, tracer, settings)) return {};
+        if (round > 0) times[step_name(depth)].push_back(timer.elapsed_ms());
+      }
+  }
+  return all;
+}
+
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   const double weight = settings.quick ? 0.1 : 1.5;
   std::vector<Step> steps;
   for (const double depth : values.numbers("depths"))
     steps.push_back(
         {step_name(depth), 2 * weight, [depth](StepContext& context) { return draw_depth(context, depth); }});
+  steps.push_back({kTimesStep, 4 * weight, [](StepContext& context) { return time_depths(context); }});
   steps.push_back({"coding", weight, [](StepContext& context) { return draw_coding(context); }});
   return steps;
 }
@@ -151,20 +175,20 @@ void add_coding(Section& section, Statements& statements, const Values& values, 
                           depth == 0 ? "nothing hit" : fmt::format("depth {}", depth), share);
     sum += share;
     if (values.has(name))
-      statements.add(name, depth == 0 ? "Colour of no hit" : fmt::format("Colour of depth {}", depth), word,
-                     vector_text(colour), verdict_if(values.numbers(name) == colour));
+      statements.add(name, depth == 0 ? "Colour of no hit" : fmt::format("Colour of depth {}", depth),
+                     {word, values.kind(name)}, vector_text(colour), verdict_if(values.numbers(name) == colour));
     const std::vector<double> depths = values.numbers("depths");
     if (std::count(depths.begin(), depths.end(), double(depth)) > 0)
       statements.add(fmt::format("depth{}.somewhere", depth), fmt::format("Depth {} is the deepest somewhere", depth),
-                     "yes", fmt::format("{:.2f} % of the pixels", share), verdict_if(pixels > 0));
+                     {"yes", ValueKind::inferred}, fmt::format("{:.2f} % of the pixels", share),
+                     verdict_if(pixels > 0));
   }
   table.rows.push_back({{"all"}, {""}, {fmt::format("{:.0f}", all)}, {fmt::format("{:.2f} %", sum)}});
   section.tables.push_back(std::move(table));
   section.illustrations.push_back(illustration_of(kId, coding.at("picture"), "Depth colours: " + legend));
   const auto count = [&](const std::string& name, const std::string& statement) {
     const auto ours = coding.at(name).get<std::int64_t>();
-    statements.add(name, statement, values.printed(name), fmt::format("{}", ours),
-                   verdict_if(values.integer(name) == ours));
+    statements.add(name, statement, {values, name}, fmt::format("{}", ours), verdict_if(values.integer(name) == ours));
   };
   count("spheres", "Spheres");
   count("transparent_spheres", "Transparent ones");
@@ -181,10 +205,52 @@ void add_dark_grey(Statements& statements, const Values& values, const StepResul
   const auto coloured = sphere.at("coloured_pixels").get<std::int64_t>();
   statements.add("dark_grey.radiance",
                  fmt::format("The transparent sphere is dark grey at depth {}", values.number("dark_grey.depth")),
-                 fmt::format("dark grey ({} to {})", range[0], range[1]),
+                 {fmt::format("dark grey ({} to {})", range[0], range[1]), values.kind("dark_grey.radiance")},
                  fmt::format("{:.3f} in the middle, {} of {} pixels coloured", median, coloured,
                              sphere.at("pixels").get<std::int64_t>()),
                  verdict_if(coloured == 0 && median >= range[0] - kHalfStep && median <= range[1] + kHalfStep));
+}
+
+// The text limits the depth "for processing time feasibility reasons": what does each generation cost?
+void add_times(Section& section, Statements& statements, const Values& values, const StepResults& results) {
+  const auto found = results.find(kTimesStep);
+  if (found == results.end()) return;
+  Table table{"Time of a frame by recursion depth", {"Recursion depth"}, {}, ""};
+  for (const double depth : values.numbers("depths")) table.rows.push_back({{fmt::format("{}", depth)}});
+  for (const auto& [engine, times] : found->second.items()) {
+    table.columns.push_back(engine + ": ms, with quartiles");
+    table.columns.push_back(engine + ": times depth " + table.rows.front().front().text);
+    std::vector<double> first, before;
+    std::vector<Quartiles> growth;
+    std::size_t row = 0;
+    for (const auto& [depth, list] : times.items()) {
+      const auto ms = list.get<std::vector<double>>();
+      if (first.empty()) first = ms;
+      std::vector<double> to_first, to_before;
+      for (std::size_t i = 0; i < ms.size(); ++i) {
+        to_first.push_back(ms[i] / first[i]);
+        if (!before.empty()) to_before.push_back(ms[i] / before[i]);
+      }
+      if (!to_before.empty()) growth.push_back(quartiles_of(to_before));
+      before = ms;
+      table.rows[row].push_back({quartiles_text(quartiles_of(ms), 2)});
+      table.rows[row++].push_back({fmt::format("{:.2f}", quartiles_of(to_first).median)});
+    }
+    Verdict verdict = Verdict::agrees;
+    std::string factors;
+    for (const Quartiles& each : growth) {
+      const Verdict one = verdict_above(each, 1);
+      if (one == Verdict::differs || verdict == Verdict::agrees) verdict = one;
+      factors += (factors.empty() ? "" : ", ") + fmt::format("{:.2f}", each.median);
+    }
+    statements.add(engine + ".time_grows", "Each depth takes longer than the one before (engine " + engine + ")",
+                   {"longer", ValueKind::inferred}, "times " + factors, verdict, "", /*timed=*/true);
+  }
+  table.note =
+      "The text limits the depth \"for processing time feasibility reasons\" and gives no times. Medians over rounds "
+      "in "
+      "which the depths take turns.";
+  section.tables.push_back(std::move(table));
 }
 
 Section section_of(const SectionContext& context) {
@@ -192,8 +258,9 @@ Section section_of(const SectionContext& context) {
   const Values& values = context.values;
   Statements statements("What the text says of Figure 4.2",
                         "Numbers and colours agree if they are the same. The sphere is dark grey if none of its pixels "
-                        "has a colour and the median of their values lies in the range, which is chosen: the text has "
-                        "no number. Each depth must be the deepest one in at least one pixel.");
+                        "has a colour and the median of their values lies in the range, which we infer from Table 4.1: "
+                        "the text has no number. Each depth must be the deepest one in at least one pixel: the text "
+                        "names a colour for each, and we infer that its picture shows all of them.");
   Table depths;
   depths.title = "What each recursion depth adds";
   depths.columns = {"Recursion depth", "Pixels changed by its last generation", "Mean value of the transparent sphere"};
@@ -214,7 +281,7 @@ Section section_of(const SectionContext& context) {
   }
   if (!depths.rows.empty()) section.tables.push_back(std::move(depths));
   add_dark_grey(statements, values, context.results);
-  const auto coding = context.results.find("coding");
+  const auto coding = context.results.find("coding"), times = context.results.find(kTimesStep);
   if (coding != context.results.end()) add_coding(section, statements, values, coding->second);
 
   section.paragraphs = {
@@ -222,10 +289,12 @@ Section section_of(const SectionContext& context) {
       "together, "
       "so that each of the depths is the deepest that some pixel needs. Depth 1 is the primary ray alone; each "
       "reflection and each transmission adds one."};
-  if (!statements.empty()) section.tables.push_back(statements.table());
+  add_times(section, statements, values, context.results);
   section.data = {{"depths", std::move(by_depth)},
                   {"coding", coding != context.results.end() ? coding->second : Json()},
+                  {"times", times != context.results.end() ? times->second : Json()},
                   {"statements", statements.data()}};
+  if (!statements.empty()) statements.move_into(section);
   return section;
 }
 

@@ -6,16 +6,23 @@
 #include <functional>
 #include <utility>
 
+#include "bihive/bih/reference_builder.h"
 #include "bihive/gl/egl_context.h"
 #include "bihive/gl/gl_renderer.h"
-#include "bihive/math/quartiles.h"
+#include "bihive/scene/generators.h"
 #include "support/failure.h"
+#include "thesis/compare.h"
+#include "thesis/pictures.h"
+#include "thesis/ray_counts.h"
+#include "thesis/tree_reasons.h"
 
 namespace bihive::cli::thesis {
 namespace {
 
 // The approximate time of a pixel for each unit of frame_cost(); for the estimate of the time left.
 constexpr double kSecondsPerPixel = 5e-9;
+// A quick run counts the rays of every so many rows and columns.
+constexpr int kQuickStride = 4;
 
 FrameRatePlan plan_of(const Settings& settings, const Values& values) {
   FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(values.stated()));
@@ -41,7 +48,8 @@ Json frame_times(FrameContest contest, const FrameRatePlan& plan, const Compared
 
 Json measure_configuration(const StepContext& context, const ComparedEngine& engine, std::int64_t scenario,
                            std::int64_t spheres) {
-  const FrameRatePlan plan = plan_of(context.settings, context.values);
+  FrameRatePlan plan = plan_of(context.settings, context.values);
+  plan.max_prims = measured_max_prims(context.values, engine, spheres);
   return frame_times(
       value_or_fail(FrameContest::of_trees(plan, engine.engine, scenario, spheres)), plan, engine, context.cancel,
       [](const MeasuredRate& rate) { return rate.max_prims ? fmt::format("max_prims{}", *rate.max_prims) : "brute"; });
@@ -74,22 +82,58 @@ Json measure_on(ComparedEngine engine, const Measure& measure) {
   return result;
 }
 
+// Means over the primary rays: nodes, leaves and tests of each tree, and the tests of brute force.
+Json count_scenario(const StepContext& context, std::int64_t number) {
+  const Values& values = context.values;
+  const PictureSize size = picture_size(Settings{}, values, 1);
+  Json by_spheres = Json::object();
+  for (const std::int64_t spheres : values.integers("spheres_list")) {
+    const ScenarioParameters parameters{spheres, static_cast<float>(values.number("radius")), context.settings.seed};
+    const Scene scene = value_or_fail(scenario_scene(scenario_of(number), parameters));
+    Json trees = Json::object();
+    for (const std::int64_t max_prims : measured_max_prims(values, compared_engines().front(), spheres)) {
+      const Tree tree = build_reference_tree(scene.spheres, {max_prims, kUnlimited});
+      const RayCounts counts = count_rays(context, scene, tree, size, context.settings.quick ? kQuickStride : 1);
+      if (counts.rays.empty()) return {};
+      const RayCounts::Mean mean = counts.mean();
+      trees[std::to_string(max_prims)] = {{"nodes", mean.nodes}, {"leaves", mean.leaves}, {"tests", mean.tests}};
+    }
+    by_spheres[fmt::format("spheres{}", spheres)] = {{"brute_tests", spheres}, {"trees", std::move(trees)}};
+  }
+  return by_spheres;
+}
+
+Json measure_balance(const StepContext& context) {
+  ReasonTrees trees;
+  trees.scenarios = context.values.integers("scenarios");
+  trees.spheres = context.values.integers("spheres_list");
+  trees.max_prims = context.values.integers("max_prims_list");
+  trees.radius = context.values.number("radius");
+  trees.seeds = context.settings.quick ? 10 : 100;
+  return measure_reasons(context, trees);
+}
+
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   const FrameRatePlan plan = plan_of(settings, values);
   const double seconds = (plan.rounds + 1) * kSecondsPerPixel * plan.width_px * plan.height_px;
   std::vector<Step> steps;
+  for (const std::int64_t scenario : plan.scenarios)
+    steps.push_back({counts_step(scenario), settings.quick ? 0.5 : 8,
+                     [scenario](StepContext& context) { return count_scenario(context, scenario); }});
+  steps.push_back({kBalanceStep, 0.3, [](StepContext& context) { return measure_balance(context); }});
   for (const ComparedEngine& engine : compared_engines()) {
     double all_brute = 0;
     for (const std::int64_t scenario : plan.scenarios)
       for (const std::int64_t spheres : plan.spheres) {
         const double brute = frame_cost(spheres, false), tree = frame_cost(spheres, true);
-        steps.push_back({configuration_step(engine, scenario, spheres),
-                         seconds * (brute + tree * static_cast<double>(plan.max_prims.size())),
-                         [engine, scenario, spheres](StepContext& context) {
-                           return measure_on(engine, [&](const ComparedEngine& opened) {
-                             return measure_configuration(context, opened, scenario, spheres);
-                           });
-                         }});
+        steps.push_back(
+            {configuration_step(engine, scenario, spheres),
+             seconds * (brute + tree * static_cast<double>(measured_max_prims(values, engine, spheres).size())),
+             [engine, scenario, spheres](StepContext& context) {
+               return measure_on(engine, [&](const ComparedEngine& opened) {
+                 return measure_configuration(context, opened, scenario, spheres);
+               });
+             }});
         all_brute += brute;
       }
     steps.push_back({independence_step(engine), seconds * all_brute, [engine](StepContext& context) {
@@ -104,7 +148,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
 
 const std::vector<ComparedEngine>& compared_engines() {
   static const std::vector<ComparedEngine> kCompared{{"reference", {Engine::reference, Engine::brute, {}}},
-                                                     {"wide", {Engine::wide, Engine::wide, {std::nullopt, 1}}},
+                                                     {"wide", {Engine::wide, Engine::wide_brute, {}}},
                                                      {"gpu", {Engine::reference, Engine::brute, {}}, true}};
   return kCompared;
 }
@@ -122,19 +166,17 @@ std::optional<std::string> why_missing(const Json& result) {
   return found == result.end() ? std::nullopt : std::optional(found->get<std::string>());
 }
 
-std::optional<ConfigurationFps> fps_of(const StepResults& results, const ComparedEngine& engine, std::int64_t scenario,
-                                       std::int64_t spheres) {
-  const auto found = results.find(configuration_step(engine, scenario, spheres));
-  if (found == results.end() || why_missing(found->second)) return std::nullopt;
-  ConfigurationFps fps{scenario, spheres, 0, {}};
-  for (const auto& [name, times] : found->second["frame_ms"].items()) {
-    const double value = 1000 / median(times.get<std::vector<double>>());
-    if (name == "brute")
-      fps.brute = value;
-    else
-      fps.trees.push_back(value);
-  }
-  return fps;
+std::vector<std::int64_t> measured_max_prims(const Values& values, const ComparedEngine& engine, std::int64_t spheres) {
+  std::vector<std::int64_t> all = values.integers("max_prims_list");
+  if (engine.gpu) return all;
+  for (const std::int64_t beyond : values.integers("max_prims_beyond"))
+    if (beyond > all.back() && beyond < spheres) all.push_back(beyond);
+  if (spheres > all.back()) all.push_back(spheres);
+  return all;
+}
+
+std::string counts_step(std::int64_t scenario) {
+  return fmt::format("counts-scenario{}", scenario);
 }
 
 Experiment figure_4_4() {

@@ -9,6 +9,7 @@
 #include "bihive/render/tracer.h"
 #include "bihive/thesis/frame_rates.h"
 #include "thesis/experiment.h"
+#include "thesis/frame_verdicts.h"
 
 namespace bihive::cli::thesis {
 
@@ -19,6 +20,10 @@ struct ComparedEngine {
   bool gpu = false;
 };
 const std::vector<ComparedEngine>& compared_engines();
+
+/// What all trees of a configuration are measured with: the thesis's MAX_PRIMS, and for the engines of the processor
+/// also larger ones, up to the number of spheres, which is a tree of one leaf.
+std::vector<std::int64_t> measured_max_prims(const Values& values, const ComparedEngine& engine, std::int64_t spheres);
 
 /// The step that measures one configuration, and the step that measures brute force on all scenarios in turn.
 std::string configuration_step(const ComparedEngine& engine, std::int64_t scenario, std::int64_t spheres);
@@ -32,9 +37,17 @@ constexpr const char* kGpu = "gpu";
 /// measure, and the experiment is complete without it.
 std::optional<std::string> why_missing(const Json& result);
 
-/// Nothing if the step is not done, or could not measure.
-std::optional<ConfigurationFps> fps_of(const StepResults& results, const ComparedEngine& engine, std::int64_t scenario,
-                                       std::int64_t spheres);
+/// The frames of an engine's steps that are done and could measure.
+EngineTimes engine_times(const SectionContext& context, const ComparedEngine& engine);
+
+/// The steps that count what rays do, without a clock, and how balanced the trees are.
+std::string counts_step(std::int64_t scenario);
+constexpr const char* kBalanceStep = "balance";
+
+/// The parts of the section, in the report's order.
+void add_counts(const SectionContext& context, Section& section);     // figure_4_4_counts.cpp
+void add_engines(const SectionContext& context, Section& section);    // figure_4_4_engines.cpp
+void add_lost_bars(const SectionContext& context, Section& section);  // figure_4_4_lost_bars.cpp
 
 Section figure_4_4_section(const SectionContext& context);
 

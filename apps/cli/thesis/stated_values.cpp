@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <string_view>
 #include <utility>
 
@@ -30,7 +31,9 @@ Values::Values(const std::string& bytes, const std::string& file)
 
 Values load_values(const std::string& experiment, const std::string& folder) {
   const std::string file = folder + "/" + experiment + "/values.json";
-  if (!folder.empty() && access(file.c_str(), F_OK) == 0) return {value_or_fail(read_file(file)), file};
+  // A folder need not hold every experiment. What it holds must be readable.
+  if (!folder.empty() && (access(file.c_str(), F_OK) == 0 || errno != ENOENT))
+    return {value_or_fail(read_file(file)), file};
   return {std::string(builtin_values(experiment)), "thesis/" + experiment + "/values.json"};
 }
 

@@ -22,6 +22,7 @@ class Values {
   std::vector<std::int64_t> integers(const std::string& name) const { return value_or_fail(stated_.integers(name)); }
   std::string printed(const std::string& name) const { return value_or_fail(stated_.printed(name)); }
   std::string sentence(const std::string& name) const { return value_or_fail(stated_.sentence(name)); }
+  ValueKind kind(const std::string& name) const { return value_or_fail(stated_.kind(name)); }
   const StatedValues& stated() const { return stated_; }
   const Json& document() const { return document_; }
 

@@ -20,24 +20,33 @@ Json StepStore::key(const Values& values) const {
           {"threads", settings_.threads},      {"seed", settings_.seed},          {"values", values.document()}};
 }
 
-std::optional<Json> StepStore::load(const std::string& experiment, const std::string& step,
-                                    const Values& values) const {
+std::optional<StepStore::Saved> StepStore::load(const std::string& experiment, const std::string& step,
+                                                const Values& values) const {
   // A damaged file or a file of another run counts as missing.
   const Result<std::string> bytes = read_file(path(experiment, step));
   if (!bytes) return std::nullopt;
   Json document = Json::parse(*bytes, nullptr, /*allow_exceptions=*/false);
   if (!document.is_object() || !document.contains("key") || !document.contains("result")) return std::nullopt;
-  if (document["key"] != key(values)) return std::nullopt;
-  return std::move(document["result"]);
+  if (document["key"] != key(values) || !document.contains("load")) return std::nullopt;
+  const Json& load = document["load"];
+  if (!load.is_object()) return std::nullopt;
+  return Saved{std::move(document["result"]),
+               {load.value("seconds", 0.0), load.value("others", 0.0), load.value("known", false),
+                load.value("most_others", 0.0)}};
 }
 
 void StepStore::save(const std::string& experiment, const std::string& step, const Values& values,
-                     const Json& result) const {
+                     const Saved& saved) const {
   const std::string file = path(experiment, step);
   std::error_code error;
   fs::create_directories(fs::path(file).parent_path(), error);
   if (error) fail({"the folder cannot be made: " + error.message(), fs::path(file).parent_path(), 0, 0, ""});
-  const Json document{{"key", key(values)}, {"result", result}};
+  const MachineLoad& load = saved.load;
+  const Json document{
+      {"key", key(values)},
+      {"load",
+       {{"seconds", load.seconds}, {"others", load.others}, {"known", load.known}, {"most_others", load.most_others}}},
+      {"result", saved.result}};
   if (const Status status = write_file(file, document.dump(1) + "\n"); !status) fail(status.error());
 }
 

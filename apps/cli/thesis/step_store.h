@@ -5,6 +5,7 @@
 #include <string>
 
 #include "thesis/experiment.h"
+#include "thesis/machine_load.h"
 
 namespace bihive::cli::thesis {
 
@@ -12,10 +13,14 @@ class StepStore {
  public:
   StepStore(std::string out, const Settings& settings) : out_(std::move(out)), settings_(settings) {}
 
+  struct Saved {
+    Json result;
+    MachineLoad load;
+  };
   /// The result, if the same build of the program saved it with the same settings and stated values.
-  std::optional<Json> load(const std::string& experiment, const std::string& step, const Values& values) const;
+  std::optional<Saved> load(const std::string& experiment, const std::string& step, const Values& values) const;
   /// Fails if the file cannot be written.
-  void save(const std::string& experiment, const std::string& step, const Values& values, const Json& result) const;
+  void save(const std::string& experiment, const std::string& step, const Values& values, const Saved& saved) const;
 
  private:
   std::string path(const std::string& experiment, const std::string& step) const;

@@ -7,6 +7,7 @@
 #include "bihive/bih/statistics.h"
 #include "bihive/scene/generators.h"
 #include "support/failure.h"
+#include "thesis/tree_reasons.h"
 
 namespace bihive::cli::thesis {
 namespace {
@@ -145,6 +146,17 @@ Json levels_result(StepContext& context) {
   return {{"levels", levels}};
 }
 
+Json reasons_result(StepContext& context) {
+  const Values& values = context.values;
+  ReasonTrees trees;
+  trees.scenarios = values.integers("scenarios");
+  trees.spheres = {values.integer("spheres")};
+  trees.max_prims = values.integers("max_prims_list");
+  trees.radius = values.number("radius");
+  trees.seeds = context.settings.quick ? 3 : 20;
+  return measure_reasons(context, trees);
+}
+
 std::vector<Step> table_4_2_steps(const Settings& settings, const Values& values) {
   // Measured seconds: a tree of Scenario 1 once, the others for each seed.
   const double seconds = settings.quick ? 0.3 : 2;
@@ -155,6 +167,7 @@ std::vector<Step> table_4_2_steps(const Settings& settings, const Values& values
                        [=](StepContext& context) { return tree_result(context, scenario, max_prims); }});
   steps.push_back({kBuildTimesStep, settings.quick ? 0.5 : 2.5, build_times_result});
   steps.push_back({kLevelsStep, 0.1, levels_result});
+  steps.push_back({kReasonsStep, 0.5, reasons_result});
   return steps;
 }
 

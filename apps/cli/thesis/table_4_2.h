@@ -48,6 +48,7 @@ inline std::string tree_value(std::int64_t scenario, std::int64_t max_prims) {
 }
 inline constexpr const char* kBuildTimesStep = "build_times";
 inline constexpr const char* kLevelsStep = "levels";
+inline constexpr const char* kReasonsStep = "reasons";  ///< measure_reasons() of thesis/tree_reasons.h
 
 /// The result of a tree's step:
 ///   {"rows": {key: number}, "nodes": n,   of this seed's tree

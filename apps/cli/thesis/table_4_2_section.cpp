@@ -5,6 +5,7 @@
 #include "bihive/math/quartiles.h"
 #include "support/messages.h"
 #include "thesis/table_4_2.h"
+#include "thesis/tree_reasons.h"
 
 namespace bihive::cli::thesis {
 namespace {
@@ -50,6 +51,14 @@ class TableSection {
         "{} spheres of radius {} in each scenario. \"This seed\" is seed {}; mean and standard deviation are over {} "
         "seeds. Scenario 1 has no chance in it: one tree, which must be the thesis's.",
         grouped(values_.integer("spheres")), values_.printed("radius"), context_.settings.seed, seeds));
+    section_.paragraphs.emplace_back(
+        "What agreement means here: the text does not say how its tree is built, nor how large the small cubes of "
+        "Scenarios 2 "
+        "and 3 are. We reconstructed both from this table. That one builder and one size give all its rows says that "
+        "the "
+        "table is of one piece and that this is very probably its builder; it is no confirmation by somebody who did "
+        "not "
+        "know the table.");
     section_.data["seed"] = context_.settings.seed;
     section_.data["seeds"] = seeds;
     section_.data["values"] = Json::array();
@@ -85,7 +94,9 @@ class TableSection {
     cells.push_back({printed});
     cells.push_back({number_text(ours, row.decimals) + (row.share ? " %" : "")});
     cells.push_back({spread_text(spread, row)});
-    cells.push_back({how, verdict});
+    cells.push_back(section_.judge({name, fmt::format("{}: {}", column.name(), row.label), printed,
+                                    spread_text(spread, row), verdict, values_.kind(name), false},
+                                   how));
     section_.data["values"].push_back({{"name", name},
                                        {"scenario", column.scenario},
                                        {"max_prims", column.max_prims},
@@ -94,7 +105,8 @@ class TableSection {
                                        {"ours", ours},
                                        {"mean", spread.mean},
                                        {"sd", spread.sd},
-                                       {"verdict", verdict_name(verdict)}});
+                                       {"kind", name_of(values_.kind(name))},
+                                       {"verdict", name_of(verdict)}});
   }
 
   // The shrinkage of the nodes from the first MAX_PRIMS to the last, seed by seed.
@@ -110,18 +122,22 @@ class TableSection {
       const auto& [ours, spread] = *reduction;
       const std::string name = fmt::format("reduction_percent.scenario{}", scenario);
       const Verdict verdict = verdict_if(inside_three_sd(values_.number(name), values_.printed(name), spread));
-      table.rows.push_back({{fmt::format("{}", scenario)},
-                            {values_.printed(name)},
-                            {fmt::format("{:.2f} %", ours)},
-                            {spread_text(spread, {"", "", 2, true})},
-                            {verdict == Verdict::agrees ? "yes" : "no", verdict}});
+      table.rows.push_back(
+          {{fmt::format("{}", scenario)},
+           {values_.printed(name)},
+           {fmt::format("{:.2f} %", ours)},
+           {spread_text(spread, {"", "", 2, true})},
+           section_.judge({name, fmt::format("Scenario {}: total nodes reduced by", scenario), values_.printed(name),
+                           spread_text(spread, {"", "", 2, true}), verdict, values_.kind(name), false},
+                          verdict == Verdict::agrees ? "yes" : "no")});
       section_.data["reductions"].push_back({{"name", name},
                                              {"scenario", scenario},
                                              {"thesis", values_.number(name)},
                                              {"ours", ours},
                                              {"mean", spread.mean},
                                              {"sd", spread.sd},
-                                             {"verdict", verdict_name(verdict)}});
+                                             {"kind", name_of(values_.kind(name))},
+                                             {"verdict", name_of(verdict)}});
     }
     if (!table.rows.empty()) section_.tables.push_back(std::move(table));
   }
@@ -159,9 +175,13 @@ class TableSection {
 
   // Shown by table_4_2_statements.cpp; the levels behind one of the statements go with the data.
   void add_statements() {
-    const Statements statements = table_4_2_statements(context_, columns_);
+    Statements statements = table_4_2_statements(context_, columns_);
     section_.data["statements"] = statements.data();
-    if (!statements.empty()) section_.tables.push_back(statements.table());
+    if (!statements.empty()) statements.move_into(section_);
+    if (const auto reasons = context_.results.find(kReasonsStep); reasons != context_.results.end()) {
+      section_.data["reasons"] = reasons->second;
+      section_.tables.push_back(reasons_table(reasons->second, "The text's reasons, counted: leaves, overlaps, gaps"));
+    }
     const auto found = context_.results.find(kLevelsStep);
     if (found != context_.results.end()) section_.data["levels"] = found->second["levels"];
   }

@@ -27,6 +27,7 @@ class TableStatements {
       add_build_gain();
     }
     add_balance();
+    add_overlap();
     return std::move(statements_);
   }
 
@@ -41,7 +42,7 @@ class TableStatements {
     for (const auto& [reduction, scenario] : reductions) order.push_back(scenario);
     const bool all = reductions.back().first > 0;
     statements_.add("reduction_order", "The nodes are reduced in all scenarios; biggest reduction first",
-                    values_.printed("reduction_order"), fmt::format("{}", fmt::join(order, ", ")),
+                    {values_, "reduction_order"}, fmt::format("{}", fmt::join(order, ", ")),
                     verdict_if(all && order == values_.integers("reduction_order")));
   }
 
@@ -102,11 +103,23 @@ class TableStatements {
 
   void add_shallower() {
     const std::int64_t small = values_.integer("shallower.max_prims");
-    const bool found = everywhere(small, [this](const TreeColumn& a, const TreeColumn& b) {
-      return a.spread("depth_avg").mean < b.spread("depth_avg").mean && build_ms(a) < build_ms(b);
+    const bool shallower = everywhere(small, [](const TreeColumn& a, const TreeColumn& b) {
+      return a.spread("depth_avg").mean < b.spread("depth_avg").mean;
     });
-    add_everywhere("shallower", "A higher MAX_PRIMS makes the tree shallower and thereby decreases the build time",
-                   found, small);
+    const bool faster = everywhere(small, [this](const TreeColumn& a, const TreeColumn& b) {
+      return build_quartiles(a).upper < build_quartiles(b).lower;
+    });
+    const bool perhaps = everywhere(small, [this](const TreeColumn& a, const TreeColumn& b) {
+      return build_quartiles(a).lower <= build_quartiles(b).upper;
+    });
+    statements_.add("shallower", "A higher MAX_PRIMS makes the tree shallower and thereby decreases the build time",
+                    fmt::format("MAX_PRIMS {}", small),
+                    fmt::format("{}; {}", shallower ? "shallower in each scenario" : "not shallower in each scenario",
+                                faster ? "faster in each" : "not clearly faster in each"),
+                    shallower && faster    ? Verdict::agrees
+                    : shallower && perhaps ? Verdict::undecided
+                                           : Verdict::differs,
+                    "", /*timed=*/true);
   }
 
   void add_leaf_each() {
@@ -119,17 +132,48 @@ class TableStatements {
         most.push_back(fmt::format("{:.0f}", column.spread("spheres_per_leaf_max").mean));
         each = each && column.spread("spheres_per_leaf_max").mean == values_.number("leaf_each.spheres_per_leaf");
       }
+    // The table itself has leaves with more, or it has not.
+    std::vector<std::string> against;
+    for (const TreeColumn& column : columns_.all()) {
+      const std::string row = tree_value(column.scenario, column.max_prims) + ".spheres_per_leaf_max";
+      if (column.max_prims == single && values_.number(row) != values_.number("leaf_each.spheres_per_leaf"))
+        against.push_back(fmt::format("Scenario {}: {}", column.scenario, values_.printed(row)));
+    }
     statements_.add("leaf_each", "The first test's trees have a leaf for each sphere; most spheres in a leaf",
-                    values_.printed("leaf_each.spheres_per_leaf"),
+                    {values_, "leaf_each.spheres_per_leaf"},
                     fmt::format("{} in the scenarios: coincident spheres cannot be parted", fmt::join(most, ", ")),
-                    verdict_if(each));
+                    against.empty() ? verdict_if(each) : Verdict::text_inconsistent,
+                    against.empty() ? "" : fmt::format("its table has {}", fmt::join(against, ", ")));
   }
 
   void add_build_order() {
-    const auto ms = [this](const TreeColumn& column) { return build_ms(column); };
-    const TreeColumn &least = extreme(ms, false), &most = extreme(ms, true);
-    add_extreme("shortest_build", "The shortest build time", least, fmt::format("{:.3f} ms", ms(least)));
-    add_extreme("longest_build", "The longest build time", most, fmt::format("{:.3f} ms", ms(most)));
+    add_extreme_build("shortest_build", "The shortest build time", /*longest=*/false);
+    add_extreme_build("longest_build", "The longest build time", /*longest=*/true);
+  }
+
+  Quartiles build_quartiles(const TreeColumn& column) const {
+    return quartiles_of(columns_.build_means(column.scenario, column.max_prims));
+  }
+
+  // Agrees if the stated column's quartiles lie beyond those of all others; differs if those of another lie beyond its
+  // own.
+  void add_extreme_build(const std::string& name, const std::string& statement, bool longest) {
+    const std::int64_t scenario = values_.integer(name + ".scenario"), prims = values_.integer(name + ".max_prims");
+    const TreeColumn* const stated = columns_.find(scenario, prims);
+    const TreeColumn& ours = extreme([this](const TreeColumn& column) { return build_ms(column); }, longest);
+    const auto beyond = [longest](const Quartiles& a, const Quartiles& b) {
+      return longest ? a.lower > b.upper : a.upper < b.lower;
+    };
+    bool before_all = stated != nullptr, behind_one = stated == nullptr;
+    for (const TreeColumn& column : columns_.all()) {
+      if (stated == nullptr || &column == stated) continue;
+      before_all = before_all && beyond(build_quartiles(*stated), build_quartiles(column));
+      behind_one = behind_one || beyond(build_quartiles(column), build_quartiles(*stated));
+    }
+    const Verdict verdict = before_all ? Verdict::agrees : behind_one ? Verdict::differs : Verdict::undecided;
+    statements_.add(name, statement, fmt::format("Scenario {}, MAX_PRIMS {}", scenario, prims),
+                    fmt::format("{}: {} ms", ours.name(), quartiles_text(build_quartiles(ours), 3)), verdict,
+                    verdict == Verdict::undecided ? "quartiles overlap" : "", /*timed=*/true);
   }
 
   // The part of the first configuration's build time that the second saves, from times taken together.
@@ -158,10 +202,11 @@ class TableStatements {
       above_all = above_all && build_gain(claimed).lower > gain.upper;
       below_one = build_gain(claimed).upper < gain.lower;
     }
-    const Verdict verdict = above_all ? Verdict::agrees : below_one ? Verdict::differs : Verdict::none;
+    const Verdict verdict = above_all ? Verdict::agrees : below_one ? Verdict::differs : Verdict::undecided;
     statements_.add("best_build_gain", "The best relative improvement of the build time, in percent",
                     fmt::format("Scenario {}; the table has {}", claimed, fmt::join(stated, ", ")),
-                    fmt::format("{}", fmt::join(ours, ", ")), verdict, "undecided: quartiles overlap");
+                    fmt::format("{}", fmt::join(ours, ", ")), verdict,
+                    verdict == Verdict::undecided ? "quartiles overlap" : "", /*timed=*/true);
   }
 
   // A tree has an empty leaf exactly when its smallest leaf has 0 spheres.
@@ -179,7 +224,7 @@ class TableStatements {
     statements_.add("contradictions", "The smallest leaf has 0 spheres exactly where leaves with N = 0 are counted",
                     found.empty() ? "so in each column" : fmt::format("{}", fmt::join(found, "; ")),
                     ours == 0 ? "so in each tree of each seed" : fmt::format("not in {} trees", ours),
-                    verdict_if(found.empty() && ours == 0));
+                    found.empty() ? verdict_if(ours == 0) : Verdict::text_inconsistent);
   }
 
   void add_balance() {
@@ -198,7 +243,7 @@ class TableStatements {
     }
     const std::string where = fmt::format(" (Scenario {})", scenario);
     statements_.add("level_removed", "Spheres per leaf double with each level that is removed" + where,
-                    values_.printed("level_removed.factor"), fmt::format("{}", fmt::join(sizes, ", ")),
+                    {values_, "level_removed.factor"}, fmt::format("{}", fmt::join(sizes, ", ")),
                     verdict_if(multiplied));
     for (const TreeColumn& column : columns_.all())
       if (column.scenario == scenario)
@@ -206,6 +251,25 @@ class TableStatements {
                 column.spread("depth_min").mean == column.spread("depth_max").mean;
     statements_.add("balanced", "The tree is perfectly balanced and all leaves hold equally many" + where, "all equal",
                     equal ? "all equal, at each depth limit" : "not all equal", verdict_if(equal));
+  }
+
+  // "given the high quantity of primitives in such a small volume, the possibility of node overlap is higher".
+  void add_overlap() {
+    const auto found = context_.results.find(kReasonsStep);
+    if (found == context_.results.end()) return;
+    const std::int64_t claimed = values_.integer("most_overlap.scenario");
+    double here = 0, elsewhere = 0;
+    std::vector<std::string> ours;
+    for (const Json& row : found->second) {
+      if (row["max_prims"].get<std::int64_t>() != columns_.max_prims.front()) continue;
+      const double share = row["overlap_share"].get<double>();
+      (row["scenario"].get<std::int64_t>() == claimed ? here : elsewhere) =
+          row["scenario"].get<std::int64_t>() == claimed ? share : std::max(elsewhere, share);
+      ours.push_back(fmt::format("Scenario {}: {:.1f} %", row["scenario"].get<std::int64_t>(), 100 * share));
+    }
+    statements_.add("most_overlap", "Nodes overlap more in this scenario than in the others: split nodes that do",
+                    fmt::format("Scenario {}", claimed), fmt::format("{}", fmt::join(ours, ", ")),
+                    verdict_if(here > elsewhere));
   }
 
   const SectionContext& context_;

@@ -10,8 +10,8 @@ namespace bihive {
 int hardware_threads();
 
 /// Calls body(i) once for each 0 <= i < count, on at most `threads` threads (0 = hardware_threads()), in any order, and
-/// returns after all calls. The output of the body must depend on i alone, so that the number of threads cannot change
-/// it. The body must not throw.
+/// returns after all calls. Where the system cannot make so many threads, there are fewer. The output of the body must
+/// depend on i alone, so that the number of threads cannot change it. The body must not throw.
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body);
 
 /// A running task adds further tasks here.

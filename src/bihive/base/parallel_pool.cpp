@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -65,7 +66,11 @@ class Waiting final : public TaskList {
 template <class Work>
 void on_threads(std::int64_t threads, const Work& work) {
   std::vector<std::thread> helpers;
-  for (std::int64_t k = 1; k < threads; ++k) helpers.emplace_back(work);
+  try {
+    for (std::int64_t k = 1; k < threads; ++k) helpers.emplace_back(work);
+  } catch (const std::exception&) {
+    // The system has no more threads or no more memory: those that were made do the work.
+  }
   work();
   for (std::thread& helper : helpers) helper.join();
 }

@@ -6,8 +6,12 @@
 #include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
+#include <exception>
+#include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "bihive/base/parallel.h"
 
@@ -29,6 +33,38 @@ class Group final : public TaskList {
   oneapi::tbb::task_group group_;
 };
 
+// So many threads can be made beside this one, up to `wanted`. They are made and ended again: oneTBB itself throws, on
+// a thread where nobody catches it, if the system has no more. A thread of the C++ library takes twice the stack of one
+// of oneTBB's, so memory is left for the work.
+int threads_beside(int wanted) {
+  std::mutex gate;
+  std::vector<std::thread> threads;
+  std::unique_lock<std::mutex> closed(gate);
+  try {
+    threads.reserve(static_cast<std::size_t>(wanted));
+    while (static_cast<int>(threads.size()) < wanted)
+      threads.emplace_back([&gate] { const std::lock_guard<std::mutex> wait(gate); });
+  } catch (const std::exception&) {
+    // No more threads or no more memory: those that were made count.
+  }
+  const auto made = static_cast<int>(threads.size());
+  closed.unlock();
+  for (std::thread& thread : threads) thread.join();
+  return made;
+}
+
+// As many threads as were asked for, or as the system has. It is asked once for each larger number.
+int threads_to_use(int wanted) {
+  static std::mutex mutex;
+  static int asked = 1, made = 1;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (wanted > asked && made == asked) {
+    made = 1 + threads_beside(wanted - 1);
+    asked = wanted;
+  }
+  return std::min(wanted, made);
+}
+
 // Calls body() in an arena of that many threads.
 template <class Body>
 void in_arena(int threads, const Body& body) {
@@ -47,7 +83,7 @@ int hardware_threads() {
 }
 
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body) {
-  if (threads == 0) threads = hardware_threads();
+  threads = threads_to_use(threads == 0 ? hardware_threads() : threads);
   // One thread runs a plain loop, so it needs no scheduler.
   if (threads == 1 || count <= 1) {
     for (std::int64_t i = 0; i < count; ++i) body(i);
@@ -58,7 +94,7 @@ void parallel_for(int threads, std::int64_t count, const std::function<void(std:
 }
 
 void parallel_tasks(int threads, const std::function<void(TaskList&)>& first) {
-  if (threads == 0) threads = hardware_threads();
+  threads = threads_to_use(threads == 0 ? hardware_threads() : threads);
   if (threads == 1) {
     Inline list;
     first(list);

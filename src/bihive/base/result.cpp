@@ -1,5 +1,7 @@
 #include "bihive/base/result.h"
 
+#include "bihive/base/readable.h"
+
 namespace bihive {
 
 std::string Error::to_string() const {
@@ -12,9 +14,7 @@ std::string Error::to_string() const {
   }
   text += message;
   if (!hint.empty()) text += "; " + hint;
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  return text;
+  return escaped(text);
 }
 
 }  // namespace bihive

@@ -21,7 +21,8 @@ struct Error {
   std::int64_t column = 0;
   std::string hint;  ///< advice for the user, one line; may be empty
 
-  /// "file:line:column: message; hint" without the unknown parts. Always one line.
+  /// "file:line:column: message; hint" without the unknown parts. Always one line, without control characters
+  /// (base/readable.h: escaped()).
   std::string to_string() const;
 };
 

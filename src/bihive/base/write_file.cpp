@@ -1,34 +1,68 @@
 #include "bihive/base/write_file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <climits>
-#include <cstdlib>
-#include <cstring>
+#include <cstdio>
+#include <ctime>
 #include <utility>
+
+#include "bihive/base/output_place.h"
 
 namespace bihive {
 namespace {
 
-Error system_error(const std::string& what, const std::string& path, int code, const std::string& hint = "") {
-  return {what + ": " + std::strerror(code), path, 0, 0, hint};
+#if defined(O_PATH)
+constexpr int kOpenFolder = O_PATH | O_DIRECTORY | O_CLOEXEC;
+#else
+constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+#endif
+
+constexpr const char* kPrefix = ".bihive-";
+constexpr const char* kSuffix = ".part";
+constexpr int kAttempts = 100;
+constexpr mode_t kOwnerOnly = 0600;
+
+// A name that nobody can guess.
+std::string random_name() {
+  unsigned long long bits = 0;
+  if (::getentropy(&bits, sizeof(bits)) != 0) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    bits =
+        static_cast<unsigned long long>(now.tv_nsec) * 0x9e3779b97f4a7c15u ^ static_cast<unsigned long long>(getpid());
+  }
+  char digits[17];
+  std::snprintf(digits, sizeof(digits), "%016llx", bits);
+  return std::string(kPrefix) + digits + kSuffix;
 }
 
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
+bool is_aside_name(const std::string& name) {
+  const std::string_view prefix = kPrefix;
+  const std::string_view suffix = kSuffix;
+  return name.size() == prefix.size() + 16 + suffix.size() && name.compare(0, prefix.size(), prefix) == 0 &&
+         name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
 }
 
-// The file at the end of the path's links, so that a link is followed and not replaced. A path to nothing stays as it
-// is.
-std::string follow_links(const std::string& path) {
-  char resolved[PATH_MAX];
-  return realpath(path.c_str(), resolved) != nullptr ? std::string(resolved) : path;
+// Removes files that a killed program of this user left. A living program holds a lock on its file.
+void remove_leftovers(const std::string& folder) {
+  DIR* const listing = ::opendir(folder.c_str());
+  if (listing == nullptr) return;
+  while (const dirent* const entry = ::readdir(listing)) {
+    if (!is_aside_name(entry->d_name)) continue;
+    const int file = ::openat(dirfd(listing), entry->d_name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) continue;
+    struct stat info {};
+    const bool is_own = ::fstat(file, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid();
+    if (is_own && ::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlinkat(dirfd(listing), entry->d_name, 0);
+    ::close(file);
+  }
+  ::closedir(listing);
 }
 
 // Writes everything; returns 0, or the errno of the failure.
@@ -39,54 +73,118 @@ int write_all(int file, std::string_view bytes) {
       if (errno == EINTR) continue;
       return errno;
     }
+    if (written == 0) return EIO;
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
   return 0;
 }
 
+// The file is closed, whatever the result: 0 or an errno.
+int close_file(int file) {
+  return ::close(file) == 0 || errno == EINTR ? 0 : errno;
+}
+
+int flush(int file) {
+  while (::fsync(file) != 0)
+    if (errno != EINTR) return errno == EINVAL ? 0 : errno;
+  return 0;
+}
+
+std::string path_of_descriptor(int file) {
+  return "/proc/self/fd/" + std::to_string(file);
+}
+
+// A file without a name; -1 where the system has none, or no way to name it later.
+int open_nameless(int folder) {
+#if defined(O_TMPFILE)
+  const int file = ::openat(folder, ".", O_TMPFILE | O_RDWR | O_CLOEXEC, kOwnerOnly);
+  if (file < 0) return -1;
+  if (::access(path_of_descriptor(file).c_str(), F_OK) == 0) return file;
+  ::close(file);
+#else
+  (void)folder;
+#endif
+  return -1;
+}
+
 }  // namespace
 
+GrowingFile::GrowingFile() = default;
+
+Status GrowingFile::open_aside(const std::string& folder) {
+  folder_ = ::open(folder.c_str(), kOpenFolder);
+  if (folder_ < 0) return system_error("cannot be created", given_path_, errno);
+  folder_aside_ = folder;
+  file_ = open_nameless(folder_);
+  if (file_ >= 0) return Done{};
+  remove_leftovers(folder);
+  for (int attempt = 0; attempt < kAttempts && file_ < 0; ++attempt) {
+    aside_ = random_name();
+    file_ = ::openat(folder_, aside_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC, kOwnerOnly);
+    if (file_ < 0 && errno != EEXIST && errno != EINTR) break;
+  }
+  if (file_ < 0) {
+    aside_.clear();
+    return system_error("cannot be created", given_path_, errno);
+  }
+  // Without the lock another program takes the file for one that a killed program left. Not every file system has
+  // locks, and none of them is asked twice.
+  (void)::flock(file_, LOCK_EX | LOCK_NB);
+  return Done{};
+}
+
 Result<GrowingFile> GrowingFile::begin(const std::string& given_path) {
-  if (Status status = check_writable(given_path); !status) return status.error();
+  Result<OutputPlace> place = find_output(given_path);
+  if (!place) return place.error();
   GrowingFile growing;
   growing.given_path_ = given_path;
-  growing.path_ = follow_links(given_path);
-  struct stat info {};
-  const bool exists = ::stat(growing.path_.c_str(), &info) == 0;
-  if (exists && !S_ISREG(info.st_mode)) {
-    // A pipe or a device: a rename would replace it.
-    growing.file_ = ::open(growing.path_.c_str(), O_WRONLY | O_CLOEXEC);
+  growing.place_ = std::make_unique<OutputPlace>(std::move(*place));
+  const OutputPlace& target = *growing.place_;
+  if (target.kind == OutputPlace::Kind::descriptor) {
+    growing.file_ = ::fcntl(target.descriptor, F_DUPFD_CLOEXEC, 3);
     if (growing.file_ < 0) return system_error("cannot be written", given_path, errno);
     return growing;
   }
-
-  // Make a file with a new name in the folder of the target, so that the rename stays on one disk.
-  std::string aside = growing.path_ + ".XXXXXX";
-  growing.file_ = ::mkstemp(aside.data());
-  if (growing.file_ < 0) return system_error("cannot be created", given_path, errno);
-  growing.aside_ = std::move(aside);
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  growing.mode_ = exists ? (info.st_mode & 07777) : (0666 & ~mask);
+  if (target.kind == OutputPlace::Kind::stream) {
+    growing.file_ = ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    if (growing.file_ < 0) return system_error("cannot be written", given_path, errno);
+    return growing;
+  }
+  if (Status status = growing.open_aside(target.folder); !status) return status.error();
   return growing;
 }
 
 GrowingFile::GrowingFile(GrowingFile&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
+      folder_(std::exchange(other.folder_, -1)),
       size_(other.size_),
-      mode_(other.mode_),
       given_path_(std::move(other.given_path_)),
-      path_(std::move(other.path_)),
-      aside_(std::exchange(other.aside_, std::string())) {}
+      place_(std::move(other.place_)),
+      folder_aside_(std::move(other.folder_aside_)),
+      aside_(std::exchange(other.aside_, std::string())),
+      old_(std::exchange(other.old_, std::string())),
+      spare_name_(std::move(other.spare_name_)),
+      new_name_(std::move(other.new_name_)),
+      link_from_(std::move(other.link_from_)),
+      placed_(other.placed_) {}
 
 GrowingFile::~GrowingFile() {
   if (file_ >= 0) ::close(file_);
-  if (!aside_.empty()) ::unlink(aside_.c_str());
+  if (!aside_.empty()) ::unlinkat(folder_, aside_.c_str(), 0);
+  if (folder_ >= 0) ::close(folder_);
 }
 
-Status GrowingFile::failed(int code) {
+bool GrowingFile::can_go_back() const {
+  return place_ != nullptr && place_->regular();
+}
+
+std::string GrowingFile::path_aside() const {
+  return aside_.empty() ? "" : folder_aside_ + "/" + aside_;
+}
+
+Status GrowingFile::failed(int code) const {
   return system_error("writing failed", given_path_, code,
-                      code == ENOSPC && !aside_.empty() ? "free some space or write elsewhere" : "");
+                      code == ENOSPC && can_go_back() ? "free some space or write elsewhere" : "");
 }
 
 Status GrowingFile::append(std::string_view bytes) {
@@ -97,7 +195,7 @@ Status GrowingFile::append(std::string_view bytes) {
 
 Status GrowingFile::write_at(std::uint64_t place, std::string_view bytes) {
   if (place == size_) return append(bytes);
-  if (aside_.empty()) return failed(ESPIPE);
+  if (!can_go_back()) return failed(ESPIPE);
   if (::lseek(file_, static_cast<off_t>(place), SEEK_SET) < 0) return failed(errno);
   if (const int code = write_all(file_, bytes); code != 0) return failed(code);
   size_ = std::max(size_, place + bytes.size());
@@ -105,17 +203,133 @@ Status GrowingFile::write_at(std::uint64_t place, std::string_view bytes) {
   return Done{};
 }
 
-Status GrowingFile::finish() {
-  // Flush, rename. The destructor removes the new file after any failure.
-  int code = 0;
-  const bool is_aside = !aside_.empty();
-  if (is_aside && ::fchmod(file_, static_cast<mode_t>(mode_)) != 0) code = errno;
-  if (is_aside && code == 0 && ::fsync(file_) != 0) code = errno;
-  if (::close(std::exchange(file_, -1)) != 0 && code == 0) code = errno;
-  if (is_aside && code == 0 && ::rename(aside_.c_str(), path_.c_str()) != 0) code = errno;
-  if (code != 0) return failed(code);
+// All texts that the later steps need, because nothing is reserved from then on: a program may end where it finds no
+// memory, and would leave a part.
+void GrowingFile::choose_names() {
+  spare_name_ = random_name();
+  new_name_ = random_name();
+  link_from_ = path_of_descriptor(file_);
+}
+
+// The file gets its owner and permissions, reaches the disk, gets a name, and is closed. 0 or an errno.
+int GrowingFile::settle() {
+  if (!can_go_back()) return close_file(std::exchange(file_, -1));
+  if (place_->kind == OutputPlace::Kind::in_place) return 0;
+
+  // Some file systems (vfat, CIFS) have neither owners nor permissions. The file is as good without.
+  if (place_->kind == OutputPlace::Kind::replaced) {
+    mode_t mode = place_->mode;
+    struct stat info {};
+    if (::fstat(file_, &info) == 0 && (info.st_uid != place_->user || info.st_gid != place_->group) &&
+        ::fchown(file_, place_->user, place_->group) != 0) {
+      // Another group than before may not do more than everybody.
+      mode &= ~static_cast<mode_t>(S_IRWXG) | (mode & S_IRWXO) << 3;
+    }
+    (void)::fchmod(file_, mode);
+  } else {
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    (void)::fchmod(file_, 0666 & ~mask);
+  }
+
+  if (const int code = flush(file_); code != 0) return code;
+  for (int attempt = 0; aside_.empty() && attempt < kAttempts; ++attempt) {
+    if (::linkat(AT_FDCWD, link_from_.c_str(), folder_, new_name_.c_str(), AT_SYMLINK_FOLLOW) == 0)
+      aside_.swap(new_name_);
+    else if (errno != EEXIST)
+      return errno;
+    else
+      new_name_ = random_name();
+  }
+  if (aside_.empty()) return EEXIST;
+  return close_file(std::exchange(file_, -1));
+}
+
+// Over the bytes of a mount point.
+int GrowingFile::copy_in_place() {
+  const int target = ::open(place_->path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (target < 0) return errno;
+  int code = ::lseek(file_, 0, SEEK_SET) < 0 ? errno : 0;
+  char buffer[1 << 16];
+  while (code == 0) {
+    const ssize_t count = ::read(file_, buffer, sizeof(buffer));
+    if (count == 0) break;
+    if (count > 0)
+      code = write_all(target, {buffer, static_cast<std::size_t>(count)});
+    else if (errno != EINTR)
+      code = errno;
+  }
+  if (code == 0 && ::ftruncate(target, static_cast<off_t>(size_)) != 0) code = errno;
+  if (code == 0) code = flush(target);
+  const int closed = close_file(target);
+  return code != 0 ? code : closed;
+}
+
+// `keep_old`: so that undo() can bring it back. 0 or an errno. Nothing here or in undo() reserves memory, for a program
+// may end where it finds none.
+int GrowingFile::take_place(bool keep_old) {
+  const std::string& name = place_->name;
+  if (keep_old && place_->kind == OutputPlace::Kind::replaced) {
+    // Not every file system has links.
+    if (::linkat(folder_, name.c_str(), folder_, spare_name_.c_str(), 0) != 0 &&
+        ::renameat(folder_, name.c_str(), folder_, spare_name_.c_str()) != 0)
+      return errno;
+    old_.swap(spare_name_);
+  }
+  if (::renameat(folder_, aside_.c_str(), folder_, name.c_str()) != 0) return errno;
   aside_.clear();
+  placed_ = true;
+  return 0;
+}
+
+void GrowingFile::undo() {
+  // A rename between two names of one file keeps both names.
+  if (!old_.empty() && ::renameat(folder_, old_.c_str(), folder_, place_->name.c_str()) == 0)
+    remove_old();
+  else if (old_.empty() && placed_)
+    ::unlinkat(folder_, place_->name.c_str(), 0);
+  placed_ = false;
+}
+
+void GrowingFile::remove_old() {
+  if (!old_.empty()) ::unlinkat(folder_, old_.c_str(), 0);
+  old_.clear();
+}
+
+Status GrowingFile::finish_together(std::vector<GrowingFile>& files) {
+  // All bytes reach the disk first.
+  for (GrowingFile& file : files) file.choose_names();
+  for (GrowingFile& file : files)
+    if (const int code = file.settle(); code != 0) return file.failed(code);
+
+  // Take the places, then write those that must be written in place.
+  const bool several = files.size() > 1;
+  const auto undo_all = [&files] {
+    for (GrowingFile& file : files) file.undo();
+  };
+  for (GrowingFile& file : files) {
+    if (file.aside_.empty() || file.place_->kind == OutputPlace::Kind::in_place) continue;
+    if (const int code = file.take_place(several); code != 0) {
+      undo_all();
+      return file.failed(code);
+    }
+  }
+  for (GrowingFile& file : files) {
+    if (file.place_->kind != OutputPlace::Kind::in_place) continue;
+    if (const int code = file.copy_in_place(); code != 0) {
+      undo_all();
+      return system_error("writing failed", file.given_path_, code,
+                          "it is a mount point and was written in place, so it may hold a part now");
+    }
+  }
+  for (GrowingFile& file : files) file.remove_old();
   return Done{};
+}
+
+Status GrowingFile::finish() {
+  std::vector<GrowingFile> one;
+  one.push_back(std::move(*this));
+  return finish_together(one);
 }
 
 Status write_file(const std::string& path, std::string_view bytes) {
@@ -125,49 +339,35 @@ Status write_file(const std::string& path, std::string_view bytes) {
   return file->finish();
 }
 
-Status check_writable(const std::string& given_path) {
-  if (given_path.empty()) return Error{"the output path is empty", "", 0, 0, "name a file"};
-  const std::string path = follow_links(given_path);
-  struct stat info {};
-  if (::stat(path.c_str(), &info) == 0) {
-    if (S_ISDIR(info.st_mode)) return Error{"is a folder", given_path, 0, 0, "name a file in it"};
-    if (::access(path.c_str(), W_OK) != 0) return system_error("cannot be written", given_path, errno);
-    if (!S_ISREG(info.st_mode)) return Done{};
-  } else if (errno != ENOENT) {
-    return system_error("cannot be written", given_path, errno);
-  }
-  const std::string folder = folder_of(path);
-  if (::stat(folder.c_str(), &info) != 0)
-    return system_error("the folder " + folder + " cannot be used", given_path, errno, "make the folder first");
-  if (!S_ISDIR(info.st_mode)) return Error{folder + " is not a folder", given_path, 0, 0, ""};
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    return system_error("the folder " + folder + " cannot be written to", given_path, errno);
+Status check_writable(const std::string& path) {
+  const Result<OutputPlace> place = find_output(path);
+  if (!place) return place.error();
+  if (!place->regular()) return Done{};
+  const Result<GrowingFile> file = GrowingFile::begin(path);
+  if (!file) return file.error();
   return Done{};
 }
 
-Result<std::string> read_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return system_error("cannot be opened", path, errno);
-  struct stat info {};
-  std::string bytes;
-  int code = ::fstat(file, &info) == 0 ? 0 : errno;
-  if (code == 0 && S_ISDIR(info.st_mode)) {
-    ::close(file);
-    return Error{"is a folder, not a file", path, 0, 0, "name a file"};
-  }
+bool is_stream(const std::string& path) {
+  const Result<OutputPlace> place = find_output(path);
+  return place && !place->regular();
+}
 
-  // Read to the end. The size is only a hint: a pipe has none, and a file may grow.
-  if (code == 0 && info.st_size > 0) bytes.reserve(static_cast<std::size_t>(info.st_size));
-  std::string buffer(1 << 16, '\0');
-  while (code == 0) {
-    const ssize_t count = ::read(file, buffer.data(), buffer.size());
-    if (count == 0) break;
-    if (count > 0) bytes.append(buffer, 0, static_cast<std::size_t>(count));
-    if (count < 0 && errno != EINTR) code = errno;
-  }
-  ::close(file);
-  if (code != 0) return system_error("cannot be read", path, code);
-  return bytes;
+bool is_standard_output(const std::string& path) {
+  const Result<OutputPlace> place = find_output(path);
+  if (!place || place->kind != OutputPlace::Kind::descriptor) return false;
+  struct stat info {};
+  return ::fstat(STDOUT_FILENO, &info) == 0 && info.st_dev == place->device && info.st_ino == place->inode;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  const Result<OutputPlace> first = find_output(a);
+  if (!first || !first->regular()) return false;
+  struct stat info {};
+  if (::stat(b.c_str(), &info) == 0)
+    return first->kind != OutputPlace::Kind::fresh && info.st_dev == first->device && info.st_ino == first->inode;
+  const Result<OutputPlace> second = find_output(b);
+  return second && same_place(*first, *second);
 }
 
 }  // namespace bihive

@@ -24,11 +24,12 @@ namespace bihive {
 /// Cuts a ray's interval at planes across an axis. It pads the planes, so it never cuts too much.
 class Slabs {
  public:
-  explicit Slabs(const ScaledRay& ray) : ray_(ray) {
+  /// `more_pad`: for spheres that lie up to so much farther from the planes, in stored units.
+  explicit Slabs(const ScaledRay& ray, double more_pad = 0) : ray_(ray) {
     // Bounds in stored units are at most 1, so rounding one to nearest moves it by at most 2^-25. Binary64 adds an
     // error of a few 2^-53 of the distance between the origin and the farthest point of the set.
     const double farthest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)}) + 2.0;
-    pad_ = 0x1p-24 + 0x1p-46 * farthest;
+    pad_ = 0x1p-24 + 0x1p-46 * farthest + more_pad;
   }
 
   /// The distance by which every plane is moved outward, in stored units.
@@ -73,13 +74,14 @@ class Slabs {
 
 /// Takes a valid ray, in the stored units of `spheres`, to every sphere that it may hit up to answer.limit(), which
 /// may come nearer meanwhile. answer.take(t, id) gets the t of geometry/sphere.h (+inf: no hit), and ends the walk by
-/// true. An answer with test(id) in place of take() does the test itself.
+/// true. An answer with test(id) in place of take() does the test itself. `more_pad` as for Slabs.
 // One function, though a long one: it defines the walk, so it is to be read from top to bottom, beside its twin for
 // graphics processors (gl/shaders/traversal.glsl), which has the same steps in the same order.
 template <class Answer, class Observer>
-void walk(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Answer& answer, Observer& observer) {
+void walk(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Answer& answer, Observer& observer,
+          double more_pad = 0) {
   // Test the box around everything.
-  const Slabs slabs(ray);
+  const Slabs slabs(ray, more_pad);
   Interval part{ray.t_min, ray.t_max};
   for (int axis = 0; axis < 3; ++axis) {
     part = slabs.above(part, axis, double(tree.aabb.lo[axis]));

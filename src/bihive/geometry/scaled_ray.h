@@ -32,7 +32,7 @@ struct ScaledRay {
 
   /// A valid ray against `spheres`. An id outside the set counts as kNothing.
   ScaledRay(const Ray& ray, const SphereSet& spheres) : ScaledRay(ray, spheres.scale()) {
-    if (ray.leaves < 0 || ray.leaves >= spheres.size()) return;
+    if (ray.leaves < 0 || ray.leaves >= spheres.total_size()) return;
     left_centre = spheres.stored_centre(ray.leaves);
     left_radius = spheres.stored_radius(ray.leaves);
   }

@@ -14,6 +14,9 @@ constexpr double kVanishingShare = 0x1p-60;
 // and a larger scale could overflow.
 constexpr int kLargestScaleExponent = 149;
 
+// Ids of images stay far from the end of 64 bits, and are exact in binary64.
+constexpr double kMostImages = 0x1p40;
+
 template <class T>
 std::int64_t bytes_of(const std::vector<T>& array) {
   return static_cast<std::int64_t>(array.capacity() * sizeof(T));
@@ -81,12 +84,19 @@ Result<SphereSet> SphereSet::from_world(const std::vector<float>& x, const std::
 SphereSet::Bounds SphereSet::bounds() const {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Bounds box{{inf, inf, inf}, {-inf, -inf, -inf}};
+  const Images::Shifts shifts = images_.shifts();
   for (std::int64_t id = 0; id < size(); ++id) {
     const Vec3d c = stored_centre(id);
     const double radius = stored_radius(id);
     for (int axis = 0; axis < 3; ++axis) {
-      box.lo[axis] = std::min(box.lo[axis], c[axis] - radius);
-      box.hi[axis] = std::max(box.hi[axis], c[axis] + radius);
+      double lo = c[axis];
+      double hi = c[axis];
+      if (has_images()) {
+        lo = double(static_cast<float>(c[axis] + scale() * shifts.lo[axis]));
+        hi = double(static_cast<float>(c[axis] + scale() * shifts.hi[axis]));
+      }
+      box.lo[axis] = std::min(box.lo[axis], lo - radius);
+      box.hi[axis] = std::max(box.hi[axis], hi + radius);
     }
   }
   return {box.lo * inverse_scale(), box.hi * inverse_scale()};
@@ -95,6 +105,8 @@ SphereSet::Bounds SphereSet::bounds() const {
 SphereSet SphereSet::part(const std::vector<std::int64_t>& ids) const {
   SphereSet made;
   made.scale_exponent_ = scale_exponent_;
+  made.cell_ = cell_;
+  made.images_ = images_;
   const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
     to.reserve(ids.size());
     for (const std::int64_t id : ids) to.push_back(from[static_cast<std::size_t>(id)]);
@@ -103,9 +115,66 @@ SphereSet SphereSet::part(const std::vector<std::int64_t>& ids) const {
   take(y_, made.y_);
   take(z_, made.z_);
   take(r_, made.r_);
-  for (const float radius : made.r_)
-    if (radius > 0 && double(radius) < kVanishingShare) ++made.vanishing_radii_;
+  made.count_vanishing_radii();
   return made;
+}
+
+void SphereSet::count_vanishing_radii() {
+  vanishing_radii_ = std::count_if(r_.begin(), r_.end(), [](float r) { return r > 0 && double(r) < kVanishingShare; });
+}
+
+Vec3d SphereSet::stored_image_centre(std::int64_t id) const {
+  const Vec3d own = stored_centre(id % size());
+  return to_double(to_float(own + scale() * images_.shift(id / size())));
+}
+
+Status SphereSet::replicate(const std::array<Vec3d, 3>& vectors, const std::array<std::int32_t, 3>& counts) {
+  const auto bad = [](const std::string& message) { return Error{message, "", 0, 0, ""}; };
+  // Check the vectors and the counts.
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  double all = static_cast<double>(size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string name(1, "abc"[k]);
+    if (counts[k] < 1) return bad("there must be at least 1 copy along the cell's vector " + name);
+    if (!is_finite(vectors[k])) return bad("the cell's vector " + name + " must be finite");
+    if (counts[k] > 1 && vectors[k] == Vec3d{})
+      return bad("the cell has no extent along its vector " + name + ", so there are no copies along it");
+    all *= counts[k];
+  }
+  if (all > kMostImages) return bad("more than 2^40 spheres with their copies");
+  Images images{counts, vectors};
+  if (images.count() == 1 && !has_images()) return Done{};
+
+  // Find the farthest bound from 0 of all images. A rounded sum grows with its operands, so the farthest shifts do.
+  const Images::Shifts shifts = images.shifts();
+  double extent = 0;
+  for (std::int64_t id = 0; id < size(); ++id) {
+    const Vec3d c = centre(id);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double by : {shifts.lo[axis], shifts.hi[axis]}) {
+        if (!(std::abs(c[axis] + by) <= kLargest))
+          return bad("the copies must fit single precision (3.4e38) but a centre is beyond it");
+        extent = std::max(extent, std::abs(double(static_cast<float>(c[axis] + by))) + radius(id));
+      }
+  }
+
+  // Bring it into [1/2, 1] by another power of two, which is exact but for the smallest numbers of binary32. Like
+  // any sum with a shift, that with 0 makes -0 to 0.
+  int exponent = 0;
+  if (extent > 0) std::frexp(extent, &exponent);
+  exponent = std::min(-exponent, kLargestScaleExponent);
+  const int change = exponent - scale_exponent_;
+  for (auto* values : {&x_, &y_, &z_, &r_})
+    for (float& value : *values) value = static_cast<float>(std::ldexp(double(value), change) + 0.0);
+  scale_exponent_ = exponent;
+  images_ = images;
+  count_vanishing_radii();
+  return Done{};
+}
+
+Status SphereSet::keep_cell_of(const SphereSet& other) {
+  cell_ = other.cell_;
+  return other.has_images() ? replicate(other.images_.vectors, other.images_.counts) : Status(Done{});
 }
 
 std::int64_t SphereSet::allocated_bytes() const {

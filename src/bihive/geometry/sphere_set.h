@@ -4,13 +4,19 @@
 // bound of the set into [-1, 1]. The power of two is exact, and it keeps squares of binary32 away from overflow and
 // underflow for worlds measured in 1e-20 as in 1e20. Ids are 0-based positions in the order in which the set was read;
 // counts are 64-bit.
+//
+// A set may stand for copies of itself (images, geometry/cell.h), of which only the first is stored. The others have
+// ids too: that of sphere `id` in copy k is k * size() + id.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/geometry/cell.h"
 #include "bihive/geometry/sphere_attributes.h"
 #include "bihive/math/aabb.h"
 #include "bihive/math/vec3.h"
@@ -29,19 +35,41 @@ class SphereSet {
   static Result<SphereSet> from_world(const std::vector<float>& x, const std::vector<float>& y,
                                       const std::vector<float>& z, const std::vector<float>& r);
 
+  /// The spheres that are stored.
   std::int64_t size() const { return static_cast<std::int64_t>(x_.size()); }
   bool empty() const { return x_.empty(); }
 
-  /// Stored units.
+  /// The spheres with all their images. Every id below is one.
+  std::int64_t total_size() const { return size() * images_.count(); }
+  bool has_images() const { return images_.count() > 1; }
+  const Images& images() const { return images_; }
+  /// The stored sphere of which this one is an image, or itself. Negative ids (nothing, the plane) stay what they are.
+  std::int64_t stored_id(std::int64_t id) const { return id < size() ? id : id % size(); }
+
+  /// Makes the set stand for counts[0] x counts[1] x counts[2] copies of it along `vectors` (world units). The centre
+  /// of an image is the stored centre plus Images::shift(), a sum in binary64, rounded once to binary32. Nothing is
+  /// copied; the stored units change, so that all images are within [-1, 1]. Images that it had before are gone; 1 x 1
+  /// x 1 leaves none. Error: a count below 1, a vector that is not finite or of length 0 where there are copies along
+  /// it, copies beyond binary32's range, or more than 2^40 spheres with images.
+  Status replicate(const std::array<Vec3d, 3>& vectors, const std::array<std::int32_t, 3>& counts);
+  /// The same copies and cell as `other` has; for a set that was made from its spheres.
+  Status keep_cell_of(const SphereSet& other);
+
+  /// The periodic cell, if one is known.
+  std::optional<Cell>& cell() { return cell_; }
+  const std::optional<Cell>& cell() const { return cell_; }
+
+  /// Of the stored spheres, in stored units.
   const std::vector<float>& x() const { return x_; }
   const std::vector<float>& y() const { return y_; }
   const std::vector<float>& z() const { return z_; }
   const std::vector<float>& r() const { return r_; }
   Vec3d stored_centre(std::int64_t id) const {
+    if (id >= size()) return stored_image_centre(id);
     const auto i = static_cast<std::size_t>(id);
     return {double(x_[i]), double(y_[i]), double(z_[i])};
   }
-  double stored_radius(std::int64_t id) const { return double(r_[static_cast<std::size_t>(id)]); }
+  double stored_radius(std::int64_t id) const { return double(r_[static_cast<std::size_t>(stored_id(id))]); }
   /// The sphere's box as the tree uses it: centre -/+ radius in binary32, rounded to nearest.
   Aabb stored_box(std::int64_t id) const {
     const auto i = static_cast<std::size_t>(id);
@@ -56,7 +84,7 @@ class SphereSet {
   Vec3d centre(std::int64_t id) const { return stored_centre(id) * inverse_scale(); }
   double radius(std::int64_t id) const { return stored_radius(id) * inverse_scale(); }
   double inverse_scale() const { return std::ldexp(1.0, -scale_exponent_); }
-  /// The smallest box around all spheres (radius 0 too), in world units as binary64: lo and hi.
+  /// The smallest box around all spheres and images (radius 0 too), in world units as binary64: lo and hi.
   struct Bounds {
     Vec3d lo, hi;
   };
@@ -66,7 +94,8 @@ class SphereSet {
   /// reliably.
   std::int64_t vanishing_radii() const { return vanishing_radii_; }
 
-  /// The spheres of these ids in their order, in the same stored units; without attributes.
+  /// The stored spheres of these ids in their order, in the same stored units, with the same images; without
+  /// attributes.
   SphereSet part(const std::vector<std::int64_t>& ids) const;
 
   SphereAttributes& attributes() { return attributes_; }
@@ -80,6 +109,11 @@ class SphereSet {
   int scale_exponent_ = 0;
   std::int64_t vanishing_radii_ = 0;
   SphereAttributes attributes_;
+  std::optional<Cell> cell_;
+  Images images_;
+
+  Vec3d stored_image_centre(std::int64_t id) const;
+  void count_vanishing_radii();
 
   template <class T>
   static Result<SphereSet> make(const std::vector<T>& x, const std::vector<T>& y, const std::vector<T>& z,

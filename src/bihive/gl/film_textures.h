@@ -22,6 +22,8 @@ class FilmTextures {
 
   /// Finds out whether the context can draw into numbers, else into their bits. Error: neither.
   Status choose_format();
+  /// The format of another film of the same context.
+  void take_format(const FilmTextures& other) { format_ = other.format_; }
   /// Error: the context has no room for the film.
   Status resize(int width_px, int height_px);
   void destroy();

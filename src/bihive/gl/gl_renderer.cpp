@@ -10,10 +10,12 @@
 #include "bihive/base/check.h"
 #include "bihive/base/timer.h"
 #include "bihive/gl/film_textures.h"
+#include "bihive/gl/first_hits_texture.h"
+#include "bihive/gl/light_slices.h"
+#include "bihive/gl/sample_textures.h"
 #include "bihive/gl/scene_on_gpu.h"
 #include "bihive/gl/tile_walk.h"
 #include "bihive/scene/clips.h"
-#include "bihive/scene/sample_pattern.h"
 
 namespace bihive {
 namespace {
@@ -22,6 +24,20 @@ namespace {
 constexpr double kShareOfBudget = 0.25;
 constexpr double kLongestDrawMs = 50;
 constexpr int kRowsAtOnce = 64;
+
+// The textures of a program: the film, the first hits, directions and points of lights, then the scene's.
+constexpr int kUnitOfFilm = 0, kUnitOfFirstHits = 6, kUnitOfSamples = 7, kUnitOfSlices = 9;
+
+// Alpha above this: shaders/film.glsl says that the driver has stopped the loops of a pixel.
+constexpr float kLoopsStopped = 1e11F;
+
+// A step of first hits is a part of a sample's work.
+constexpr double kShareOfFirstHits = 0.1;
+
+// Pixels of so many rays are drawn in small blocks, so that no draw takes long.
+int block_for(int rays_of_pixel) {
+  return rays_of_pixel <= 8 ? TileWalk::kBlockPx : 16;
+}
 
 std::string text_of(const GlFunctions& gl, GLenum name) {
   const GLubyte* const text = gl.GetString(name);
@@ -32,13 +48,24 @@ std::string text_of(const GlFunctions& gl, GLenum name) {
 
 class GlRenderer::Implementation {
  public:
-  explicit Implementation(const GlFunctions& functions) : gl_(functions), film_(gl_), scene_(gl_) {}
+  explicit Implementation(const GlFunctions& functions)
+      : gl_(functions),
+        film_(gl_),
+        sample_film_(gl_),
+        coverage_film_(gl_),
+        first_hits_(gl_),
+        samples_(gl_),
+        scene_(gl_) {}
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
   ~Implementation() {
     if (abandoned_) return;
     scene_.destroy();
     film_.destroy();
+    sample_film_.destroy();
+    coverage_film_.destroy();
+    first_hits_.destroy();
+    samples_.destroy();
     if (shower_) shower_->destroy();
     if (vertices_ != 0) gl_.DeleteVertexArrays(1, &vertices_);
   }
@@ -52,6 +79,13 @@ class GlRenderer::Implementation {
     description_ = text_of(gl_, GL_VENDOR) + ", " + text_of(gl_, GL_RENDERER) + ", " + text_of(gl_, GL_VERSION);
     gl_.GenVertexArrays(1, &vertices_);
     if (Status status = film_.choose_format(); !status) return status;
+    sample_film_.take_format(film_);
+    coverage_film_.take_format(film_);
+    // A sampler needs a texture of its kind.
+    if (Status status = first_hits_.resize(1, 1); !status) return status;
+    if (Status status = sample_film_.resize(1, 1); !status) return status;
+    if (Status status = coverage_film_.resize(1, 1); !status) return status;
+    if (Status status = probe_loops(); !status) return status;
     scene_.set_film_of_bits(film_.of_bits());
     Result<GlProgram> shower = GlProgram::link(
         gl_, "show", film_.of_bits() ? std::vector<std::string>{"FILM_OF_BITS"} : std::vector<std::string>{});
@@ -63,8 +97,11 @@ class GlRenderer::Implementation {
   Status set_scene(const Scene& scene, const Tree* tree) {
     if (has_clips(scene))
       return Error{"the graphics processor draws no cut spheres", "", 0, 0, "choose an engine of the CPU"};
+    if (scene.spheres.has_images())
+      return Error{"the graphics processor draws no replicated spheres", "", 0, 0, "choose an engine of the CPU"};
     Status status = scene_.set(scene, tree);
     if (status) program_ = nullptr;
+    if (status) smaller_by_ = 1;
     return status;
   }
 
@@ -82,27 +119,50 @@ class GlRenderer::Implementation {
     if (settings.view == View::traversal && !scene_.has_tree())
       return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                    "choose an engine with a tree"};
-    if (settings.crop)
-      return Error{"the graphics processor draws no part of a picture", "", 0, 0, "choose an engine of the CPU"};
-    if (settings.transparent)
-      return Error{"the graphics processor draws no transparent background", "", 0, 0, "choose an engine of the CPU"};
-    GLint largest = 0;
-    gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (std::max(settings.width_px, settings.height_px) > largest)
-      return Error{"the graphics processor draws at most " + std::to_string(largest) + " pixels a side", "", 0, 0,
-                   "draw a smaller picture"};
+    if (settings.adaptive_samples && settings.view == View::shaded)
+      return Error{"the graphics processor draws no adaptive samples", "", 0, 0, "choose a number of samples"};
+    if (settings.transparent && settings.view == View::traversal)
+      return Error{"this view of the tree has no transparent background", "", 0, 0, "choose another view"};
     const Result<CameraUniforms> at =
         CameraUniforms::from(camera, scene_.scale(), settings.width_px, settings.height_px);
     if (!at) return at.error();
-    camera_ = *at;
+    camera_ = camera;
     settings_ = settings;
+    if (settings_.adaptive_samples) settings_.samples_per_pixel = kFewSamples;
+    samples_.set(settings_, scene_.has_soft_light(), scene_.scale());
 
-    // The distance view first needs the range of distances.
-    finding_range_ = settings.view == View::distance;
-    Result<GlProgram*> program = scene_.program_for(settings.view, settings.recursion);
-    if (program && finding_range_) program = scene_.program_for_distance_range();
+    // The distance view first needs the range of distances of the whole picture, outlines need the first hits of each
+    // sample.
+    step_ = settings.view == View::distance ? Step::range : Step::light;
+    drawn_ =
+        settings.view == View::distance ? Tile{0, 0, settings.width_px, settings.height_px} : drawn_pixels(settings);
+    find_effects();
+    GLint largest = 0;
+    gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (std::max(drawn_.width(), drawn_.height()) + 2 * border_ > largest)
+      return Error{"the graphics processor draws at most " + std::to_string(largest - 2 * border_) + " pixels a side",
+                   "", 0, 0, "draw a smaller picture"};
+    Result<GlProgram*> program =
+        step_ == Step::range ? scene_.program_for_distance_range()
+                             : scene_.program_for(settings.view, settings.recursion, layers_, work_.directions > 0);
     if (!program) return program.error();
-    if (Status status = film_.resize(settings.width_px, settings.height_px); !status) return status;
+    if (Status status = film_.resize(drawn_.width(), drawn_.height()); !status) return status;
+    if (slices_.size() > 1)
+      if (Status status = sample_film_.resize(drawn_.width(), drawn_.height()); !status) return status;
+    finder_ = coverer_ = nullptr;
+    if (settings.transparent) {
+      const Result<GlProgram*> coverer = scene_.program_for_coverage(layers_);
+      if (!coverer) return coverer.error();
+      if (Status status = coverage_film_.resize(drawn_.width(), drawn_.height()); !status) return status;
+      coverer_ = *coverer;
+    }
+    if (border_ > 0) {
+      const Result<GlProgram*> finder = scene_.program_for_first_hits(layers_);
+      if (!finder) return finder.error();
+      if (Status status = first_hits_.resize(drawn_.width() + 2 * border_, drawn_.height() + 2 * border_); !status)
+        return status;
+      finder_ = *finder;
+    }
     program_ = *program;
     start_passes();
     return Done{};
@@ -115,16 +175,22 @@ class GlRenderer::Implementation {
     bool first = true;
     take_state();
     while (!finished() && (first || timer.elapsed_ms() + last_ms <= budget_ms)) {
-      if (first || walk_.at_start()) put_uniforms();
+      if (first || current_walk().at_start()) put_uniforms();
       first = false;
       const Timer draw;
-      const Tile tile = walk_.next(std::clamp(kShareOfBudget * budget_ms, 1.0, kLongestDrawMs));
+      TileWalk& walk = current_walk();
+      const Tile tile = walk.next(std::clamp(kShareOfBudget * budget_ms, 1.0, kLongestDrawMs));
       gl_.Scissor(tile.x0, tile.y0, tile.x1 - tile.x0, tile.y1 - tile.y0);
       gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-      film_.wait(target());
+      if (step_ == Step::first_hits)
+        first_hits_.wait();
+      else if (step_ == Step::coverage)
+        coverage_film_.wait(target());
+      else
+        current_film().wait(current_target());
       last_ms = draw.elapsed_ms();
-      walk_.took(last_ms);
-      if (!walk_.at_end()) continue;
+      walk.took(last_ms);
+      if (!walk.at_end()) continue;
       if (Status status = end_pass(); !status) return status;
     }
     give_state_back();
@@ -133,15 +199,13 @@ class GlRenderer::Implementation {
                  "choose an engine of the CPU"};
   }
 
-  bool finished() const { return !finding_range_ && pass_ == settings_.samples_per_pixel; }
-  int samples_done() const { return finding_range_ ? 0 : pass_; }
+  bool finished() const { return step_ != Step::range && pass_ == settings_.samples_per_pixel; }
+  int samples_done() const { return step_ == Step::range ? 0 : pass_; }
 
-  double done() const {
-    if (finished()) return 1;
-    const double samples = settings_.samples_per_pixel;
-    const double passes = pass_ + walk_.done();
-    if (settings_.view != View::distance) return passes / samples;
-    return (finding_range_ ? passes : samples + passes) / (2 * samples);
+  // Slices may become smaller on the way; it never goes back.
+  double done() {
+    done_ = finished() ? 1 : std::max(done_, done_now());
+    return done_;
   }
 
   void show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer) {
@@ -151,13 +215,18 @@ class GlRenderer::Implementation {
     gl_.Scissor(viewport.x, viewport.y, viewport.width, viewport.height);
     shower_->use();
     gl_.BindTexture(GL_TEXTURE_2D, film_.texture(pass_ > 0 ? (pass_ - 1) % 2 : 0));
+    gl_.ActiveTexture(GL_TEXTURE1);
+    gl_.BindTexture(GL_TEXTURE_2D, coverage_film_.texture(coverer_ != nullptr && pass_ > 0 ? (pass_ - 1) % 2 : 0));
+    gl_.ActiveTexture(GL_TEXTURE0);
     shower_->set("film", 0);
+    shower_->set("coverage", 1);
+    shower_->set("transparent", coverer_ != nullptr && pass_ > 0);
     shower_->set("film_size", float(film_.width()), float(film_.height()));
     shower_->set("corner", float(viewport.x), float(viewport.y));
     shower_->set("size", float(viewport.width), float(viewport.height));
     shower_->set("samples", float(std::max(pass_, 1)));
     shower_->set("srgb", settings_.view == View::shaded && transfer == Transfer::srgb);
-    shower_->set("only_background", finding_range_);
+    shower_->set("only_background", step_ == Step::range);
     shower_->set("background", scene_.background());
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
     give_state_back();
@@ -166,19 +235,26 @@ class GlRenderer::Implementation {
   Result<Picture> read() {
     BIHIVE_CHECK(finished());
     Picture picture;
-    const int width = settings_.width_px;
-    picture.film = Film(width, settings_.height_px);
-    picture.primary = std::int64_t{width} * settings_.height_px * settings_.samples_per_pixel;
+    const int width = drawn_.width();
+    picture.film = Film(width, drawn_.height());
+    picture.primary = std::int64_t{width} * drawn_.height() * settings_.samples_per_pixel;
     const auto samples = static_cast<float>(settings_.samples_per_pixel);
     double others = 0;
+    bool stopped = false;
     for_each_row([&](int y, const float* row) {
       for (int x = 0; x < width; ++x, row += 4) {
         picture.film.at(x, y) = {row[0] / samples, row[1] / samples, row[2] / samples};
         others += double(row[3]);
+        stopped = stopped || row[3] > kLoopsStopped;
       }
     });
     picture.others = static_cast<std::int64_t>(std::llround(others));
+    if (coverer_ != nullptr) read_coverage(picture.film);
     if (gl_.GetError() != GL_NO_ERROR) return Error{"the graphics processor gave no picture", "", 0, 0, ""};
+    if (stopped)
+      return Error{"the graphics driver has stopped the loops of a pixel: its rays meet too much", "", 0, 0,
+                   "choose an engine of the CPU, or fewer generations of rays"};
+    if (settings_.view == View::distance && settings_.crop) picture.film = part_of(picture.film, *settings_.crop);
     return picture;
   }
 
@@ -187,32 +263,166 @@ class GlRenderer::Implementation {
   bool has_picture() const { return program_ != nullptr; }
 
  private:
+  enum class Step { range, first_hits, coverage, light };
+
+  // The film has the sum of all light; what covers a pixel has the mean of its own.
+  void read_coverage(Film& film) {
+    const auto samples = static_cast<float>(settings_.samples_per_pixel);
+    film.coverage.assign(film.radiance.size(), 0);
+    for_each_row(coverage_film_, (pass_ - 1) % 2, [&](int y, const float* row) {
+      for (int x = 0; x < film.width; ++x, row += 4) {
+        const float covered = row[0];
+        Vec3f& light = film.at(x, y);
+        film.coverage[film.number_of(x, y)] = covered / samples;
+        light = covered > 0 ? light * (samples / covered) : Vec3f{};
+      }
+    });
+  }
+
+  double done_now() const {
+    const double samples = settings_.samples_per_pixel;
+    const double finding = finder_ != nullptr ? kShareOfFirstHits : 0;
+    const double covering = coverer_ != nullptr ? kShareOfFirstHits : 0;
+    double of_pass = finding + covering;
+    if (step_ == Step::first_hits)
+      of_pass = finding * finder_walk_.done();
+    else if (step_ == Step::coverage)
+      of_pass = finding + covering * finder_walk_.done();
+    else
+      of_pass += (1 - of_pass) * (slice_ + walk_.done()) / double(slices_.size());
+    const double passes = pass_ + of_pass;
+    if (settings_.view != View::distance) return passes / samples;
+    return (step_ == Step::range ? passes : samples + passes) / (2 * samples);
+  }
+
+  // Does the driver stop loops that run for long?
+  Status probe_loops() {
+    Result<GlProgram> probe = GlProgram::link(
+        gl_, "probe_loops", film_.of_bits() ? std::vector<std::string>{"FILM_OF_BITS"} : std::vector<std::string>{});
+    if (!probe) return probe.error();
+    take_state();
+    probe->use();
+    sample_film_.draw_into(0);
+    gl_.Disable(GL_SCISSOR_TEST);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    std::vector<float> rgba;
+    sample_film_.read(0, 0, 1, rgba);
+    stops_loops_ = rgba[0] != 1;
+    give_state_back();
+    probe->destroy();
+    return Done{};
+  }
+
   // The film's texture that the pass draws into; the other is that of the pass before.
   int target() const { return pass_ % 2; }
+  // Slices but the last one add up in a film of their own.
+  bool is_last_slice() const { return slice_ + 1 == static_cast<int>(slices_.size()); }
+  const FilmTextures& current_film() const { return is_last_slice() ? film_ : sample_film_; }
+  int current_target() const { return is_last_slice() ? target() : slice_ % 2; }
+  TileWalk& current_walk() { return step_ == Step::first_hits || step_ == Step::coverage ? finder_walk_ : walk_; }
+
+  // What of the scene and the settings has an effect on the light of samples?
+  void find_effects() {
+    const bool shaded = settings_.view == View::shaded;
+    layers_ = (shaded || settings_.view == View::recursion) && settings_.opacity_rule == OpacityRule::once &&
+              scene_.lets_light_through();
+    border_ = 0;
+    if (shaded && (settings_.outline || scene_.has_own_lines())) {
+      double widest = std::max(double(scene_.widest_outline_px()), settings_.outline ? settings_.outline->width_px : 0);
+      if (scene_.has_creases()) widest = std::max(widest, Outline().width_px);
+      widest *= settings_.outline_scale;
+      border_ = widest >= 1 ? static_cast<int>(std::ceil(widest)) : 0;
+    }
+    LightWork work;
+    if (shaded) {
+      work.lights = scene_.light_count();
+      if (settings_.ambient_occlusion) work.directions = settings_.ambient_occlusion->directions;
+      if (settings_.shadows && scene_.has_soft_light()) work.points = settings_.light_points;
+      work.whole_lights = scene_.has_bands();
+    }
+    work_ = work;
+    divide_light();
+    rays_of_pixel_ = work.directions / 2 + (settings_.shadows ? work.lights * work.points : 0);
+
+    fog_depths_ = {};
+    if (!shaded || !settings_.fog) return;
+    const PixelRays rays(camera_, settings_.width_px, settings_.height_px);
+    const auto [near_end, farthest] = scene_.depths(to_double(rays.eye()), rays.forward());
+    const double nearest = near_end;  // clang 14 does not capture bindings
+    // Spheres without any depth have no fog.
+    const double all = farthest - nearest;
+    const auto depth_at = [&](double share) { return static_cast<float>(nearest + share * all); };
+    if (all > 0) fog_depths_ = {depth_at(settings_.fog->start), depth_at(settings_.fog->end)};
+  }
+
+  int rays_of_slice() const { return (layers_ ? kRaysOfLayerSlice : kRaysOfSlice) / smaller_by_; }
+  void divide_light() { slices_ = light_slices(work_, std::max(1, rays_of_slice())); }
+
+  // Of the slice that was drawn.
+  bool has_stopped_loops() {
+    if (!stops_loops_ || settings_.view != View::shaded) return false;
+    bool stopped = false;
+    for_each_row(current_film(), current_target(), [&](int, const float* row) {
+      for (int x = 0; x < drawn_.width(); ++x, row += 4) stopped = stopped || row[3] > kLoopsStopped;
+    });
+    return stopped;
+  }
 
   void start_passes() {
     pass_ = 0;
-    walk_.restart(settings_.width_px, settings_.height_px);
+    done_ = 0;
+    start_pass();
     take_state();
-    if (!finding_range_) film_.fill(0, scene_.background());
+    if (step_ != Step::range) film_.fill(0, scene_.background());
     give_state_back();
   }
 
-  // The next pass, or the picture after the range of distances.
+  void start_pass() {
+    slice_ = 0;
+    walk_.restart(drawn_.width(), drawn_.height(), block_for(rays_of_pixel_));
+    if (step_ != Step::range) begin_step(finder_ != nullptr ? Step::first_hits : Step::coverage);
+  }
+
+  void begin_step(Step step) {
+    step_ = step == Step::coverage && coverer_ == nullptr ? Step::light : step;
+    const int border = step_ == Step::first_hits ? border_ : 0;
+    finder_walk_.restart(drawn_.width() + 2 * border, drawn_.height() + 2 * border);
+  }
+
+  // First hits, coverage, light of a sample; the next pass; or the picture after the range of distances.
   Status end_pass() {
+    if (step_ == Step::first_hits || step_ == Step::coverage) {
+      begin_step(step_ == Step::first_hits ? Step::coverage : Step::light);
+      return Done{};
+    }
+    if (rays_of_slice() > 1 && has_stopped_loops()) {
+      // Begin the sample again, with smaller slices.
+      smaller_by_ *= kSmallerSlices;
+      divide_light();
+      slice_ = 0;
+      walk_.restart(drawn_.width(), drawn_.height(), block_for(rays_of_pixel_));
+      if (slices_.size() == 1) return Done{};
+      return sample_film_.resize(drawn_.width(), drawn_.height());
+    }
+    if (!is_last_slice()) {
+      ++slice_;
+      walk_.restart(drawn_.width(), drawn_.height(), block_for(rays_of_pixel_));
+      return Done{};
+    }
     ++pass_;
-    walk_.restart(settings_.width_px, settings_.height_px);
-    if (!finding_range_ || pass_ < settings_.samples_per_pixel) return Done{};
+    start_pass();
+    if (step_ != Step::range || pass_ < settings_.samples_per_pixel) return Done{};
     nearest_ = std::numeric_limits<float>::max();
     farthest_ = -nearest_;
     for_each_row([&](int, const float* row) {
-      for (int x = 0; x < settings_.width_px; ++x, row += 4) {
+      for (int x = 0; x < drawn_.width(); ++x, row += 4) {
         nearest_ = std::min(nearest_, row[0]);
         farthest_ = std::max(farthest_, row[1]);
       }
     });
-    finding_range_ = false;
-    const Result<GlProgram*> program = scene_.program_for(settings_.view, settings_.recursion);
+    step_ = Step::light;
+    const Result<GlProgram*> program =
+        scene_.program_for(settings_.view, settings_.recursion, layers_, work_.directions > 0);
     if (!program) return program.error();
     program_ = *program;
     start_passes();
@@ -223,33 +433,97 @@ class GlRenderer::Implementation {
   // Every row of the last complete pass.
   template <class Use>
   void for_each_row(const Use& use) {
+    for_each_row(film_, (pass_ - 1) % 2, use);
+  }
+  template <class Use>
+  void for_each_row(const FilmTextures& film, int index, const Use& use) {
     std::vector<float> rows;
-    for (int y0 = 0; y0 < settings_.height_px; y0 += kRowsAtOnce) {
-      const int y1 = std::min(y0 + kRowsAtOnce, settings_.height_px);
-      film_.read((pass_ - 1) % 2, y0, y1, rows);
+    for (int y0 = 0; y0 < drawn_.height(); y0 += kRowsAtOnce) {
+      const int y1 = std::min(y0 + kRowsAtOnce, drawn_.height());
+      film.read(index, y0, y1, rows);
       for (int y = y0; y < y1; ++y)
-        use(y, rows.data() + 4 * static_cast<std::size_t>(settings_.width_px) * static_cast<std::size_t>(y - y0));
+        use(y, rows.data() + 4 * static_cast<std::size_t>(drawn_.width()) * static_cast<std::size_t>(y - y0));
     }
     gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   }
 
   void put_uniforms() {
-    program_->use();
-    scene_.put(*program_);
-    camera_.put(*program_);
-    gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, film_.texture(1 - target()));
-    program_->set("film_before", 0);
-    program_->set("sample_index", pass_);
-    const SamplePlace place = sample_place(pass_, settings_.samples_per_pixel);
-    program_->set("sample_place", float(place.x), float(place.y));
-    program_->set("recursion", settings_.recursion);
-    program_->set("shadows", settings_.shadows);
-    program_->set("view", settings_.view == View::normal ? 0 : settings_.view == View::distance ? 1 : 2);
-    program_->set("nearest", nearest_);
-    program_->set("farthest", farthest_);
-    film_.draw_into(target());
+    const bool finds = step_ == Step::first_hits;
+    const bool covers = step_ == Step::coverage;
+    GlProgram& program = finds ? *finder_ : covers ? *coverer_ : *program_;
+    program.use();
+    scene_.put(program);
+    samples_.put(program, pass_, kUnitOfSamples);
+    // begin() has asked for the middle of the lens, so there is no error.
+    const Result<CameraUniforms> camera = CameraUniforms::from(camera_, scene_.scale(), settings_.width_px,
+                                                               settings_.height_px, samples_.camera_sample(pass_).lens);
+    BIHIVE_CHECK(camera.ok());
+    camera->put(program);
+    const int border = finds ? border_ : 0;
+    program.set("film_corner", float(drawn_.x0 - border), float(drawn_.y0 - border));
+    if (finds)
+      first_hits_.draw_into();
+    else
+      put_film_before(program, covers ? coverage_film_ : film_);
+    if (covers) coverage_film_.draw_into(target());
+    if (!finds && !covers) put_light_uniforms(program);
     gl_.Enable(GL_SCISSOR_TEST);
+  }
+
+  void put_film_before(GlProgram& program, const FilmTextures& film) {
+    gl_.ActiveTexture(GL_TEXTURE0 + kUnitOfFilm);
+    gl_.BindTexture(GL_TEXTURE_2D, film.texture(1 - target()));
+    program.set("film_before", kUnitOfFilm);
+    program.set("sample_index", pass_);
+  }
+
+  void put_light_uniforms(GlProgram& program) {
+    gl_.ActiveTexture(GL_TEXTURE0 + kUnitOfFirstHits);
+    gl_.BindTexture(GL_TEXTURE_2D, first_hits_.texture());
+    gl_.ActiveTexture(GL_TEXTURE0);
+    program.set("first_hits", kUnitOfFirstHits);
+    program.set("recursion", settings_.recursion);
+    program.set("shadows", settings_.shadows);
+    program.set("faintest_ray", layers_ && scene_.is_passed_straight() ? float(kFaintestRay) : 0);
+    program.set("without_background", settings_.transparent);
+    program.set("view", settings_.view == View::normal ? 0 : settings_.view == View::distance ? 1 : 2);
+    program.set("nearest", nearest_);
+    program.set("farthest", farthest_);
+    put_slice(program);
+    put_effects(program);
+    current_film().draw_into(current_target());
+  }
+
+  void put_slice(GlProgram& program) {
+    gl_.ActiveTexture(GL_TEXTURE0 + kUnitOfSlices);
+    gl_.BindTexture(GL_TEXTURE_2D, sample_film_.texture(1 - slice_ % 2));
+    gl_.ActiveTexture(GL_TEXTURE0);
+    const LightSlice& slice = slices_[static_cast<std::size_t>(slice_)];
+    program.set("slices_before", kUnitOfSlices);
+    program.set("first_slice", slice_ == 0);
+    program.set("last_slice", is_last_slice());
+    program.set("direction_begin", slice.direction_begin);
+    program.set("direction_end", slice.direction_end);
+    program.set("light_begin", slice.light_begin);
+    program.set("light_end", slice.light_end);
+    program.set("light_point_begin", slice.point_begin);
+    program.set("light_point_end", slice.point_end);
+  }
+
+  void put_effects(GlProgram& program) {
+    program.set("tone_curve", static_cast<int>(settings_.tone.curve));
+    program.set("exposure_factor", static_cast<float>(exposure_factor(settings_.tone)));
+    const Outline outline = settings_.outline.value_or(Outline{});
+    program.set("has_lines", border_ > 0);
+    program.set("border", border_);
+    program.set("picture_outline_px", settings_.outline ? float(outline.width_px) : 0);
+    program.set("has_creases", scene_.has_creases());
+    program.set("outline_scale", float(settings_.outline_scale));
+    program.set("outline_step", float(outline.step));
+    program.set("outline_colour", to_float(outline.colour));
+    const bool fog = settings_.fog && fog_depths_.first < fog_depths_.second;
+    program.set("fog_strength", fog ? float(settings_.fog->strength) : 0);
+    program.set("fog_depths", fog_depths_.first, fog_depths_.second);
   }
 
   // Other code that uses the context may have left any state.
@@ -269,7 +543,9 @@ class GlRenderer::Implementation {
   }
 
   GlFunctions gl_;
-  FilmTextures film_;
+  FilmTextures film_, sample_film_, coverage_film_;
+  FirstHitsTexture first_hits_;
+  SampleTextures samples_;
   SceneOnGpu scene_;
   std::optional<GlProgram> shower_;
   GLuint vertices_ = 0;
@@ -278,11 +554,24 @@ class GlRenderer::Implementation {
 
   // The unfinished picture.
   RenderSettings settings_;
-  CameraUniforms camera_;
+  Camera camera_;
+  Tile drawn_{};                  // the film's pixels in the whole picture
   GlProgram* program_ = nullptr;  // null: no picture was begun
-  TileWalk walk_;
+  GlProgram* finder_ = nullptr;   // of first hits; null: the picture needs none
+  GlProgram* coverer_ = nullptr;  // the same for coverage
+  Step step_ = Step::light;
+  TileWalk walk_, finder_walk_;
   int pass_ = 0;  // complete passes, of the picture or of its range of distances
-  bool finding_range_ = false;
+  bool layers_ = false;
+  int border_ = 0;  // of the first hits around the picture
+  bool stops_loops_ = false;
+  int smaller_by_ = 1;  // slices than usual, for this scene
+  double done_ = 0;
+  LightWork work_;
+  std::vector<LightSlice> slices_{{}};
+  int slice_ = 0;
+  int rays_of_pixel_ = 0;
+  std::pair<float, float> fog_depths_;
   float nearest_ = 0, farthest_ = 0;
 };
 

@@ -46,7 +46,6 @@ SceneUniforms::SceneUniforms(const Scene& scene, const Tree* tree, const SceneTe
 
 void SceneUniforms::put(GlProgram& program) const {
   program.set("sphere_count", sphere_count);
-  program.set("light_count", light_count);
   program.set("background", background);
   program.set("ambient_light", ambient_light);
   program.set("tree_lo", tree_lo);
@@ -62,22 +61,30 @@ void SceneUniforms::put(GlProgram& program) const {
   program.set("fade_distance", fade_distance);
 }
 
-Result<CameraUniforms> CameraUniforms::from(const Camera& camera, double scale, int width_px, int height_px) {
+Result<CameraUniforms> CameraUniforms::from(const Camera& camera, double scale, int width_px, int height_px,
+                                            LensPlace place) {
   if (Status status = check_camera(camera); !status) return status.error();
   const PixelRays rays(camera, width_px, height_px);
   const bool parallel = rays.parallel();
-  const Vec3d eye = (parallel ? rays.centre() : to_double(rays.eye())) * scale;
+  Vec3d eye = (parallel ? rays.centre() : to_double(rays.eye())) * scale;
+  Vec3d forward = rays.forward();
   const double unit = parallel ? scale : 1;
-  if (length(eye) > kFarthestEye)
+  if (length(eye) + camera.aperture * scale > kFarthestEye)
     return Error{"camera: the eye is too far away from the spheres for the graphics processor's single precision", "",
                  0, 0, "choose an engine of the CPU"};
+  if (rays.has_lens()) {
+    eye = to_double(to_float(rays.centre() + (place.x * rays.lens_right() + place.y * rays.lens_down()))) * scale;
+    forward = forward - (place.x * rays.tilt_right() + place.y * rays.tilt_down());
+  }
   const auto rest_of = [](Vec3d number) { return to_float(number - to_double(to_float(number))); };
   CameraUniforms uniforms;
   uniforms.has_parallel_rays = parallel;
   uniforms.eye = to_float(eye);
   uniforms.eye_lower = rest_of(eye);
-  uniforms.forward = to_float(rays.forward());
-  uniforms.forward_lower = rest_of(rays.forward());
+  uniforms.forward = to_float(forward);
+  uniforms.forward_lower = rest_of(forward);
+  uniforms.view_forward = to_float(rays.forward());
+  uniforms.pixel_length = static_cast<float>(length(rays.right()) * unit);
   uniforms.right = to_float(rays.right() * unit);
   uniforms.right_lower = rest_of(rays.right() * unit);
   uniforms.down = to_float(rays.down() * unit);
@@ -98,6 +105,8 @@ void CameraUniforms::put(GlProgram& program) const {
   program.set("down", down);
   program.set("down_lower", down_lower);
   program.set("half_size", half_width, half_height);
+  program.set("view_forward", view_forward);
+  program.set("pixel_length", pixel_length);
 }
 
 }  // namespace bihive

@@ -6,6 +6,7 @@
 #include "bihive/gl/program.h"
 #include "bihive/gl/tree_textures.h"
 #include "bihive/math/vec3.h"
+#include "bihive/scene/camera.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
@@ -29,10 +30,13 @@ struct CameraUniforms {
   Vec3f eye, forward, right, down;                          // of parallel rays, right and down are in stored units
   Vec3f eye_lower, forward_lower, right_lower, down_lower;  // the rest after rounding to binary32
   float half_width = 0, half_height = 0;
+  Vec3f view_forward;      // as forward, without the tilt
+  float pixel_length = 0;  // of one pixel; with one eye, at distance 1
 
-  /// Error: as check_camera(), or an eye so far away (1e15 times the extent of the spheres) that squares leave
-  /// binary32.
-  static Result<CameraUniforms> from(const Camera& camera, double scale, int width_px, int height_px);
+  /// For the rays through one place on the lens. Error: as check_camera(), or an eye so far away (1e15 times the extent
+  /// of the spheres) that squares leave binary32.
+  static Result<CameraUniforms> from(const Camera& camera, double scale, int width_px, int height_px,
+                                     LensPlace place = {});
   void put(GlProgram& program) const;
 };
 

@@ -8,24 +8,32 @@ namespace bihive {
 
 /// X(name) for each. A new file in gl/shaders needs its line here; CMake embeds every file of the folder.
 #define BIHIVE_SHADER_CHUNKS(X) \
+  X(after_effects)              \
   X(brute_force)                \
   X(camera)                     \
   X(common)                     \
+  X(coverage)                   \
   X(distance_range)             \
   X(elementary)                 \
+  X(faint_level)                \
   X(film)                       \
   X(film_texel)                 \
+  X(first_hits)                 \
   X(hit)                        \
   X(integrator)                 \
   X(pairs)                      \
+  X(probe_loops)                \
   X(ray)                        \
+  X(sample)                     \
   X(scene_hit)                  \
   X(shading)                    \
   X(show)                       \
   X(sphere)                     \
   X(surface)                    \
   X(textures)                   \
+  X(tone)                       \
   X(tracer)                     \
+  X(transparency)               \
   X(traversal)                  \
   X(triangle)                   \
   X(view_first_hit)             \

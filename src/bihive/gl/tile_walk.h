@@ -13,12 +13,15 @@ class TileWalk {
  public:
   static constexpr int kBlockPx = 32;
 
-  /// Starts at the first block of a picture.
-  void restart(int width_px, int height_px) {
+  /// Starts at the first block of a picture. Smaller blocks are for pixels that take long.
+  void restart(int width_px, int height_px, int block_px = kBlockPx) {
+    // A block's time goes with its area.
+    block_ms_ *= double(block_px) * block_px / (double(block_px_) * block_px_);
+    block_px_ = block_px;
     width_ = width_px;
     height_ = height_px;
-    columns_ = (width_px + kBlockPx - 1) / kBlockPx;
-    rows_ = (height_px + kBlockPx - 1) / kBlockPx;
+    columns_ = (width_px + block_px - 1) / block_px;
+    rows_ = (height_px + block_px - 1) / block_px;
     next_ = 0;
   }
 
@@ -45,8 +48,8 @@ class TileWalk {
     }
     drawn_ = count * (y1 - row);
     next_ += drawn_;
-    return {column * kBlockPx, row * kBlockPx, std::min((column + count) * kBlockPx, width_),
-            std::min(y1 * kBlockPx, height_)};
+    return {column * block_px_, row * block_px_, std::min((column + count) * block_px_, width_),
+            std::min(y1 * block_px_, height_)};
   }
 
   /// The time of the last tile. If its blocks were cheaper than those before, only half of the difference counts.
@@ -63,6 +66,7 @@ class TileWalk {
   static constexpr double kFirstBlocks = 2;
   static constexpr double kMostFixed = 0.75, kForget = 1.02;
 
+  int block_px_ = kBlockPx;
   int width_ = 0, height_ = 0, columns_ = 1, rows_ = 0;
   int next_ = 0, drawn_ = 0;
   double fixed_ms_ = 0, block_ms_ = 0, planned_ = kFirstBlocks;

@@ -60,8 +60,8 @@ Look look_of(const Material& m) {
           number(m.tint),
           number(m.glow),
           number(m.bands),
-          0,
-          0,
+          is_passed_straight(m) ? number(std::min(m.transmissive, 1.0)) : 0,
+          number(std::min(m.transmissive, 1.0)),
           0};
 }
 
@@ -96,6 +96,7 @@ Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texe
   reserve(packed.sphere_info, packed.sphere_count);
 
   const std::vector<std::int64_t> ids = leaf_order(spheres, tree);
+  const SphereAttributes& attributes = spheres.attributes();
 
   // Equal looks share one entry; the first entry belongs to the plane alone.
   std::unordered_map<Look, std::uint32_t, HashOfLook> numbers;
@@ -109,8 +110,11 @@ Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texe
 
     const std::array<float, 4> sphere{spheres.x()[i], spheres.y()[i], spheres.z()[i], spheres.r()[i]};
     std::copy(sphere.begin(), sphere.end(), packed.spheres.channels.begin() + 4 * position);
-    packed.sphere_info.channels[static_cast<std::size_t>(2 * position)] = static_cast<std::uint32_t>(id);
-    packed.sphere_info.channels[static_cast<std::size_t>(2 * position + 1)] = entry->second;
+    const std::array<std::uint32_t, 4> info{
+        static_cast<std::uint32_t>(input_id(scene, id)), entry->second,
+        attributes.crease.empty() ? 0 : static_cast<std::uint32_t>(attributes.crease[i]),
+        bits_of(attributes.outline_px.empty() ? -1 : attributes.outline_px[i])};
+    std::copy(info.begin(), info.end(), packed.sphere_info.channels.begin() + 4 * position);
   }
 
   packed.look_count = static_cast<std::int64_t>(looks.size());
@@ -160,9 +164,13 @@ Status pack_lights(const Scene& scene, std::int64_t most_texels, SceneTextures& 
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const PointLight& light = scene.lights[i];
     Vec3d position = light.position * scene.spheres.scale();
+    double radius = light.radius * scene.spheres.scale();
     const double farthest = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
-    if (farthest > kFarthestLight) position = (position / farthest) * kFarthestLight;
-    const std::array<float, 8> out{float(position.x),     float(position.y),     float(position.z),     0,
+    if (farthest > kFarthestLight) {
+      position = (position / farthest) * kFarthestLight;
+      radius = (radius / farthest) * kFarthestLight;
+    }
+    const std::array<float, 8> out{float(position.x),     float(position.y),     float(position.z),     float(radius),
                                    float(light.colour.x), float(light.colour.y), float(light.colour.z), 0};
     std::copy(out.begin(), out.end(), packed.lights.channels.begin() + std::ptrdiff_t(8 * i));
   }
@@ -191,8 +199,9 @@ Result<SceneTextures> pack_lights(const Scene& scene, int most_rows) {
 
 PackedSphere unpack_sphere(const SceneTextures& textures, std::int64_t position) {
   const float* const sphere = &textures.spheres.channels[static_cast<std::size_t>(4 * position)];
-  const std::uint32_t* const info = &textures.sphere_info.channels[static_cast<std::size_t>(2 * position)];
-  return {sphere[0], sphere[1], sphere[2], sphere[3], info[0], info[1]};
+  const std::uint32_t* const info = &textures.sphere_info.channels[static_cast<std::size_t>(4 * position)];
+  return {sphere[0],        sphere[1], sphere[2], sphere[3], info[0], info[1], static_cast<std::int32_t>(info[2]),
+          float_of(info[3])};
 }
 
 Node unpack_node(const SceneTextures& textures, std::int64_t position) {

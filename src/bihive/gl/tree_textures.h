@@ -5,13 +5,14 @@
 //
 //   spheres      RGBA32F  a texel a sphere, in leaf order and within a leaf in the order of ids (without a tree in that
 //                         order altogether): centre, radius
-//   sphere_info  RG32UI   a texel a sphere: id, look
-//   nodes        RG32UI   two texels a node: the bits of left_clip, right_clip;
+//   sphere_info  RGBA32UI a texel a sphere: id in the input, look, group of creases, the bits of its own outline's
+//   width (-1: none) nodes        RG32UI   two texels a node: the bits of left_clip, right_clip;
 //                         kind (bits 0-2), split_axis (bits 3-4), sphere_count (bits 5-31); first
 //   looks        RGBA32F  four texels a look: colour, ambient; diffuse, reflective, specular, power; transmissive,
-//                         refraction_index, tint, glow; bands, 0, 0, 0. Look 0 is the plane's; of the others no two are
-//                         equal.
-//   lights       RGBA32F  two texels a light: position, 0; colour, 0
+//                         refraction_index, tint, glow; bands, what it lets through once for rays that see, for rays
+//                         that ask for light, 0 (render/transparency.h). Look 0 is the plane's; of the others no two
+//                         are equal.
+//   lights       RGBA32F  two texels a light: position, radius; colour, 0
 #pragma once
 
 #include <cstdint>
@@ -40,7 +41,7 @@ struct SceneTextures {
   /// The most nodes with two children on any path from the root to a leaf: as many may wait during a traversal.
   int most_waiting = 0;
   Texels<float, 4> spheres;
-  Texels<std::uint32_t, 2> sphere_info;
+  Texels<std::uint32_t, 4> sphere_info;
   Texels<std::uint32_t, 2> nodes;
   Texels<float, 4> looks;
   Texels<float, 4> lights;
@@ -56,6 +57,8 @@ Result<SceneTextures> pack_lights(const Scene& scene, int most_rows);
 struct PackedSphere {
   float x, y, z, r;
   std::uint32_t id, look;
+  std::int32_t group;
+  float outline_px;
 };
 PackedSphere unpack_sphere(const SceneTextures& textures, std::int64_t position);
 Node unpack_node(const SceneTextures& textures, std::int64_t position);

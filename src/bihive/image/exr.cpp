@@ -8,6 +8,7 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -21,6 +22,10 @@ namespace {
 // OpenEXR's own level, 4, writes 2 % less and takes longer (docs/decisions/0022-openexr.md).
 constexpr int kExrCompressionLevel = 1;
 
+// Of ZIP_COMPRESSION, and of a block's place in the file.
+constexpr int kRowsOfBlock = 16;
+constexpr int kPlaceBytes = 8;
+
 // OpenEXR's way to a file that is written aside. OpenEXR's destructors drop exceptions, so the first fault is kept.
 class ExrStream : public Imf::OStream {
  public:
@@ -31,11 +36,18 @@ class ExrStream : public Imf::OStream {
       const Status status = file_.write_at(place_, {bytes, static_cast<std::size_t>(count)});
       if (!status) fault_ = status.error();
     }
+    if (counts_places_ && count == kPlaceBytes && std::any_of(bytes, bytes + count, [](char c) { return c != 0; }))
+      ++places_;
     if (fault_) throw std::runtime_error(fault_->message);
     place_ += static_cast<std::uint64_t>(count);
   }
   std::uint64_t tellp() override { return place_; }
   void seekp(std::uint64_t place) override { place_ = place; }
+
+  /// From now on the places of the blocks are written. OpenEXR drops faults of its own there and in blocks, for example
+  /// a lack of memory; a block that is missing has the place 0.
+  void count_places() { counts_places_ = true; }
+  int places() const { return places_; }
 
   /// The first fault of the file.
   const std::optional<Error>& fault() const { return fault_; }
@@ -43,6 +55,8 @@ class ExrStream : public Imf::OStream {
  private:
   GrowingFile& file_;
   std::uint64_t place_ = 0;
+  bool counts_places_ = false;
+  int places_ = 0;
   std::optional<Error> fault_;
 };
 
@@ -122,9 +136,13 @@ class ExrWriter::Implementation {
   Status finish() {
     BIHIVE_CHECK_EQ(next_y_, part_.y1);
     // Its destructor writes the places of the lines.
+    stream_->count_places();
     const Status written = without_exceptions(path_, stream_, [&] { output_.reset(); });
     if (!written) return written;
     if (stream_->fault()) return *stream_->fault();
+    const int blocks = (part_.height() + kRowsOfBlock - 1) / kRowsOfBlock;
+    if (stream_->places() != blocks)
+      return Error{"OpenEXR left out rows, as it does where memory ends", path_, 0, 0, ""};
     return file_.finish();
   }
 
@@ -148,7 +166,7 @@ Result<ExrWriter> ExrWriter::begin(const std::string& path, const ExrForm& form)
   BIHIVE_CHECK(!form.channels.empty());
   Result<GrowingFile> file = GrowingFile::begin(path);
   if (!file) return file.error();
-  if (file->path_aside().empty()) return Error{"an OpenEXR file cannot be a pipe or a device", path, 0, 0, ""};
+  if (!file->can_go_back()) return Error{"an OpenEXR file cannot be a pipe or a device", path, 0, 0, ""};
   auto implementation = std::make_unique<Implementation>(path, form, std::move(*file));
   if (Status status = implementation->begin(form); !status) return status.error();
   return ExrWriter(std::move(implementation));
@@ -160,7 +178,7 @@ Status ExrWriter::add(const std::vector<Channel>& channels) {
 Status ExrWriter::finish() {
   return implementation_->finish();
 }
-const std::string& ExrWriter::path_aside() const {
+std::string ExrWriter::path_aside() const {
   return implementation_->file().path_aside();
 }
 

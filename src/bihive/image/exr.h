@@ -47,7 +47,7 @@ class ExrWriter {
   Status add(const std::vector<Channel>& channels);
   /// After the last row.
   Status finish();
-  const std::string& path_aside() const;  ///< as of GrowingFile
+  std::string path_aside() const;  ///< as of GrowingFile
 
  private:
   class Implementation;

@@ -34,9 +34,8 @@ Status ExrWriter::add(const std::vector<Channel>&) {
 Status ExrWriter::finish() {
   return no_exr("");
 }
-const std::string& ExrWriter::path_aside() const {
-  static const std::string none;
-  return none;
+std::string ExrWriter::path_aside() const {
+  return "";
 }
 
 Status write_exr(const std::string& path, const ExrForm&) {

@@ -133,6 +133,7 @@ class PngEncoder::Implementation {
 
  private:
   Status status_of(bool good) const {
+    if (!good && png_ == nullptr) return Error{"PNG: there is not enough memory", "", 0, 0, ""};
     if (!good) return Error{std::string("PNG: ") + state_.message, "", 0, 0, ""};
     return Done{};
   }

@@ -35,6 +35,8 @@ constexpr const char* kStyle =
     ".bihive-chart text{fill:currentColor}.bihive-chart .strong{font-weight:600;font-size:13px}"
     ".bihive-chart .rule{stroke:var(--rule)}.bihive-chart .axis{stroke:currentColor}"
     ".bihive-chart .outline{stroke:currentColor;stroke-width:.6}"
+    ".bihive-chart .error{stroke:currentColor;stroke-width:1;fill:none}"
+    ".bihive-chart .hollow{stroke:currentColor;stroke-width:1.4;fill:var(--paper)}"
     ".bihive-chart .line{fill:none;stroke-width:2.2;stroke-linejoin:round}"
     "@media(prefers-color-scheme:dark){.bihive-chart{--paper:#16181c;--rule:#3a3e45;color:#e6e6e6}}</style>";
 
@@ -98,12 +100,18 @@ Axis logarithmic_axis(double lo, double hi) {
 
 Axis axis_of(const ChartData& data) {
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-  for (const Series& series : data.series)
-    for (const std::optional<double>& value : series.values) {
-      if (!value) continue;
-      lo = std::min(lo, *value);
-      hi = std::max(hi, *value);
-    }
+  const auto cover = [&](double value) {
+    lo = std::min(lo, value);
+    hi = std::max(hi, value);
+  };
+  for (const Series& series : data.series) {
+    for (const std::optional<double>& value : series.values)
+      if (value) cover(*value);
+    for (const std::optional<Series::Spread>& spread : series.spreads)
+      if (spread) cover(spread->low), cover(spread->high);
+  }
+  for (const ChartMark& mark : data.marks) cover(mark.value);
+  if (data.y_range) cover(data.y_range->low), cover(data.y_range->high);
   if (!(lo <= hi)) lo = hi = 1;
   if (data.logarithmic && lo > 0) return logarithmic_axis(lo, hi);
   lo = std::min(lo, 0.0);
@@ -144,8 +152,11 @@ class Chart {
     // The places of title, legend, plot, categories, and label of the x axis.
     double x = 0;
     top_ = 22 + kLine;
-    for (const Series& series : data_.series) {
-      const double width = kLegendMark + kCharacter * static_cast<double>(series.name.size());
+    std::vector<std::string> names;
+    for (const Series& series : data_.series) names.push_back(series.name);
+    if (!data_.marks.empty()) names.push_back(data_.marks_name);
+    for (const std::string& name : names) {
+      const double width = kLegendMark + kCharacter * static_cast<double>(name.size());
       if (x > 0 && x + width > kWidth - 20) {
         x = 0;
         top_ += kLine;
@@ -182,7 +193,13 @@ class Chart {
             "<rect class=\"mark outline\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
             "fill=\"{}\">{}</rect>\n",
             x, std::min(y, base), width, std::fabs(base - y), colour(s), title_of(s, c));
+        marks += error_bar(s, c, x + width / 2);
       }
+    for (const ChartMark& mark : data_.marks)
+      marks += hollow(left_ + slot() * (static_cast<double>(mark.category) + 0.5 - kGroupFill / 2) +
+                          width * (static_cast<double>(mark.series) + 0.5),
+                      y_of(mark.value),
+                      fmt::format("<title>{}: {}</title>", escape_html(mark.name), number_text(mark.value)));
     return document(marks, /*lines=*/false);
   }
 
@@ -197,7 +214,7 @@ class Chart {
         if (value) {
           const double x = left_ + slot() * (static_cast<double>(c) + 0.5), y = y_of(*value);
           path += fmt::format("{}{:.1f} {:.1f}", pen_down ? 'L' : 'M', x, y);
-          points += point(x, y, s, "mark outline", title_of(s, c));
+          points += error_bar(s, c, x) + point(x, y, s, "mark outline", title_of(s, c));
         }
         pen_down = value.has_value();
       }
@@ -224,6 +241,18 @@ class Chart {
   std::string title_of(std::size_t series, std::size_t category) const {
     return fmt::format("<title>{}, {}: {}</title>", escape_html(data_.series[series].name),
                        escape_html(data_.categories[category]), number_text(*value_of(series, category)));
+  }
+
+  // From one end of the spread to the other, if there is one.
+  std::string error_bar(std::size_t series, std::size_t category, double x) const {
+    const auto& spreads = data_.series[series].spreads;
+    if (category >= spreads.size() || !spreads[category]) return "";
+    return fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n", x, y_of(spreads[category]->low),
+                       y_of(spreads[category]->high));
+  }
+
+  static std::string hollow(double x, double y, const std::string& title) {
+    return fmt::format("<path class=\"hollow\" d=\"M{:.1f} {:.1f}l4 5l-4 5l-4 -5z\">{}</path>\n", x, y - 5, title);
   }
 
   std::string text(double x, double y, const std::string& attributes, const std::string& content) const {
@@ -265,6 +294,10 @@ class Chart {
             fmt::format("<rect class=\"outline\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"10\" fill=\"{}\"/>\n",
                         x + 1, y - 9, colour(s));
       out += text(x + kLegendMark, y, "", data_.series[s].name);
+    }
+    if (!data_.marks.empty()) {
+      const auto [x, y] = legend_.back();
+      out += hollow(x + 7, y - 4, "") + text(x + kLegendMark, y, "", data_.marks_name);
     }
     return out;
   }

@@ -12,6 +12,18 @@ namespace bihive {
 struct Series {
   std::string name;
   std::vector<std::optional<double>> values;
+  /// The spread of each value as an error bar; empty: none.
+  struct Spread {
+    double low, high;
+  };
+  std::vector<std::optional<Spread>> spreads = {};
+};
+
+/// Values from elsewhere in a bar chart: a hollow diamond at the place of a bar, whether there is a bar or not.
+struct ChartMark {
+  std::size_t series, category;  ///< the bar's
+  double value;
+  std::string name;  ///< in its <title>
 };
 
 struct ChartData {
@@ -20,6 +32,9 @@ struct ChartData {
   std::vector<std::string> categories;
   std::vector<Series> series;
   bool logarithmic = false;  ///< y axis; then all values must be above 0
+  std::vector<ChartMark> marks = {};
+  std::string marks_name = {};                 ///< in the legend
+  std::optional<Series::Spread> y_range = {};  ///< the axis covers it too, so that several charts have one scale
 };
 
 /// Bars in groups, one group a category. Marks carry <title> with name and value.

@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "bihive/io/parse_number.h"
+#include "bihive/io/pqr_line.h"
+#include "bihive/io/readers.h"
 #include "bihive/io/text_scanner.h"
+#include "bihive/io/trajectory/gsd_file.h"
 
 namespace bihive {
 namespace {
@@ -31,6 +34,14 @@ bool is_xyz(TextScanner scanner) {
   return !scanner.next_field(field);
 }
 
+// A title, which may be empty, a count, and an atom in columns of five.
+bool is_gro(std::string_view text) {
+  TextScanner scanner(text, "");
+  std::string_view field;
+  if (!scanner.next_line() || !scanner.next_line() || !scanner.next_field(field) || !parse_int(field)) return false;
+  return !scanner.next_field(field) && scanner.next_line() && is_gro_atom(scanner.line());
+}
+
 bool is_table(TextScanner scanner) {
   // Skip comments.
   while (trim(scanner.line()).substr(0, 1) == "#")
@@ -52,15 +63,39 @@ bool is_table(TextScanner scanner) {
   return (numbers >= 3 && others == 0) || (!begins_with_number && has[0] && has[1] && has[2]);
 }
 
-std::optional<Format> by_content(std::string_view bytes) {
+// The name without .gz ends so.
+bool name_ends(const std::string& name, std::string_view ending) {
+  std::string lower = lower_case(name);
+  if (lower.size() > 3 && lower.compare(lower.size() - 3, 3, ".gz") == 0) lower.resize(lower.size() - 3);
+  return lower.size() >= ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+// PQR has PDB's records, with fields of its own. Its atoms do not fit PDB's columns, or the name says it. A file that
+// is named PDB stays PDB: shifted columns are an error there, and its B factors are no radii.
+bool is_pqr(TextScanner scanner, const std::string& name) {
+  if (name_ends(name, ".pdb") || name_ends(name, ".ent")) return false;
+  const bool named_so = name_ends(name, ".pqr");
+  bool any = false, one_does_not_fit_pdb = false;
+  do {
+    if (!is_atom_record(scanner.line()) || (scanner.at_end() && any)) continue;
+    if (!may_be_pqr(scanner.line())) return named_so && !any && !may_be_pdb(scanner.line());
+    any = true;
+    one_does_not_fit_pdb = one_does_not_fit_pdb || is_pqr_only(scanner.line());
+  } while (!one_does_not_fit_pdb && scanner.next_line());
+  return named_so || one_does_not_fit_pdb;
+}
+
+std::optional<Format> by_content(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, 6) == "\x93NUMPY") return Format::npy;
+  if (GsdFile::looks_like(bytes)) return Format::gsd;
   const std::string_view head = bytes.substr(0, kLook);
   if (head.find('\0') != std::string_view::npos) return std::nullopt;
 
   TextScanner scanner(head, "");
   if (!scanner.next_filled_line()) return std::nullopt;
   if (trim(scanner.line()).substr(0, 5) == "ITEM:") return Format::lammps_dump;
-  if (is_pdb_record(scanner.line())) return Format::pdb;
+  if (is_pdb_record(scanner.line())) return is_pqr(scanner, name) ? Format::pqr : Format::pdb;
+  if (is_gro(head)) return Format::gro;
   if (is_xyz(scanner)) return Format::xyz;
   if (is_table(scanner)) return Format::csv;
 
@@ -71,33 +106,30 @@ std::optional<Format> by_content(std::string_view bytes) {
   return std::nullopt;
 }
 
-std::optional<Format> by_name(const std::string& name) {
+}  // namespace
+
+std::optional<Format> format_by_name(const std::string& name) {
   static constexpr std::pair<std::string_view, Format> endings[] = {
-      {".pdb", Format::pdb},          {".ent", Format::pdb},
-      {".cif", Format::mmcif},        {".mmcif", Format::mmcif},
-      {".xyz", Format::xyz},          {".extxyz", Format::xyz},
-      {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
-      {".csv", Format::csv},          {".tsv", Format::csv},
-      {".txt", Format::csv},          {".dat", Format::csv},
-      {".npy", Format::npy},
+      {".pdb", Format::pdb},    {".ent", Format::pdb},          {".pqr", Format::pqr},
+      {".pdbx", Format::mmcif}, {".cif", Format::mmcif},        {".mmcif", Format::mmcif},
+      {".xyz", Format::xyz},    {".extxyz", Format::xyz},       {".gro", Format::gro},
+      {".gsd", Format::gsd},    {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
+      {".csv", Format::csv},    {".tsv", Format::csv},          {".txt", Format::csv},
+      {".dat", Format::csv},    {".npy", Format::npy},
   };
-  std::string lower = lower_case(name);
-  if (lower.size() > 3 && lower.compare(lower.size() - 3, 3, ".gz") == 0) lower.resize(lower.size() - 3);
   for (const auto& [ending, format] : endings)
-    if (lower.size() >= ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0)
-      return format;
+    if (name_ends(name, ending)) return format;
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<Format> detect_format(std::string_view bytes, const std::string& name) {
-  const auto format = by_content(bytes);
-  return format ? format : by_name(name);
+std::optional<Format> format_by_content(std::string_view bytes, const std::string& name) {
+  return by_content(bytes, name);
 }
 
 std::string known_formats() {
-  return "PDB (.pdb .ent), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), LAMMPS dump (.dump .lammpstrj), CSV or plain "
+  return "PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS dump "
+         "(.dump .lammpstrj), CSV or "
+         "plain "
          "'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
 }
 

@@ -7,11 +7,14 @@
 
 namespace bihive {
 
-enum class Format { pdb, mmcif, xyz, lammps_dump, csv, npy };
+enum class Format { pdb, pqr, mmcif, xyz, gro, lammps_dump, gsd, csv, npy };
 
-/// The format of unpacked bytes. The content decides; if it fits several formats, the ending of the name decides
-/// (without .gz).
-std::optional<Format> detect_format(std::string_view bytes, const std::string& name);
+/// The format of unpacked bytes by their content; nothing if it fits none, or several. Where PDB and PQR both fit, the
+/// ending of the name decides.
+std::optional<Format> format_by_content(std::string_view bytes, const std::string& name);
+
+/// The format by the ending of the name (without .gz).
+std::optional<Format> format_by_name(const std::string& name);
 
 /// The known formats and their endings, for messages.
 std::string known_formats();

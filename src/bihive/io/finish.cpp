@@ -3,14 +3,23 @@
 #include <algorithm>
 #include <utility>
 
+#include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
+#include "bihive/io/unit_cell.h"
 #include "bihive/io/unknown_radii.h"
+#include "bihive/io/wrapping.h"
 
 namespace bihive {
 namespace {
 
 // The user is told of a centre that moves by more than this share of its radius.
 constexpr double kHarmlessShift = 0.01;
+
+// Three coordinates and a radius as they are read, then as they are kept.
+constexpr double kBytesPerReadSphere = 4 * sizeof(double) + 4 * sizeof(float);
+
+// Such a set takes 3 MB. Its tree decides whether it fits.
+constexpr std::int64_t kSmallSet = 1 << 16;
 
 Status apply_radius_options(RawSpheres& raw, const std::string& name, const ReadOptions& options) {
   if (options.radius) {
@@ -33,19 +42,45 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
   return Done{};
 }
 
-// Moves the middle of the centres' bounding box to the origin, in binary64. Returns the vector that was subtracted.
-Vec3d recenter(RawSpheres& raw) {
-  const auto middle_of = [](const std::vector<double>& values) {
+// Moves the middle of the centres' bounding box to the origin, in binary64; copies count. Returns the vector that was
+// subtracted.
+Vec3d recenter(RawSpheres& raw, const Images& images) {
+  const Images::Shifts shifts = images.shifts();
+  const auto middle_of = [&](const std::vector<double>& values, int axis) {
     const auto [lo, hi] = std::minmax_element(values.begin(), values.end());
-    return 0.5 * *lo + 0.5 * *hi;
+    return 0.5 * (*lo + shifts.lo[axis]) + 0.5 * (*hi + shifts.hi[axis]);
   };
-  const Vec3d middle{middle_of(raw.x), middle_of(raw.y), middle_of(raw.z)};
+  const Vec3d middle{middle_of(raw.x, 0), middle_of(raw.y, 1), middle_of(raw.z, 2)};
+  if (raw.cell) raw.cell->origin = raw.cell->origin - middle;
   for (double& x : raw.x) x -= middle.x;
   for (double& y : raw.y) y -= middle.y;
   for (double& z : raw.z) z -= middle.z;
   raw.rules.push_back("recentred: (" + readable_number(middle.x) + ", " + readable_number(middle.y) + ", " +
                       readable_number(middle.z) + ") subtracted from every centre");
   return middle;
+}
+
+// The cell as the user wants it, the centres moved by it, and the copies that are wanted along it.
+Result<Images> apply_cell_options(RawSpheres& raw, const std::string& name, const ReadOptions& options) {
+  if (options.cell_vectors) {
+    raw.cell = Cell{raw.cell ? raw.cell->origin : Vec3d{}, *options.cell_vectors};
+    raw.rules.push_back("cell: its vectors as asked for");
+  }
+  if (options.cell_origin) {
+    if (!raw.cell)
+      return Error{"there is no periodic cell that could begin elsewhere", name, 0, 0, "give one with --cell-vectors"};
+    raw.cell->origin = *options.cell_origin;
+  }
+  if (raw.cell && !is_finite(*raw.cell)) return Error{"the numbers of the cell must be finite", name, 0, 0, ""};
+  if (Status status = apply_wrapping(raw, options.wrapping, name); !status) return status.error();
+  Images images;
+  if (options.replicate == images.counts) return images;
+  if (!raw.cell) return Error{"there is no periodic cell to replicate by", name, 0, 0, "give one with --cell-vectors"};
+  images.counts = options.replicate;
+  images.vectors = raw.cell->vectors;
+  raw.rules.push_back("replicated: " + std::to_string(images.counts[0]) + " x " + std::to_string(images.counts[1]) +
+                      " x " + std::to_string(images.counts[2]) + " copies along the cell's vectors");
+  return images;
 }
 
 // Warns of centres that single precision moves too far.
@@ -75,8 +110,16 @@ void warn_of_rounding(const RawSpheres& raw, const SphereSet& set, bool recentre
 
 Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options) {
   if (raw.size() == 0) return Error{"there are no spheres in it (read as " + raw.format + ")", name, 0, 0, ""};
+  const auto count = static_cast<std::int64_t>(raw.size());
+  if (count > kSmallSet)
+    if (Status status =
+            check_memory(static_cast<double>(count) * kBytesPerReadSphere, "a set of " + grouped(count) + " spheres");
+        !status)
+      return Error{status.error().message, name, 0, 0, ""};
   if (Status applied = apply_radius_options(raw, name, options); !applied) return applied.error();
-  const Vec3d recentred_by = options.recenter ? recenter(raw) : Vec3d{};
+  const Result<Images> images = apply_cell_options(raw, name, options);
+  if (!images) return images.error();
+  const Vec3d recentred_by = options.recenter ? recenter(raw, *images) : Vec3d{};
 
   // Round once.
   Result<SphereSet> set = SphereSet::from_world(raw.x, raw.y, raw.z, raw.r);
@@ -88,6 +131,13 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
 
   // Report the effects of rounding.
   warn_of_rounding(raw, *set, options.recenter, raw.warnings);
+  set->cell() = raw.cell;
+  if (Status status = set->replicate(images->vectors, images->counts); !status) {
+    Error error = status.error();
+    error.file = name;
+    error.hint = "see --replicate and --cell-vectors";
+    return error;
+  }
   if (const std::int64_t vanishing = set->vanishing_radii())
     raw.warnings.push_back(spheres_have(vanishing) +
                            " a radius below 2^-60 of the whole extent and cannot be told from a point");
@@ -97,6 +147,8 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   file.spheres.attributes() = std::move(raw.attributes);
   file.format = std::move(raw.format);
   file.frames = raw.frames;
+  file.time_ps = raw.time_ps;
+  file.step = raw.step;
   file.assemblies = raw.assemblies.ids();
   file.rules = std::move(raw.rules);
   file.warnings = std::move(raw.warnings);

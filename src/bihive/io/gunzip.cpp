@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bihive/base/memory.h"
+
 #if BIHIVE_HAS_ZLIB
 #include <zlib.h>
 #endif
@@ -15,6 +17,10 @@ bool looks_gzipped(std::string_view bytes) {
 #if BIHIVE_HAS_ZLIB
 
 namespace {
+
+// A text grows by this factor, and has room for so many bytes from the beginning.
+constexpr double kGrowth = 1.5;
+constexpr double kLeastRoom = 1 << 20;
 
 // zlib's state; the destructor always ends it.
 struct Inflater {
@@ -41,6 +47,7 @@ Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
 
   // zlib counts in 32 bits: give it piece after piece, and let it write into a buffer of fixed size.
   constexpr std::size_t kPiece = std::size_t{1} << 30;
+  const double room = memory_bytes();
   std::string unpacked, buffer(std::size_t{1} << 18, '\0');
   std::size_t fed = 0;
   for (;;) {
@@ -53,7 +60,16 @@ Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
     stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
     stream.avail_out = static_cast<uInt>(buffer.size());
     const int state = inflate(&stream, Z_NO_FLUSH);
-    unpacked.append(buffer.data(), buffer.size() - stream.avail_out);
+    const std::size_t count = buffer.size() - stream.avail_out;
+    // A text that grows lies in memory twice for a moment, so it grows in steps that fit the limit.
+    if (static_cast<double>(unpacked.size() + count) > room)
+      if (Status status = check_memory(static_cast<double>(unpacked.size() + count), "what is packed in it"); !status)
+        return bad(status.error().message + " (there is more)");
+    if (unpacked.size() + count > unpacked.capacity()) {
+      const double wanted = std::max(kGrowth * static_cast<double>(unpacked.capacity()), kLeastRoom);
+      unpacked.reserve(std::max(unpacked.size() + count, static_cast<std::size_t>(std::min(wanted, room))));
+    }
+    unpacked.append(buffer.data(), count);
     if (state == Z_OK) continue;
     if (state == Z_BUF_ERROR) {
       if (fed < bytes.size()) continue;

@@ -10,9 +10,7 @@ namespace bihive {
 namespace {
 
 // Scaled coordinates s stand for origin + s.x a + s.y b + s.z c.
-struct Box {
-  Vec3d origin, a, b, c;
-};
+using Box = Cell;
 
 // The coordinate columns that a frame may have, in the order in which they are preferred.
 struct Naming {
@@ -39,8 +37,6 @@ class LammpsReader {
     if (wanted_ < 0 || wanted_ >= frames_) return no_such_frame(scanner_.file(), wanted_, frames_);
     spheres_.format = "LAMMPS dump";
     spheres_.frames = frames_;
-    if (!scanner_.ends_in_newline())
-      spheres_.warnings.push_back("the last line of " + scanner_.file() + " has no end: the file may be cut");
     return std::move(spheres_);
   }
 
@@ -109,10 +105,9 @@ class LammpsReader {
       }
     }
     if (general) {
-      box_ = Box{{v[0][3], v[1][3], v[2][3]},
-                 {v[0][0], v[0][1], v[0][2]},
-                 {v[1][0], v[1][1], v[1][2]},
-                 {v[2][0], v[2][1], v[2][2]}};
+      box_ =
+          Box{{v[0][3], v[1][3], v[2][3]},
+              {Vec3d{v[0][0], v[0][1], v[0][2]}, Vec3d{v[1][0], v[1][1], v[1][2]}, Vec3d{v[2][0], v[2][1], v[2][2]}}};
       return Done{};
     }
     // Remove the tilt from the bounds [LAMMPS-triclinic].
@@ -122,7 +117,7 @@ class LammpsReader {
     const double ylo = v[1][0] - std::min(0.0, yz);
     const double yhi = v[1][1] - std::max(0.0, yz);
     const double zlo = v[2][0], zhi = v[2][1];
-    box_ = Box{{xlo, ylo, zlo}, {xhi - xlo, 0, 0}, {xy, yhi - ylo, 0}, {xz, yz, zhi - zlo}};
+    box_ = Box{{xlo, ylo, zlo}, {Vec3d{xhi - xlo, 0, 0}, Vec3d{xy, yhi - ylo, 0}, Vec3d{xz, yz, zhi - zlo}}};
     return Done{};
   }
 
@@ -156,6 +151,7 @@ class LammpsReader {
       spheres_ = std::move(table).take();
       spheres_.rules.insert(spheres_.rules.begin(), naming->rule);
       if (naming->scaled) unscale();
+      spheres_.cell = box_;
     }
 
     // The frame is complete.
@@ -190,7 +186,8 @@ class LammpsReader {
   void unscale() {
     for (std::size_t i = 0; i < spheres_.size(); ++i) {
       const Vec3d s{spheres_.x[i], spheres_.y[i], spheres_.z[i]};
-      const Vec3d p = box_->origin + s.x * box_->a + s.y * box_->b + s.z * box_->c;
+      const auto& [a, b, c] = box_->vectors;
+      const Vec3d p = box_->origin + s.x * a + s.y * b + s.z * c;
       spheres_.x[i] = p.x;
       spheres_.y[i] = p.y;
       spheres_.z[i] = p.z;

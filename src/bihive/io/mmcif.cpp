@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "bihive/io/alternates.h"
 #include "bihive/io/atom_columns.h"
@@ -14,6 +15,7 @@
 #include "bihive/io/parse_number.h"
 #include "bihive/io/readers.h"
 #include "bihive/io/text_scanner.h"
+#include "bihive/io/unit_cell.h"
 
 namespace bihive {
 namespace {
@@ -73,6 +75,13 @@ int item_of(std::string_view tag) {
   if (lower.compare(0, category.size(), category) != 0) return kItems;
   const auto found = std::find(std::begin(kItemNames), std::end(kItemNames), lower.substr(category.size()));
   return static_cast<int>(found - std::begin(kItemNames));
+}
+
+// The position of a tag among the lengths and angles of the cell; 6: it is none of them.
+std::size_t cell_item_of(std::string_view tag) {
+  constexpr std::array<std::string_view, 6> kTags{"_cell.length_a",    "_cell.length_b",   "_cell.length_c",
+                                                  "_cell.angle_alpha", "_cell.angle_beta", "_cell.angle_gamma"};
+  return static_cast<std::size_t>(std::find(kTags.begin(), kTags.end(), lower_case(tag)) - kTags.begin());
 }
 
 // Takes the two categories that state assemblies.
@@ -168,8 +177,10 @@ class AtomSites {
   void begin_block() {
     add_atom(pair_row_);
     pair_row_ = {};
+    pair_tags_.clear();
     done_ = done_ || atoms_ > 0;
     if (!done_) assemblies_.clear();
+    if (!done_) cell_ = {};
   }
 
   void begin_loop() {
@@ -177,12 +188,15 @@ class AtomSites {
     column_ = 0;
     row_ = {};
     ours_ = false;
+    loop_tags_.clear();
     assemblies_.begin_loop();
   }
-  void add_loop_tag(std::string_view tag) {
-    assemblies_.add_loop_tag(tag);
-    columns_.push_back(item_of(tag));
+  void add_loop_tag(const Value& tag) {
+    assemblies_.add_loop_tag(tag.text);
+    note_category(tag.text);
+    columns_.push_back(item_of(tag.text));
     ours_ = ours_ || columns_.back() != kItems;
+    refuse_duplicate(tag, loop_tags_);
   }
   void add_loop_value(const Value& value) {
     if (!done_) assemblies_.add_loop_value(value.text);
@@ -201,23 +215,29 @@ class AtomSites {
   }
 
   // A single atom may stand outside a loop, as pairs of tag and value.
-  void add_pair_tag(std::string_view tag) {
-    pair_item_ = item_of(tag);
-    assemblies_.add_pair_tag(tag);
+  void add_pair_tag(const Value& tag) {
+    note_category(tag.text);
+    pair_item_ = item_of(tag.text);
+    cell_item_ = cell_item_of(tag.text);
+    assemblies_.add_pair_tag(tag.text);
+    if (pair_item_ != kItems) refuse_duplicate(tag, pair_tags_);
   }
   void add_pair_value(const Value& value) {
     if (!done_) assemblies_.add_pair_value(value.text);
+    if (!done_ && cell_item_ < cell_.size()) {
+      const std::string_view digits = value.unquoted();
+      cell_[cell_item_] = parse_double(digits.substr(0, digits.find('('))).value_or(0);
+    }
     if (pair_item_ != kItems) pair_row_[static_cast<std::size_t>(pair_item_)] = value;
   }
 
   Result<RawSpheres> finish() {
     begin_block();
-    if (atoms_ == 0)
-      return Error{"there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it", file_, 0, 0,
-                   "crystal files with fractional coordinates are not read"};
+    if (atoms_ == 0) return no_atoms();
     const auto models = static_cast<std::int64_t>(model_of_name_.size());
     if (frame_ < 0 || frame_ >= models) return no_such_frame(file_, frame_, models);
     spheres_.frames = models;
+    spheres_.cell = unit_cell(cell_);
     spheres_.rules.push_back("atoms: ATOM and HETATM of model " + std::to_string(frame_) + " (from 0)");
     columns_of_atoms_.take(spheres_.attributes);
     spheres_.assemblies = assemblies_.finish();
@@ -230,6 +250,34 @@ class AtomSites {
  private:
   [[noreturn]] void stop(const Value& at, const std::string& what) const {
     throw Stop{{what, file_, static_cast<std::int64_t>(at.line), static_cast<std::int64_t>(at.column), ""}};
+  }
+
+  // Two columns of one name would hide one of them.
+  void refuse_duplicate(const Value& tag, std::unordered_set<std::string>& tags) const {
+    if (!tags.insert(lower_case(tag.text)).second)
+      stop(tag, "the item " + printable(tag.text) + " stands twice in one table");
+  }
+
+  // The kinds of CIF that hold no atoms of ours and that the file shows.
+  void note_category(std::string_view tag) {
+    const std::string lower = lower_case(tag.substr(0, 20));
+    const auto begins_with = [&lower](std::string_view text) { return lower.compare(0, text.size(), text) == 0; };
+    is_crystal_ = is_crystal_ || begins_with("_atom_site_fract_") || begins_with("_atom_site.fract_");
+    is_monomer_ = is_monomer_ || begins_with("_chem_comp_atom.");
+    is_reflections_ = is_reflections_ || begins_with("_refln.") || begins_with("_refln_");
+  }
+
+  Error no_atoms() const {
+    const std::string none = "there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it: ";
+    if (is_monomer_)
+      return {none + "this CIF describes a monomer (_chem_comp_atom)", file_, 0, 0,
+              "convert it with 'gemmi convert FILE.cif OUT.pdb' or 'obabel FILE.cif -O OUT.xyz'"};
+    if (is_crystal_)
+      return {none + "this CIF is of a small molecule or crystal (fractional coordinates)", file_, 0, 0,
+              "convert it with 'ase convert FILE.cif OUT.xyz' or 'obabel FILE.cif --fillUC strict -O OUT.xyz'"};
+    if (is_reflections_)
+      return {none + "this CIF holds reflections, not atoms", file_, 0, 0, "take the entry's file of coordinates"};
+    return {none.substr(0, none.size() - 2), file_, 0, 0, "bihive reads the atoms of mmCIF files alone"};
   }
 
   double number(const Value& value, const std::string& what) const {
@@ -266,15 +314,15 @@ class AtomSites {
     const Value& label_chain = chosen(row, kLabelChain, kAuthChain);
     label_chains_.add(label_chain.missing() ? std::string_view() : label_chain.unquoted());
 
-    // An atom site is named by its chain, residue number with insertion code, and name: the author's, else the label's.
+    // A residue is named by its chain and number with insertion code: the author's, else the label's.
     const std::string_view mark = row[kAlternate].unquoted();
     if (row[kAlternate].missing() || mark.empty()) return;
-    const auto name = [&row](Item author, Item label) {
-      return std::string(chosen(row, author, label).unquoted()) + ' ';
-    };
-    const std::string site = name(kAuthChain, kLabelChain) + name(kAuthSequence, kLabelSequence) +
-                             std::string(row[kInsertion].text) + ' ' + name(kAuthAtom, kLabelAtom);
-    alternates_.add(site, mark.front(), occupancy, spheres_.size() - 1);
+    const auto text = [&row](Item author, Item label) { return chosen(row, author, label).unquoted(); };
+    const std::string residue = std::string(text(kAuthChain, kLabelChain)) + ' ' +
+                                std::string(text(kAuthSequence, kLabelSequence)) + ' ' +
+                                std::string(row[kInsertion].text);
+    alternates_.add({residue, text(kAuthResidue, kLabelResidue), text(kAuthAtom, kLabelAtom), mark.front(), occupancy},
+                    spheres_.size() - 1);
   }
 
   // The author's item, else the label's.
@@ -303,7 +351,11 @@ class AtomSites {
   bool ours_ = false;  // the loop has an item that is read
   Row row_{};
   Value last_;
+  std::unordered_set<std::string> loop_tags_, pair_tags_;  // in lower case, to find duplicates
+  bool is_crystal_ = false, is_monomer_ = false, is_reflections_ = false;
   int pair_item_ = kItems;
+  std::array<double, 6> cell_{};  // as unit_cell() takes them; 0: missing
+  std::size_t cell_item_ = 6;     // the item of the last tag; 6: none of them
   Row pair_row_{};
   std::int64_t atoms_ = 0;  // of all models
   std::unordered_map<std::string, std::int64_t> model_of_name_;
@@ -348,7 +400,7 @@ template <>
 struct Action<rules::loop_tag> {
   template <class Input>
   static void apply(const Input& in, AtomSites& sites) {
-    sites.add_loop_tag({in.begin(), in.size()});
+    sites.add_loop_tag(value_of(in));
   }
 };
 template <>
@@ -369,7 +421,7 @@ template <>
 struct Action<rules::item_tag> {
   template <class Input>
   static void apply(const Input& in, AtomSites& sites) {
-    sites.add_pair_tag({in.begin(), in.size()});
+    sites.add_pair_tag(value_of(in));
   }
 };
 template <>

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "bihive/base/memory.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/text_scanner.h"
 
@@ -222,10 +223,15 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
     return bad("the NPY array's shape " + shape + " of " + header->dtype + " does not agree with the " +
                std::to_string(data_bytes) + " bytes of numbers in the file");
 
-  // Bring the numbers into C order.
+  if (Status status = check_memory(static_cast<double>(count) * sizeof(double), "the NPY array of shape " + shape);
+      !status)
+    return bad(status.error().message);
+
+  // Bring the numbers into C order. Without numbers a side of the shape may still be huge.
   NpyArray array;
   array.shape = header->shape;
   array.dtype = header->dtype;
+  if (count == 0) return array;
   array.values.resize(static_cast<std::size_t>(count));
   const auto columns = static_cast<std::size_t>(header->shape.size() == 2 ? header->shape[1] : 1);
   const auto rows = static_cast<std::size_t>(header->shape[0]);

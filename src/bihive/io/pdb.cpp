@@ -1,16 +1,18 @@
 // PDB, fixed columns [wwPDB-3.3]. This reader does not use gemmi's PDB reader. That one sorts atoms into chains and
 // residues (file order is lost), reads a coordinate that is no number as 0, and stops at the line numbers of the older
-// format. Elements follow gemmi's rules and tables.
+// format.
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "bihive/io/alternates.h"
 #include "bihive/io/atom_columns.h"
-#include "bihive/io/elements.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/pdb_assemblies.h"
+#include "bihive/io/pdb_elements.h"
 #include "bihive/io/readers.h"
 #include "bihive/io/text_scanner.h"
+#include "bihive/io/unit_cell.h"
 
 namespace bihive {
 namespace {
@@ -18,28 +20,6 @@ namespace {
 // Columns first to last, counted from 1 as in the format's description; shorter if the line ends earlier.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return first > line.size() ? std::string_view() : line.substr(first - 1, last - first + 1);
-}
-
-bool is_letter(char c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-// The element from columns 77 and 78, else from the atom's name in columns 13 to 16. The symbol stands flush right in
-// the name's first two columns. A four-letter name that begins with H is hydrogen. A digit beside a letter does not
-// count. If two letters make no element, the first counts (names that begin in the wrong column).
-int element_of(std::string_view line) {
-  const std::string_view given = columns(line, 77, 78);
-  for (const char c : given)
-    if (is_letter(c)) return atomic_number(trim(given));
-  char name[4] = {' ', ' ', ' ', ' '};
-  columns(line, 13, 16).copy(name, 4);
-  if ((name[0] == 'H' || name[0] == 'h') && name[3] != ' ') return 1;
-  if (name[0] == ' ' || is_digit(name[0])) return atomic_number({&name[1], 1});
-  const int of_two = is_letter(name[1]) ? atomic_number({name, 2}) : 0;
-  return of_two ? of_two : atomic_number({name, 1});
 }
 
 class PdbReader {
@@ -61,6 +41,8 @@ class PdbReader {
         if (Status atom = read_atom(); !atom) return atom.error();
       } else if (record == "REMARK" && columns(scanner_.line(), 8, 10) == "350") {
         assemblies_.add_line(scanner_.line());
+      } else if (record == "CRYST1") {
+        read_cell();
       } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
         in_model = false;
       }
@@ -72,6 +54,16 @@ class PdbReader {
   }
 
  private:
+  // A record that is no cell counts as none: programs write many forms of it.
+  void read_cell() {
+    std::array<double, 6> six{};
+    constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
+        {{7, 15}, {16, 24}, {25, 33}, {34, 40}, {41, 47}, {48, 54}}};
+    for (std::size_t i = 0; i < 6; ++i)
+      six[i] = parse_double(trim(columns(scanner_.line(), kColumns[i][0], kColumns[i][1]))).value_or(0);
+    spheres_.cell = unit_cell(six);
+  }
+
   Status read_atom() {
     // The coordinates are required.
     const std::string_view line = scanner_.line();
@@ -88,20 +80,28 @@ class PdbReader {
         return bad("expected a number for " + name + " in columns " + std::to_string(first) + " to " +
                    std::to_string(first + 7) + " but found " + quote(field));
       if (const char* fault = coordinate_fault(*value)) return bad(name + " " + fault + ": " + quote(field));
+      // A line that ends within the columns of a number would change it.
+      if (line.size() < first + 7)
+        return scanner_.column_error(
+            static_cast<std::int64_t>(first),
+            "expected " + name + " in columns " + std::to_string(first) + " to " + std::to_string(first + 7) +
+                ", but the line ends in column " + std::to_string(line.size()),
+            scanner_.at_end() && !scanner_.ends_in_newline() ? "the file is cut on this line" : "");
       axes[axis]->push_back(*value);
     }
-    spheres_.attributes.element.push_back(static_cast<std::uint8_t>(element_of(line)));
+    elements_.add({columns(line, 77, 78), columns(line, 13, 16), trim(columns(line, 18, 21)), columns(line, 18, 27),
+                   scanner_.line_number()});
 
     // All else is optional.
     const double occupancy = optional_number(columns(line, 55, 60), 1);
     columns_.add(names_of(line), occupancy, optional_number(columns(line, 61, 66), 0));
 
-    // An atom site is named by its chain, residue number with insertion code, and name.
+    // A residue is named by its chain and number with insertion code.
     const char mark = line[16];
-    if (mark != ' ') {
-      const std::string site = std::string(columns(line, 21, 27)) + std::string(columns(line, 13, 16));
-      alternates_.add(site, mark, std::isnan(occupancy) ? 0 : occupancy, spheres_.size() - 1);
-    }
+    if (mark != ' ')
+      alternates_.add(
+          {std::string(columns(line, 21, 27)), columns(line, 18, 20), columns(line, 13, 16), mark, occupancy},
+          spheres_.size() - 1);
     return Done{};
   }
 
@@ -127,6 +127,7 @@ class PdbReader {
   void finish(std::int64_t models) {
     spheres_.frames = models;
     spheres_.rules.push_back("atoms: ATOM and HETATM records of model " + std::to_string(frame_) + " (from 0)");
+    elements_.take(spheres_, scanner_.file());
     columns_.take(spheres_.attributes);
     spheres_.assemblies = assemblies_.take();
     alternates_.remove_from(spheres_);
@@ -140,6 +141,7 @@ class PdbReader {
   std::int64_t frame_;
   RawSpheres spheres_;
   AtomColumns columns_;
+  PdbElements elements_{true};
   Alternates alternates_;
   PdbAssemblies assemblies_;
   std::int64_t unreadable_ = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/geometry/cell.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/io/assemblies.h"
 
@@ -21,6 +22,9 @@ struct RawSpheres {
   SphereAttributes attributes;
   std::optional<double> unknown_radius;  ///< for spheres with neither radius nor known element; >= 0
   Assemblies assemblies;
+  std::optional<Cell> cell;
+  std::optional<double> time_ps;     ///< picoseconds
+  std::optional<std::int64_t> step;  ///< of the simulation
   std::int64_t frames = 1;
   std::vector<std::string> rules;     ///< what the reader did, one sentence each
   std::vector<std::string> warnings;  ///< what the user should know, one line each

@@ -4,6 +4,7 @@
 // docs/formats.md and SphereFile::rules list what every reader takes and leaves out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,28 +16,47 @@
 
 namespace bihive {
 
+/// Where spheres of a periodic cell go. wrap: each centre moves by whole vectors of the cell into the cell. unwrap:
+/// spheres that belong together come together (docs/formats.md).
+enum class Wrapping { none, wrap, unwrap };
+
 struct ReadOptions {
   std::optional<double> radius;  ///< replaces every radius; >= 0, world units
   double radius_scale = 1;       ///< multiplies every radius, after `radius`; >= 0
   bool recenter = false;         ///< subtract the middle of the set's centres in binary64 before rounding
   std::int64_t frame = 0;        ///< 0-based frame or model
-  std::string assembly = "";     ///< id of a biological assembly in a PDB or mmCIF file; empty: the atoms as they are
+  /// A file with the places of the same spheres (io/trajectory.h), of which `frame` is then a frame; the other file is
+  /// read at its first frame. Empty: none.
+  std::string trajectory = "";
+  std::string assembly = "";  ///< id of a biological assembly in a PDB or mmCIF file; empty: the atoms as they are
+  /// The vectors of the cell and its corner, in place of the file's. A corner that neither states is 0.
+  std::optional<std::array<Vec3d, 3>> cell_vectors;
+  std::optional<Vec3d> cell_origin;
+  Wrapping wrapping = Wrapping::none;              ///< needs a cell
+  std::array<std::int32_t, 3> replicate{1, 1, 1};  ///< copies along the cell's vectors (SphereSet::replicate)
 };
 
 struct SphereFile {
   SphereSet spheres;                    ///< at least one sphere, in file order
-  std::string format;                   ///< "PDB", "mmCIF", "XYZ", "LAMMPS dump", "CSV", "NPY"
+  std::string format;                   ///< "PDB", "PQR", "mmCIF", "XYZ", "GRO", "LAMMPS dump", "GSD", "CSV", "NPY"
   std::int64_t frames = 1;              ///< frames or models in the file
   std::vector<std::string> rules;       ///< what the reader did, a sentence each ("radii: van der Waals, by element")
   std::vector<std::string> warnings;    ///< what the user should know, one line each
   std::vector<std::string> assemblies;  ///< ids of the biological assemblies that the file states
+  std::optional<double> time_ps;        ///< of the frame, picoseconds, where the file states it
+  std::optional<std::int64_t> step;     ///< of the simulation, where the file states it
   Vec3d recentred_by;                   ///< subtracted from every centre; 0 without `recenter`
 };
 
 /// Never throws. An error names file, and line and column if they are known.
 Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options);
 
-/// The same from bytes in memory; `name` is used for messages and as the second clue to the format.
+/// The bytes themselves, or what they hold if they are packed with gzip. Errors: damaged, or more than the memory holds
+/// (base/memory.h). `name` is for messages.
+Result<std::string> unpack_gzip(std::string bytes, const std::string& name);
+
+/// The same from bytes in memory; `name` is used for messages and as the second clue to the format. A trajectory is
+/// still a file.
 Result<SphereFile> read_spheres_from_memory(std::string_view bytes, const std::string& name,
                                             const ReadOptions& options);
 

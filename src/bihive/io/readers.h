@@ -16,6 +16,9 @@ namespace bihive {
 /// Protein Data Bank, fixed columns: ATOM and HETATM records.
 Result<RawSpheres> read_pdb(std::string_view text, const std::string& file, std::int64_t frame);
 
+/// PQR: ATOM and HETATM lines of fields, with a charge and a radius at their end; any number of models.
+Result<RawSpheres> read_pqr(std::string_view text, const std::string& file, std::int64_t frame);
+
 /// mmCIF / PDBx: the _atom_site category of the first data block that has one.
 Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, std::int64_t frame);
 
@@ -24,6 +27,14 @@ Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std:
 
 /// LAMMPS dump in text (styles atom and custom); any number of frames.
 Result<RawSpheres> read_lammps_dump(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// GRO of GROMACS, fixed columns; any number of frames. Lengths become Angstrom.
+Result<RawSpheres> read_gro(std::string_view text, const std::string& file, std::int64_t frame);
+/// Whether the line is one of GRO's atoms.
+bool is_gro_atom(std::string_view line);
+
+/// GSD of HOOMD-blue, binary; any number of frames.
+Result<RawSpheres> read_gsd(std::string_view bytes, const std::string& file, std::int64_t frame);
 
 /// CSV with a header line, or plain `x y z [r]` lines. One frame.
 Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame);

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "bihive/base/memory.h"
 #include "bihive/io/parse_number.h"
 
 namespace bihive {
@@ -63,12 +64,16 @@ ColumnRole usual_role(std::string_view name) {
   return found == roles.end() ? ColumnRole::number : found->second;
 }
 
+// Asking for the memory's size costs more than reading a row.
+constexpr std::int64_t kRowsBetweenChecks = 1 << 16;
+
 SphereTable::SphereTable(const std::vector<TableColumn>& columns) {
   for (const TableColumn& column : columns) {
     if (columns_.size() > kMostColumns) break;
     columns_.emplace_back();
     columns_.back().name = printable(column.name);
-    columns_.back().role = column.role;
+    columns_.back().is_text = column.role == ColumnRole::text;
+    columns_.back().role = column.role == ColumnRole::text ? ColumnRole::number : column.role;
   }
 }
 
@@ -135,6 +140,13 @@ Status SphereTable::add_row(TextScanner& scanner) {
   if (!more_fields_allowed_ && scanner.next_field(field))
     return scanner.field_error("expected " + std::to_string(columns_.size()) + " columns (" + column_names() +
                                ") but found one more: " + quote(field));
+  if (++rows_ % kRowsBetweenChecks != 0) return Done{};
+  // Each number is kept once here, and once more while the set is made.
+  const double bytes = 2 * sizeof(double) * static_cast<double>(columns_.size()) * static_cast<double>(rows_);
+  if (Status status =
+          check_memory(bytes, std::to_string(rows_) + " rows of " + std::to_string(columns_.size()) + " columns");
+      !status)
+    return scanner.line_error(status.error().message);
   return Done{};
 }
 

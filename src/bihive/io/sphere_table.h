@@ -27,6 +27,7 @@ enum class ColumnRole {
   opacity,       ///< 0 (clear) to 1
   transparency,  ///< 1 - opacity
   number,        ///< any number or text, kept under the column's name
+  text,          ///< text, also where it looks like a number
   species,       ///< an element's symbol, an atomic number (1 to 118), or any other label
   type,          ///< a whole number, or a label
 };
@@ -91,6 +92,7 @@ class SphereTable {
   void take_columns(RawSpheres& spheres);
 
   std::vector<Column> columns_;
+  std::int64_t rows_ = 0;
   bool more_fields_allowed_ = false;
 };
 

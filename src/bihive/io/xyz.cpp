@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "bihive/io/elements.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/readers.h"
 #include "bihive/io/sphere_table.h"
+#include "bihive/io/unit_cell.h"
 
 namespace bihive {
 namespace {
@@ -14,10 +16,9 @@ std::vector<TableColumn> plain_columns() {
   return {{"symbol", ColumnRole::species}, {"x", ColumnRole::x}, {"y", ColumnRole::y}, {"z", ColumnRole::z}};
 }
 
-// The value of Properties in a comment line, or nothing. It may stand in quotes.
-std::optional<std::string_view> properties_of(std::string_view comment) {
+// The value of a key ("properties=") in a comment line, or nothing. It may stand in quotes.
+std::optional<std::string_view> value_in(std::string_view comment, const std::string& key) {
   const std::string lower = lower_case(comment);
-  const std::string key = "properties=";
   for (std::size_t at = lower.find(key); at != std::string::npos; at = lower.find(key, at + 1)) {
     if (at > 0 && lower[at - 1] != ' ' && lower[at - 1] != '\t') continue;
     std::string_view value = comment.substr(at + key.size());
@@ -45,6 +46,7 @@ void add_property(const std::string& name, char kind, std::int64_t width, std::v
     ColumnRole role = z_number ? ColumnRole::atomic_number : usual_role(name);
     // Only pos gives a position; properties named 'x' and so on become other numbers.
     if (role == ColumnRole::x || role == ColumnRole::y || role == ColumnRole::z) role = ColumnRole::number;
+    if (kind == 'S' && role == ColumnRole::number) role = ColumnRole::text;
     if (kind == 'L') role = ColumnRole::ignored;
     columns.push_back({name, role});
     return;
@@ -74,7 +76,7 @@ std::string columns_of(std::string_view properties, std::vector<TableColumn>& co
 
 // The table that a frame's comment line describes.
 Result<SphereTable> table_of(const TextScanner& scanner) {
-  const auto properties = properties_of(scanner.line());
+  const auto properties = value_in(scanner.line(), "properties=");
   if (!properties) {
     SphereTable table(plain_columns());
     table.allow_more_fields();
@@ -88,22 +90,53 @@ Result<SphereTable> table_of(const TextScanner& scanner) {
   return table;
 }
 
+// The count of a frame's first line.
+Result<std::int64_t> count_of_frame(TextScanner& scanner, std::int64_t frame) {
+  std::string_view field;
+  scanner.next_field(field);
+  const auto count = parse_int(field);
+  if (!count || *count < 0)
+    return scanner.field_error("expected the number of spheres of frame " + std::to_string(frame) + " but found " +
+                               quote(field));
+  if (scanner.next_field(field))
+    return scanner.field_error("expected nothing but the number of spheres on this line, but found " + quote(field));
+  return *count;
+}
+
+// A line for one more sphere: the count before it was too small. Cell vectors (VEC1, Tv) look alike, but for their
+// name.
+bool is_sphere(TextScanner scanner) {
+  scanner.restart_line();
+  std::string_view label, field;
+  if (!scanner.next_field(label) || (!parse_int(label) && atomic_number(label) == 0)) return false;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!scanner.next_field(field) || !parse_double(field)) return false;
+  return true;
+}
+
+// Several programs write text behind the last frame.
+std::string text_behind(const TextScanner& scanner, std::int64_t frames) {
+  const std::string read = frames == 1 ? "one frame was" : std::to_string(frames) + " frames were";
+  return scanner.file() + ":" + std::to_string(scanner.line_number()) +
+         ": the text from here on begins no frame and is left out (" + quote(trim(scanner.line())) + "); " + read +
+         " read";
+}
+
 }  // namespace
 
 Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std::int64_t frame) {
   TextScanner scanner(text, file);
   RawSpheres spheres;
+  std::vector<std::string> warnings;
   std::int64_t frames = 0;
   for (; scanner.next_filled_line(); ++frames) {
     // Read the count, and the comment that may name the columns.
-    std::string_view field;
-    scanner.next_field(field);
-    const auto count = parse_int(field);
-    if (!count || *count < 0)
-      return scanner.field_error("expected the number of spheres of frame " + std::to_string(frames) + " but found " +
-                                 quote(field));
-    if (scanner.next_field(field))
-      return scanner.field_error("expected nothing but the number of spheres on this line, but found " + quote(field));
+    const Result<std::int64_t> count = count_of_frame(scanner, frames);
+    if (!count && frames > std::max<std::int64_t>(frame, 0) && !is_sphere(scanner)) {
+      warnings.push_back(text_behind(scanner, frames));
+      break;
+    }
+    if (!count) return count.error();
     const std::int64_t count_line = scanner.line_number();
     const auto cut = [&](std::int64_t found) {
       return scanner.line_error("the file ends in frame " + std::to_string(frames) + ": line " +
@@ -116,6 +149,16 @@ Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std:
     }
     Result<SphereTable> table = table_of(scanner);
     if (!table) return table.error();
+    std::optional<Cell> cell;
+    if (const auto lattice = value_in(scanner.line(), "lattice="); lattice && frames == frame) {
+      cell = cell_of_vectors(*lattice);
+      if (!cell) return scanner.line_error("expected nine finite numbers in Lattice but found " + quote(*lattice));
+      if (const auto origin = value_in(scanner.line(), "origin=")) {
+        const auto corner = cell_of_vectors(std::string(*origin) + " 0 0 0 0 0 0");
+        if (!corner) return scanner.line_error("expected three finite numbers in Origin but found " + quote(*origin));
+        cell->origin = corner->vectors[0];
+      }
+    }
 
     // Read the spheres of the wanted frame. Skip those of other frames, but check the last line.
     const bool wanted = frames == frame;
@@ -128,11 +171,13 @@ Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std:
     if (!wanted) continue;
     const std::string columns = table->column_names();
     spheres = std::move(*table).take();
+    spheres.cell = cell;
     spheres.rules.insert(spheres.rules.begin(), "columns: " + columns);
   }
   if (frame < 0 || frame >= frames) return no_such_frame(file, frame, frames);
   spheres.format = "XYZ";
   spheres.frames = frames;
+  spheres.warnings.insert(spheres.warnings.end(), warnings.begin(), warnings.end());
   return spheres;
 }
 

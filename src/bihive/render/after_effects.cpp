@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/geometry/each_sphere.h"
 #include "bihive/geometry/hit.h"
 #include "bihive/scene/clips.h"
 
@@ -16,7 +17,13 @@ constexpr double kBackgroundDepth = std::numeric_limits<double>::infinity();
 
 AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, const Tracer& tracer,
                            const RenderSettings& settings, const PixelRays& rays, const Transparency* transparency)
-    : scene_(scene), wave_scene_(wave_scene), tracer_(tracer), rays_(rays), transparency_(transparency) {
+    : scene_(scene),
+      wave_scene_(wave_scene),
+      tracer_(tracer),
+      rays_(rays),
+      transparency_(transparency),
+      cell_edges_(scene, settings.view == View::shaded ? settings.cell_lines : std::nullopt, settings.width_px,
+                  settings.height_px) {
   if (settings.view != View::shaded) return;
   outline_ = settings.outline;
   all_outlined_ = settings.outline.has_value();
@@ -35,13 +42,12 @@ AfterEffects::AfterEffects(const Scene& scene, const WaveScene& wave_scene, cons
   if (fog_) {
     nearest_ = kBackgroundDepth;
     const RemainingSpheres remaining(scene);
-    const SphereSet& spheres = remaining.set();
     const Vec3d eye = to_double(rays.eye());
-    for (std::int64_t id = 0; id < spheres.size(); ++id) {
-      const double depth = dot(spheres.centre(id) - eye, rays.forward());
-      nearest_ = std::min(nearest_, depth - spheres.radius(id));
-      farthest_ = std::max(farthest_, depth + spheres.radius(id));
-    }
+    for_each_sphere(remaining.set(), [&](std::int64_t, Vec3d centre, double radius) {
+      const double depth = dot(centre - eye, rays.forward());
+      nearest_ = std::min(nearest_, depth - radius);
+      farthest_ = std::max(farthest_, depth + radius);
+    });
     nearest_ = std::min(std::max(nearest_, 0.0), farthest_);
   }
 }
@@ -53,6 +59,7 @@ void AfterEffects::find(const Tile& tile, const std::vector<CameraSample>& camer
   const std::int64_t width = tile.x1 - tile.x0;
   const std::size_t samples = camera_samples.size();
   buffers.effects.resize(static_cast<std::size_t>(width * (tile.y1 - tile.y0)) * samples);
+  cell_edges_.find_near(tile, buffers.edges);
   for (std::size_t sample = 0; sample < samples; ++sample) {
     find_depths(grown, camera_samples[sample], cancel, buffers);
     if (cancel != nullptr && cancel->cancelled()) return;
@@ -62,7 +69,16 @@ void AfterEffects::find(const Tile& tile, const std::vector<CameraSample>& camer
         SampleEffect& effect =
             buffers.effects[static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0)) * samples + sample];
         effect.outline = static_cast<float>(outline_at(buffers, at, row));
-        effect.fog = static_cast<float>(fog_at(buffers.depth[static_cast<std::size_t>(at)]));
+        double depth = buffers.depth[static_cast<std::size_t>(at)];
+        if (!buffers.edges.empty()) {
+          const SamplePlace place = camera_samples[sample].place;
+          const double of_edge = cell_edges_.depth_at(buffers.edges, x + place.x, y + place.y);
+          effect.cell_edge = of_edge < depth;
+          depth = std::min(depth, of_edge);
+        } else {
+          effect.cell_edge = false;
+        }
+        effect.fog = static_cast<float>(fog_at(depth));
       }
   }
 }
@@ -110,7 +126,8 @@ void AfterEffects::find_depths(const Tile& grown, const CameraSample& sample, co
 // In a preview, lines that would be thinner than a pixel are left out.
 AfterEffects::Line AfterEffects::line_of(std::int64_t id) const {
   const SphereAttributes& attributes = scene_.spheres.attributes();
-  const double own = attributes.outline_px.empty() ? -1 : double(attributes.outline_px[static_cast<std::size_t>(id)]);
+  const auto i = static_cast<std::size_t>(scene_.spheres.stored_id(id));
+  const double own = attributes.outline_px.empty() ? -1 : double(attributes.outline_px[i]);
   const double outline = own >= 0 ? own : all_outlined_ ? outline_->width_px : 0;
   const double width = (outline > 0 || attributes.crease.empty() ? outline : Outline().width_px) * outline_scale_;
   return {width >= 1 ? width : 0, outline > 0};
@@ -118,7 +135,7 @@ AfterEffects::Line AfterEffects::line_of(std::int64_t id) const {
 
 std::int32_t AfterEffects::group(std::int64_t id) const {
   const std::vector<std::int32_t>& groups = scene_.spheres.attributes().crease;
-  return groups.empty() || id < 0 ? 0 : groups[static_cast<std::size_t>(id)];
+  return groups.empty() || id < 0 ? 0 : groups[static_cast<std::size_t>(scene_.spheres.stored_id(id))];
 }
 
 double AfterEffects::outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const {
@@ -153,11 +170,10 @@ double AfterEffects::fog_at(double depth) const {
 
 Vec3d AfterEffects::applied(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample,
                             Vec3d light, double passing) const {
-  const std::int64_t width = tile.x1 - tile.x0;
-  const std::size_t pixel = static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0));
-  const std::size_t samples = buffers.effects.size() / static_cast<std::size_t>(width * (tile.y1 - tile.y0));
-  const SampleEffect& effect = buffers.effects[pixel * samples + static_cast<std::size_t>(sample)];
-  if (effect.outline > 0) {
+  const SampleEffect& effect = effect_of(tile, buffers, x, y, sample);
+  if (effect.cell_edge) {
+    light = (1 - passing) * light + passing * cell_edges_.colour();
+  } else if (effect.outline > 0) {
     const double line = double(effect.outline) * passing;
     light = (1 - line) * light + line * outline_->colour;
   }

@@ -1,4 +1,4 @@
-// Outlines and fog of scene/picture_effects.h, sample by sample.
+// Outlines, fog and cell edges of scene/picture_effects.h, sample by sample.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bihive/image/film.h"
+#include "bihive/render/cell_edges.h"
 #include "bihive/render/tracer.h"
 #include "bihive/render/wave/wave_integrator.h"
 #include "bihive/scene/lens_pattern.h"
@@ -15,8 +16,9 @@ namespace bihive {
 
 /// What becomes of one sample's light.
 struct SampleEffect {
-  float outline = 0;  ///< the share of the outline's colour
-  float fog = 0;      ///< the share of the background
+  float outline = 0;       ///< the share of the outline's colour
+  float fog = 0;           ///< the share of the background
+  bool cell_edge = false;  ///< an edge of the cell stands before it
 };
 
 /// Buffers that a thread keeps from tile to tile.
@@ -26,6 +28,7 @@ struct EffectBuffers {
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> place;  ///< in `depth`, of each ray
   std::vector<SampleEffect> effects;
+  std::vector<EdgeOnPicture> edges;  ///< of cells, near the tile
 };
 
 class AfterEffects {
@@ -35,7 +38,12 @@ class AfterEffects {
                const PixelRays& rays, const Transparency* transparency);
 
   /// Whether the settings ask for any.
-  bool any() const { return outline_ || fog_; }
+  bool any() const { return outline_ || fog_ || cell_edges_.any(); }
+
+  /// Whether an edge of the cell shows in a sample: then it covers its place also where nothing is hit.
+  bool is_cell_edge(const Tile& tile, const EffectBuffers& buffers, int x, int y, std::int64_t sample) const {
+    return cell_edges_.any() && effect_of(tile, buffers, x, y, sample).cell_edge;
+  }
 
   /// Looks at the first hits of all samples of the tile and of the pixels around it, which are rays of their own also
   /// beyond the picture's edge; so each pixel is the same in every tile.
@@ -52,6 +60,13 @@ class AfterEffects {
                    EffectBuffers& buffers) const;
   double outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const;
   double fog_at(double depth) const;
+  static const SampleEffect& effect_of(const Tile& tile, const EffectBuffers& buffers, int x, int y,
+                                       std::int64_t sample) {
+    const std::int64_t width = tile.x1 - tile.x0;
+    const auto pixel = static_cast<std::size_t>((y - tile.y0) * width + (x - tile.x0));
+    const std::size_t samples = buffers.effects.size() / static_cast<std::size_t>(width * (tile.y1 - tile.y0));
+    return buffers.effects[pixel * samples + static_cast<std::size_t>(sample)];
+  }
 
   const Scene& scene_;
   const WaveScene& wave_scene_;
@@ -72,6 +87,7 @@ class AfterEffects {
   double outline_scale_ = 1;
   std::optional<Fog> fog_;
   double nearest_ = 0, farthest_ = 0;  // depths of the set
+  CellEdges cell_edges_;
   struct Step {
     int x, y;
   };

@@ -16,7 +16,7 @@ namespace bihive {
 template <bool kAnyHit, class Observer>
 Hit test_all_spheres(const SphereSet& spheres, const ScaledRay& ray, Observer& observer) {
   Hit best;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+  for (std::int64_t id = 0; id < spheres.total_size(); ++id) {
     observer.sphere_test();
     best.keep_nearer(sphere_hit(ray, spheres.stored_centre(id), spheres.stored_radius(id)), id);
     if (kAnyHit && best.found()) return best;

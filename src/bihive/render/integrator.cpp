@@ -43,11 +43,12 @@ Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
     for (const WeightedHit& item : hits_) {
       deepest_hit_ = depth;
       const Surface surface = surface_at(scene_, generation_[item.ray].ray, item.hit, cuts_.get());
+      const int level = to_eye_ != nullptr ? faint_level(item.weight * to_eye_->stopping(surface.id)) : 0;
       double visibility = 1;
       if (ambient_ != nullptr)
-        visibility = ambient_visibility(scene_, paths_, surface, ambient_->sets.of_sample(sample), ambient_->distance,
-                                        rays_.ambient);
-      const std::vector<Vec3d>* points = light_points_ != nullptr ? &light_points_->of_sample(sample) : nullptr;
+        visibility = ambient_visibility(scene_, paths_, surface, ambient_->sets.of_sample(sample, level),
+                                        ambient_->distance, rays_.ambient);
+      const std::vector<Vec3d>* points = light_points_ != nullptr ? &light_points_->of_sample(sample, level) : nullptr;
       sum = sum + item.weight * local_light(scene_, paths_, surface, shadows_, points, visibility, rays_.shadow);
 
       // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray, nor does a faint one.

@@ -147,7 +147,7 @@ Status check_layers(const Scene& scene, const std::vector<Layer>& layers) {
     if (std::count(names.begin(), names.end(), names.back()) > 1)
       return Error{"the layer " + names.back() + " stands twice", "", 0, 0, "leave one out"};
     const bool has_ids = layer.kind == LayerKind::id && scene.spheres.size() > 0;
-    if (has_ids && input_id(scene, scene.spheres.size() - 1) >= std::int64_t{kIdOfPlane})
+    if (has_ids && input_id(scene, scene.spheres.total_size() - 1) >= std::int64_t{kIdOfPlane})
       return Error{"the ids of so many spheres have more than 32 bits", "", 0, 0, "leave the layer id out"};
     if (layer.kind != LayerKind::attribute) continue;
     const FoundAttribute attribute = find_attribute(scene.spheres, layer.attribute);

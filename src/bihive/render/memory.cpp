@@ -10,7 +10,7 @@
 namespace bihive {
 
 Status check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters) {
-  if (engine == Engine::brute) return Done{};
+  if (is_brute(engine)) return Done{};
   const std::int64_t bytes = engine == Engine::reference
                                  ? predict_tree_memory(spheres.size(), parameters.for_reference()).allocated_bytes.low
                                  : predict_wide_memory(spheres.size(), parameters.for_wide(spheres.size())).low_bytes;

@@ -9,6 +9,7 @@
 
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
+#include "bihive/render/image_tracer.h"
 #include "bihive/wide/queries.h"
 
 namespace bihive {
@@ -79,7 +80,7 @@ struct PartTracer::AllCut {
 // The answer's ray must enter these balls.
 template <class Answer>
 void PartTracer::CutBalls::walk_with(Answer& answer) const {
-  if (tracer->engine() == Engine::brute) {
+  if (is_brute(tracer->engine())) {
     for (std::int64_t id = 0; id < spheres.size(); ++id)
       if (answer.test(id)) return;
     return;
@@ -128,6 +129,14 @@ std::int64_t PartTracer::Balls::place_of(Vec3d centre, double radius) const {
 
 Status PartTracer::make(const SphereSet& whole, std::shared_ptr<const CutSet> cuts,
                         const std::vector<std::int64_t>& ids, const Parameters& parameters) {
+  if (whole.has_images()) {
+    if (cuts != nullptr) return Error{"clips cannot cut the copies of a replicated set", "", 0, 0, ""};
+    Result<std::shared_ptr<const ImageTracer>> made =
+        ImageTracer::build(whole, parameters.engine, parameters.tree, parameters.threads, &ids);
+    if (!made) return made.error();
+    images_ = std::move(*made);
+    return Done{};
+  }
   cuts_ = std::move(cuts);
   std::vector<std::int64_t> cut;
   for (const std::int64_t id : ids) {
@@ -159,7 +168,7 @@ Status PartTracer::make_cut(const SphereSet& whole, const std::vector<std::int64
   Parameters of_cut = parameters;
   of_cut.tree.max_prims = kPrimsOfCut;
   for (const std::unique_ptr<CutBalls>& balls : cut_)
-    if (Status status = balls->make(whole, of_cut, parameters.engine != Engine::brute); !status) return status;
+    if (Status status = balls->make(whole, of_cut, !is_brute(parameters.engine)); !status) return status;
   return Done{};
 }
 
@@ -209,6 +218,7 @@ RaySpan PartTracer::rays_to(const Balls& balls, const RaySpan& rays, RayArrays& 
 }
 
 Hit PartTracer::closest_hit(const Ray& ray) const {
+  if (images_) return images_->closest_hit(ray);
   Hit hit = whole_.tracer->closest_hit(ray_to(whole_, ray));
   if (hit.found()) hit.sphere_id = whole_.whole_id(hit.sphere_id);
   if (cut_.empty()) return hit;
@@ -219,6 +229,7 @@ Hit PartTracer::closest_hit(const Ray& ray) const {
 }
 
 bool PartTracer::occluded(const Ray& ray) const {
+  if (images_) return images_->occluded(ray);
   if (whole_.tracer->occluded(ray_to(whole_, ray))) return true;
   if (cut_.empty()) return false;
   NearestCut nearest{*cuts_, true, {}};
@@ -274,6 +285,7 @@ void PartTracer::for_each_near(const CutBalls& balls, const RaySpan& rays, RayOr
 }
 
 void PartTracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
+  if (images_) return images_->closest_hits(rays, order, hits);
   static thread_local RayArrays arrays;
   whole_.tracer->closest_hits(rays_to(whole_, rays, arrays), order, hits);
   for (std::int64_t i = 0; i < rays.count; ++i)
@@ -289,6 +301,7 @@ void PartTracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan
 }
 
 void PartTracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+  if (images_) return images_->occluded(rays, order, hidden);
   static thread_local RayArrays arrays;
   whole_.tracer->occluded(rays_to(whole_, rays, arrays), order, hidden);
   for (const std::unique_ptr<CutBalls>& balls : cut_)
@@ -301,6 +314,7 @@ void PartTracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hid
 }
 
 void PartTracer::all_hits(const Ray& ray, std::vector<Crossing>& found) const {
+  if (images_) return images_->all_hits(ray, found);
   found.clear();
   if (!is_valid(ray)) return;
   AllWholeHits all{whole_.ids, found};
@@ -320,7 +334,7 @@ void PartTracer::add_whole_hits(const RaySpan& rays, RayOrder order, std::vector
   arrays.ends.resize(static_cast<std::size_t>(rays.count));
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const double end = rays.t_max != nullptr ? rays.t_max[i] : kFarthestEnd;
-    arrays.ends[static_cast<std::size_t>(i)] = arrays.near_cut[static_cast<std::size_t>(i)] != 0 ? end : -1;
+    arrays.ends[static_cast<std::size_t>(i)] = arrays.near_cut[static_cast<std::size_t>(i)] != 0 ? end : -kFarthestEnd;
   }
   here.t_max = arrays.ends.data();
   bihive::all_hits(*whole_.tracer->wide_tree(), here, found);
@@ -328,6 +342,7 @@ void PartTracer::add_whole_hits(const RaySpan& rays, RayOrder order, std::vector
 }
 
 void PartTracer::all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
+  if (images_) return images_->all_hits(rays, order, found);
   std::vector<Crossing> of_ray;
   if (whole_.tracer->wide_tree() == nullptr) {
     found.clear();

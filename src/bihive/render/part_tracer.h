@@ -16,6 +16,8 @@
 
 namespace bihive {
 
+class ImageTracer;
+
 /// Whole spheres have a tracer like any set. Cut ones are apart: a tree of their balls says which of them a ray may
 /// meet, and geometry/cut_sphere.h where. Queries are const; any number of threads may call them at a time.
 class PartTracer {
@@ -91,6 +93,7 @@ class PartTracer {
   bool prepare(const CutBalls& balls, const Ray& ray, Answer& answer) const;
   void add_whole_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
+  std::shared_ptr<const ImageTracer> images_;  // null: the set has no images. Else there are no cuts.
   std::shared_ptr<const CutSet> cuts_;
   Balls whole_;
   std::vector<std::unique_ptr<CutBalls>> cut_;  // by the clips that cut them; tracers refer to their spheres

@@ -296,12 +296,14 @@ class Renderer {
       // Add the samples in order, then divide by their number.
       for (std::int64_t i = 0; i < count; ++i) {
         const PixelPlace& pixel = pixels[static_cast<std::size_t>((first + i) / samples)];
-        if (!settings_.transparent || hits_something(buffers, integrator, i)) {
-          Vec3d value = sample_value(buffers, integrator, i);
+        const bool edge = effects_.any() && effects_.is_cell_edge(tile, effects, pixel.x, pixel.y, sum.samples);
+        const bool hit = !settings_.transparent || hits_something(buffers, integrator, i);
+        if (hit || edge) {
+          Vec3d value = hit ? sample_value(buffers, integrator, i) : Vec3d{};
           if (effects_.any())
             value = effects_.applied(tile, effects, pixel.x, pixel.y, sum.samples, value, integrator.passing(i));
           sum.light = sum.light + value;
-          sum.covered += settings_.transparent ? integrator.coverage(i) : 1;
+          sum.covered += settings_.transparent && !edge ? integrator.coverage(i) : 1;
           if (notes_edges) sum.range.add(value);
         }
         if (++sum.samples < samples) continue;
@@ -413,6 +415,11 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
   BIHIVE_CHECK(drawn.y0 >= 0 && drawn.y0 < drawn.y1 && drawn.y1 <= settings.height_px);
   if (Status status = check_camera(scene.camera); !status) return status.error();
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
+  if (of_tree && scene.spheres.has_images())
+    return Error{"this view shows the tree of the stored spheres, and the set has copies", "", 0, 0,
+                 "leave out --replicate"};
+  if (scene.spheres.has_images() != tracer.has_images())
+    return Error{"the tracer does not have the copies of the scene", "", 0, 0, "build the tracer from the scene"};
   const bool is_cut = cut_set_of(scene) != nullptr;
   if (of_tree && is_cut)
     return Error{"this view shows the tree of whole spheres, and clips cut the spheres", "", 0, 0,

@@ -11,8 +11,10 @@
 #include "bihive/bih/traversal.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/brute_force.h"
+#include "bihive/render/image_tracer.h"
 #include "bihive/render/part_tracer.h"
 #include "bihive/render/pixel_order.h"
+#include "bihive/render/wide_brute_force.h"
 #include "bihive/scene/clips.h"
 
 namespace bihive {
@@ -38,6 +40,16 @@ WideParameters TreeParameters::for_wide(std::int64_t spheres) const {
 Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters, int threads) {
   Tracer tracer(spheres, engine == Engine::automatic ? Engine::wide : engine);
   const Timer timer;
+  if (spheres.has_images()) {
+    Result<std::shared_ptr<const ImageTracer>> images =
+        ImageTracer::build(spheres, tracer.engine_, parameters, threads);
+    if (!images) return images.error();
+    tracer.images_ = std::move(*images);
+    tracer.wide_tree_ = tracer.images_->wide_tree();
+    if (tracer.engine_ == Engine::reference) tracer.tree_ = tracer.images_->tree();
+    tracer.build_ms_ = timer.elapsed_ms();
+    return tracer;
+  }
   if (tracer.engine_ == Engine::wide) {
     Result<std::shared_ptr<const WideTree>> tree =
         WideBuilder().build(spheres, parameters.for_wide(spheres.size()), threads);
@@ -52,11 +64,13 @@ Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const Tree
                    0, ""};
     }
   }
-  if (tracer.engine_ != Engine::brute) tracer.build_ms_ = timer.elapsed_ms();
+  if (!is_brute(tracer.engine_)) tracer.build_ms_ = timer.elapsed_ms();
   return tracer;
 }
 
 Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParameters& parameters, int threads) {
+  if (scene.spheres.has_images() && bihive::has_clips(scene))
+    return Error{"clips cannot cut the copies of a replicated set", "", 0, 0, "leave out the clips or the copies"};
   std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   if (cuts == nullptr) return build(scene.spheres, engine, parameters, threads);
   Tracer tracer(scene.spheres, engine == Engine::automatic ? Engine::wide : engine);
@@ -67,7 +81,7 @@ Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParame
   const PartTracer::Parameters of_parts{tracer.engine_, parameters, threads, false};
   if (Status status = parts->make(scene.spheres, std::move(cuts), all, of_parts); !status) return status.error();
   tracer.parts_ = std::move(parts);
-  if (tracer.engine_ != Engine::brute) tracer.build_ms_ = timer.elapsed_ms();
+  if (!is_brute(tracer.engine_)) tracer.build_ms_ = timer.elapsed_ms();
   return tracer;
 }
 
@@ -83,20 +97,24 @@ Tracer::Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree) : Tra
 }
 
 Hit Tracer::closest_hit(const Ray& ray) const {
+  if (images_) return images_->closest_hit(ray);
   if (parts_) return parts_->closest_hit(ray);
   if (wide_tree_) return bihive::closest_hit(*wide_tree_, ray);
   return tree_ ? bihive::closest_hit(*tree_, *spheres_, ray) : bihive::closest_hit(*spheres_, ray);
 }
 
 bool Tracer::occluded(const Ray& ray) const {
+  if (images_) return images_->occluded(ray);
   if (parts_) return parts_->occluded(ray);
   if (wide_tree_) return bihive::occluded(*wide_tree_, ray);
   return tree_ ? bihive::occluded(*tree_, *spheres_, ray) : bihive::occluded(*spheres_, ray);
 }
 
 void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
+  if (images_) return images_->closest_hits(rays, order, hits);
   if (parts_) return parts_->closest_hits(rays, order, hits);
   if (wide_tree_) return bihive::closest_hits(*wide_tree_, rays, order, hits);
+  if (engine_ == Engine::wide_brute) return wide_brute_hits(*spheres_, rays, hits);
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const Hit hit = closest_hit(rays.at(i));
     hits.t[i] = hit.t;
@@ -105,8 +123,10 @@ void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hi
 }
 
 void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+  if (images_) return images_->occluded(rays, order, hidden);
   if (parts_) return parts_->occluded(rays, order, hidden);
   if (wide_tree_) return bihive::occluded(*wide_tree_, rays, order, hidden);
+  if (engine_ == Engine::wide_brute) return wide_brute_occluded(*spheres_, rays, hidden);
   for (std::int64_t i = 0; i < rays.count; ++i) hidden[i] = occluded(rays.at(i)) ? 1 : 0;
 }
 

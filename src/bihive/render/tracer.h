@@ -19,12 +19,19 @@
 
 namespace bihive {
 
+class ImageTracer;
 class PartTracer;
 struct Scene;
 
 /// automatic: the fastest engine, which is wide; wide: vectors on the wide tree (wide/queries.h); reference: scalar
-/// traversal of the reference tree; brute: every sphere. All give the same bits.
-enum class Engine { automatic, wide, reference, brute };
+/// traversal of the reference tree; brute: every sphere, one after the other; wide_brute: every sphere too, on vectors
+/// (spans of rays; a single ray goes as with `brute`). All give the same bits.
+enum class Engine { automatic, wide, reference, brute, wide_brute };
+
+/// It has no tree.
+constexpr bool is_brute(Engine engine) {
+  return engine == Engine::brute || engine == Engine::wide_brute;
+}
 
 /// The caller's limits for a tree, >= 1 or kUnlimited. Unset: the engine chooses; the reference builder then takes
 /// leaves of at most 8 spheres and any depth.
@@ -47,8 +54,9 @@ struct TreeParameters {
 /// number of threads may call them at a time. An invalid ray (geometry/ray.h) hits nothing. Copies share the structure.
 class Tracer {
  public:
-  /// Builds the structure of the engine on that many threads (0: all). Errors: more spheres than the engine can number,
-  /// or not enough memory for its tree.
+  /// Builds the structure of the engine on that many threads (0: all). A set with images (SphereSet::replicate) is
+  /// traced with all of them: ids and bits are those of a set of copies. Errors: more spheres than the engine can
+  /// number, or not enough memory for its tree.
   static Result<Tracer> build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters = {},
                               int threads = 0);
 
@@ -78,6 +86,8 @@ class Tracer {
   const SphereSet& spheres() const { return *spheres_; }
   /// Whether clips cut the spheres. Then there is no tree of all spheres.
   bool has_clips() const { return parts_ != nullptr; }
+  /// Whether the spheres have images. Then a tree is that of the stored spheres alone.
+  bool has_images() const { return images_ != nullptr; }
   const Tree* tree() const { return tree_.get(); }                ///< null unless the engine is `reference`
   const WideTree* wide_tree() const { return wide_tree_.get(); }  ///< null unless the engine is `wide`
   double build_ms() const { return build_ms_; }                   ///< 0 for a tree from elsewhere
@@ -89,7 +99,8 @@ class Tracer {
   Engine engine_;
   std::shared_ptr<const Tree> tree_;
   std::shared_ptr<const WideTree> wide_tree_;
-  std::shared_ptr<const PartTracer> parts_;  // null: all spheres are whole
+  std::shared_ptr<const PartTracer> parts_;    // null: all spheres are whole
+  std::shared_ptr<const ImageTracer> images_;  // null: the set has no images
   double build_ms_ = 0;
 };
 

@@ -39,7 +39,12 @@ class TransparentSpheres {
                                                                   Engine engine, int threads,
                                                                   std::shared_ptr<const CutSet> cuts = nullptr);
 
-  double passing(std::int64_t id) const { return passing_[static_cast<std::size_t>(id)]; }
+  double passing(std::int64_t id) const {
+    const auto i = static_cast<std::size_t>(id);
+    return passing_[i < passing_.size() ? i : i % passing_.size()];
+  }
+  /// The share that a surface does not let through; 1 of the plane.
+  double stopping(std::int64_t id) const { return id >= 0 ? 1 - passing(id) : 1; }
   bool is_transparent(std::int64_t id) const { return id >= 0 && passing(id) > 0; }
 
   Hit closest_opaque(const Ray& ray) const;

@@ -14,12 +14,14 @@ DirectionSets::DirectionSets(int directions, int samples_per_pixel) {
   const double golden = (3 - std::sqrt(5.0)) / 2;  // of a whole turn
   const Rotation step = turn_by(golden);
   const int sets = std::min(samples_per_pixel, kMostDirectionSets);
-  for (int i = 0; i < sets; ++i) {
+  for (int n = 0; n < sets * kFaintLevels; ++n) {
+    const int asked = asked_at_level(directions, n / sets);
+    const int i = n % sets;
     const SamplePlace place = sample_place(i, sets);
     std::vector<Vec3f>& set = sets_.emplace_back();
     Rotation turn = turn_by(place.y);
-    for (int k = 0; k < directions; ++k) {
-      const double z = 1 - 2 * (k + place.x) / directions;
+    for (int k = 0; k < asked; ++k) {
+      const double z = 1 - 2 * (k + place.x) / asked;
       const double radius = std::sqrt(std::max(0.0, 1 - z * z));
       set.push_back(to_float(Vec3d{radius * turn.cosine, radius * turn.sine, z}));
       turn = after(turn, step);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bihive/math/vec3.h"
+#include "bihive/scene/faint_level.h"
 
 namespace bihive {
 
@@ -29,14 +30,14 @@ class DirectionSets {
   /// `directions` and `samples_per_pixel` at least 1.
   DirectionSets(int directions, int samples_per_pixel);
 
-  int count() const { return static_cast<int>(sets_.size()); }
-  /// Directions of length 1 up to binary32 rounding, spread evenly over the sphere.
-  const std::vector<Vec3f>& of_sample(std::int64_t sample) const {
-    return sets_[static_cast<std::size_t>(sample % count())];
+  int count() const { return static_cast<int>(sets_.size()) / kFaintLevels; }
+  /// Directions of length 1 up to binary32 rounding, spread evenly over the sphere; asked_at_level() of them.
+  const std::vector<Vec3f>& of_sample(std::int64_t sample, int level = 0) const {
+    return sets_[static_cast<std::size_t>(level * count() + sample % count())];
   }
 
  private:
-  std::vector<std::vector<Vec3f>> sets_;
+  std::vector<std::vector<Vec3f>> sets_;  // level after level
 };
 
 /// The rays that places ask with: what a renderer needs to know, made once for each picture.

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/geometry/each_sphere.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/math/elementary.h"
+#include "bihive/scene/colour_of_number.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/palette.h"
 #include "bihive/select/attribute_names.h"
@@ -72,13 +74,23 @@ class Scale {
 std::optional<std::pair<double, double>> range_of(const SphereSet& spheres, const FoundAttribute& attribute,
                                                   const std::vector<std::uint8_t>& mask, bool logarithmic) {
   std::optional<std::pair<double, double>> range;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    if (mask[static_cast<std::size_t>(id)] == 0) continue;
-    const double number = attribute.number_of(spheres, id);
-    if (!std::isfinite(number) || (logarithmic && !(number > 0))) continue;
+  const auto add = [&](std::int64_t id, double number) {
+    if (mask[static_cast<std::size_t>(spheres.stored_id(id))] == 0) return;
+    if (!std::isfinite(number) || (logarithmic && !(number > 0))) return;
     if (!range) range.emplace(number, number);
     range->first = std::min(range->first, number);
     range->second = std::max(range->second, number);
+  };
+  // Images differ from their stored sphere in place and index alone.
+  using Number = FoundAttribute::Number;
+  const bool by_place = attribute.number == Number::x || attribute.number == Number::y || attribute.number == Number::z;
+  if (spheres.has_images() && (by_place || attribute.number == Number::index)) {
+    const int axis = attribute.number == Number::x ? 0 : attribute.number == Number::y ? 1 : 2;
+    for_each_sphere(spheres, [&](std::int64_t id, Vec3d centre, double) {
+      add(id, by_place ? centre[axis] : static_cast<double>(id));
+    });
+  } else {
+    for (std::int64_t id = 0; id < spheres.size(); ++id) add(id, attribute.number_of(spheres, id));
   }
   return range;
 }
@@ -105,23 +117,27 @@ Result<ColourBy> colour_by_number(const SphereSet& spheres, const ColourBy& how,
   return done;
 }
 
+// The colour of the category that a number stands for, if it stands for one.
+std::optional<Vec3f> number_category_colour(double number, Transfer transfer) {
+  constexpr double kMostCategories = 1 << 30;
+  if (!(std::abs(number) < kMostCategories)) return std::nullopt;
+  return as_seen(type_colour(static_cast<std::int32_t>(std::floor(number))), transfer);
+}
+
 // A colour for each category: texts in their order of appearance, whole numbers as they are.
 Result<ColourBy> colour_by_category(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
                                     const std::vector<std::uint8_t>& mask, Transfer transfer,
                                     std::vector<Vec3f>& colours) {
   const Result<Vec3f> unknown = linear_colour(how.nan_colour, transfer);
   if (!unknown) return unknown.error();
-  constexpr double kMostCategories = 1 << 30;
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (mask[i] == 0) continue;
     const double number = attribute.has_numbers() ? attribute.number_of(spheres, static_cast<std::int64_t>(i))
                                                   : 1.0 + attribute.texts->text_of_sphere[i];
     if (attribute.is_element() && !how.map)
       colours[i] = as_seen(element_colour(static_cast<int>(number)), transfer);
-    else if (!(std::abs(number) < kMostCategories))
-      colours[i] = *unknown;
     else
-      colours[i] = as_seen(type_colour(static_cast<std::int32_t>(std::floor(number))), transfer);
+      colours[i] = number_category_colour(number, transfer).value_or(*unknown);
   }
   ColourBy done = how;
   done.range.reset();
@@ -129,6 +145,14 @@ Result<ColourBy> colour_by_category(const SphereSet& spheres, const ColourBy& ho
 }
 
 }  // namespace
+
+Vec3f colour_of_number(const ColourBy& done, double number, Transfer transfer) {
+  // The colour of unknown numbers was understood before.
+  const auto unknown = [&] { return linear_colour(done.nan_colour, transfer).value(); };
+  if (!done.range) return number_category_colour(number, transfer).value_or(unknown());
+  const double share = Scale(*done.range, done.logarithmic).share(number);
+  return std::isnan(share) ? unknown() : map_colour(done.map.value_or(ColourMap::viridis), share, transfer);
+}
 
 double place_in_range(std::pair<double, double> range, bool logarithmic, double number) {
   return Scale(range, logarithmic).share(number);

@@ -23,7 +23,7 @@ void colour_by_style(const ColourBy& how, Scene& scene) {
 }  // namespace
 
 void take_default_colours(Scene& scene, std::string_view format, const Style* style) {
-  if (format == "PDB" || format == "mmCIF") scene.length_unit = "\u00C5";
+  if (format == "PDB" || format == "PQR" || format == "mmCIF" || format == "GRO") scene.length_unit = "\u00C5";
   const ElementScheme scheme = style != nullptr ? style->element_colours : ElementScheme::jmol;
   const std::string_view attribute = colour_spheres(scene.spheres, scheme);
   if (attribute.empty()) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bihive/geometry/each_sphere.h"
 #include "bihive/select/selection.h"
 
 namespace bihive {
@@ -12,11 +13,11 @@ Result<double> focus_on(const SphereSet& spheres, const Camera& camera, const st
   if (!mask) return mask.error();
   const Vec3d forward = normalized(camera.look_at - camera.eye);
   double sum = 0, count = 0;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    if ((*mask)[static_cast<std::size_t>(id)] == 0) continue;
-    sum += dot(spheres.centre(id) - camera.eye, forward);
+  for_each_sphere(spheres, [&](std::int64_t id, Vec3d centre, double) {
+    if ((*mask)[static_cast<std::size_t>(spheres.stored_id(id))] == 0) return;
+    sum += dot(centre - camera.eye, forward);
     count += 1;
-  }
+  });
   if (count == 0) return Error{"the selection means no sphere", "", 0, 0, "see bihive select"};
   if (!(sum / count > 0)) return Error{"the selected spheres are not before the camera", "", 0, 0, ""};
   return sum / count;

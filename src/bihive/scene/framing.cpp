@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "bihive/geometry/each_sphere.h"
 #include "bihive/math/elementary.h"
+#include "bihive/scene/framing_cell.h"
 
 namespace bihive {
 namespace {
@@ -49,21 +52,27 @@ struct Extent {
   double middle() const { return high >= low ? low + 0.5 * (high - low) : 0; }
 };
 
+// Calls use(place, radius) for each sphere and each point.
+template <class Use>
+void for_each_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points, const Use& use) {
+  for_each_sphere(spheres, [&](std::int64_t, Vec3d centre, double radius) { use(centre, radius); });
+  for (const Vec3d point : points) use(point, 0.0);
+}
+
 // Turns a camera that frames the set in perspective, whose `distance` from the spheres' `middle` is known, into one
 // with parallel rays.
-void frame_parallel(const SphereSet& spheres, const Side& side, Vec3d middle, double distance, int width_px,
-                    int height_px, Camera& camera) {
+void frame_parallel(const SphereSet& spheres, const std::vector<Vec3d>& points, const Side& side, Vec3d middle,
+                    double distance, int width_px, int height_px, Camera& camera) {
   const Vec3d right = normalized(cross(side.up, side.back));
   const Vec3d up = cross(side.back, right);
   Extent across, along;
   double front = 0;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    const Vec3d centre = spheres.centre(id) - middle;
-    const double radius = spheres.radius(id);
+  for_each_in_view(spheres, points, [&](Vec3d place, double radius) {
+    const Vec3d centre = place - middle;
     across.add(dot(centre, right), radius);
     along.add(dot(centre, up), radius);
     front = std::max(front, dot(centre, side.back) + radius);
-  }
+  });
   const double shorter = std::min(width_px, height_px);
   const double side_length = std::max(across.size() * shorter / width_px, along.size() * shorter / height_px);
   camera.projection = Projection::orthographic;
@@ -100,7 +109,11 @@ Side side_of(ViewFrom from) {
   return {normalized(Vec3d{1, 1, 1}), {0, 1, 0}};
 }
 
-Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
+namespace {
+
+// The camera of frame_spheres(), with these points inside of the picture too.
+Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const Side& side, const Lens& lens,
+             int width_px, int height_px) {
   const Vec3d right = normalized(cross(side.up, side.back));
   const Vec3d up = cross(side.back, right);
   const SphereSet::Bounds bounds = spheres.bounds();
@@ -112,14 +125,13 @@ Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& len
   Span across{tangent * width_px / shorter};
   Span along{tangent * height_px / shorter};
   double distance = 0;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    const Vec3d centre = spheres.centre(id) - middle;
-    const double radius = spheres.radius(id);
+  for_each_in_view(spheres, points, [&](Vec3d place, double radius) {
+    const Vec3d centre = place - middle;
     const double depth = dot(centre, side.back);
     across.add(dot(centre, right), depth, radius);
     along.add(dot(centre, up), depth, radius);
     distance = std::max(distance, depth + radius);
-  }
+  });
   distance = std::max({distance, across.distance(), along.distance()});
   if (!(distance > 0)) distance = 1;
   const Vec3d shift = across.shift() * right + along.shift() * up;
@@ -130,8 +142,25 @@ Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& len
   camera.up = up;
   camera.fov_deg = lens.fov_deg;
   if (lens.projection == Projection::orthographic)
-    frame_parallel(spheres, side, middle, distance, width_px, height_px, camera);
+    frame_parallel(spheres, points, side, middle, distance, width_px, height_px, camera);
   return camera;
+}
+
+}  // namespace
+
+Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
+  return frame(spheres, {}, side, lens, width_px, height_px);
+}
+
+Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
+  std::vector<Vec3d> corners;
+  const auto [a, b, c] = spheres.images().counts;
+  if (const std::optional<Cell>& cell = spheres.cell())
+    for (const double i : {0.0, double(a)})
+      for (const double j : {0.0, double(b)})
+        for (const double k : {0.0, double(c)})
+          corners.push_back(cell->origin + i * cell->vectors[0] + j * cell->vectors[1] + k * cell->vectors[2]);
+  return frame(spheres, corners, side, lens, width_px, height_px);
 }
 
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {

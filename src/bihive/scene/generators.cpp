@@ -69,7 +69,7 @@ Error out_of_range(const std::string& what, const std::string& expected) {
   return {what + " is out of range", "", 0, 0, "it must be " + expected};
 }
 
-// Red and transparent in turn, as the thesis's pictures suggest.
+// Red and transparent in turn. The text does not say which sphere has which material; so both are seen everywhere.
 void alternate_materials(Scene& scene) {
   scene.material_of_sphere.resize(static_cast<std::size_t>(scene.spheres.size()));
   for (std::size_t i = 0; i < scene.material_of_sphere.size(); ++i)

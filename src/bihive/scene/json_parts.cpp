@@ -90,6 +90,13 @@ void take_picture(const json& value, PictureDefaults& picture) {
   if (value.contains("ambient_occlusion")) picture.ambient_occlusion = ambient_from_json(value.at("ambient_occlusion"));
   if (value.contains("outline")) picture.outline = outline_from_json(value.at("outline"), picture.transfer);
   if (value.contains("fog")) picture.fog = fog_from_json(value.at("fog"));
+  if (value.contains("cell_lines")) {
+    const json& lines = value.at("cell_lines");
+    CellLines made;
+    take_value(lines, "width_px", made.width_px);
+    if (lines.contains("colour")) made.colour = colour_from_json(lines.at("colour"), picture.transfer);
+    picture.cell_lines = made;
+  }
 }
 
 }  // namespace bihive

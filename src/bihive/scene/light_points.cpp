@@ -15,13 +15,15 @@ LightPointSets::LightPointSets(int points, int samples_per_pixel) {
   const Rotation step_a = turn_by(1 / kPlastic);
   const Rotation step_b = turn_by(1 / (kPlastic * kPlastic));
   const int sets = std::min(samples_per_pixel, kMostPointSets);
-  for (int i = 0; i < sets; ++i) {
+  for (int n = 0; n < sets * kFaintLevels; ++n) {
+    const int asked = asked_at_level(points, n / sets);
+    const int i = n % sets;
     const SamplePlace place = sample_place(i, sets);
     std::vector<Vec3d>& set = sets_.emplace_back();
     Rotation a = turn_by(place.y);
     Rotation b = turn_by(place.x);
-    for (int k = 0; k < points; ++k) {
-      const double u = (k + place.x) / points;
+    for (int k = 0; k < asked; ++k) {
+      const double u = (k + place.x) / asked;
       const double radius = std::sqrt(u);
       set.push_back({radius * a.cosine, radius * a.sine, std::sqrt(1 - u) * b.cosine});
       a = after(a, step_a);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bihive/math/vec3.h"
+#include "bihive/scene/faint_level.h"
 
 namespace bihive {
 
@@ -25,13 +26,14 @@ class LightPointSets {
   /// `points` 1 to kMostLightPoints, `samples_per_pixel` at least 1.
   LightPointSets(int points, int samples_per_pixel);
 
-  int count() const { return static_cast<int>(sets_.size()); }
-  const std::vector<Vec3d>& of_sample(std::int64_t sample) const {
-    return sets_[static_cast<std::size_t>(sample % count())];
+  int count() const { return static_cast<int>(sets_.size()) / kFaintLevels; }
+  /// asked_at_level() points.
+  const std::vector<Vec3d>& of_sample(std::int64_t sample, int level = 0) const {
+    return sets_[static_cast<std::size_t>(level * count() + sample % count())];
   }
 
  private:
-  std::vector<std::vector<Vec3d>> sets_;
+  std::vector<std::vector<Vec3d>> sets_;  // level after level
 };
 
 }  // namespace bihive

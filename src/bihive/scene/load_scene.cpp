@@ -10,6 +10,8 @@
 namespace bihive {
 namespace {
 
+constexpr std::string_view kGzipMark = "\x1f\x8b";
+
 // Bytes for each sphere of a generated scene: three growing arrays and radii, the set itself, materials.
 constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
 
@@ -20,6 +22,8 @@ Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& nam
   loaded.scene.name = name;
   loaded.format = file->format;
   loaded.frames = file->frames;
+  loaded.time_ps = file->time_ps;
+  loaded.step = file->step;
   loaded.assemblies = std::move(file->assemblies);
   loaded.rules = std::move(file->rules);
   loaded.warnings = std::move(file->warnings);
@@ -87,6 +91,11 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options,
                                LooksOfFile looks, const Style* style) {
+  if (bytes.substr(0, 2) == kGzipMark) {
+    const Result<std::string> unpacked = unpack_gzip(std::string(bytes), name);
+    if (!unpacked) return unpacked.error();
+    return load_scene(*unpacked, name, options, looks, style);
+  }
   if (looks_like_scene(bytes)) return parse_scene(bytes, name, options, looks, style);
   return from_spheres(read_spheres_from_memory(bytes, name, options), name, style);
 }

@@ -198,10 +198,14 @@ class LookedAt {
       z.push_back(centre.z);
       r.push_back(spheres.radius(id) * (factors_.empty() ? 1.0 : factors_[i]));
     }
-    return SphereSet::from_world(x, y, z, r);
+    Result<SphereSet> made = SphereSet::from_world(x, y, z, r);
+    if (made)
+      if (Status status = made->keep_cell_of(spheres); !status) return status.error();
+    return made;
   }
 
   void keep_ids(Scene& scene) const {
+    if (scene.id_in_input.empty()) scene.size_of_input = scene_.spheres.size();
     if (scene.id_in_input.empty())
       for (std::int64_t id = 0; id < scene_.spheres.size(); ++id) scene.id_in_input.push_back(id);
     keep_entries(scene.id_in_input, shown_);

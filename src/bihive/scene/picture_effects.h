@@ -28,4 +28,11 @@ struct Outline {
   Vec3d colour{0, 0, 0};  ///< linear
 };
 
+/// The edges of the periodic cell, of each copy of it. Spheres hide them. The width is that on the picture; at most
+/// kWidestOutlinePx.
+struct CellLines {
+  double width_px = 2;
+  Vec3d colour{0.02, 0.02, 0.02};  ///< linear
+};
+
 }  // namespace bihive

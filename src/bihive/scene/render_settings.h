@@ -34,7 +34,8 @@ struct RenderSettings {
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
-  Labels labels;  ///< for draw_labels() (render/draw_labels.h); a film has none
+  std::optional<CellLines> cell_lines;  ///< without effect if the spheres have no cell
+  Labels labels;                        ///< for draw_labels() (render/draw_labels.h); a film has none
   /// The film gets coverage: samples that hit nothing add no light to their pixel. Reflected and transmitted rays see
   /// the background as ever. Not for View::traversal and View::tree.
   bool transparent = false;
@@ -68,6 +69,7 @@ inline RenderSettings settings_from(const PictureDefaults& defaults) {
   settings.light_points = defaults.light_points;
   settings.outline = defaults.outline;
   settings.fog = defaults.fog;
+  settings.cell_lines = defaults.cell_lines;
   settings.transparent = defaults.transparent;
   settings.tone = defaults.tone;
   settings.labels = defaults.labels;

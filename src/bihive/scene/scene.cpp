@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bihive/scene/image_colours.h"
+
 namespace bihive {
 
 bool has_soft_light(const Scene& scene) {
@@ -29,11 +31,13 @@ bool lets_light_through(const Scene& scene) {
 }
 
 Material material_of(const Scene& scene, std::int64_t sphere_id) {
-  const auto i = static_cast<std::size_t>(sphere_id);
+  const auto i = static_cast<std::size_t>(scene.spheres.stored_id(sphere_id));
   Material material =
       scene.materials[scene.material_of_sphere.empty() ? 0 : static_cast<std::size_t>(scene.material_of_sphere[i])];
   const SphereAttributes& attributes = scene.spheres.attributes();
   if (!attributes.colour.empty()) material.colour = to_double(attributes.colour[i]);
+  if (!attributes.colour.empty() && sphere_id >= scene.spheres.size())
+    material.colour = to_double(ImageColours(scene).colour(sphere_id));
 
   // An opacity lets the rest of the light straight through.
   if (!attributes.opacity.empty() && attributes.opacity[i] < 1) {

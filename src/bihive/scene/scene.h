@@ -57,6 +57,7 @@ struct PictureDefaults {
   int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
+  std::optional<CellLines> cell_lines;
   bool transparent = false;  ///< the picture has opacity instead of a background
   Tone tone;
   Labels labels;
@@ -68,6 +69,7 @@ struct Scene {
   std::vector<Material> materials{matte_material()};  ///< at least one
   std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
   std::vector<std::int64_t> id_in_input;              ///< of each sphere, where some are hidden; empty: its position
+  std::int64_t size_of_input = 0;                     ///< spheres with the hidden ones; 0: none is hidden
   /// What the spheres' colours mean, as colour_by() returned it: their elements, types or numbers. Nothing else depends
   /// on it than the legend (scene/legend.h).
   std::vector<ColourBy> coloured_by;
@@ -86,9 +88,11 @@ struct Scene {
 };
 
 /// The id by which people know a sphere: its position in the input, hidden spheres counted. Negative ids (nothing, the
-/// plane) stay what they are.
+/// plane) stay what they are. Images are counted copy by copy, as if nothing were hidden.
 inline std::int64_t input_id(const Scene& scene, std::int64_t id) {
-  return id < 0 || scene.id_in_input.empty() ? id : scene.id_in_input[static_cast<std::size_t>(id)];
+  if (id < 0 || scene.id_in_input.empty()) return id;
+  const std::int64_t of_stored = scene.id_in_input[static_cast<std::size_t>(scene.spheres.stored_id(id))];
+  return of_stored + id / scene.spheres.size() * scene.size_of_input;
 }
 
 /// Whether some light throws soft shadows.

@@ -85,7 +85,7 @@ class Extraction {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
     for (const char* key : {"ambient_occlusion", "light_points", "opacity_rule", "outline", "fog", "transparent",
-                            "exposure", "tone", "legend", "scale_bar", "axes", "title", "length_unit"})
+                            "exposure", "tone", "legend", "scale_bar", "axes", "title", "length_unit", "cell_lines"})
       if (value.contains(key)) need_version(2, std::string("/picture/") + key);
     if (value.contains("samples_per_pixel") && value.at("samples_per_pixel").is_string())
       need_version(2, "/picture/samples_per_pixel");
@@ -253,6 +253,23 @@ class Extraction {
     return bits;
   }
 
+  // The document's cell and copies fill the gaps of the caller's options.
+  void take_cell(ReadOptions& options) {
+    for (const char* key : {"cell", "replicate", "wrapping"})
+      if (document_.contains(key)) need_version(2, std::string("/") + key);
+    if (document_.contains("cell")) {
+      const json& cell = document_.at("cell");
+      const json& vectors = cell.at("vectors");
+      if (!options.cell_vectors)
+        options.cell_vectors = {vector(vectors.at(0)), vector(vectors.at(1)), vector(vectors.at(2))};
+      if (!options.cell_origin && cell.contains("origin")) options.cell_origin = vector(cell.at("origin"));
+    }
+    if (document_.contains("replicate") && options.replicate == ReadOptions().replicate)
+      options.replicate = document_.at("replicate").get<std::array<std::int32_t, 3>>();
+    if (document_.contains("wrapping") && options.wrapping == Wrapping::none)
+      options.wrapping = document_.at("wrapping") == "wrap" ? Wrapping::wrap : Wrapping::unwrap;
+  }
+
   void take_spheres() {
     const json& value = document_.at("spheres");
     if (value.is_array())
@@ -265,6 +282,8 @@ class Extraction {
     if (options_.frame != 0)
       return fail("/spheres",
                   "there is no frame " + std::to_string(options_.frame) + ": the spheres are in the document");
+    if (!options_.trajectory.empty())
+      return fail("/spheres", "a trajectory moves the spheres of a file, and these are in the document");
     if (!options_.assembly.empty())
       return fail("/spheres", "there is no assembly \"" + options_.assembly + "\": the spheres are in the document");
     // Go through all of them. A sphere without colour, opacity or material gets the default.
@@ -318,7 +337,9 @@ class Extraction {
       if (!coloured[i]) colours[i] = to_float(loaded_.scene.materials[static_cast<std::size_t>(materials[i])].colour);
 
     // Go on as with any other file.
-    Result<SphereFile> file = finish_spheres(std::move(raw), "", options_);
+    ReadOptions options = options_;
+    take_cell(options);
+    Result<SphereFile> file = finish_spheres(std::move(raw), "", options);
     if (!file) return fail("/spheres", file.error().message, file.error().hint);
     if (std::any_of(materials.begin(), materials.end(), [](std::int32_t position) { return position != 0; }))
       loaded_.scene.material_of_sphere = std::move(materials);
@@ -330,6 +351,8 @@ class Extraction {
     Scene& scene = loaded_.scene;
     scene.spheres = std::move(file.spheres);
     loaded_.frames = file.frames;
+    loaded_.time_ps = file.time_ps;
+    loaded_.step = file.step;
     loaded_.assemblies = std::move(file.assemblies);
     loaded_.rules = std::move(file.rules);
     loaded_.recentred_by = file.recentred_by;
@@ -342,6 +365,12 @@ class Extraction {
     for (Clip& clip : scene.clips) clip = moved(clip, -file.recentred_by);
   }
 
+  // A relative path starts from the document's folder.
+  std::string beside(const std::string& path) const {
+    const std::size_t slash = name_.rfind('/');
+    return path.front() != '/' && slash != std::string::npos ? name_.substr(0, slash + 1) + path : path;
+  }
+
   void take_sphere_file(const json& value) {
     // The document's values fill the gaps of the caller's options.
     ReadOptions options = options_;
@@ -349,16 +378,20 @@ class Extraction {
     options.radius_scale *= value.value("radius_scale", 1.0);
     const bool recentred_by_document = value.value("recenter", false);
     options.recenter = options.recenter || recentred_by_document;
+    if (value.contains("trajectory")) {
+      need_version(2, "/spheres/trajectory");
+      if (options.trajectory.empty()) options.trajectory = beside(value.at("trajectory").get<std::string>());
+    }
     if (value.contains("assembly")) {
       need_version(2, "/spheres/assembly");
       if (options.assembly.empty()) options.assembly = value.at("assembly").get<std::string>();
     }
+    take_cell(options);
     if (options.frame == 0) options.frame = value.value("frame", std::int64_t{0});
 
-    // A relative path starts from the document's folder.
-    std::string path = value.at("file").get<std::string>();
-    const std::size_t slash = name_.rfind('/');
-    if (path.front() != '/' && slash != std::string::npos) path = name_.substr(0, slash + 1) + path;
+    const std::string path = beside(value.at("file").get<std::string>());
+    loaded_.files.push_back(path);
+    if (!options.trajectory.empty()) loaded_.files.push_back(options.trajectory);
     Result<SphereFile> file = read_spheres(path, options);
     if (!file) return fail("/spheres/file", file.error().to_string());
 
@@ -431,7 +464,11 @@ bool looks_like_scene(std::string_view bytes) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.substr(0, kByteOrderMark.size()) == kByteOrderMark) bytes.remove_prefix(kByteOrderMark.size());
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && bytes[first] == '{';
+  if (first == std::string_view::npos || bytes[first] != '{') return false;
+
+  // The databases of another program begin with their first row.
+  const std::size_t key = bytes.find_first_not_of(" \t\r\n", first + 1);
+  return key == std::string_view::npos || bytes.substr(key, 3) != "\"1\"";
 }
 
 }  // namespace bihive

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +25,14 @@ struct LoadedScene {
   LightRig rig;
   std::string format = "scene file";    ///< or "built-in", or a sphere file's format (scene/load_scene.h)
   std::int64_t frames = 1;              ///< frames or models in the document's sphere file
+  std::optional<double> time_ps;        ///< of the frame, where its file states it
+  std::optional<std::int64_t> step;     ///< of the simulation, where its file states it
   std::vector<std::string> assemblies;  ///< of its sphere file: as SphereFile::assemblies
   std::vector<std::string> rules;       ///< what was done to its spheres, one sentence each
   Vec3d recentred_by;                   ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
-  std::vector<Look> looks;  ///< the document's; done already, unless LooksOfFile::keep was asked for
+  std::vector<std::string> files;  ///< paths of other files that were read
+  std::vector<Look> looks;         ///< the document's; done already, unless LooksOfFile::keep was asked for
 };
 
 /// Whether a document's looks are done while it is read, or kept for a caller who has more of them to add.

@@ -154,6 +154,23 @@ std::string fog_member(const std::optional<Fog>& fog) {
                      number(fog->end), number(fog->strength));
 }
 
+std::string cell_lines_member(const std::optional<CellLines>& lines) {
+  if (!lines) return "";
+  return fmt::format("\"cell_lines\": {{\"width_px\": {}, \"colour\": {}}}, ", number(lines->width_px),
+                     vector(lines->colour));
+}
+
+// The cell and the copies, with their line ends.
+std::string cell_members(const SphereSet& spheres) {
+  std::string members;
+  if (const std::optional<Cell>& cell = spheres.cell())
+    members += fmt::format("  \"cell\": {{\"vectors\": [{}, {}, {}], \"origin\": {}}},\n", vector(cell->vectors[0]),
+                           vector(cell->vectors[1]), vector(cell->vectors[2]), vector(cell->origin));
+  const auto& [a, b, c] = spheres.images().counts;
+  if (spheres.has_images()) members += fmt::format("  \"replicate\": [{}, {}, {}],\n", a, b, c);
+  return members;
+}
+
 std::string labels_members(const Labels& labels) {
   std::string members;
   if (labels.legend) members += "\"legend\": true, ";
@@ -198,7 +215,7 @@ int version_of(const Scene& scene) {
   return effects || picture.adaptive_samples || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
                  has_effects(scene) || has_own_outlines(scene) || has_ambient_light(scene) || parallel ||
                  picture.transparent || picture.tone.any() || !labels_members(picture.labels).empty() ||
-                 !scene.clips.empty()
+                 !scene.clips.empty() || picture.cell_lines || scene.spheres.cell()
              ? 2
              : 1;
 }
@@ -227,13 +244,14 @@ std::string scene_to_json(const Scene& scene) {
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
   out += fmt::format(
       "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}{}{}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
+      "\"shadows\": {}, {}{}{}{}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
       picture.width_px, picture.height_px,
       picture.adaptive_samples ? "\"auto\"" : std::to_string(picture.samples_per_pixel), picture.recursion,
       picture.shadows, ambient_member(picture.ambient_occlusion), opacity_member(picture.opacity_rule),
       light_points_member(picture.light_points), outline_member(picture.outline), fog_member(picture.fog),
-      picture.transparent ? "\"transparent\": true, " : "", tone_members(picture.tone), labels_members(picture.labels),
-      picture.transfer == Transfer::srgb ? "srgb" : "none");
+      cell_lines_member(picture.cell_lines), picture.transparent ? "\"transparent\": true, " : "",
+      tone_members(picture.tone), labels_members(picture.labels), picture.transfer == Transfer::srgb ? "srgb" : "none");
+  out += cell_members(scene.spheres);
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     write_sphere(scene, id, out);

@@ -10,6 +10,7 @@
 #include <valijson/validator.hpp>
 #include <vector>
 
+#include "bihive/io/text_scanner.h"
 #include "bihive/scene/scene_file.h"
 
 namespace bihive {
@@ -28,7 +29,7 @@ std::string shortened(std::string text) {
 }
 
 std::string in_quotes(const std::string& text) {
-  return shortened(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+  return printable(shortened(json(text).dump(-1, ' ', false, json::error_handler_t::replace)));
 }
 
 // --- Syntax -----------------------------------------------------------------------------------------------------
@@ -41,7 +42,7 @@ class SyntaxCheck : public json::json_sax_t {
   bool number_integer(number_integer_t) override { return true; }
   bool number_unsigned(number_unsigned_t) override { return true; }
   bool number_float(number_float_t, const string_t&) override { return true; }
-  bool string(string_t&) override { return true; }
+  bool string(string_t& text) override { return has_no_nul(text); }
   bool binary(binary_t&) override { return true; }
   bool start_array(std::size_t) override { return true; }
   bool end_array() override { return true; }
@@ -54,6 +55,7 @@ class SyntaxCheck : public json::json_sax_t {
     return true;
   }
   bool key(string_t& name) override {
+    if (!has_no_nul(name)) return false;
     if (keys_.back().insert(name).second) return true;
     message = "the key " + in_quotes(name) + " occurs twice in one object";
     return false;
@@ -74,11 +76,18 @@ class SyntaxCheck : public json::json_sax_t {
   std::size_t bytes_read = 0;  // up to and with the wrong one; 0 = unknown
 
  private:
+  // The system ends a name at its first NUL, so another file than the named one would be opened.
+  bool has_no_nul(const string_t& text) {
+    if (text.find('\0') == string_t::npos) return true;
+    message = "the text " + in_quotes(text) + " holds a NUL character";
+    return false;
+  }
+
   std::vector<std::set<std::string>> keys_;  // of the objects that are still open
 };
 
 Error syntax_error(std::string_view text, const SyntaxCheck& check, const std::string& name) {
-  Error error{check.message, name, 0, 0, ""};
+  Error error{printable(check.message), name, 0, 0, ""};
   if (check.bytes_read == 0) return error;
   const std::string_view before = text.substr(0, std::min(check.bytes_read - 1, text.size()));
   const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;

@@ -82,7 +82,7 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
 }  // namespace
 
 double FoundAttribute::number_of(const SphereSet& spheres, std::int64_t id) const {
-  const auto i = static_cast<std::size_t>(id);
+  const auto i = static_cast<std::size_t>(spheres.stored_id(id));
   const SphereAttributes& attributes = spheres.attributes();
   switch (number) {
     case Number::x:

@@ -21,7 +21,7 @@ struct FoundAttribute {
   bool has_numbers() const { return number != Number::none; }
   bool is_element() const { return number == Number::element; }
 
-  /// The number of one sphere; NaN: unknown. Lengths are in world units. Needs has_numbers().
+  /// The number of one sphere or image; NaN: unknown. Lengths are in world units. Needs has_numbers().
   double number_of(const SphereSet& spheres, std::int64_t id) const;
 };
 

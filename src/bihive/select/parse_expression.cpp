@@ -2,6 +2,7 @@
 #include "bihive/select/parse_expression.h"
 
 #include <algorithm>
+#include <new>
 #include <tao/pegtl.hpp>
 #include <tao/pegtl/contrib/parse_tree.hpp>
 #include <utility>
@@ -404,6 +405,8 @@ Result<Expression> parse_expression(std::string_view text) {
       return selection_error(text, place,
                              "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within'");
     return expression_of(whole);
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the expression
   } catch (const std::exception& e) {
     return Error{"reading the selection failed: " + std::string(e.what()), "", 0, 0, ""};
   }

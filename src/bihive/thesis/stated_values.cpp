@@ -21,6 +21,14 @@ bool is_value(const json& value) {
          std::all_of(value.begin(), value.end(), [](const json& item) { return item.is_number(); });
 }
 
+constexpr ValueKind kAllKinds[] = {ValueKind::stated, ValueKind::inferred, ValueKind::own_check};
+
+std::optional<ValueKind> kind_named(const json& name) {
+  for (const ValueKind kind : kAllKinds)
+    if (name.is_string() && name.get<std::string>() == name_of(kind)) return kind;
+  return std::nullopt;
+}
+
 bool is_whole(double number) {
   return number == std::floor(number) && std::abs(number) <= kMostWhole;
 }
@@ -36,6 +44,11 @@ std::optional<double> number_in_print(std::string printed) {
 }
 
 }  // namespace
+
+const char* name_of(ValueKind kind) {
+  if (kind == ValueKind::stated) return "stated";
+  return kind == ValueKind::inferred ? "inferred" : "own_check";
+}
 
 Error StatedValues::error_at(const std::string& place, const std::string& expected) const {
   return {place + ": expected " + expected, file_, 0, 0, ""};
@@ -54,11 +67,16 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
       return stated.error_at("/values/" + name + "/value", "a number or a list of numbers");
     if (!entry.contains("sentence") || !entry["sentence"].is_string())
       return stated.error_at("/values/" + name + "/sentence", "the sentence that it comes from");
+    const std::optional<ValueKind> kind = kind_named(entry.value("kind", json()));
+    if (!kind) return stated.error_at("/values/" + name + "/kind", R"("stated", "inferred" or "own_check")");
     const json& value = entry["value"];
     const bool is_list = value.is_array(), is_printed = entry.contains("printed") && entry["printed"].is_string();
     stated.values_[name] = {is_list ? value.get<std::vector<double>>() : std::vector<double>{value.get<double>()},
-                            is_list, value.dump(), is_printed ? entry["printed"].get<std::string>() : "",
-                            entry["sentence"].get<std::string>()};
+                            is_list,
+                            value.dump(),
+                            is_printed ? entry["printed"].get<std::string>() : "",
+                            entry["sentence"].get<std::string>(),
+                            *kind};
   }
   return stated;
 }
@@ -103,7 +121,7 @@ Result<std::vector<std::int64_t>> StatedValues::integers(const std::string& name
 Result<std::string> StatedValues::printed(const std::string& name) const {
   const Result<const Value*> value = find(name);
   if (!value) return value.error();
-  const auto& [numbers, is_list, text, printed, sentence] = **value;
+  const auto& [numbers, is_list, text, printed, sentence, kind] = **value;
   if (printed.empty()) return text;
   // If only the value was changed, the printed number is out of date.
   const std::optional<double> number = number_in_print(printed);
@@ -114,6 +132,12 @@ Result<std::string> StatedValues::sentence(const std::string& name) const {
   const Result<const Value*> value = find(name);
   if (!value) return value.error();
   return (*value)->sentence;
+}
+
+Result<ValueKind> StatedValues::kind(const std::string& name) const {
+  const Result<const Value*> value = find(name);
+  if (!value) return value.error();
+  return (*value)->kind;
 }
 
 }  // namespace bihive

@@ -1,5 +1,6 @@
-// The thesis's stated values: thesis/<experiment>/values.json (builtin_values.h). No number of the thesis stands in
-// code.
+// The values that experiments compare with: thesis/<experiment>/values.json (builtin_values.h). Each says whose it is:
+// the text's, ours by an inference, or ours alone. The numbers that make the thesis's scenes stand in
+// scene/generators.cpp; Figure 4.1 compares what those scenes really hold with the text's numbers.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,21 @@
 
 namespace bihive {
 
+/// Whose value it is. A comparison with anything but `stated` is no comparison with the thesis.
+enum class ValueKind {
+  stated,    ///< the text says it
+  inferred,  ///< the text is silent: we conclude or choose it, for the reason that stands beside it
+  own_check  ///< a result of ours that another implementation or an argument of ours must confirm
+};
+/// "stated", "inferred", "own_check".
+const char* name_of(ValueKind kind);
+
 /// One experiment's values. Document:
 ///   {"experiment": "table-4.2",
-///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "printed": "4,095", "sentence": "Nodes Internal
-///    4,095 ..."}, ...}}
-/// "value" is a number or a list of numbers. "printed" is optional. "sentence" quotes the text, or, with "chosen":
-/// true, says why the value was chosen, because the text is silent.
+///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
+///                                                    "sentence": "Nodes Internal 4,095 ..."}, ...}}
+/// "value" is a number or a list of numbers. "kind" is one of ValueKind's names. "printed" is optional. "sentence"
+/// quotes the text if the value is stated; else it gives the reasoning.
 class StatedValues {
  public:
   /// Error, with file and place: the document is not as above. `file`: as errors name it.
@@ -32,6 +42,7 @@ class StatedValues {
   /// As the thesis prints it: "printed", else the value; also where "printed" is another number than the value.
   Result<std::string> printed(const std::string& name) const;
   Result<std::string> sentence(const std::string& name) const;
+  Result<ValueKind> kind(const std::string& name) const;
   const std::string& text() const { return text_; }  ///< the document as it was read
 
  private:
@@ -39,6 +50,7 @@ class StatedValues {
     std::vector<double> numbers;
     bool is_list;
     std::string text, printed, sentence;  // the value as JSON; printed: empty where it is not said
+    ValueKind kind;
   };
 
   Error error_at(const std::string& place, const std::string& expected) const;

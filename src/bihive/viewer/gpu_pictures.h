@@ -30,8 +30,9 @@ class GpuPictures {
   /// are new.
   Status begin(const Scene& scene, bool new_lights, const RenderSettings& settings);
 
-  /// Copies the complete passes; show() draws this copy from now on. Error: no room for it.
-  Status keep();
+  /// Copies the complete passes, with the labels of `whole`, the settings of the picture in its full size
+  /// (viewer/shown_image.h); show() draws this copy from now on. Error: no room for it.
+  Status keep(const Scene& scene, const RenderSettings& whole);
   /// Draws the kept picture, if any, stretched to the viewport.
   void show(std::uint32_t framebuffer, const GlViewport& viewport) const;
   void forget() { width_ = height_ = 0; }
@@ -40,6 +41,9 @@ class GpuPictures {
   void abandon();
 
  private:
+  Status make_room(int width_px, int height_px);
+  Status put_labels(const Scene& scene, const RenderSettings& whole);
+
   GpuPictures(const GlFunctions& gl, GlRenderer renderer) : gl_(gl), renderer_(std::move(renderer)) {}
 
   GlFunctions gl_;

@@ -16,8 +16,9 @@ constexpr double kMostBudgets = 4;
 constexpr int kQuickDirections = 8;
 constexpr int kQuickLightPoints = 2;
 
-// Whether the picture has soft light, outlines or fog, which take more rays.
+// Whether the picture has soft light, outlines, fog or a lens, which take more rays.
 bool has_slow_parts(const Scene& scene, const RenderSettings& settings) {
+  if (scene.camera.aperture > 0) return true;
   return settings.view == View::shaded && (settings.ambient_occlusion || settings.outline || settings.fog ||
                                            has_own_lines(scene) || (has_soft_light(scene) && settings.shadows));
 }
@@ -28,6 +29,11 @@ void make_quick(RenderSettings& settings, int divisor) {
     settings.ambient_occlusion->directions = std::min(settings.ambient_occlusion->directions, kQuickDirections);
   settings.light_points = std::min(settings.light_points, kQuickLightPoints);
   settings.outline_scale = 1.0 / divisor;
+}
+
+// For the labels of a picture of any step.
+RenderSettings whole_picture(const PictureSubject& subject) {
+  return render_settings(subject.settings, subject.shown.scene.picture, subject.size.width, subject.size.height, 1);
 }
 
 // Pixels of a picture of that step.
@@ -60,7 +66,7 @@ Result<FrameReport> PictureSteps::frame(const PictureSubject& subject, double bu
     }
     if (report.drawn && moving_) rate_.moved(clock_.elapsed_ms());
   }
-  const StepShare share = share_of_step(step_, subject.settings.samples_per_pixel);
+  const StepShare share = share_of_step(step_, samples_at_rest(subject.settings));
   report.settled = at_rest();
   // A quick step of full size comes before the full one, and counts as its beginning.
   const double own = quick_ && is_last(step_, subject) ? 0 : share.own;
@@ -84,7 +90,7 @@ Status PictureSteps::go_on(const PictureSubject& subject, double budget_ms, bool
     if (Status status = begin_step(subject, first); !status) return status;
   } else if (!begun_) {
     moving_ = false;
-    const PictureStep next = finer_step(step_, subject.settings.samples_per_pixel);
+    const PictureStep next = finer_step(step_, samples_at_rest(subject.settings));
     if (Status status = begin_step(subject, next); !status) return status;
   }
 
@@ -104,7 +110,7 @@ Status PictureSteps::go_on(const PictureSubject& subject, double budget_ms, bool
 Status PictureSteps::begin_step(const PictureSubject& subject, PictureStep step) {
   ShownScene& shown = subject.shown;
   step_ = step;
-  shown.look_by(subject.settings.camera);
+  shown.look_by(subject.settings);
   spent_ms_ = 0;
   shown_samples_ = 0;
   begun_ = true;
@@ -114,6 +120,8 @@ Status PictureSteps::begin_step(const PictureSubject& subject, PictureStep step)
   slow_parts_ = has_slow_parts(shown.scene, settings);
   quick_ = slow_parts_ && (moving_ || !is_last(step_, subject));
   if (quick_) make_quick(settings, step_.divisor);
+  if (quick_) shown.scene.camera.aperture = 0;
+  if (quick_ || !is_last(step_, subject)) settings.adaptive_samples = false;
   if (subject.settings.engine == ViewerEngine::gpu)
     return subject.gpu->begin(shown.scene, /*new_lights=*/!shown.has_lights, settings);
   const Result<const Tracer*> tracer = shown.trees->needed_by(subject.settings);
@@ -128,7 +136,10 @@ Status PictureSteps::begin_step(const PictureSubject& subject, PictureStep step)
 void PictureSteps::take_cpu(const PictureSubject& subject, bool& drawn) {
   if (!picture_->finished()) return;
   Rendered rendered = picture_->take();
-  image_ = image_to_show(rendered.film, subject.settings.view, subject.shown.scene.picture.transfer);
+  const Scene& scene = subject.shown.scene;
+  image_ = image_to_show(rendered.film, subject.settings.view, scene.picture.transfer);
+  const RenderSettings whole = whole_picture(subject);
+  if (whole.labels.any()) image_ = labelled(std::move(image_), scene, whole);
   const RenderCounts& rays = rendered.rays;
   const auto all = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient);
   if (rendered.render_ms > 0) mray_per_s_ = all / rendered.render_ms / 1000;
@@ -142,7 +153,7 @@ Status PictureSteps::take_gpu(const PictureSubject& subject, bool& drawn) {
   GpuPictures& gpu = *subject.gpu;
   drawn = gpu.renderer().samples_done() > shown_samples_;
   if (drawn)
-    if (Status status = gpu.keep(); !status) return status;
+    if (Status status = gpu.keep(subject.shown.scene, whole_picture(subject)); !status) return status;
   shown_samples_ = gpu.renderer().samples_done();
   if (!gpu.renderer().finished()) return Done{};
   const double primary = static_cast<double>(pixels_of(step_, subject.size)) * step_.samples;

@@ -50,7 +50,7 @@ class PictureSteps {
   Status take_gpu(const PictureSubject& subject, bool& drawn);
   void finish_step(const PictureSubject& subject);
   bool is_last(PictureStep step, const PictureSubject& subject) const {
-    return step == PictureStep{1, subject.settings.samples_per_pixel};
+    return step == PictureStep{1, samples_at_rest(subject.settings)};
   }
   double done_of_step(const PictureSubject& subject) const;
   PictureCost& cost(const PictureSubject& subject) {

@@ -3,13 +3,15 @@
 #include <utility>
 
 #include "bihive/base/check.h"
+#include "bihive/render/draw_labels.h"
+#include "bihive/viewer/viewer_effects.h"
 
 namespace bihive {
 
 Result<PictureToSave> PictureToSave::by_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
   Result<SlicedPicture> sliced = SlicedPicture::begin(scene, tracer, settings);
   if (!sliced) return sliced.error();
-  PictureToSave picture(settings.view, scene.picture.transfer);
+  PictureToSave picture(scene, settings);
   picture.sliced_ = std::move(*sliced);
   return picture;
 }
@@ -17,7 +19,7 @@ Result<PictureToSave> PictureToSave::by_cpu(const Scene& scene, const Tracer& tr
 Result<PictureToSave> PictureToSave::by_gpu(GpuPictures& gpu, const Scene& scene, bool new_lights,
                                             const RenderSettings& settings) {
   if (Status status = gpu.begin(scene, new_lights, settings); !status) return status.error();
-  PictureToSave picture(settings.view, scene.picture.transfer);
+  PictureToSave picture(scene, settings);
   picture.gpu_ = &gpu;
   return picture;
 }
@@ -39,11 +41,18 @@ double PictureToSave::done() const {
 
 Result<PngPixels> PictureToSave::take() {
   BIHIVE_CHECK(finished());
-  const Transfer curve = view_ == View::shaded ? transfer_ : Transfer::none;
-  if (gpu_ == nullptr) return png_pixels_from_film(sliced_->take().film, curve, 8);
-  const Result<GlRenderer::Picture> picture = gpu_->renderer().read();
-  if (!picture) return picture.error();
-  return png_pixels_from_film(picture->film, curve, 8);
+  const Transfer curve = settings_.view == View::shaded ? scene_->picture.transfer : Transfer::none;
+  PngPixels pixels;
+  if (gpu_ == nullptr) {
+    pixels = png_pixels_from_film(sliced_->take().film, curve, 8);
+  } else {
+    const Result<GlRenderer::Picture> picture = gpu_->renderer().read();
+    if (!picture) return picture.error();
+    pixels = png_pixels_from_film(picture->film, curve, 8);
+  }
+  settings_.labels = possible_labels(*scene_, settings_);
+  draw_labels(pixels, *scene_, settings_);
+  return pixels;
 }
 
 }  // namespace bihive

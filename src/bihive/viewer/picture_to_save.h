@@ -5,7 +5,6 @@
 
 #include "bihive/base/result.h"
 #include "bihive/image/png_pixels.h"
-#include "bihive/image/transfer.h"
 #include "bihive/render/renderer.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
@@ -17,7 +16,8 @@ class PictureToSave {
  public:
   /// Scene and tracer must outlive it and must not change.
   static Result<PictureToSave> by_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings);
-  /// The scene must have been set; its lights may be new. Any other picture that `gpu` begins meanwhile ends this one.
+  /// As above. The scene must have been set; its lights may be new. Any other picture that `gpu` begins meanwhile ends
+  /// this one.
   static Result<PictureToSave> by_gpu(GpuPictures& gpu, const Scene& scene, bool new_lights,
                                       const RenderSettings& settings);
 
@@ -25,14 +25,15 @@ class PictureToSave {
   Status advance(double budget_ms);
   bool finished() const;
   double done() const;  ///< share of the picture, 0 to 1; 1 at the end
-  /// Returns the finished picture, once: display values of 8 bits, with opacity if its background is transparent.
+  /// Returns the finished picture, once: display values of 8 bits, with opacity if its background is transparent, and
+  /// with those of the labels that it can have.
   Result<PngPixels> take();
 
  private:
-  PictureToSave(View view, Transfer transfer) : view_(view), transfer_(transfer) {}
+  PictureToSave(const Scene& scene, const RenderSettings& settings) : scene_(&scene), settings_(settings) {}
 
-  View view_;
-  Transfer transfer_;
+  const Scene* scene_;
+  RenderSettings settings_;
   std::optional<SlicedPicture> sliced_;  // on the CPU
   GpuPictures* gpu_ = nullptr;
 };

@@ -4,6 +4,7 @@
 
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/element_colours.h"
+#include "bihive/scene/light_text.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/select/attribute_names.h"
 
@@ -41,6 +42,42 @@ Result<Look> look_of(const LookRow& row) {
   return Look{row.select.empty() ? "all" : row.select, {std::move(*action)}};
 }
 
+// The lights that were asked for stand in place of the style's or of the scene's own.
+Status light_up(LoadedScene& loaded, const std::vector<std::string>& lights) {
+  LightChoice choice;
+  for (const std::string& text : lights)
+    if (Status status = add_light(text, choice); !status)
+      return look_error("light: " + status.error().message, status.error().hint);
+  if (choice.empty()) return Done{};
+  loaded.rig = rig_of(choice, loaded.scene.ambient_light);
+  loaded.scene.ambient_light = loaded.rig.ambient_light;
+  loaded.has_lights = false;
+  return Done{};
+}
+
+// What is done to all spheres before the rows.
+Result<std::vector<Look>> looks_of_all(const ViewerLook& look) {
+  std::vector<Look> looks;
+  for (const auto& [action, value] : {std::pair("crease", look.crease), std::pair("colour-by", look.colour_by)}) {
+    if (value.empty()) continue;
+    Result<Look> one = look_of({"", action, value});
+    if (!one) return look_error(std::string(action) + ": " + one.error().message, one.error().hint);
+    looks.push_back(std::move(*one));
+  }
+  return looks;
+}
+
+// The user's colour of unknown numbers goes to all of the user's actions that colour by a number.
+Status set_nan_colour(const std::string& text, std::vector<Look>& looks, std::size_t first) {
+  if (text.empty()) return Done{};
+  const Result<ColourChoice> colour = colour_choice_from_text(text);
+  if (!colour) return look_error("colour of unknown numbers: " + colour.error().message, colour.error().hint);
+  for (std::size_t i = first; i < looks.size(); ++i)
+    for (LookAction& action : looks[i].actions)
+      if (auto* const how = std::get_if<ColourBy>(&action)) how->nan_colour = *colour;
+  return Done{};
+}
+
 }  // namespace
 
 SceneInput::SceneInput(Kind kind, LoadedScene loaded) : kind_(kind), loaded_(std::move(loaded)) {
@@ -59,6 +96,13 @@ Result<SceneInput> SceneInput::built_in(const std::string& name, const ScenarioP
 }
 
 Result<SceneInput> SceneInput::file(std::string_view bytes, const std::string& name, const ReadOptions& options) {
+  // The content counts, not the packing: a packed scene file has a look of its own too.
+  constexpr std::string_view kGzip = "\x1f\x8b";
+  if (bytes.substr(0, kGzip.size()) == kGzip) {
+    const Result<std::string> unpacked = unpack_gzip(std::string(bytes), name);
+    if (!unpacked) return unpacked.error();
+    return file(*unpacked, name, options);
+  }
   Result<LoadedScene> loaded = load_scene(bytes, name, options, LooksOfFile::keep);
   if (!loaded) return loaded.error();
   const bool document = looks_like_scene(bytes);
@@ -84,26 +128,47 @@ SceneInput SceneInput::made(Scene scene, SceneFacts facts, bool has_camera, bool
   return input;
 }
 
-Result<LoadedScene> SceneInput::in_style(const std::string& style, bool plain) const {
-  if (kind_ == Kind::own) {
-    if (!style.empty()) return look_error("this scene has a look of its own", "styles are for files");
-    return loaded_;
-  }
+Status SceneInput::replicate(Scene& scene, const Copies& copies) {
+  SphereSet& spheres = scene.spheres;
+  if (!copies || *copies == spheres.images().counts) return Done{};
+  if (!spheres.cell()) return look_error("there is no periodic cell to replicate by", "replicate: leave it out");
+  return spheres.replicate(spheres.cell()->vectors, *copies);
+}
+
+Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies& copies) const {
   // A scene file keeps its own look unless a style is asked for.
-  if (kind_ == Kind::document && (style.empty() || plain)) return loaded_;
-  const Result<Style> named = style_named(plain ? "plain" : style.empty() ? style_names().front() : style);
+  if (kind_ == Kind::own || (kind_ == Kind::document && style.empty())) {
+    if (kind_ == Kind::own && !style.empty())
+      return look_error("this scene has a look of its own", "styles are for files");
+    LoadedScene loaded = loaded_;
+    if (Status status = replicate(loaded.scene, copies); !status) return status.error();
+    return loaded;
+  }
+  const Result<Style> named = style_named(style.empty() ? style_names().front() : style);
   if (!named) return named.error();
-  if (kind_ == Kind::document) return load_scene(bytes_, name_, options_, LooksOfFile::keep, &*named);
+  if (kind_ == Kind::document) {
+    Result<LoadedScene> loaded = load_scene(bytes_, name_, options_, LooksOfFile::keep, &*named);
+    if (!loaded) return loaded.error();
+    if (Status status = replicate(loaded->scene, copies); !status) return status.error();
+    return loaded;
+  }
+  // Colours by place depend on the copies.
   LoadedScene loaded = loaded_;
+  if (Status status = replicate(loaded.scene, copies); !status) return status.error();
   restyle(loaded, *named);
   return loaded;
 }
 
-// The scene file's own looks, then the rows. All selections see the spheres as they were read.
+// The scene file's own looks, then what is for all spheres, then the rows. All selections see the spheres as they were
+// read.
 Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, const ViewerLook& look,
                                                        std::size_t* failed_row) const {
   std::vector<Look> looks = loaded.looks;
   const std::size_t own = looks.size();
+  Result<std::vector<Look>> of_all = looks_of_all(look);
+  if (!of_all) return of_all.error();
+  looks.insert(looks.end(), of_all->begin(), of_all->end());
+  const std::size_t first_row = looks.size();
   for (std::size_t row = 0; row < look.rows.size(); ++row) {
     Result<Look> next = look_of(look.rows[row]);
     if (!next) {
@@ -112,29 +177,32 @@ Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, cons
     }
     looks.push_back(std::move(*next));
   }
+  if (Status status = set_nan_colour(look.nan_colour, looks, own); !status) return status.error();
   std::size_t failed = 0;
   Result<std::vector<std::int64_t>> counts = apply_looks(loaded.scene, looks, &failed);
-  if (counts) return std::vector<std::int64_t>(counts->begin() + static_cast<std::ptrdiff_t>(own), counts->end());
-  if (failed >= own) {
-    if (failed_row != nullptr) *failed_row = failed - own;
+  if (counts) return std::vector<std::int64_t>(counts->begin() + static_cast<std::ptrdiff_t>(first_row), counts->end());
+  if (failed >= first_row) {
+    if (failed_row != nullptr) *failed_row = failed - first_row;
     return counts.error();
   }
   const Error& error = counts.error();
+  if (failed >= own) return error;
   const std::string place = error.column > 0 ? "/select: column " + std::to_string(error.column) : "";
   return Error{"/looks/" + std::to_string(failed) + place + ": " + error.message, name_, 0, 0, error.hint};
 }
 
-Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, bool plain, std::size_t* failed_row) const {
+Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const Copies& copies,
+                                                 std::size_t* failed_row) const {
   if (failed_row != nullptr) *failed_row = look.rows.size();
   if (!look.style.empty())
     if (const Result<Style> known = style_named(look.style); !known) return known.error();
-  Result<LoadedScene> loaded = in_style(look.style, plain);
+  Result<LoadedScene> loaded = in_style(look.style, copies);
   if (!loaded) return loaded.error();
   Looked looked{std::move(*loaded), {}};
   Scene& scene = looked.loaded.scene;
   if (!look.background.empty())
     if (Status status = set_background(scene, look.background); !status) return status.error();
-  if (plain) scene.picture.transparent = false;
+  if (Status status = light_up(looked.loaded, look.lights); !status) return status.error();
   if (!look.element_colours.empty())
     if (Status status = recolour(scene, look.element_colours); !status) return status.error();
   Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row);

@@ -1,8 +1,10 @@
 // An input as it was read, from which every look of the user is made anew.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,8 @@ namespace bihive {
 
 class SceneInput {
  public:
+  using Copies = std::optional<std::array<std::int32_t, 3>>;
+
   // Errors as those of built_in_scene() and load_scene().
   static Result<SceneInput> built_in(const std::string& name, const ScenarioParameters& parameters,
                                      const ReadOptions& options);
@@ -30,18 +34,19 @@ class SceneInput {
     LoadedScene loaded;
     std::vector<std::int64_t> counts;
   };
-  /// As `bihive render` with these options makes it. `plain`: in the style plain and opaque, for an engine that draws
-  /// nothing else. Errors: no such style, colour or action, a style for a scene that takes none, a selection's (column
-  /// as in select_spheres()), or that every sphere is hidden. `failed_row` (if given) is then the row to blame;
-  /// look.rows.size() if none is.
-  Result<Looked> looked_at(const ViewerLook& look, bool plain, std::size_t* failed_row = nullptr) const;
+  /// As `bihive render` with these options makes it. Errors: no such style, colour or action, a style for a scene that
+  /// takes none, a selection's (column as in select_spheres()), or that every sphere is hidden. `failed_row` (if given)
+  /// is then the row to blame; look.rows.size() if none is.
+  /// `copies`: along the vectors of the cell; unset: those of the input. Error too if there is no cell.
+  Result<Looked> looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row = nullptr) const;
 
  private:
   // spheres: a style makes all of the look. document: a scene file, read again for each style. own: takes no style.
   enum class Kind { spheres, document, own };
 
   SceneInput(Kind kind, LoadedScene loaded);
-  Result<LoadedScene> in_style(const std::string& style, bool plain) const;
+  Result<LoadedScene> in_style(const std::string& style, const Copies& copies) const;
+  static Status replicate(Scene& scene, const Copies& copies);
   Result<std::vector<std::int64_t>> do_looks(LoadedScene& loaded, const ViewerLook& look,
                                              std::size_t* failed_row) const;
 

@@ -4,6 +4,8 @@
 
 #include "bihive/render/tree_picture.h"
 #include "bihive/scene/clips.h"
+#include "bihive/scene/focus.h"
+#include "bihive/viewer/whole_in_view.h"
 
 namespace bihive {
 
@@ -17,23 +19,29 @@ ShownScene::ShownScene(LoadedScene loaded)
       has_lights(loaded.has_lights),
       rig(std::move(loaded.rig)),
       own_camera(scene.camera) {
-  // A lens needs more samples than a picture that turns.
-  scene.camera.aperture = own_camera.aperture = 0;
   const SphereSet::Bounds bounds = scene.spheres.bounds();
   diagonal = length(bounds.hi - bounds.lo);
 }
 
-Camera ShownScene::framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const {
-  const Lens lens{own_camera.fov_deg, projection};
-  return view == View::tree
-             ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
-             : frame_spheres(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
+Camera ShownScene::framed(ViewFrom side, const Camera& like, View view, PictureSizePx size) const {
+  const Lens lens{like.fov_deg, like.projection};
+  Camera camera = view == View::tree
+                      ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
+                      : frame_spheres(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
+  camera.aperture = like.aperture;
+  camera.focus = like.focus;
+  return camera;
+}
+
+Camera ShownScene::far_enough(const Camera& camera, PictureSizePx size) const {
+  return with_all_in_view(RemainingSpheres(scene).set(), camera, size);
 }
 
 bool ShownScene::same_spheres(const ShownScene& other) const {
   const SphereSet &a = scene.spheres, &b = other.scene.spheres;
   return a.scale_exponent() == b.scale_exponent() && a.x() == b.x() && a.y() == b.y() && a.z() == b.z() &&
-         a.r() == b.r() && scene.clips == other.scene.clips && a.attributes().clips == b.attributes().clips;
+         a.r() == b.r() && a.images().counts == b.images().counts && a.images().vectors == b.images().vectors &&
+         scene.clips == other.scene.clips && a.attributes().clips == b.attributes().clips;
 }
 
 void ShownScene::take_look_of(ShownScene&& other) {
@@ -42,10 +50,17 @@ void ShownScene::take_look_of(ShownScene&& other) {
   scene = std::move(other.scene);
   scene.spheres = std::move(spheres);
   rig = std::move(other.rig);
+  has_lights = other.has_lights;
 }
 
-void ShownScene::look_by(const Camera& camera) {
+void ShownScene::look_by(const ViewerSettings& settings) {
+  const Camera& camera = settings.camera;
   scene.camera = camera;
+  // A camera that has turned away from the selected spheres focuses as if none were selected.
+  if (scene.camera.aperture > 0 && !settings.focus_on.empty()) {
+    const Result<double> distance = focus_on(scene.spheres, camera, settings.focus_on);
+    scene.camera.focus = distance ? *distance : 0;
+  }
   if (!has_lights) scene.lights = lights_around(rig, camera);
 }
 

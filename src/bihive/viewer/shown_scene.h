@@ -42,15 +42,18 @@ struct ShownScene {
   ShownScene(const ShownScene&) = delete;
   ShownScene& operator=(const ShownScene&) = delete;
 
-  /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree.
-  Camera framed(ViewFrom side, Projection projection, View view, PictureSizePx size) const;
+  /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree. Angle,
+  /// projection and lens are those of `like`.
+  Camera framed(ViewFrom side, const Camera& like, View view, PictureSizePx size) const;
+  /// with_all_in_view() of the spheres that clips leave.
+  Camera far_enough(const Camera& camera, PictureSizePx size) const;
   /// Whether the other scene has the same spheres and clips, whatever the spheres' other attributes: then these trees
   /// are right for both.
   bool same_spheres(const ShownScene& other) const;
   /// Becomes the other scene, which has the same spheres, and keeps the trees.
   void take_look_of(ShownScene&& other);
-  /// Uses this camera from now on. The lights of a scene without its own turn with the camera.
-  void look_by(const Camera& camera);
+  /// Uses the camera of these settings from now on. The lights of a scene without its own turn with the camera.
+  void look_by(const ViewerSettings& settings);
 };
 
 }  // namespace bihive

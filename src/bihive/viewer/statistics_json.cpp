@@ -24,7 +24,7 @@ ordered_json min_avg_max(const MinAvgMax& value) {
 ordered_json wide_json(const WideFacts& wide) {
   const auto chosen = [](std::int64_t value) { return value == 0 ? ordered_json() : ordered_json(value); };
   const WideStatistics& s = wide.statistics;
-  ordered_json json;
+  ordered_json json = ordered_json::object();
   json["nodes"] = s.nodes;
   json["leaves"] = s.leaves;
   json["levels"] = s.levels;
@@ -76,7 +76,7 @@ WideFacts wide_facts(const BuiltWideTree& built) {
 std::string statistics_json(const ReferenceFacts& reference, const WideFacts& wide, std::optional<std::uint64_t> seed) {
   const TreeStatistics& statistics = reference.statistics;
   const ThesisBytes bytes = thesis_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);
-  ordered_json json;
+  ordered_json json = ordered_json::object();
   json["spheres"] = statistics.spheres;
   json["inner_nodes"] = statistics.inner_nodes;
   json["leaves"] = statistics.leaves;

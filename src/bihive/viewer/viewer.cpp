@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "bihive/base/check.h"
+#include "bihive/render/draw_labels.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
+#include "bihive/scene/focus.h"
 #include "bihive/viewer/gpu_pictures.h"
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/picture_steps.h"
@@ -33,15 +35,18 @@ class Viewer::Implementation {
     if (input->facts().spheres == 0) return bad_setting("the scene has no spheres");
     ViewerLook look;
     if (input->facts().is_file_of_spheres) look.style = look_.style;
-    Result<SceneInput::Looked> looked = input->looked_at(look, settings_.engine == ViewerEngine::gpu);
+    Result<SceneInput::Looked> looked = input->looked_at(look, {});
     if (!looked) return looked.error();
     auto next = std::make_unique<ShownScene>(std::move(looked->loaded));
 
     // A new scene brings these settings along; the others stay.
     ViewerSettings settings = settings_;
+    settings.replicate.reset();
     take_defaults(next->scene.picture, settings);
     const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
-    settings.camera = side ? next->framed(*side, next->own_camera.projection, settings.view, size_) : next->own_camera;
+    settings.camera = side ? next->framed(*side, next->own_camera, settings.view, size_) : next->own_camera;
+    settings.focus_on.clear();
+    if (settings.camera.aperture > 0) settings.effects.adaptive_samples = false;
     if (Status status = check_settings(settings); !status) return status.error();
     next->trees = std::make_unique<SceneTrees>(next->scene, tree_parameters(settings));
     if (Status status = make_ready(*next, *next->trees, settings, /*upload=*/true); !status) return status.error();
@@ -53,6 +58,8 @@ class Viewer::Implementation {
     look_ = look;
     settings_ = settings;
     framed_from_ = side;
+    turned_from_.reset();
+    chosen_fov_deg_ = settings.camera.fov_deg;
     steps_.forget_image();
     if (gpu_) gpu_->forget();
     steps_.start_anew();
@@ -75,7 +82,7 @@ class Viewer::Implementation {
   Result<std::vector<std::int64_t>> set_look(const ViewerLook& look, std::size_t* failed_row) {
     if (failed_row != nullptr) *failed_row = look.rows.size();
     if (!input_) return bad_setting("there is no scene yet");
-    Result<SceneInput::Looked> looked = input_->looked_at(look, settings_.engine == ViewerEngine::gpu, failed_row);
+    Result<SceneInput::Looked> looked = input_->looked_at(look, settings_.replicate, failed_row);
     if (!looked) return looked.error();
     if (failed_row != nullptr) *failed_row = look.rows.size();
     drop_picture();
@@ -104,10 +111,6 @@ class Viewer::Implementation {
     if (lost) gpu_->abandon();
     gpu_.reset();
     if (settings_.engine != ViewerEngine::gpu) return;
-    // The GPU engine has drawn plainly. If the memory is too small for the look, the plain picture stays.
-    ViewerSettings settings = settings_;
-    settings.engine = ViewerEngine::cpu;
-    if (set(settings)) return;
     settings_.engine = ViewerEngine::cpu;
     steps_.start_anew();
   }
@@ -122,25 +125,30 @@ class Viewer::Implementation {
   Status set(ViewerSettings settings) {
     if (Status status = check_settings(settings); !status) return status;
     drop_picture();
-    // Only another projection: the camera still shows the whole set.
-    const Camera same_place = with_projection(settings_.camera, settings.camera.projection);
-    const bool keeps_side = framed_from_ && settings.camera == same_place;
+    if (Status status = check_wishes(settings); !status) return status;
+    // Only another projection, angle or lens: the camera still shows the whole set.
+    const bool keeps_side = framed_from_ && same_place(settings.camera, settings_.camera);
+    // Another projection brings its own angle along; a set that is framed anew keeps the one that was chosen.
+    const bool chooses_angle = settings.camera.projection == settings_.camera.projection &&
+                               settings.camera.fov_deg != settings_.camera.fov_deg;
+    const double fov_deg = chooses_angle ? settings.camera.fov_deg : chosen_fov_deg_;
+    if (keeps_side) settings.camera.fov_deg = fov_deg;
     if (!shown_) {
       if (settings.engine == ViewerEngine::gpu)
         if (Status status = check_gpu(settings); !status) return status;
     } else {
-      // The engines draw different looks of a scene.
+      // Copies are other spheres.
       std::unique_ptr<ShownScene> next;
-      if (settings.engine != settings_.engine) {
-        if (settings.engine == ViewerEngine::gpu)
-          if (Status status = check_gpu(settings); !status) return status;
-        Result<SceneInput::Looked> looked = input_->looked_at(look_, settings.engine == ViewerEngine::gpu);
+      if (settings.replicate != settings_.replicate) {
+        Result<SceneInput::Looked> looked = input_->looked_at(look_, settings.replicate);
         if (!looked) return looked.error();
         next = std::make_unique<ShownScene>(std::move(looked->loaded));
       }
       if (Status status = show(std::move(next), settings, keeps_side); !status) return status;
     }
+    chosen_fov_deg_ = fov_deg;
     if (!keeps_side) framed_from_.reset();
+    if (!(settings.camera == settings_.camera)) turned_from_.reset();
     settings_ = settings;
     steps_.start_anew();
     return Done{};
@@ -150,11 +158,29 @@ class Viewer::Implementation {
     BIHIVE_CHECK(width_px >= 1 && width_px <= kLargestSidePx && height_px >= 1 && height_px <= kLargestSidePx);
     if (width_px == size_.width && height_px == size_.height) return;
     size_ = {width_px, height_px};
-    if (framed_from_) look_from(*framed_from_);
+    if (framed_from_)
+      look_from(*framed_from_);
+    else if (turned_from_)
+      settings_.camera = shown_->far_enough(settings_.camera, size_);
     steps_.start_anew();
   }
 
-  void orbit(double dx_px, double dy_px) { move_to(orbited(settings_.camera, dx_px, dy_px, size_)); }
+  // A camera that shows the whole set goes on doing so while the set turns: as far away as its side needs it, and not
+  // nearer than it was before the first turn.
+  void orbit(double dx_px, double dy_px) {
+    if (!shown_) return;
+    if (framed_from_ && settings_.view != View::tree) turned_from_ = settings_.camera;
+    const std::optional<Camera> first = turned_from_;
+    Camera camera = orbited(settings_.camera, dx_px, dy_px, size_);
+    if (first) {
+      const Vec3d back = normalized(camera.eye - camera.look_at);
+      camera.eye = camera.look_at + length(first->eye - first->look_at) * back;
+      camera.shorter_side = first->shorter_side;
+      camera = shown_->far_enough(camera, size_);
+    }
+    move_to(camera);
+    turned_from_ = first;
+  }
   void pan(double dx_px, double dy_px) { move_to(panned(settings_.camera, dx_px, dy_px, size_)); }
 
   void zoom(double factor, double x_px, double y_px) {
@@ -166,14 +192,23 @@ class Viewer::Implementation {
   void look_from(ViewFrom side) {
     if (!shown_) return;
     framed_from_ = side;
-    settings_.camera = shown_->framed(side, settings_.camera.projection, settings_.view, size_);
+    turned_from_.reset();
+    Camera like = settings_.camera;
+    like.fov_deg = chosen_fov_deg_;
+    settings_.camera = shown_->framed(side, like, settings_.view, size_);
     steps_.moved();
   }
 
   void home() {
     if (!shown_) return;
     if (!shown_->has_camera) return look_from(ViewFrom::front);
-    move_to(with_projection(shown_->own_camera, settings_.camera.projection));
+    const Camera& now = settings_.camera;
+    Camera camera = shown_->own_camera;
+    camera.aperture = 0;
+    camera = with_projection(camera, now.projection);
+    camera.aperture = now.aperture;
+    camera.focus = now.focus;
+    move_to(camera);
   }
 
   // --- Pictures -----------------------------------------------------------------------------------------------
@@ -202,7 +237,7 @@ class Viewer::Implementation {
     // The picture on the screen is dropped for it.
     drop_picture();
     steps_.drop_step();
-    shown_->look_by(settings_.camera);
+    shown_->look_by(settings_);
     Result<PictureToSave> picture =
         begun_to_save(render_settings(settings_, shown_->scene.picture, width_px, height_px, samples_per_pixel));
     if (!picture) return picture.error();
@@ -255,11 +290,36 @@ class Viewer::Implementation {
     return Done{};
   }
 
-  // The samples, recursion and shadows of a scene's own picture.
+  // What the new settings ask for that the ones before do not, and the picture cannot have.
+  Status check_wishes(const ViewerSettings& settings) const {
+    if (!shown_) return Done{};
+    if (!settings.focus_on.empty() && settings.focus_on != settings_.focus_on)
+      if (const Result<double> distance = focus_on(shown_->scene.spheres, settings.camera, settings.focus_on);
+          !distance)
+        return bad_setting("focus: " + distance.error().message, distance.error().hint);
+    const Labels &before = settings_.effects.labels, &labels = settings.effects.labels;
+    if (labels.scale_bar && !before.scale_bar && settings.camera.projection != Projection::orthographic)
+      return bad_setting("a perspective picture has no scale: what is far looks small",
+                         "choose the projection orthographic for a scale bar");
+    if (!labels.legend || before.legend) return Done{};
+    RenderSettings picture;
+    picture.view = settings.view;
+    picture.labels.legend = true;
+    return check_labels(shown_->scene, picture);
+  }
+
+  // Cameras that differ at most in projection, angle and lens.
+  static bool same_place(const Camera& a, const Camera& b) {
+    const double shorter_side = with_projection(b, a.projection).shorter_side;
+    return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.shorter_side == shorter_side;
+  }
+
+  // The samples, recursion, shadows and effects of a scene's own picture.
   static void take_defaults(const PictureDefaults& picture, ViewerSettings& settings) {
     settings.recursion = std::clamp(picture.recursion, 1, kMostRecursion);
     settings.samples_per_pixel = std::clamp(picture.samples_per_pixel, 1, kMostSamples);
     settings.shadows = picture.shadows;
+    settings.effects = effects_of(picture);
   }
 
   // The same for another look: what the user has changed stays.
@@ -270,6 +330,8 @@ class Viewer::Implementation {
     if (settings.recursion == old.recursion) settings.recursion = next.recursion;
     if (settings.samples_per_pixel == old.samples_per_pixel) settings.samples_per_pixel = next.samples_per_pixel;
     if (settings.shadows == old.shadows) settings.shadows = next.shadows;
+    follow_effects(before, now, settings.effects);
+    if (settings.camera.aperture > 0) settings.effects.adaptive_samples = false;
   }
 
   // Makes everything ready for these settings and, if there is one, for the next look of the scene; then shows it.
@@ -279,7 +341,7 @@ class Viewer::Implementation {
     const ShownScene& scene = next ? *next : *shown_;
     const bool same_spheres = !next || shown_->same_spheres(*next);
     if (next) follow_defaults(shown_->scene.picture, next->scene.picture, settings);
-    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera.projection, settings.view, size_);
+    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera, settings.view, size_);
 
     // The trees refer to the spheres that stay.
     std::unique_ptr<SceneTrees> other_trees;
@@ -304,6 +366,8 @@ class Viewer::Implementation {
     const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
     if (of_tree && has_clips(shown.scene))
       return bad_setting("this view shows the tree of whole spheres", "remove the clips");
+    if (of_tree && shown.scene.spheres.has_images())
+      return bad_setting("this view shows the tree of the stored spheres", "draw it without copies");
     const Result<const Tracer*> tracer = trees.needed_by(settings);
     if (!tracer) return tracer.error();
     if (settings.engine != ViewerEngine::gpu || !upload) return Done{};
@@ -323,6 +387,7 @@ class Viewer::Implementation {
   void move_to(const Camera& camera) {
     if (!shown_) return;
     framed_from_.reset();
+    turned_from_.reset();
     settings_.camera = camera;
     steps_.moved();
   }
@@ -344,7 +409,9 @@ class Viewer::Implementation {
   std::unique_ptr<GpuPictures> gpu_;
   ViewerSettings settings_;
   PictureSizePx size_{1280, 720};
-  std::optional<ViewFrom> framed_from_;  // the camera shows the whole set from there, as look_from() placed it
+  std::optional<ViewFrom> framed_from_;       // the camera shows the whole set from there, as look_from() placed it
+  std::optional<Camera> turned_from_;         // it has only turned since: the camera before
+  double chosen_fov_deg_ = Camera{}.fov_deg;  // by the scene or the user, not by a change of the projection
   PictureSteps steps_;
   std::optional<PictureToSave> to_save_;
 };

@@ -37,9 +37,9 @@ class Viewer {
   Viewer& operator=(const Viewer&) = delete;
 
   // The scene. After an Error the scene before stays, with everything else. A new scene brings its own camera and
-  // picture defaults (samples, recursion, shadows); engine, view and parameters of the tree stay. Of the look the style
-  // stays from one file of spheres to the next; everything else of it begins anew. The lights of a scene without its
-  // own turn with the camera, as in `bihive render`.
+  // picture defaults (samples, recursion, shadows, effects); engine, view and parameters of the tree stay. Of the look
+  // the style stays from one file of spheres to the next; everything else of it begins anew. The lights of a scene
+  // without its own turn with the camera, as in `bihive render`.
 
   /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres". The parameters are the scenarios', the options the
   /// demo's.
@@ -52,11 +52,11 @@ class Viewer {
   const SceneFacts& facts() const;  ///< empty before the first scene
   const Scene& scene() const;       ///< without spheres before the first
 
-  // The look. The picture is what `bihive render` draws with the same choices; the GPU engine draws the style plain on
-  // a colour, whatever was chosen, and keeps the choice for the other engine.
+  // The look. The picture is what `bihive render` draws with the same choices.
 
   const ViewerLook& look() const;
-  /// Another style brings its own samples, recursion and shadows. A camera that shows the whole set is placed anew.
+  /// Another style brings its own samples, recursion, shadows and effects, except those that the user has changed. A
+  /// camera that shows the whole set is placed anew.
   /// Returns how many spheres each row selects. Errors: an unknown style, colour or action, a style for a scene that
   /// has a look of its own, a selection's (with its column), an attribute that the scene lacks, or that every sphere is
   /// hidden; the look before stays. `failed_row` (if given) is then the row to blame; rows.size() if none is.
@@ -74,13 +74,16 @@ class Viewer {
   // The settings. Each of these calls starts the picture anew.
 
   const ViewerSettings& settings() const;
-  /// Error: out of range, a camera that sees nothing (check_camera), no graphics processor, or a view that the engine
-  /// does not have; the settings before stay. Parameters that changed rebuild the tree. A camera that shows the whole
-  /// set still does so after a change of the projection alone (with_projection()).
+  /// Error: out of range, a camera that sees nothing (check_camera), no graphics processor, a view that the engine does
+  /// not have, or a wish that the picture cannot have and the settings before did not: a scale bar in perspective, a
+  /// legend of colours without a meaning, a focus on spheres that are not there. The settings before stay. Parameters
+  /// that changed rebuild the tree. A camera that shows the whole set still does so after a change of projection, angle
+  /// or lens alone.
   Status set(const ViewerSettings& settings);
   /// Size of the picture at rest. 1 to 16384 each. A camera that shows the whole set is placed anew.
   void resize(int width_px, int height_px);
-  /// The pointer moved by this many pixels: turn around look_at (the scene follows the pointer), or shift the scene.
+  /// The pointer moved by this many pixels: turn around look_at (the scene follows the pointer), or shift the scene. A
+  /// camera that shows the whole set goes on doing so while the set turns.
   void orbit(double dx_px, double dy_px);
   void pan(double dx_px, double dy_px);
   /// A factor above 1 comes closer. The point under (x, y) in pixels stays at its place. Does nothing if the factor is
@@ -96,7 +99,8 @@ class Viewer {
   /// next call continues it. Before the first scene it is settled. Error: not enough memory, or an error of the
   /// graphics processor.
   Result<FrameReport> frame(double budget_ms);
-  /// The last picture of the CPU engine, `divisor` times smaller than the requested size; display values. A transparent
+  /// The last picture of the CPU engine, `divisor` times smaller than the requested size, or with labels of that size;
+  /// display values. A transparent
   /// background is shown as grey checks.
   const Image& image() const;
   /// The last picture of the GPU engine, stretched to the viewport. Draws nothing if there is none. The framebuffer

@@ -1,9 +1,12 @@
 #include "bihive/viewer/viewer_json.h"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bihive/bih/tree.h"
+#include "bihive/io/cell_options.h"
+#include "bihive/scene/light_points.h"
 #include "bihive/scene/scene_json.h"
 
 namespace bihive {
@@ -58,11 +61,61 @@ class Members {
     value = member->get<std::int64_t>();
   }
 
+  void take(const char* key, std::optional<std::array<std::int32_t, 3>>& value, std::int32_t min, std::int32_t max) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (member->is_null()) return value.reset();
+    bool fits = member->is_array() && member->size() == 3;
+    for (std::size_t i = 0; fits && i < 3; ++i) fits = is_integer(member->at(i), min, max);
+    if (!fits)
+      return fail(key, "three whole numbers from " + std::to_string(min) + " to " + std::to_string(max) + ", or null",
+                  *member);
+    value = member->get<std::array<std::int32_t, 3>>();
+  }
+
   void take(const char* key, double& value) {
     const json* member = find(key);
     if (member == nullptr) return;
     if (!is_finite_number(*member)) return fail(key, "a number", *member);
     value = member->get<double>();
+  }
+
+  void take(const char* key, double& value, double min, double max) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (!is_finite_number(*member) || !(member->get<double>() >= min && member->get<double>() <= max))
+      return fail(key, "a number from " + json(min).dump() + " to " + json(max).dump(), *member);
+    value = member->get<double>();
+  }
+
+  void take(const char* key, std::vector<std::string>& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    std::vector<std::string> texts;
+    if (!member->is_array()) return fail(key, "a list of texts", *member);
+    for (const json& text : *member) {
+      if (!text.is_string()) return fail(key, "a list of texts", *member);
+      texts.push_back(text.get<std::string>());
+    }
+    value = std::move(texts);
+  }
+
+  // null: none.
+  void take(const char* key, std::optional<std::string>& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (member->is_null()) return value.reset();
+    if (!member->is_string()) return fail(key, "a text or null", *member);
+    value = member->get<std::string>();
+  }
+
+  // null: without a limit.
+  void take_distance(const char* key, double& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (!member->is_null() && !(is_finite_number(*member) && member->get<double>() > 0))
+      return fail(key, "a number above 0, or null", *member);
+    value = member->is_null() ? std::numeric_limits<double>::infinity() : member->get<double>();
   }
 
   void take(const char* key, std::string& value) {
@@ -158,6 +211,44 @@ void take_rows(Members& members, std::vector<LookRow>& rows, Error& error) {
   }
 }
 
+void take_effects(Members& members, ViewerEffects& effects) {
+  members.take("samples_auto", effects.adaptive_samples);
+  members.take("ao", effects.ambient_occlusion);
+  members.take_distance("ao_distance", effects.ambient_distance);
+  members.take("ao_directions", effects.ambient_directions, 1, kMostAmbientDirections);
+  members.take("light_points", effects.light_points, 1, kMostLightPoints);
+  members.take("opacity_rule", effects.opacity_rule, kOpacityRules);
+  members.take("fog", effects.fog, 0, 1);
+  members.take("outline_px", effects.outline_px, 0, kWidestOutlinePx);
+  members.take("exposure", effects.tone.exposure_stops, -kMostExposureStops, kMostExposureStops);
+  members.take("tone", effects.tone.curve, kToneCurves);
+  members.take("legend", effects.labels.legend);
+  members.take("scale_bar", effects.labels.scale_bar);
+  members.take("axes", effects.labels.axes);
+  members.take("title", effects.labels.title);
+  members.take("length_unit", effects.labels.length_unit);
+}
+
+void put_effects_json(const ViewerEffects& effects, ordered_json& document) {
+  const Labels& labels = effects.labels;
+  const bool limited = std::isfinite(effects.ambient_distance);
+  document["samples_auto"] = effects.adaptive_samples;
+  document["ao"] = effects.ambient_occlusion;
+  document["ao_distance"] = limited ? ordered_json(effects.ambient_distance) : ordered_json();
+  document["ao_directions"] = effects.ambient_directions;
+  document["light_points"] = effects.light_points;
+  document["opacity_rule"] = name_of(kOpacityRules, effects.opacity_rule);
+  document["fog"] = effects.fog;
+  document["outline_px"] = effects.outline_px;
+  document["exposure"] = effects.tone.exposure_stops;
+  document["tone"] = name_of(kToneCurves, effects.tone.curve);
+  document["legend"] = labels.legend;
+  document["scale_bar"] = labels.scale_bar;
+  document["axes"] = labels.axes;
+  document["title"] = labels.title;
+  document["length_unit"] = labels.length_unit ? ordered_json(*labels.length_unit) : ordered_json();
+}
+
 ordered_json vector_json(Vec3d v) {
   return {v.x, v.y, v.z};
 }
@@ -177,13 +268,19 @@ std::string settings_to_json(const ViewerSettings& settings) {
   document["shadows"] = settings.shadows;
   document["max_prims"] = limit(settings.max_prims);
   document["max_depth"] = limit(settings.max_depth);
+  put_effects_json(settings.effects, document);
+  document["focus_on"] = settings.focus_on;
+  document["cell"] = settings.cell;
+  document["replicate"] = settings.replicate ? ordered_json(*settings.replicate) : ordered_json();
   document["camera"] = {{"eye", vector_json(settings.camera.eye)},
                         {"look_at", vector_json(settings.camera.look_at)},
                         {"up", vector_json(settings.camera.up)},
                         {"fov_deg", settings.camera.fov_deg},
                         {"projection", name_of(kProjections, settings.camera.projection)},
-                        {"shorter_side", settings.camera.shorter_side}};
-  return document.dump();
+                        {"shorter_side", settings.camera.shorter_side},
+                        {"aperture", settings.camera.aperture},
+                        {"focus", settings.camera.focus}};
+  return document.dump(-1, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace);
 }
 
 Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSettings& base) {
@@ -199,6 +296,10 @@ Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSet
   members.take("shadows", settings.shadows);
   members.take("max_prims", settings.max_prims);
   members.take("max_depth", settings.max_depth);
+  take_effects(members, settings.effects);
+  members.take("focus_on", settings.focus_on);
+  members.take("cell", settings.cell);
+  members.take("replicate", settings.replicate, 1, kMostCopies);
   if (const json* camera = members.find("camera")) {
     Members of_camera(*camera, "/camera", error);
     of_camera.take("eye", settings.camera.eye);
@@ -212,6 +313,8 @@ Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSet
     else
       settings.camera = with_projection(settings.camera, projection);
     of_camera.take("shorter_side", settings.camera.shorter_side);
+    of_camera.take("aperture", settings.camera.aperture);
+    of_camera.take("focus", settings.camera.focus);
     of_camera.refuse_others();
   }
   members.refuse_others();
@@ -224,6 +327,10 @@ std::string viewer_look_to_json(const ViewerLook& look) {
   document["style"] = look.style;
   document["element_colours"] = look.element_colours;
   document["background"] = look.background;
+  document["lights"] = look.lights;
+  document["colour_by"] = look.colour_by;
+  document["nan_colour"] = look.nan_colour;
+  document["crease"] = look.crease;
   document["rows"] = ordered_json::array();
   for (const LookRow& row : look.rows)
     document["rows"].push_back({{"select", row.select}, {"action", row.action}, {"value", row.value}});
@@ -239,6 +346,10 @@ Result<ViewerLook> viewer_look_from_json(std::string_view text, const ViewerLook
   members.take("style", look.style);
   members.take("element_colours", look.element_colours);
   members.take("background", look.background);
+  members.take("lights", look.lights);
+  members.take("colour_by", look.colour_by);
+  members.take("nan_colour", look.nan_colour);
+  members.take("crease", look.crease);
   take_rows(members, look.rows, error);
   members.refuse_others();
   if (!error.message.empty()) return error;

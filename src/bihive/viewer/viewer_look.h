@@ -1,5 +1,5 @@
-// How the user wants the spheres to look: what --style, --element-colours, --background and --select with the options
-// behind it are for `bihive render`.
+// How the user wants the spheres to look: what --style, --element-colours, --background, --light, --colour-by,
+// --nan-colour, --crease and --select with the options behind it are for `bihive render`.
 #pragma once
 
 #include <string>
@@ -20,13 +20,18 @@ struct LookRow {
 
 /// Plain data; viewer/viewer_json.h turns it into JSON, for links and saved states.
 struct ViewerLook {
-  std::string style;            ///< one of style_names(); empty: what `bihive render` takes without --style
-  std::string element_colours;  ///< "soft", "jmol" or "cpk"; empty: the style's
-  std::string background;       ///< a colour, or "none": transparent; empty: the style's
-  std::vector<LookRow> rows;    ///< done one after the other, behind the looks of a scene file
+  std::string style;                  ///< one of style_names(); empty: what `bihive render` takes without --style
+  std::string element_colours;        ///< "soft", "jmol" or "cpk"; empty: the style's
+  std::string background;             ///< a colour, or "none": transparent; empty: the style's
+  std::vector<LookRow> rows;          ///< done one after the other, behind the looks of a scene file and those below
+  std::vector<std::string> lights{};  ///< as scene/light_text.h; empty: the style's, or the scene's own
+  std::string colour_by{};   ///< of all spheres, as colour_by_from_text() takes it; empty: the style's or the scene's
+  std::string nan_colour{};  ///< a colour, for colour_by and for all rows; empty: grey
+  std::string crease{};      ///< an attribute: lines between spheres that differ in it; empty: the style's
 
   friend bool operator==(const ViewerLook& a, const ViewerLook& b) {
     return a.style == b.style && a.element_colours == b.element_colours && a.background == b.background &&
+           a.lights == b.lights && a.colour_by == b.colour_by && a.nan_colour == b.nan_colour && a.crease == b.crease &&
            a.rows == b.rows;
   }
   friend bool operator!=(const ViewerLook& a, const ViewerLook& b) { return !(a == b); }

@@ -1,5 +1,9 @@
 #include "bihive/viewer/viewer_settings.h"
 
+#include <algorithm>
+
+#include "bihive/io/cell_options.h"
+
 namespace bihive {
 
 Status check_settings(const ViewerSettings& settings) {
@@ -13,6 +17,14 @@ Status check_settings(const ViewerSettings& settings) {
     return bad("samples a pixel must be from 1 to " + std::to_string(kMostSamples));
   if (settings.max_prims.value_or(1) < 1 || settings.max_depth.value_or(1) < 1)
     return bad("max_prims and max_depth must be at least 1");
+  if (Status status = check_effects(settings.effects); !status) return status;
+  if (settings.effects.adaptive_samples && settings.camera.aperture > 0)
+    return Error{"adaptive samples look for edges, and depth of field needs many samples everywhere", "", 0, 0,
+                 "choose a number of samples: 64"};
+  if (settings.replicate)
+    for (const std::int32_t count : *settings.replicate)
+      if (outside(count, 1, kMostCopies))
+        return bad("copies along a vector of the cell must be from 1 to " + std::to_string(kMostCopies));
   return check_camera(settings.camera);
 }
 
@@ -28,19 +40,27 @@ bool needs_reference_tree(const ViewerSettings& settings) {
   return settings.engine == ViewerEngine::gpu || settings.view == View::traversal || settings.view == View::tree;
 }
 
+int samples_at_rest(const ViewerSettings& settings) {
+  const bool adaptive = settings.effects.adaptive_samples && settings.engine == ViewerEngine::cpu;
+  return adaptive ? kFewSamples : settings.samples_per_pixel;
+}
+
 RenderSettings render_settings(const ViewerSettings& settings, const PictureDefaults& defaults, int width_px,
                                int height_px, int samples_per_pixel) {
   const bool gpu = settings.engine == ViewerEngine::gpu;
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
-  RenderSettings picture = gpu ? RenderSettings{} : settings_from(defaults);
+  RenderSettings picture = settings_from(defaults);
+  put_effects(settings.effects, picture);
+  if (gpu) picture.adaptive_samples = false;
   if (of_tree) picture.transparent = false;
-  picture.adaptive_samples = false;  // people choose their number
   picture.width_px = width_px;
   picture.height_px = height_px;
   picture.samples_per_pixel = samples_per_pixel;
   picture.recursion = settings.recursion;
   picture.shadows = settings.shadows;
   picture.view = settings.view;
+  if (gpu) picture.cell_lines.reset();
+  if (settings.cell && !gpu && !picture.cell_lines) picture.cell_lines.emplace();
   return picture;
 }
 

@@ -73,23 +73,30 @@ struct RayBatch {
 
   std::int64_t size() const { return static_cast<std::int64_t>(origin[0].size()); }
 
-  /// Origins and directions only; contents undefined until written.
+  /// New rays have origin and direction 0, which hit nothing until written. Optional arrays that have entries get
+  /// defaults for them.
   void resize(std::int64_t n) {
+    const auto count = static_cast<std::size_t>(n);
     for (int axis = 0; axis < 3; ++axis) {
-      origin[axis].resize(static_cast<std::size_t>(n));
-      direction[axis].resize(static_cast<std::size_t>(n));
+      origin[axis].resize(count);
+      direction[axis].resize(count);
     }
+    const Ray plain;
+    if (!t_min.empty()) t_min.resize(count, plain.t_min);
+    if (!t_max.empty()) t_max.resize(count, plain.t_max);
+    if (!leaves.empty()) leaves.resize(count, plain.leaves);
+    if (!inside.empty()) inside.resize(count, 0);
   }
-  void clear() {
-    resize(0);
-    t_min.clear();
-    t_max.clear();
-    leaves.clear();
-    inside.clear();
-  }
+  void clear() { resize(0); }
 
-  /// Adds one ray with all that it says. Not to be mixed with resize().
+  /// Adds one ray with all that it says. The rays before it keep what they are.
   void push_back(const Ray& ray) {
+    const Ray plain;
+    const auto before = static_cast<std::size_t>(size());
+    t_min.resize(before, plain.t_min);
+    t_max.resize(before, plain.t_max);
+    leaves.resize(before, plain.leaves);
+    inside.resize(before, 0);
     for (int axis = 0; axis < 3; ++axis) {
       origin[axis].push_back(ray.origin[axis]);
       direction[axis].push_back(ray.direction[axis]);

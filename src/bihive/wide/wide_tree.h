@@ -76,22 +76,48 @@ struct RepeatedSphere {
   float x, y, z, r;
 };
 
+/// More than kWidth equal spheres, of which the tree holds the one with the lowest id. A ray that meets it meets all.
+struct Pile {
+  std::uint32_t id;                        ///< the lowest
+  std::size_t first_other, end_of_others;  ///< the others, in WideTree::others_in_piles
+};
+
 /// Immutable while anybody traces it: made by WideBuilder (wide/wide_builder.h) and handed out as
 /// std::shared_ptr<const WideTree>. An empty set has no nodes. Otherwise nodes[0] is the root, even of a single sphere.
 struct WideTree {
-  Aabb aabb;              ///< of all spheres
-  double scale = 1;       ///< stored = world * scale, a power of two
-  std::int64_t size = 0;  ///< spheres
+  Aabb aabb;                ///< of all spheres
+  double scale = 1;         ///< stored = world * scale, a power of two
+  std::int64_t size = 0;    ///< spheres
+  std::int64_t placed = 0;  ///< of them, those in leaves: all but the others in piles
   std::int64_t node_count = 0;
   const WideNode* nodes = nullptr;
   WideSpheres spheres;
   int levels = 0;  ///< of wide nodes from the root to the deepest, leaves not counted; 0 if empty
   std::int64_t largest_leaf = 0;
+  /// Of an image: its spheres are those of the tree moved by `shift` (stored units), each centre rounded once to
+  /// binary32. Nodes and spheres are still the tree's own.
+  bool is_image = false;
+  Vec3d shift;
+  const WideTree* image_of = nullptr;    ///< whose piles are those of the image
   std::vector<RepeatedSphere> repeated;  ///< ascending ids; empty unless spheres coincide
+
+  std::vector<Pile> piles;  ///< ascending ids; closest and any hit need not know them
+  std::vector<std::uint32_t> others_in_piles;
 
   AlignedBuffer node_memory, sphere_memory;  ///< what the pointers above point into
 
-  /// Bytes in use: nodes, spheres with their padding, repeated spheres, and this structure. All that tracing touches.
+  /// The centre that a ray meets, in stored units.
+  Vec3d centre(std::int64_t slot) const {
+    const Vec3d own = spheres.centre(slot);
+    return is_image ? to_double(to_float(own + shift)) : own;
+  }
+
+  /// The tree's spheres moved by a vector in stored units, so that every one stays within [-1, 1]. Nothing is copied:
+  /// the tree must outlive the image. Spheres of an image must not coincide if rays leave them.
+  WideTree image(Vec3d by) const;
+
+  /// Bytes in use: nodes, spheres with their padding, repeated spheres, piles, and this structure. All that tracing
+  /// touches.
   std::int64_t used_bytes() const;
   /// Bytes held, with what a rebuild keeps in reserve.
   std::int64_t allocated_bytes() const;

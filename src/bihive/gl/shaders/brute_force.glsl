@@ -6,7 +6,14 @@ Hit test_all_spheres(Ray ray, bool any_hit) {
   Hit best = Hit(kNever, kNothing);
   for (int i = 0; i < sphere_count; ++i) {
     float t = sphere_hit(ray, stored_sphere(i));
-    if (t < best.t) best = Hit(t, i);
+#ifdef LAYERS
+    if (any_hit) {
+      if (t < kNever) light_passed *= passing(i).y;
+      if (light_passed == 0.0) return best;
+      continue;
+    }
+#endif
+    if (is_nearer(ray, t, i, best)) best = Hit(t, i);
     if (any_hit && best.sphere != kNothing) return best;
   }
   return best;

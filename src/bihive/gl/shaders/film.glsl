@@ -1,19 +1,24 @@
 // One sample of every pixel: the film before, plus the light of the sample. Rows count from the top. Alpha adds up the
 // rays that are not primary rays.
-#include "camera"
 #include "film_texel"
+#include "sample"
 
 uniform FILM_SAMPLER film_before;
 uniform int sample_index;  // 0: there is no film before
-uniform vec2 sample_place;
 out FILM_TEXEL film_after;
-
-Ray sample_ray() {
-  return camera_ray(floor(gl_FragCoord.xy) + sample_place);
-}
 
 vec4 numbers_before() {
   return film_numbers(texelFetch(film_before, ivec2(gl_FragCoord.xy), 0));
+}
+
+// Added to alpha where a driver has stopped the loops of a pixel (gl/light_slices.h).
+const float kLoopsStopped = 1.0e12;
+
+// Do loops still run as often as they should?
+bool loops_run() {
+  int turns = 0;
+  for (int i = 0; i < 3 + int(zero_bits); ++i) turns += 1 + int(zero_bits);
+  return turns == 3;
 }
 
 void add_to_film(vec4 value) {

@@ -3,7 +3,8 @@
 
 // Points origin + t direction with 0 <= t <= t_max. `leaves`: position in leaf order of the sphere on which the ray
 // starts, kPlane or kNothing. `left`: centre and radius of that sphere, -1 for none; the ray also leaves spheres that
-// coincide with it.
+// coincide with it. With LAYERS the ray has come to t_passed, through sphere id_passed: hits are behind that, in the order
+// of t and then of id.
 struct Ray {
   vec3 origin;
   vec3 direction;
@@ -12,8 +13,24 @@ struct Ray {
   int leaves;
   bool inside;
   vec4 left;
+#ifdef LAYERS
+  float t_passed;
+  int id_passed;
+#endif
 };
 
 Ray make_ray(vec3 origin, vec3 direction) {
-  return Ray(origin, direction, 1.0 / dot(direction, direction), kNever, kNothing, false, vec4(0.0, 0.0, 0.0, -1.0));
+  Ray ray;
+  ray.origin = origin;
+  ray.direction = direction;
+  ray.over_direction_squared = 1.0 / dot(direction, direction);
+  ray.t_max = kNever;
+  ray.leaves = kNothing;
+  ray.inside = false;
+  ray.left = vec4(0.0, 0.0, 0.0, -1.0);
+#ifdef LAYERS
+  ray.t_passed = 0.0;
+  ray.id_passed = -1;
+#endif
+  return ray;
 }

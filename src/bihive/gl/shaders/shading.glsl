@@ -1,8 +1,28 @@
-// Twin of render/shading.h, by the plain formulas: it divides the offset to a light by its length, and builds R.
+// Twin of render/shading.h, by the plain formulas: it divides the offset to a light by its length, and builds R. A
+// sample's light may come in slices (gl/light_slices.h), whose sum it is: each asks some directions and some lights.
 #include "elementary"
+#include "faint_level"
 #include "surface"
 
 uniform vec3 ambient_light;
+#ifdef AMBIENT_OCCLUSION
+uniform sampler2D directions;  // of all sets, one set behind the other (gl/sample_textures.h)
+uniform int direction_set;     // of the sample
+uniform int direction_sets;
+uniform int direction_count;
+uniform int direction_begin;   // of the slice, among direction_count
+uniform int direction_end;
+uniform float ambient_distance;
+#endif
+uniform sampler2D light_points;
+uniform int light_point_set;
+uniform int light_point_sets;
+uniform int light_point_count;  // 0: no soft shadows
+uniform int light_begin;        // of the slice
+uniform int light_end;
+uniform int light_point_begin;
+uniform int light_point_end;
+uniform bool first_slice;  // has everything else
 
 // A ray that starts on the surface.
 Ray ray_from(Surface surface, vec3 direction, bool inside) {
@@ -28,36 +48,101 @@ vec3 tinted(Material material) {
   return vec3(1.0 - material.tint) + material.tint * material.colour;
 }
 
-vec3 local_light(Surface surface, bool shadows, inout int shadow_rays) {
+// The part of the slice. Without AMBIENT_OCCLUSION everything is visible.
+float ambient_visibility(Surface surface, int level, inout int ambient_rays) {
+#ifdef AMBIENT_OCCLUSION
+  if (direction_begin == direction_end) return 0.0;
+  int count = asked_at_level(direction_count, level);
+  int first = first_at_level(direction_count, direction_sets, direction_set, level);
+  int end = direction_end * count / direction_count;
+  float seen = 0.0;
+  for (int k = direction_begin * count / direction_count; k < end; ++k) {
+    vec3 direction = texelFetch(directions, texel(first + k), 0).xyz;
+    float facing = dot(surface.normal, direction);
+    if (!(facing > 0.0)) continue;
+    Ray ray = ray_from(surface, direction, surface.from_inside);
+    ray.t_max = ambient_distance;
+    ++ambient_rays;
+    if (plane_hit(ray) < kNever) continue;
+    seen += facing * share(ray);
+  }
+  // All directions in front, eight at a time: some drivers count loops (gl/light_slices.h).
+  float in_front = 0.0;
+  for (int k = 0; k < count; k += 8)
+    for (int i = 0; i < 8; ++i) {
+      vec3 direction = texelFetch(directions, texel(first + min(k + i, count - 1)), 0).xyz;
+      if (k + i < count) in_front += max(dot(surface.normal, direction), 0.0);
+    }
+  if (in_front > 0.0) return seen / in_front;
+#endif
+  return first_slice ? 1.0 : 0.0;
+}
+
+// A point of light as seen from a place.
+struct LightOffset {
+  vec3 to_light;
+  float distance;
+  float facing;
+  bool in_front;
+};
+
+LightOffset light_offset(vec3 point, Surface surface) {
+  vec3 offset = point - surface.origin;
+  float distance = sqrt(dot(offset, offset));
+  vec3 to_light = offset / distance;
+  float facing = dot(surface.normal, to_light);
+  return LightOffset(to_light, distance, facing, distance > 0.0 && facing > 0.0);
+}
+
+vec3 local_light(Surface surface, bool shadows, int level, float visibility, inout int shadow_rays) {
+  int soft_points = asked_at_level(light_point_count, level);
+  int first_point = first_at_level(light_point_count, light_point_sets, light_point_set, level);
   vec3 diffuse = vec3(0.0);
   vec3 specular = vec3(0.0);
-  for (int i = 0; i < light_count; ++i) {
-    // Leave out lights behind the surface.
-    vec3 offset = texelFetch(lights, texel(2 * i), 0).xyz - surface.origin;
+  for (int i = light_begin; i < light_end; ++i) {
+    vec4 light = texelFetch(lights, texel(2 * i), 0);
     vec3 colour = texelFetch(lights, texel(2 * i + 1), 0).xyz;
-    float distance = sqrt(dot(offset, offset));
-    if (!(distance > 0.0)) continue;
-    vec3 to_light = offset / distance;
-    float facing = dot(surface.normal, to_light);
-    if (!(facing > 0.0)) continue;
+    LightOffset centre = light_offset(light.xyz, surface);
 
-    // Leave out lights behind a sphere.
-    if (shadows) {
-      Ray shadow = ray_from(surface, to_light, surface.from_inside);
-      shadow.t_max = distance;
-      ++shadow_rays;
-      if (occluded(shadow)) continue;
+    // What arrives from it? Ask along the way to its centre, or to each of its points.
+    bool soft = shadows && light.w > 0.0 && light_point_count > 0;
+    int points = soft ? soft_points : 1;
+    float facing = 0.0;
+    float seen = 0.0;
+    int begin = soft ? light_point_begin * points / light_point_count : min(light_point_begin, 1);
+    int end = soft ? light_point_end * points / light_point_count : 1;
+    for (int k = begin; k < end; ++k) {
+      LightOffset to_point = centre;
+      if (soft) {
+        vec3 point = texelFetch(light_points, texel(first_point + k), 0).xyz;
+        to_point = light_offset(light.xyz + light.w * point, surface);
+      }
+      if (!to_point.in_front) continue;
+      float arriving = 1.0;
+      if (shadows) {
+        Ray shadow = ray_from(surface, to_point.to_light, surface.from_inside);
+        shadow.t_max = to_point.distance;
+        ++shadow_rays;
+        arriving = share(shadow);
+      }
+      facing += to_point.facing * arriving;
+      seen += arriving;
     }
+    if (seen == 0.0) continue;
+    facing /= float(points);
+    seen /= float(points);
+    if (surface.material.bands > 0.0) facing = in_bands(facing, surface.material.bands);
+    diffuse += (surface.material.diffuse * facing) * colour;
 
-    float share = surface.material.bands > 0.0 ? in_bands(facing, surface.material.bands) : facing;
-    diffuse += (surface.material.diffuse * share) * colour;
-    vec3 mirrored_light = (2.0 * facing) * surface.normal - to_light;
+    if (!centre.in_front) continue;
+    vec3 mirrored_light = (2.0 * centre.facing) * surface.normal - centre.to_light;
     float highlight = -dot(mirrored_light, surface.incoming);
     if (highlight > 0.0)
-      specular += (surface.material.specular * portable_pow(highlight, surface.material.power)) * colour;
+      specular += (surface.material.specular * seen * portable_pow(highlight, surface.material.power)) * colour;
   }
   if (surface.material.tint > 0.0) specular *= tinted(surface.material);
-  vec3 light = surface.material.ambient * ambient_light + diffuse + surface.material.glow;
+  vec3 light = (surface.material.ambient * visibility) * ambient_light + diffuse;
+  if (first_slice) light += surface.material.glow;
   return surface.material.colour * light + specular;
 }
 

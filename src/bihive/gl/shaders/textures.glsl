@@ -2,12 +2,11 @@
 #include "common"
 
 uniform sampler2D spheres;       // a texel a sphere in leaf order: centre, radius
-uniform usampler2D sphere_info;  // a texel a sphere: id, look
+uniform usampler2D sphere_info;  // a texel a sphere: id, look, group, bits of its own outline
 uniform usampler2D nodes;        // two texels a node: planes; kind, axis and count, first
 uniform sampler2D looks;         // four texels a look; the plane's is look 0
-uniform sampler2D lights;        // two texels a light: position; colour
+uniform sampler2D lights;        // two texels a light: position, radius; colour
 uniform int sphere_count;
-uniform int light_count;
 
 ivec2 texel(int i) {
   return ivec2(i & 2047, i >> 11);

@@ -1,6 +1,11 @@
-// Twin of render/tracer.h: walks the tree if TREE is defined, else tests every sphere.
+// Twin of render/tracer.h: walks the tree if TREE is defined, else tests every sphere. share() is LightPaths' of
+// render/transparency.h.
 #include "hit"
 #include "sphere"
+
+#ifdef LAYERS
+float light_passed = 1.0;  // of the last ray that asked for light
+#endif
 
 #ifdef TREE
 #include "traversal"
@@ -23,3 +28,14 @@ bool occluded(Ray ray) {
   return test_all_spheres(ray, true).sphere != kNothing;
 }
 #endif
+
+// What arrives at the ray's end: 0 behind an opaque sphere, else the product of what the crossed spheres let through.
+float share(Ray ray) {
+#ifdef LAYERS
+  light_passed = 1.0;
+  occluded(ray);
+  return light_passed;
+#else
+  return occluded(ray) ? 0.0 : 1.0;
+#endif
+}

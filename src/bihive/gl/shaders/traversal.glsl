@@ -56,11 +56,16 @@ bool overlaps(Slabs slabs, vec2 part, int axis, float lo, float hi) {
   return max(part.x, min(t_lo, t_hi)) < min(part.y, max(t_lo, t_hi));
 }
 
-// The closest hit, or with any_hit some hit.
+// The closest hit, or with any_hit some hit; with LAYERS any_hit looks for opaque spheres, and light_passed is multiplied
+// by what the others let through.
 Hit traverse(Ray ray, bool any_hit) {
   // Test the box around everything.
   Slabs slabs = make_slabs(ray);
+#ifdef LAYERS
+  vec2 part = vec2(any_hit ? 0.0 : ray.t_passed, ray.t_max);
+#else
   vec2 part = vec2(0.0, ray.t_max);
+#endif
   for (int axis = 0; axis < 3; ++axis) {
     part = above(slabs, part, axis, tree_lo[axis]);
     part = below(slabs, part, axis, tree_hi[axis]);
@@ -89,10 +94,19 @@ Hit traverse(Ray ray, bool any_hit) {
       Hit best_here = Hit(kNever, kNothing);
       for (int i = first; i < end; ++i) {
         float t = sphere_hit(ray, stored_sphere(i));
-        if (t < best_here.t) best_here = Hit(t, i);
+#ifdef LAYERS
+        if (any_hit) {
+          if (t < kNever) light_passed *= passing(i).y;
+          continue;
+        }
+#endif
+        if (is_nearer(ray, t, i, best_here)) best_here = Hit(t, i);
       }
+#ifdef LAYERS
+      if (any_hit && light_passed == 0.0) return best_here;
+#endif
       if (any_hit && best_here.sphere != kNothing) return best_here;
-      keep_nearer(best, best_here);
+      keep_nearer(ray, best, best_here);
     } else {
       vec2 planes = uintBitsToFloat(texelFetch(nodes, texel(2 * position), 0).xy);
       int axis = int(what.x >> 3 & 3u);

@@ -22,5 +22,6 @@ vec3 recursion_colour(int deepest_hit) {
 
 void main() {
   Light light = radiance(sample_ray(), false);
-  add_to_film(vec4(recursion_colour(light.deepest_hit), light.other_rays));
+  float rays = float(light.other_rays) + (loops_run() ? 0.0 : kLoopsStopped);
+  add_to_film(vec4(recursion_colour(light.deepest_hit), rays));
 }

@@ -66,11 +66,11 @@ HWY_EXPORT(find_light_rays_on_target);
 
 namespace steps {
 
-void gather_places(const WaveSurfaces& surfaces, std::int64_t first_sample, std::int64_t samples, std::int64_t set,
-                   std::int64_t sets, PlaceWave& wave) {
+void gather_places(const WaveSurfaces& surfaces, const PlacesAlike& alike, PlaceWave& wave) {
   wave.reset(surfaces.count);
   for (std::int64_t i = 0; i < surfaces.count; ++i) {
-    if ((first_sample + surfaces.owner[i]) % samples % sets != set) continue;
+    if ((alike.first_sample + surfaces.owner[i]) % alike.samples % alike.sets != alike.set) continue;
+    if (alike.level_of != nullptr && alike.level_of[i] != alike.level) continue;
     const std::int64_t k = wave.places++;
     for (int axis = 0; axis < 3; ++axis) {
       wave.origin[axis][k] = surfaces.origin[axis][i];

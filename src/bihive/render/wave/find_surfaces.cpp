@@ -91,7 +91,8 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
       materials(drawn.materials),
       passes_apart(rule == OpacityRule::once),
       faintest_ray(passes_apart ? kFaintestRay : 0),
-      cuts(cut_set_of(drawn)) {
+      cuts(cut_set_of(drawn)),
+      image_colours(drawn) {
   for (Material& material : materials)
     if (passes_apart && is_passed_straight(material)) material.transmissive = 0;
   const SphereAttributes& attributes = drawn.spheres.attributes();

@@ -33,11 +33,12 @@ HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes
   alignas(64) double channel[3][kLanes] = {}, opacity_of[kLanes] = {};
   for (int k = 0; k < kLanes; ++k) {
     if (ids[k] < 0) continue;
-    const auto i = static_cast<std::size_t>(ids[k]);
+    const auto i = static_cast<std::size_t>(scene.scene->spheres.stored_id(ids[k]));
     if (!attributes.colour.empty()) {
-      channel[0][k] = double(attributes.colour[i].x);
-      channel[1][k] = double(attributes.colour[i].y);
-      channel[2][k] = double(attributes.colour[i].z);
+      const Vec3f colour = scene.image_colours.any() ? scene.image_colours.colour(ids[k]) : attributes.colour[i];
+      channel[0][k] = double(colour.x);
+      channel[1][k] = double(colour.y);
+      channel[2][k] = double(colour.z);
     }
     if (!attributes.opacity.empty()) opacity_of[k] = double(attributes.opacity[i]);
   }

@@ -100,6 +100,19 @@ inline HWY_NOINLINE void put_cap_normals(const CutSet& cuts, const Wave& wave, s
   outward = {hn::Load(Tag(), x), hn::Load(Tag(), y), hn::Load(Tag(), z)};
 }
 
+// World units. Makes the ids those of the stored spheres.
+inline HWY_NOINLINE Lanes3 centres_of_images(const SphereSet& spheres, std::int64_t ids[kLanes]) {
+  alignas(64) double x[kLanes], y[kLanes], z[kLanes];
+  for (int k = 0; k < kLanes; ++k) {
+    const Vec3d centre = spheres.centre(ids[k]);
+    x[k] = centre.x;
+    y[k] = centre.y;
+    z[k] = centre.z;
+    ids[k] = spheres.stored_id(ids[k]);
+  }
+  return {hn::Load(Tag(), x), hn::Load(Tag(), y), hn::Load(Tag(), z)};
+}
+
 /// For lanes `found` of the rays, at least one: the rays that hit something. They are those of the wave from number i
 /// on.
 HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found, const Wave& wave, std::int64_t i,
@@ -122,9 +135,14 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
     alignas(64) std::int64_t sphere[kLanes];
     hn::Store(hn::IfThenElseZero(longs_of(on_sphere), rays.id), w, sphere);
     const SphereSet& spheres = scene.spheres;
-    const Lanes3 stored{gathered(spheres.x().data(), sphere), gathered(spheres.y().data(), sphere),
-                        gathered(spheres.z().data(), sphere)};
-    const Lanes3 centre = multiply(all(wave_scene.inverse_scale), stored);
+    Lanes3 centre;
+    if (HWY_UNLIKELY(spheres.has_images())) {
+      centre = centres_of_images(spheres, sphere);
+    } else {
+      const Lanes3 stored{gathered(spheres.x().data(), sphere), gathered(spheres.y().data(), sphere),
+                          gathered(spheres.z().data(), sphere)};
+      centre = multiply(all(wave_scene.inverse_scale), stored);
+    }
     outward = normalized(add(subtract(rays.origin, centre), along));
     if (HWY_UNLIKELY(wave_scene.cuts != nullptr))
       put_cap_normals(*wave_scene.cuts, wave, i, on_sphere, rays.id, outward);

@@ -16,6 +16,7 @@
 #include "bihive/render/surface.h"
 #include "bihive/render/wave/column.h"
 #include "bihive/scene/camera.h"
+#include "bihive/scene/image_colours.h"
 #include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/sample_pattern.h"
 #include "bihive/scene/scene.h"
@@ -37,6 +38,7 @@ struct WaveScene {
   std::int64_t plane_material = 0;     ///< the plane's first
   PlaneAxes axes{};                    ///< of the plane, if it has a checker
   std::shared_ptr<const CutSet> cuts;  ///< null: all spheres are whole
+  ImageColours image_colours;
 
   /// rule: each_surface where no sphere is passed straight.
   explicit WaveScene(const Scene& drawn, OpacityRule rule = OpacityRule::each_surface);
@@ -215,10 +217,14 @@ void find_surfaces(const WaveScene& scene, const WavePart& rays, const double* t
 /// `shadows`.
 void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light, ShadowWave& shadows);
 
-/// The places of those surfaces whose owners have the numbers first_sample + owner = `set` modulo `sets`, after modulo
-/// `samples`.
-void gather_places(const WaveSurfaces& surfaces, std::int64_t first_sample, std::int64_t samples, std::int64_t set,
-                   std::int64_t sets, PlaceWave& wave);
+/// Surfaces that take the same directions or points of lights: those of faint_level() `level` whose owners have the
+/// numbers first_sample + owner = `set` modulo `sets`, after modulo `samples`.
+struct PlacesAlike {
+  std::int64_t first_sample, samples, set, sets;
+  int level = 0;
+  const std::uint8_t* level_of = nullptr;  ///< of each surface; null: 0
+};
+void gather_places(const WaveSurfaces& surfaces, const PlacesAlike& alike, PlaceWave& wave);
 
 /// Sets the sums of the places to 0.
 void forget_sums(PlaceWave& wave);

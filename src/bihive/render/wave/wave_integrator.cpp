@@ -188,6 +188,7 @@ void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffer
     first = part.last;
   }
   if (of_generation) {
+    find_levels(buffers);
     if (with_shadows()) find_shadows(depth, buffers);
     if (with_shadows()) find_soft_shadows(depth, buffers);
     if (with_ambient()) find_visibility(depth, buffers);
@@ -240,6 +241,21 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
   rays_.transmitted += sent.transmitted;
 }
 
+// Faint surfaces occur only where spheres are passed straight.
+void WaveIntegrator::find_levels(WaveBuffers& buffers) const {
+  if (to_eye() == nullptr) return;
+  const WaveSurfaces& surfaces = buffers.surfaces;
+  buffers.level.reserve(surfaces.count);
+  for (std::int64_t i = 0; i < surfaces.count; ++i) {
+    const double share = surfaces.weight[i] * to_eye()->stopping(surfaces.id[i]);
+    buffers.level[i] = static_cast<std::uint8_t>(faint_level(share));
+  }
+}
+
+steps::PlacesAlike WaveIntegrator::alike(int set, int sets, int level, const WaveBuffers& buffers) const {
+  return {first_sample_, settings_.samples_per_pixel, set, sets, level, levels() > 1 ? buffers.level.data() : nullptr};
+}
+
 void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   const std::int64_t surfaces = buffers.surfaces.count;
   const std::vector<PointLight>& lights = scene_.scene->lights;
@@ -283,10 +299,12 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
   buffers.light_facing.reserve(all);
   buffers.light_seen.reserve(all);
   PlaceWave& wave = buffers.places;
-  for (int set = 0; set < points.count(); ++set) {
-    steps::gather_places(surfaces, first_sample_, settings_.samples_per_pixel, set, points.count(), wave);
+  for (int n = 0; n < points.count() * levels(); ++n) {
+    const int set = n % points.count();
+    const int level = n / points.count();
+    steps::gather_places(surfaces, alike(set, points.count(), level, buffers), wave);
     if (wave.places == 0) continue;
-    const std::vector<Vec3d>& of_set = points.of_sample(set);
+    const std::vector<Vec3d>& of_set = points.of_sample(set, level);
     const auto count = static_cast<double>(of_set.size());
     for (std::size_t l = 0; l < lights.size(); ++l) {
       steps::forget_sums(wave);
@@ -312,10 +330,12 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
   const AmbientRays& ambient = *settings_.ambient;
   PlaceWave& wave = buffers.places;
   buffers.visibility.reserve(surfaces.count);
-  for (int set = 0; set < ambient.sets.count(); ++set) {
-    steps::gather_places(surfaces, first_sample_, settings_.samples_per_pixel, set, ambient.sets.count(), wave);
+  for (int n = 0; n < ambient.sets.count() * levels(); ++n) {
+    const int set = n % ambient.sets.count();
+    const int level = n / ambient.sets.count();
+    steps::gather_places(surfaces, alike(set, ambient.sets.count(), level, buffers), wave);
     if (wave.places == 0) continue;
-    for (const Vec3f& direction : ambient.sets.of_sample(set)) {
+    for (const Vec3f& direction : ambient.sets.of_sample(set, level)) {
       steps::find_ambient_rays(direction, wave);
       rays_.ambient += wave.rays.count;
       const RaySpan rays = trace_places(depth, ambient.distance, buffers);
@@ -342,7 +362,7 @@ void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uin
   ends.resize(static_cast<std::size_t>(rays.count));
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const double end = rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<double>::infinity();
-    ends[static_cast<std::size_t>(i)] = hidden[i] != 0 ? -1 : end;
+    ends[static_cast<std::size_t>(i)] = hidden[i] != 0 ? -std::numeric_limits<double>::infinity() : end;
   }
   RaySpan open = rays;
   open.t_max = ends.data();

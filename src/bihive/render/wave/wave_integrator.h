@@ -9,6 +9,7 @@
 #include "bihive/render/tracer.h"
 #include "bihive/render/transparency.h"
 #include "bihive/render/wave/wave.h"
+#include "bihive/scene/faint_level.h"
 #include "bihive/scene/light_points.h"
 
 namespace bihive {
@@ -38,6 +39,7 @@ struct WaveBuffers {
   Column<std::uint8_t> hidden;
   Column<double> share;
   PlaceWave places;
+  Column<std::uint8_t> level;  ///< faint_level() of each surface; only where spheres are passed straight
   Column<double> visibility, limits;
   Column<double> light_facing, light_seen;  ///< of LightReceived
   WaveSums sums;
@@ -105,6 +107,9 @@ class WaveIntegrator {
                   WaveBuffers& buffers);
   void follow(const WavePart& rays, int depth, WaveBuffers& buffers);
   void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
+  void find_levels(WaveBuffers& buffers) const;
+  int levels() const { return to_eye() != nullptr ? kFaintLevels : 1; }
+  steps::PlacesAlike alike(int set, int sets, int level, const WaveBuffers& buffers) const;
   void find_shadows(int depth, WaveBuffers& buffers);
   void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);

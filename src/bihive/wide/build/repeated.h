@@ -13,4 +13,9 @@ namespace bihive {
 void find_repeated(const SphereArrays& spheres, const float* palette, std::int64_t first, std::int64_t count,
                    std::vector<RepeatedSphere>& repeated);
 
+/// The piles among all repeated spheres of a set: groups of more than kWidth equal ones, by their lowest ids. The
+/// others of each pile by their ids.
+void find_piles(const std::vector<RepeatedSphere>& repeated, std::vector<Pile>& piles,
+                std::vector<std::uint32_t>& others);
+
 }  // namespace bihive

@@ -1,7 +1,6 @@
 #include "bihive/wide/wide_builder.h"
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
 #include <new>
 #include <utility>
@@ -10,6 +9,8 @@
 #include "bihive/base/parallel.h"
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/build/collapse.h"
+#include "bihive/wide/build/count_limit.h"
+#include "bihive/wide/build/repeated.h"
 #include "bihive/wide/build/split.h"
 #include "bihive/wide/build/tuning.h"
 
@@ -83,6 +84,8 @@ struct WideBuilder::State {
                        std::vector<std::int64_t>& begins);
   std::vector<SplitRange> split_cells(const CellGrid& grid, const std::vector<std::int64_t>& begins,
                                       std::int64_t most_spheres, BinaryNode& root);
+  void build_all(const SphereSet& spheres, const WideParameters& parameters, int threads, std::int64_t most_ids,
+                 WideTree& tree);
   void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
 };
 
@@ -206,11 +209,14 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
   wide::close_tops(root);
 }
 
-void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
-                               WideTree& tree) {
+// Every sphere in a leaf. The ids need room for `most_ids` of them.
+void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                                   std::int64_t most_ids, WideTree& tree) {
   const std::int64_t count = spheres.size();
   tree.scale = spheres.scale();
-  tree.size = count;
+  tree.size = tree.placed = count;
+  tree.piles.clear();
+  tree.others_in_piles.clear();
   tree.aabb = {};
   tree.node_count = 0;
   tree.nodes = nullptr;
@@ -222,7 +228,7 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
 
   // Look at the spheres, and make room for them.
   const InputSummary summary = summarize(spheres, Chunks(count), threads);
-  const bool has_palette = !summary.palette.overflow && count <= std::int64_t{WideSpheres::kIdMask};
+  const bool has_palette = !summary.palette.overflow && most_ids <= std::int64_t{WideSpheres::kIdMask};
   SplitContext context;
   context.scratch = place_arrays(count, has_palette, sphere_memory);
   context.final = place_arrays(count, has_palette, tree.sphere_memory);
@@ -267,6 +273,46 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
   std::copy(context.palette, context.palette + 32, result.palette.begin());
 }
 
+// Spheres that no plane parts lie in one leaf, and a ray would test all of them. So where more than a leaf's spheres
+// are equal, the tree is made again without all but the first of them.
+void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                               WideTree& tree) {
+  build_all(spheres, parameters, threads, spheres.size(), tree);
+  find_piles(tree.repeated, tree.piles, tree.others_in_piles);
+  if (tree.piles.empty()) return;
+  std::vector<Pile> piles = std::move(tree.piles);
+  std::vector<std::uint32_t> others = std::move(tree.others_in_piles);
+  std::vector<RepeatedSphere> repeated = std::move(tree.repeated);
+
+  std::vector<std::uint32_t> left_out = others;
+  std::sort(left_out.begin(), left_out.end());
+  std::vector<std::int64_t> kept;
+  kept.reserve(static_cast<std::size_t>(spheres.size()) - left_out.size());
+  auto next = left_out.begin();
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    if (next != left_out.end() && *next == id)
+      ++next;
+    else
+      kept.push_back(id);
+  }
+  // The nodes are others and fewer, so their memory would only be held beside the new.
+  collapse = Collapse();
+  tree.node_memory = AlignedBuffer();
+  build_all(spheres.part(kept), parameters, threads, spheres.size(), tree);
+
+  // Give the spheres their own ids, and the tree what it must know of all.
+  const SphereArrays arrays = place_arrays(tree.placed, tree.spheres.has_palette, tree.sphere_memory);
+  const std::uint32_t mask = tree.spheres.id_mask();
+  for (std::int64_t slot = 0; slot < tree.placed; ++slot) {
+    std::uint32_t& word = arrays.word[slot];
+    word = (word & ~mask) | static_cast<std::uint32_t>(kept[word & mask]);
+  }
+  tree.size = spheres.size();
+  tree.piles = std::move(piles);
+  tree.others_in_piles = std::move(others);
+  tree.repeated = std::move(repeated);
+}
+
 WideBuilder::WideBuilder() : state_(std::make_shared<State>()) {}
 WideBuilder::~WideBuilder() = default;
 
@@ -281,8 +327,7 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
                                                            int threads) {
   ensure_target();
   const std::int64_t count = spheres.size();
-  if (count > std::int64_t{std::numeric_limits<std::uint32_t>::max()})
-    return Error{"a wide tree holds at most 4294967295 spheres, and there are " + std::to_string(count), "", 0, 0, ""};
+  if (Status status = check_wide_count(count); !status) return status.error();
   try {
     std::unique_ptr<WideTree> tree = state_->take_spare();
     state_->build(spheres, parameters, threads, *tree);

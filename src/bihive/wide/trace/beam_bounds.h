@@ -28,6 +28,10 @@
 // for o, and 6 u F for the sum; A and the value of a box corner or centre, a fused product and sum up to 13 F, by 13 u
 // F each; a hit lies up to 2^-25 + 52 2^-53 F = u F beyond its box. All below kFrustumUnits u F = 64 u F. The same
 // holds for w = o_w + n_w s.
+//
+// Images (WideTree::image): the moved origin is rounded (u L), and the true centre is off by 0.87 u < 0.51 u L. b: 10 u
+// L = 17.4 u F and 10.5 u F for what follows; p: 4.6 u L across n, 14.6 u L along it, 15.3 u L = 26.6 u F together. So
+// e = 30 u F. The frustum's bound has room for 2 u F more.
 #pragma once
 
 #include "bihive/wide/trace/filter_bounds.h"
@@ -35,6 +39,7 @@
 namespace bihive {
 
 constexpr float kBeamUnits = 26;
+constexpr float kBeamUnitsOfImage = 30;
 constexpr float kFrustumUnits = 64;
 constexpr float kSureShare = 4.1F;
 constexpr float kWidthShare = 4.1F;
@@ -46,9 +51,9 @@ struct BeamBounds {
   float e;
   float pad;  ///< of the frustum's planes
 
-  explicit BeamBounds(float farthest_origin) {
+  explicit BeamBounds(float farthest_origin, bool of_image = false) {
     const float reach = (farthest_origin + 1) * 1.0001F;
-    e = kBeamUnits * kUnit * reach;
+    e = (of_image ? kBeamUnitsOfImage : kBeamUnits) * kUnit * reach;
     pad = kFrustumUnits * kUnit * reach;
   }
 };

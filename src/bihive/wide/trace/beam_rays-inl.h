@@ -102,11 +102,26 @@ HWY_INLINE void choose_major_axis(const Block& block, BeamRays& out) {
   out.sign = block.direction[out.major][0] < 0 ? -1.0F : 1.0F;
 }
 
+// Coordinates of origins where the tree's nodes are: rounded to binary32 only after an image was moved back.
+HWY_INLINE Floats before_image(Floats world, double scale, double shift) {
+  using Doubles = hn::CappedTag<double, 16>;
+  using Half = hn::Rebind<float, Doubles>;
+  const Doubles w;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Doubles()));
+  alignas(64) float values[kFloatLanes];
+  hn::Store(world, FloatTag(), values);
+  for (int i = 0; i < kFloatLanes; i += kLanes) {
+    const auto stored = hn::Mul(hn::PromoteTo(w, hn::Load(Half(), values + i)), hn::Set(w, scale));
+    hn::Store(hn::DemoteTo(Half(), hn::Sub(stored, hn::Set(w, shift))), Half(), values + i);
+  }
+  return hn::Load(FloatTag(), values);
+}
+
 // Origins in stored units; whether all rays start at one point. `farthest` becomes the largest coordinate. Returns the
 // lanes whose origins are near enough.
-HWY_INLINE FloatMask set_up_origins(const Block& block, float scale, BeamRays& out, Floats& farthest) {
+HWY_INLINE FloatMask set_up_origins(const Block& block, const WideTree& tree, BeamRays& out, Floats& farthest) {
   const FloatTag d;
-  const auto scales = hn::Set(d, scale);
+  const auto scales = hn::Set(d, static_cast<float>(tree.scale));
   farthest = hn::Zero(d);
   auto near = hn::Eq(scales, scales);
   auto common = near;
@@ -115,7 +130,8 @@ HWY_INLINE FloatMask set_up_origins(const Block& block, float scale, BeamRays& o
     for (int lane = 0; lane < kBeamRays; lane += kFloatLanes) {
       const auto world = hn::LoadU(d, block.origin[axis] + lane);
       common = hn::And(common, hn::Eq(world, first));
-      const auto o = hn::Mul(world, scales);
+      auto o = hn::Mul(world, scales);
+      if (HWY_UNLIKELY(tree.is_image)) o = before_image(world, tree.scale, tree.shift[axis]);
       near = hn::And(near, hn::Le(hn::Abs(o), hn::Set(d, static_cast<float>(kFarOrigin))));
       farthest = hn::Max(farthest, hn::Abs(o));
       hn::Store(o, d, out.origin[axis] + lane);
@@ -204,7 +220,7 @@ HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int6
   // Origins, directions and ends.
   beam_rays::choose_major_axis(block, out);
   Floats farthest;
-  auto valid = beam_rays::set_up_origins(block, static_cast<float>(tree.scale), out, farthest);
+  auto valid = beam_rays::set_up_origins(block, tree, out, farthest);
   const bool unit = beam_rays::copy_directions(block, out);
   const auto least = hn::Set(d, kLeastMajor);
   const auto along = hn::Set(d, out.sign);
@@ -216,7 +232,7 @@ HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int6
   }
   if (HWY_UNLIKELY(!hn::AllTrue(d, valid))) return false;
 
-  const BeamBounds bounds(hn::GetLane(hn::MaxOfLanes(d, farthest)));
+  const BeamBounds bounds(hn::GetLane(hn::MaxOfLanes(d, farthest)), tree.is_image);
   out.e = bounds.e;
   out.pad = bounds.pad;
   if (block.leaves != nullptr) {

@@ -35,10 +35,17 @@ class Winners {
   void clear() { count_ = 0; }
 
   /// One more, number next(), if it `won`. Call make_room() before.
-  HWY_INLINE void add_if(bool won, const WideSpheres& spheres, std::uint32_t slot) {
+  HWY_INLINE void add_if(bool won, const WideTree& tree, std::uint32_t slot) {
+    const WideSpheres& spheres = tree.spheres;
     x_[count_] = spheres.x[slot];
     y_[count_] = spheres.y[slot];
     z_[count_] = spheres.z[slot];
+    if (HWY_UNLIKELY(tree.is_image)) {
+      const Vec3f centre = to_float(tree.centre(slot));
+      x_[count_] = centre.x;
+      y_[count_] = centre.y;
+      z_[count_] = centre.z;
+    }
     r_[count_] = static_cast<float>(spheres.radius(slot));
     id_[count_] = static_cast<std::uint32_t>(spheres.id(slot));
     slot_[count_] = slot;

@@ -196,7 +196,7 @@ class ClosestBeam {
         if (ray < rays_.count) call_.add_pair(first_ray_ + ray, sphere.slot);
       }
     }
-    call_.winners.add_if(won != 0, tree_.spheres, sphere.slot);
+    call_.winners.add_if(won != 0, tree_, sphere.slot);
     return won != 0;
   }
 

@@ -47,7 +47,7 @@ HWY_INLINE void gather(const WideTree& tree, const RaySpan& rays, const Pair& pa
     to.origin[axis][k] = double(rays.origin[axis][i]) * tree.scale;
     to.direction[axis][k] = double(rays.direction[axis][i]) * tree.scale;
   }
-  const Vec3d centre = tree.spheres.centre(pair.slot);
+  const Vec3d centre = tree.centre(pair.slot);
   to.centre[0][k] = centre.x;
   to.centre[1][k] = centre.y;
   to.centre[2][k] = centre.z;

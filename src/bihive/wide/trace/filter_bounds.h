@@ -21,6 +21,10 @@
 // product o / n, u F for the moved plane or offset, u F for the fused sum, u F for n, u F for a moved origin), and a
 // hit lies up to 2^-25 + 52 2^-53 F beyond its box (docs/precision.md, "Padding"). All planes are moved outward by
 // kBoxUnits u F = 10 u F; single rays move their offsets by as much instead.
+//
+// Images (WideTree::image): the ray is moved back in binary64, and then rounded like a moved origin. The true centre
+// was rounded to binary32 after it had been moved, where no coordinate is beyond 1: it is off by 2^-25 a coordinate,
+// 0.87 u in all, which adds to the errors of b and p. So e = 18 u F. Boxes: half a u, for which kBoxUnits has room.
 #pragma once
 
 #include <algorithm>
@@ -31,6 +35,7 @@ namespace bihive {
 
 constexpr float kFilterUnits = 17;
 constexpr float kBoxUnits = 10;
+constexpr float kImageUnits = 1;  ///< of an image, in e
 constexpr float kWidthInErrors = 24;
 constexpr float kUnit = 0x1p-24F;
 
@@ -47,9 +52,9 @@ struct FilterBounds {
   float width;    ///< W
   float box_pad;  ///< by which planes are moved
 
-  explicit FilterBounds(float farthest_origin) {
+  explicit FilterBounds(float farthest_origin, bool of_image = false) {
     const float reach = (farthest_origin + 1) * 1.0001F;
-    e = kFilterUnits * kUnit * reach;
+    e = (of_image ? kFilterUnits + kImageUnits : kFilterUnits) * kUnit * reach;
     width = kWidthInErrors * e;
     box_pad = kBoxUnits * kUnit * reach;
   }

@@ -31,7 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 class ListRays {
  public:
   ListRays(const WideTree& tree, const RaySpan& rays, ListTile& tile)
-      : tree_(tree), rays_(rays), tile_(tile), bounds_(farthest_origin()) {
+      : tree_(tree), rays_(rays), tile_(tile), bounds_(farthest_origin(), tree.is_image) {
     tile_.undecided.clear();
     tile_.leaf_entry_count = 0;
     tile_.queue.count = 0;
@@ -81,7 +81,9 @@ class ListRays {
         largest = hn::Max(largest, hn::Abs(hn::LoadU(d, rays_.origin[axis] + i)));
       for (std::int64_t i = whole; i < rays_.count; ++i) rest = std::max(rest, std::abs(rays_.origin[axis][i]));
     }
-    const double farthest = double(std::max(rest, hn::GetLane(hn::MaxOfLanes(d, largest)))) * tree_.scale;
+    double farthest = double(std::max(rest, hn::GetLane(hn::MaxOfLanes(d, largest)))) * tree_.scale;
+    if (tree_.is_image)
+      farthest += std::max({std::abs(tree_.shift.x), std::abs(tree_.shift.y), std::abs(tree_.shift.z)});
     if (farthest <= kFarOrigin) return static_cast<float>(farthest) * 1.000001F;
 
     // Some rays are far, or not valid: look at their local rays.
@@ -97,9 +99,9 @@ class ListRays {
   void load(std::int64_t first, LocalRays& local) const {
     const std::int64_t left = rays_.count - first;
     if (left >= 16)
-      set_up_16(rays_, first, tree_.scale, local);
+      set_up_16(rays_, first, tree_, local);
     else
-      set_up_tail(rays_, first, static_cast<int>(left), tree_.scale, local);
+      set_up_tail(rays_, first, static_cast<int>(left), tree_, local);
   }
 
   // Hands sixteen rays to the lists of their octants; far ones to the list of those.

@@ -361,7 +361,7 @@ class ListWalk {
     SingleRay ray;
     double length = 0;
     double shift = 0;
-    if (!set_up_single_ray(rays_.at(number), tree_.scale, ray, length, shift)) return kFarthestEnd;
+    if (!set_up_single_ray(rays_.at(number), tree_, ray, length, shift)) return kFarthestEnd;
     return upper_distance(t, length, shift);
   }
 

@@ -58,6 +58,9 @@ HWY_INLINE hn::Vec<Doubles> exact_t(const WideTree& tree, const RaySpan& rays, c
     lanes.origin[axis] = hn::Mul(hn::PromoteTo(d, hn::LoadU(h, rays.origin[axis] + i)), scale);
     lanes.direction[axis] = hn::Mul(hn::PromoteTo(d, hn::LoadU(h, rays.direction[axis] + i)), scale);
     lanes.centre[axis] = hn::PromoteTo(d, hn::GatherIndex(h, centres[axis], slot));
+    // WideTree::centre().
+    if (HWY_UNLIKELY(tree.is_image))
+      lanes.centre[axis] = hn::PromoteTo(d, hn::DemoteTo(h, hn::Add(lanes.centre[axis], hn::Set(d, tree.shift[axis]))));
   }
   const auto radius_place = spheres.has_palette ? hn::BitCast(ints, hn::ShiftRight<WideSpheres::kIdBits>(word)) : slot;
   const float* const radii = spheres.has_palette ? spheres.palette.data() : spheres.r;

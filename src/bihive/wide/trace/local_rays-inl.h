@@ -17,6 +17,7 @@
 #include "bihive/simd/wasm_float64-inl.h"
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/trace/filter_bounds.h"
+#include "bihive/wide/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
@@ -84,9 +85,10 @@ HWY_INLINE void calm_dead_rays(D d, LocalLanes<D>& local) {
 
 }  // namespace local_rays
 
-/// One body for vectors of rays and for a single one (a vector of one lane). `scale` is the tree's.
+/// One body for vectors of rays and for a single one (a vector of one lane). Local rays are where the tree's nodes are:
+/// before an image was moved away.
 template <class D>
-HWY_INLINE LocalLanes<D> local_lanes(D d, const WorldLanes<D>& world, double scale) {
+HWY_INLINE LocalLanes<D> local_lanes(D d, const WorldLanes<D>& world, const WideTree& tree) {
   const auto zero = hn::Zero(d);
   LocalLanes<D> local;
 
@@ -108,8 +110,10 @@ HWY_INLINE LocalLanes<D> local_lanes(D d, const WorldLanes<D>& world, double sca
     local.alive = hn::And(local.alive, hn::Le(hn::Abs(world.origin[axis]), largest_float));
 
   // Bring the origin to stored units, and move it to the point nearest to 0 if it is far.
-  const auto stored = hn::Set(d, scale);
+  const auto stored = hn::Set(d, tree.scale);
   for (int axis = 0; axis < 3; ++axis) local.origin[axis] = hn::Mul(world.origin[axis], stored);
+  if (HWY_UNLIKELY(tree.is_image))
+    for (int axis = 0; axis < 3; ++axis) local.origin[axis] = hn::Sub(local.origin[axis], hn::Set(d, tree.shift[axis]));
   local.length = hn::Mul(world_length, stored);
   const auto size = local_rays::largest_of<D>(local.origin);
   local.too_far = hn::And(local.alive, hn::Gt(size, hn::Set(d, kFarthestOrigin)));
@@ -154,8 +158,8 @@ struct alignas(64) LocalRays {
   float farthest_origin;       ///< largest coordinate of an origin of rays that are not dead
 };
 
-/// Rays first to first + 15 of `rays`, all of which must exist. `scale` is the tree's.
-HWY_INLINE void set_up_16(const RaySpan& rays, std::int64_t first, double scale, LocalRays& out) {
+/// Rays first to first + 15 of `rays`, all of which must exist.
+HWY_INLINE void set_up_16(const RaySpan& rays, std::int64_t first, const WideTree& tree, LocalRays& out) {
   using Doubles = hn::CappedTag<double, 16>;
   using Half = hn::Rebind<float, Doubles>;
   const Doubles d;
@@ -175,7 +179,7 @@ HWY_INLINE void set_up_16(const RaySpan& rays, std::int64_t first, double scale,
     world.t_min = rays.t_min != nullptr ? hn::LoadU(d, rays.t_min + i) : hn::Zero(d);
     world.t_max =
         rays.t_max != nullptr ? hn::LoadU(d, rays.t_max + i) : hn::Set(d, std::numeric_limits<double>::infinity());
-    const auto local = local_lanes(d, world, scale);
+    const auto local = local_lanes(d, world, tree);
     farthest = hn::Max(farthest, local_rays::largest_of<Doubles>(local.origin));
     for (int axis = 0; axis < 3; ++axis) {
       hn::Store(hn::DemoteTo(h, local.origin[axis]), h, out.origin[axis] + lane);
@@ -195,7 +199,7 @@ HWY_INLINE void set_up_16(const RaySpan& rays, std::int64_t first, double scale,
 }
 
 /// As set_up_16() for the last `count` < 16 rays; the slots beyond are dead.
-HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, double scale, LocalRays& out) {
+HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, const WideTree& tree, LocalRays& out) {
   float origin[3][16] = {};
   float direction[3][16] = {};  // zero directions are not valid
   double t_min[16] = {};
@@ -216,7 +220,7 @@ HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, 
   }
   if (rays.t_min != nullptr) few.t_min = t_min;
   if (rays.t_max != nullptr) few.t_max = t_max;
-  set_up_16(few, 0, scale, out);
+  set_up_16(few, 0, tree, out);
 }
 
 namespace local_rays {

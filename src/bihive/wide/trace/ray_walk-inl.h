@@ -268,7 +268,8 @@ class RayWalk {
 
 /// Makes a valid ray ready. False: it certainly misses everything, or it starts beyond kFarthestOrigin. s = t * length
 /// - shift.
-HWY_INLINE bool set_up_single_ray(const Ray& world, double scale, SingleRay& ray, double& length, double& shift) {
+HWY_INLINE bool set_up_single_ray(const Ray& world, const WideTree& tree, SingleRay& ray, double& length,
+                                  double& shift) {
   using One = hn::CappedTag<double, 1>;
   const One d;
   WorldLanes<One> lanes;
@@ -279,12 +280,12 @@ HWY_INLINE bool set_up_single_ray(const Ray& world, double scale, SingleRay& ray
   lanes.has_segment = true;
   lanes.t_min = hn::Set(d, world.t_min);
   lanes.t_max = hn::Set(d, world.t_max);
-  const auto local = local_lanes(d, lanes, scale);
+  const auto local = local_lanes(d, lanes, tree);
   if (hn::AllFalse(d, local.alive)) return false;
 
   length = hn::GetLane(local.length);
   shift = hn::GetLane(local.shift);
-  const FilterBounds bounds(static_cast<float>(hn::GetLane(local_rays::largest_of<One>(local.origin))));
+  const FilterBounds bounds(static_cast<float>(hn::GetLane(local_rays::largest_of<One>(local.origin))), tree.is_image);
   ray.e = bounds.e;
   ray.width = bounds.width;
   const hn::CappedTag<float, 1> f;

@@ -21,7 +21,10 @@ namespace bihive {
 template <class Answer>
 void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, Answer& answer) {
   if (tree.node_count == 0) return;
-  const Slabs slabs(ray);
+  // The nodes of an image are where the tree has them. Its centres were rounded, which moves them by up to 2^-25.
+  ScaledRay in_tree = ray;
+  if (tree.is_image) in_tree.origin = ray.origin - tree.shift;
+  const Slabs slabs(in_tree, tree.is_image ? 0x1p-24 : 0);
   std::vector<std::int64_t> waiting{0};
   while (!waiting.empty()) {
     const WideNode& node = tree.nodes[waiting.back()];
@@ -40,7 +43,7 @@ void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, An
       }
       const std::int64_t begin = node.sphere_begin(slot);
       for (std::int64_t i = begin; i < begin + node.sphere_count(slot); ++i) {
-        const Vec3d centre = tree.spheres.centre(i);
+        const Vec3d centre = tree.centre(i);
         const double radius = tree.spheres.radius(i);
         ray.left_centre = centre;
         ray.left_radius = left.is(tree, i) ? radius : -1;

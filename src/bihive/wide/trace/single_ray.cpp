@@ -31,7 +31,7 @@ HWY_INLINE Hit answer_ray(const WideTree& tree, const Ray& world) {
   SingleRay& ray = walk.ray;
   double length = 0;
   double shift = 0;
-  if (!set_up_single_ray(world, tree.scale, ray, length, shift)) return {};
+  if (!set_up_single_ray(world, tree, ray, length, shift)) return {};
   if (world.leaves >= 0 && world.leaves < std::int64_t{kNoSphere}) {
     ray.left_id = static_cast<std::uint32_t>(world.leaves);
     ray.inward = world.inside;
@@ -41,7 +41,7 @@ HWY_INLINE Hit answer_ray(const WideTree& tree, const Ray& world) {
   // Decide what binary32 cannot at once, and the winner at the end.
   Hit best;
   const auto decide = [&](std::uint32_t slot) {
-    const Vec3d centre = tree.spheres.centre(slot);
+    const Vec3d centre = tree.centre(slot);
     const double radius = tree.spheres.radius(slot);
     scaled.left_centre = centre;
     scaled.left_radius = left.is(tree, slot) ? radius : -1;

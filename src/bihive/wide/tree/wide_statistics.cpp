@@ -80,7 +80,9 @@ WideStatistics wide_statistics(const WideTree& tree) {
   statistics.nodes = tree.node_count;
   statistics.levels = tree.levels;
   statistics.node_bytes = tree.node_count * static_cast<std::int64_t>(sizeof(WideNode));
-  statistics.other_bytes = static_cast<std::int64_t>(sizeof(WideTree) + tree.repeated.size() * sizeof(RepeatedSphere));
+  statistics.other_bytes =
+      static_cast<std::int64_t>(sizeof(WideTree) + tree.repeated.size() * sizeof(RepeatedSphere) +
+                                tree.piles.size() * sizeof(Pile) + tree.others_in_piles.size() * sizeof(std::uint32_t));
   statistics.used_bytes = tree.used_bytes();
   statistics.sphere_bytes = statistics.used_bytes - statistics.node_bytes - statistics.other_bytes;
   statistics.allocated_bytes = tree.allocated_bytes();
@@ -113,7 +115,7 @@ WideStatistics wide_statistics(const WideTree& tree) {
   statistics.spheres_per_leaf = spheres_per_leaf.result();
   statistics.nodes_above_leaf = nodes_above_leaf.result();
   statistics.node_fill = static_cast<double>(children.sum()) / static_cast<double>(kWidth * children.count());
-  statistics.leaf_fill = static_cast<double>(tree.size) / static_cast<double>(leaf_lanes);
+  statistics.leaf_fill = static_cast<double>(tree.placed) / static_cast<double>(leaf_lanes);
 
   // A box without a surface is a line or a point. A ray meets all that lies on it, or nothing.
   if (surfaces.nodes > 0) statistics.overlap = surfaces.overlaps / surfaces.nodes;

@@ -4,13 +4,32 @@ namespace bihive {
 
 std::int64_t WideTree::used_bytes() const {
   const std::int64_t a_sphere = spheres.has_palette ? 16 : 20;
-  return static_cast<std::int64_t>(sizeof(WideTree) + repeated.size() * sizeof(RepeatedSphere)) +
-         node_count * std::int64_t{sizeof(WideNode)} + (size > 0 ? (size + kWidth) * a_sphere : 0);
+  return static_cast<std::int64_t>(sizeof(WideTree) + repeated.size() * sizeof(RepeatedSphere) +
+                                   piles.size() * sizeof(Pile) + others_in_piles.size() * sizeof(std::uint32_t)) +
+         node_count * std::int64_t{sizeof(WideNode)} + (placed > 0 ? (placed + kWidth) * a_sphere : 0);
+}
+
+WideTree WideTree::image(Vec3d by) const {
+  WideTree made;
+  made.aabb = aabb;
+  made.scale = scale;
+  made.size = size;
+  made.placed = placed;
+  made.node_count = node_count;
+  made.nodes = nodes;
+  made.spheres = spheres;
+  made.levels = levels;
+  made.largest_leaf = largest_leaf;
+  made.is_image = true;
+  made.shift = by;
+  made.image_of = this;
+  return made;
 }
 
 std::int64_t WideTree::allocated_bytes() const {
-  return static_cast<std::int64_t>(sizeof(WideTree) + repeated.capacity() * sizeof(RepeatedSphere) +
-                                   node_memory.capacity() + sphere_memory.capacity());
+  return static_cast<std::int64_t>(
+      sizeof(WideTree) + repeated.capacity() * sizeof(RepeatedSphere) + piles.capacity() * sizeof(Pile) +
+      others_in_piles.capacity() * sizeof(std::uint32_t) + node_memory.capacity() + sphere_memory.capacity());
 }
 
 }  // namespace bihive

@@ -78,6 +78,29 @@ Status check_leaf(const WideTree& tree, const SphereSet& set, const Aabb& box, s
   return Done{};
 }
 
+// Marks the spheres that are in piles alone: each equals the one of its pile that a leaf holds, and comes after it.
+Status check_piles(const WideTree& tree, const SphereSet& set, std::vector<bool>& met) {
+  std::size_t first = 0;
+  std::int64_t before = -1;
+  for (const Pile& pile : tree.piles) {
+    if (std::int64_t{pile.id} <= before || pile.id >= set.size() || !met[pile.id] || pile.first_other != first ||
+        pile.end_of_others <= first || pile.end_of_others > tree.others_in_piles.size())
+      return wrong("the pile of sphere " + std::to_string(pile.id) + " is not one");
+    std::int64_t last = before = pile.id;
+    for (; first < pile.end_of_others; ++first) {
+      const std::int64_t other = tree.others_in_piles[first];
+      if (other <= last || other >= set.size() || met[static_cast<std::size_t>(other)] ||
+          set.stored_centre(other) != set.stored_centre(pile.id) ||
+          set.stored_radius(other) != set.stored_radius(pile.id))
+        return wrong("the pile of sphere " + std::to_string(pile.id) + " holds another sphere");
+      met[static_cast<std::size_t>(other)] = true;
+      last = other;
+    }
+  }
+  if (first != tree.others_in_piles.size()) return wrong("it has spheres of no pile");
+  return Done{};
+}
+
 Status check_repeated(const WideTree& tree, const SphereSet& set) {
   // Equal spheres are neighbours once sorted.
   const auto key = [&](std::int64_t id) {
@@ -117,7 +140,7 @@ Status validate_wide_tree(const WideTree& tree, const SphereSet& set) {
       sphere_met(static_cast<std::size_t>(set.size()));
   std::int64_t largest_leaf = 0;
   int levels = 0;
-  std::vector<Visit> waiting{{0, tree.aabb, 0, set.size(), 1}};
+  std::vector<Visit> waiting{{0, tree.aabb, 0, tree.placed, 1}};
   while (!waiting.empty()) {
     const Visit visit = waiting.back();
     waiting.pop_back();
@@ -142,6 +165,9 @@ Status validate_wide_tree(const WideTree& tree, const SphereSet& set) {
     }
   }
 
+  Status piles = check_piles(tree, set, sphere_met);
+  if (!piles) return piles;
+
   // Everything was met, and the tree says of itself what is so.
   for (std::size_t i = 0; i < node_met.size(); ++i)
     if (!node_met[i]) return wrong("is not reached from the root", static_cast<std::int64_t>(i));
@@ -149,7 +175,7 @@ Status validate_wide_tree(const WideTree& tree, const SphereSet& set) {
     if (!sphere_met[i]) return wrong("sphere " + std::to_string(i) + " is in no leaf");
   if (levels != tree.levels || levels > kMostLevels) return wrong("it has " + std::to_string(levels) + " levels");
   if (largest_leaf != tree.largest_leaf) return wrong("its largest leaf has " + std::to_string(largest_leaf));
-  for (std::int64_t i = tree.size; i < tree.size + kWidth; ++i)
+  for (std::int64_t i = tree.placed; i < tree.placed + kWidth; ++i)
     if (tree.spheres.radius(i) != 0 || !(tree.spheres.x[i] > 2)) return wrong("its padding can be hit");
   return check_repeated(tree, set);
 }

@@ -1,0 +1,162 @@
+#include "thesis/devices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "bihive/base/write_file.h"
+#include "support/failure.h"
+#include "thesis/compare.h"
+#include "thesis/frame_verdicts.h"
+
+namespace bihive::cli::thesis {
+namespace {
+
+// A file's run: its words, and the frames of each configuration.
+struct DeviceRun {
+  std::string device, engine, picture;
+  bool quick = false, complete = false;
+  EngineTimes times;
+  std::vector<double> drifts;  // of each contestant: the last round's time over the first's
+};
+
+DeviceRun read_run(const std::string& file) {
+  const Json document = Json::parse(value_or_fail(read_file(file)), nullptr, /*allow_exceptions=*/false);
+  DeviceRun run;
+  try {
+    if (document.at("experiment") != "figure-4.4")
+      throw Json::other_error::create(501, "another experiment", &document);
+    run.device = document.at("device").get<std::string>();
+    run.engine = document.at("engine").get<std::string>();
+    run.quick = document.at("quick").get<bool>();
+    run.complete = document.at("complete").get<bool>();
+    run.picture = fmt::format("{} x {}", document.at("width_px").get<int>(), document.at("height_px").get<int>());
+    for (const Json& one : document.at("configurations")) {
+      const auto ms = one.at("frame_ms").get<std::vector<double>>();
+      if (ms.empty() || std::any_of(ms.begin(), ms.end(), [](double each) { return !(each > 0); }))
+        throw Json::other_error::create(501, "a frame without a time", &document);
+      ConfigurationTimes& times =
+          run.times[{one.at("scenario").get<std::int64_t>(), one.at("spheres").get<std::int64_t>()}];
+      const Json& max_prims = one.at("max_prims");
+      (max_prims.is_null() ? times.brute : times.trees[max_prims.get<std::int64_t>()]) = ms;
+      run.drifts.push_back(ms.back() / ms.front());
+    }
+  } catch (const Json::exception& error) {
+    fail({std::string("expected a run of the thesis as the page saves it: ") + error.what(), file, 0, 0,
+          "open the page on the device, choose \"Run the thesis on this device\", then \"Save JSON\""});
+  }
+  return run;
+}
+
+// The best tree's frames of a configuration; nothing if it has no tree or no brute force.
+const std::vector<double>* best_tree(const ConfigurationTimes& times) {
+  const std::vector<double>* best = nullptr;
+  for (const auto& [prims, ms] : times.trees)
+    if (best == nullptr || median(ms) < median(*best)) best = &ms;
+  return times.brute.empty() ? nullptr : best;
+}
+
+// Least, most and mean gain in percent of a scenario; nothing unless all its numbers of spheres are there.
+struct Gains {
+  double least, most, mean;
+};
+std::optional<Gains> gains_of(const DeviceRun& run, std::int64_t scenario, std::size_t counts) {
+  std::vector<double> gains;
+  for (const auto& [key, times] : run.times)
+    if (const std::vector<double>* const best = best_tree(times); key.first == scenario && best != nullptr)
+      gains.push_back(100 * (median(times.brute) / median(*best) - 1));
+  if (gains.size() != counts) return std::nullopt;
+  const auto [least, most] = std::minmax_element(gains.begin(), gains.end());
+  return Gains{*least, *most, spread_of(gains).mean};
+}
+
+std::string gains_text(const std::optional<Gains>& gains) {
+  return gains ? fmt::format("{:.0f} to {:.0f} %, mean {:.0f}", gains->least, gains->most, gains->mean) : "";
+}
+
+std::vector<Cell> row_of(const DeviceRun& run, const Values& values, Json& data) {
+  const std::vector<std::int64_t> counts = values.integers("spheres_list");
+  std::vector<Cell> row{
+      {run.device}, {run.engine}, {run.picture + (run.quick ? ", quick" : "") + (run.complete ? "" : ", incomplete")}};
+  for (const std::int64_t count : counts) {
+    const auto found = run.times.find({values.integers("scenarios").front(), count});
+    const bool has = found != run.times.end() && !found->second.brute.empty();
+    row.push_back({has ? fmt::format("{:.2f}", fps_quartiles(found->second.brute).median) : ""});
+  }
+  double best_fps = 0;
+  std::int64_t wins = 0, complete = 0;
+  const std::int64_t winner = values.integer("winner.max_prims");
+  for (const auto& [key, times] : run.times) {
+    const std::vector<double>* const best = best_tree(times);
+    if (best == nullptr) continue;
+    ++complete;
+    best_fps = std::max(best_fps, 1000 / median(*best));
+    if (const auto found = times.trees.find(winner); found != times.trees.end() && &found->second == best) ++wins;
+  }
+  row.push_back({fmt::format("{:.1f}", best_fps)});
+  for (const std::int64_t scenario : values.integers("scenarios"))
+    row.push_back({gains_text(gains_of(run, scenario, counts.size()))});
+  row.push_back({fmt::format("{} of {}", wins, complete)});
+  const double drift = run.drifts.empty() ? 1 : median(run.drifts);
+  row.push_back({fmt::format("{:+.1f} %", 100 * (drift - 1))});
+  data.push_back({{"device", run.device},
+                  {"engine", run.engine},
+                  {"quick", run.quick},
+                  {"complete", run.complete},
+                  {"configurations", complete},
+                  {"best_fps", best_fps},
+                  {"drift", drift}});
+  return row;
+}
+
+// What the text says of its phone, in the same columns.
+std::vector<Cell> stated_row(const Values& values) {
+  std::vector<Cell> row{{"iPhone 5s, stated by the text"}, {""}, {""}};
+  for (const std::int64_t count : values.integers("spheres_list")) {
+    const std::string name = fmt::format("brute.fps.spheres{}", count);
+    row.push_back({values.has(name) ? values.printed(name) : "not stated"});
+  }
+  row.push_back({values.printed("best.fps") + ", the display's limit"});
+  for (const std::int64_t scenario : values.integers("scenarios")) {
+    const std::string name = fmt::format("scenario{}.gain_percent.", scenario);
+    if (!values.has(name + "least")) {
+      row.push_back({"not stated"});
+      continue;
+    }
+    row.push_back({fmt::format("{} to {}{}", values.printed(name + "least"), values.printed(name + "best"),
+                               values.has(name + "mean") ? ", mean " + values.printed(name + "mean") : "")});
+  }
+  row.push_back({fmt::format("{} of {}", values.integer("winner.wins"), values.integer("winner.configurations"))});
+  row.push_back({""});
+  return row;
+}
+
+}  // namespace
+
+ReportFront devices_page(const std::vector<std::string>& files, const Values& values) {
+  ReportFront page{"devices", "On other devices", {}, {}, {}, {}, Json::array()};
+  page.paragraphs.push_back(
+      "Runs of Figure 4.4 that the page made on other devices (\"Run the thesis on this device\", \"Save JSON\"), "
+      "beside "
+      "what the text states of its phone. Engine cpu: the reference tree in WebAssembly; gpu: the same by a shader. "
+      "Medians over the rounds; no verdicts.");
+  page.table.title = "Frames a second, gains over brute force, drift";
+  page.table.columns = {"Device", "Engine", "Picture"};
+  for (const std::int64_t count : values.integers("spheres_list"))
+    page.table.columns.push_back(fmt::format("BF {}, fps", count));
+  page.table.columns.emplace_back("Best, fps");
+  for (const std::int64_t scenario : values.integers("scenarios"))
+    page.table.columns.push_back(fmt::format("Gains, Scenario {}", scenario));
+  page.table.columns.push_back(fmt::format("BIH {} wins", values.integer("winner.max_prims")));
+  page.table.columns.emplace_back("Drift");
+  page.table.rows.push_back(stated_row(values));
+  for (const std::string& file : files) page.table.rows.push_back(row_of(read_run(file), values, page.data));
+  page.table.note =
+      "BF: in the first scenario. Drift: the time of the last round over that of the first, the median of all "
+      "contestants; a device that grows hot and slow has a positive one.";
+  return page;
+}
+
+}  // namespace bihive::cli::thesis

@@ -1,0 +1,272 @@
+#include "effects_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+
+#include "bihive/scene/camera_lights.h"
+#include "bihive/scene/names.h"
+#include "theme.h"
+#include "widgets.h"
+
+namespace bihive::window {
+namespace {
+
+constexpr int kMostSliderPoints = 64, kMostSliderDirections = 256;  // more needs the command line
+constexpr int kSamplesOfLens = 64;  // with fewer, the places on the lens show one by one
+
+bool group(const char* name) {
+  return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_None);
+}
+
+// A name out of a list; the empty one is shown as `otherwise`.
+bool choice(const char* name, const char* otherwise, const std::vector<std::string>& names, std::string& chosen) {
+  label(name);
+  bool changed = false;
+  const std::string id = std::string("##") + name;
+  if (!ImGui::BeginCombo(id.c_str(), chosen.empty() ? otherwise : chosen.c_str(), ImGuiComboFlags_HeightLarge))
+    return false;
+  if (ImGui::Selectable(otherwise, chosen.empty())) {
+    changed = !chosen.empty();
+    chosen.clear();
+  }
+  for (const std::string& one : names)
+    if (ImGui::Selectable(one.c_str(), one == chosen)) {
+      changed = one != chosen;
+      chosen = one;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
+template <class T>
+void choice(const char* name, const Names<T>& names, T& value) {
+  label(name);
+  const std::string id = std::string("##") + name;
+  if (!ImGui::BeginCombo(id.c_str(), name_of(names, value).c_str())) return;
+  for (const auto& [text, named] : names)
+    if (ImGui::Selectable(text.c_str(), named == value)) value = named;
+  ImGui::EndCombo();
+}
+
+void check(const char* name, bool& value) {
+  label(name);
+  ImGui::Checkbox((std::string("##") + name).c_str(), &value);
+}
+
+// Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
+void effect_slider(const char* name, double& value, double min, double max, const char* format) {
+  label(name);
+  auto shown = static_cast<float>(value);
+  const std::string id = std::string("##") + name;
+  if (ImGui::SliderFloat(id.c_str(), &shown, static_cast<float>(min), static_cast<float>(max), format,
+                         ImGuiSliderFlags_AlwaysClamp))
+    value = std::round(100 * static_cast<double>(shown)) / 100;
+}
+
+void effect_slider(const char* name, int& value, int max) {
+  label(name);
+  ImGui::SliderInt((std::string("##") + name).c_str(), &value, 1, max, "%d", ImGuiSliderFlags_AlwaysClamp);
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : " ") + text;
+  return all;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+// The parts of ATTR:MAP:MIN,MAX:log.
+struct ColourByParts {
+  std::string attribute, map, range, log;
+
+  explicit ColourByParts(const std::string& text) {
+    std::istringstream stream(text);
+    for (std::string* part : {&attribute, &map, &range, &log}) std::getline(stream, *part, ':');
+  }
+  std::string text() const {
+    if (attribute.empty()) return "";
+    std::string all = attribute + ":" + map + ":" + range + ":" + log;
+    all.erase(all.find_last_not_of(':') + 1);
+    return all;
+  }
+};
+
+}  // namespace
+
+bool EffectsPanel::text(const char* name, const char* hint, std::string& value) {
+  label(name);
+  const std::string id = std::string("##") + name;
+  std::string shown = edited_field_ == name ? edited_text_ : value;
+  ImGui::InputTextWithHint(id.c_str(), hint, &shown);
+  if (ImGui::IsItemActive()) {
+    edited_field_ = name;
+    edited_text_ = shown;
+  } else if (edited_field_ == name) {
+    edited_field_.clear();
+  }
+  if (!ImGui::IsItemDeactivatedAfterEdit() || shown == value) return false;
+  value = shown;
+  return true;
+}
+
+bool EffectsPanel::number(const char* name, const char* hint, double otherwise, double& value) {
+  std::string shown = value == otherwise ? "" : fmt::format("{:g}", value);
+  if (!text(name, hint, shown)) return false;
+  char* end = nullptr;
+  const double given = std::strtod(shown.c_str(), &end);
+  const bool is_number = !shown.empty() && *end == '\0' && std::isfinite(given) && given >= 0;
+  value = is_number ? given : otherwise;
+  return true;
+}
+
+bool EffectsPanel::draw_colours(const SceneFacts& facts, ViewerLook& look) {
+  ColourByParts parts(look.colour_by);
+  bool changed = choice("colour by", facts.is_file_of_spheres ? "the style's colours" : "the file's colours",
+                        facts.attributes, parts.attribute);
+  if (changed) parts.range.clear();  // another attribute has another range
+  ImGui::BeginDisabled(parts.attribute.empty());
+  changed = choice("map", "automatic", {"viridis", "magma", "cividis", "coolwarm", "okabe-ito"}, parts.map) || changed;
+  changed = text("range", "MIN,MAX: all values", parts.range) || changed;
+  bool log = parts.log == "log";
+  check("logarithmic", log);
+  changed = changed || log != (parts.log == "log");
+  parts.log = log ? "log" : "";
+  ImGui::EndDisabled();
+  if (changed) look.colour_by = parts.text();
+  return text("unknown", "grey", look.nan_colour) || changed;
+}
+
+bool EffectsPanel::draw_light(ViewerEffects& effects, bool& shadows, ViewerLook& look) {
+  constexpr const char* kOwn = "my own";
+  std::vector<std::string> names;
+  for (const auto& preset : light_presets()) names.push_back(preset.first);
+  const bool is_preset =
+      look.lights.size() == 1 && value_named(light_presets(), look.lights.front()) != nullptr && !own_lights_;
+  const bool own = own_lights_ || (!look.lights.empty() && !is_preset);
+  std::string chosen = own ? kOwn : is_preset ? look.lights.front() : "";
+  names.emplace_back(kOwn);
+  bool changed = choice("lights", "the style's", names, chosen);
+  if (changed) {
+    own_lights_ = chosen == kOwn;
+    changed = !own_lights_;
+    if (changed) look.lights = words_of(chosen);
+  }
+  if (own) {
+    std::string written = joined(look.lights);
+    if (text("my lights", "from:-1,1,1::1:20", written)) {
+      look.lights = words_of(written);
+      own_lights_ = false;
+      changed = true;
+    }
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(
+          "from:RIGHT,UP,TOWARDS:COLOUR:STRENGTH:DEGREES around the camera,\n"
+          "at:X,Y,Z:COLOUR:STRENGTH:RADIUS in the world; more with spaces.\n"
+          "Degrees and radius make shadows soft.");
+  }
+  check("shadows", shadows);
+  ImGui::BeginDisabled(!shadows);
+  effect_slider("soft rays", effects.light_points, kMostSliderPoints);
+  ImGui::EndDisabled();
+  check("occlusion", effects.ambient_occlusion);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("ambient occlusion: places that see little are darker");
+  ImGui::BeginDisabled(!effects.ambient_occlusion);
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  if (number("reach", "no limit", kNoLimit, effects.ambient_distance) && effects.ambient_distance == 0)
+    effects.ambient_distance = kNoLimit;
+  effect_slider("directions", effects.ambient_directions, kMostSliderDirections);
+  ImGui::EndDisabled();
+  effect_slider("fog", effects.fog, 0, 1, "%.2f");
+  choice("opacity", kOpacityRules, effects.opacity_rule);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how often a sphere's opacity counts for a ray that goes through it");
+  return changed;
+}
+
+bool EffectsPanel::draw_lines(const SceneFacts& facts, ViewerEffects& effects, ViewerLook& look) {
+  label("outlines");
+  auto width = static_cast<int>(std::lround(effects.outline_px));
+  if (ImGui::SliderInt("##outlines", &width, 0, static_cast<int>(kWidestOutlinePx), width == 0 ? "none" : "%d px",
+                       ImGuiSliderFlags_AlwaysClamp))
+    effects.outline_px = width;
+  return choice("between", facts.is_file_of_spheres ? "the style's lines" : "the file's lines", facts.attributes,
+                look.crease);
+}
+
+void EffectsPanel::draw_lens(ViewerSettings& settings) {
+  Camera& camera = settings.camera;
+  const bool parallel = camera.projection == Projection::orthographic;
+  ImGui::BeginDisabled(parallel);
+  effect_slider("angle", camera.fov_deg, 1, 120, "%.0f deg");
+  const bool was_open = camera.aperture > 0;
+  if (number("aperture", "0: all is sharp", 0, camera.aperture) && camera.aperture > 0 && !was_open) {
+    settings.effects.adaptive_samples = false;
+    settings.samples_per_pixel = std::max(settings.samples_per_pixel, kSamplesOfLens);
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the lens's radius, in the file's units");
+  ImGui::EndDisabled();
+
+  // What is sharp. A choice that waits for its distance or its spheres stays.
+  ImGui::BeginDisabled(camera.aperture == 0);
+  constexpr std::array<const char*, 3> kKinds{"middle", "a distance", "selected spheres"};
+  const int given = !settings.focus_on.empty() ? 2 : camera.focus > 0 ? 1 : 0;
+  int kind = focus_kind_ < 0 ? given : focus_kind_;
+  label("sharp");
+  if (ImGui::Combo("##sharp", &kind, kKinds.data(), static_cast<int>(kKinds.size()))) {
+    focus_kind_ = kind == given || kind == 0 ? -1 : kind;
+    if (kind == 0) {
+      settings.focus_on.clear();
+      camera.focus = 0;
+    }
+  }
+  if (kind == 1 && number("distance", "", 0, camera.focus)) {
+    settings.focus_on.clear();
+    focus_kind_ = -1;
+  }
+  if (kind == 2 && text("spheres", "resname LIG", settings.focus_on)) focus_kind_ = -1;
+  ImGui::EndDisabled();
+  effect_slider("exposure", settings.effects.tone.exposure_stops, -4, 4, "%+.2f stops");
+  choice("tone", kToneCurves, settings.effects.tone.curve);
+}
+
+void EffectsPanel::draw_labels(ViewerSettings& settings) {
+  Labels& labels = settings.effects.labels;
+  text("title", "none", labels.title);
+  check("legend", labels.legend);
+  check("axes", labels.axes);
+  const bool parallel = settings.camera.projection == Projection::orthographic;
+  ImGui::BeginDisabled(!parallel && !labels.scale_bar);
+  check("scale bar", labels.scale_bar);
+  ImGui::EndDisabled();
+  if (!parallel && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("needs the projection orthographic");
+  ImGui::BeginDisabled(!labels.scale_bar);
+  std::string unit = labels.length_unit.value_or("");
+  if (text("unit", "the file's", unit)) labels.length_unit = unit.empty() ? std::nullopt : std::optional(unit);
+  ImGui::EndDisabled();
+}
+
+void EffectsPanel::draw(const Viewer& viewer, ViewerSettings& settings, ViewerLook& look, bool& look_changed) {
+  const SceneFacts& facts = viewer.facts();
+  ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y * 0.4F});
+  look_changed = false;
+  if (group("colours")) look_changed = draw_colours(facts, look) || look_changed;
+  if (group("light")) look_changed = draw_light(settings.effects, settings.shadows, look) || look_changed;
+  if (group("lines")) look_changed = draw_lines(facts, settings.effects, look) || look_changed;
+  if (group("lens")) draw_lens(settings);
+  if (group("labels")) draw_labels(settings);
+}
+
+}  // namespace bihive::window

@@ -1,0 +1,35 @@
+// The panel's groups for what a picture gets beyond plain rays: colours, light, lines, lens and labels. Each is closed
+// until somebody opens it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bihive/viewer/viewer.h"
+
+namespace bihive::window {
+
+class EffectsPanel {
+ public:
+  /// Draws the groups and changes what the user changes. `look_changed`: the look is another one.
+  void draw(const Viewer& viewer, ViewerSettings& settings, ViewerLook& look, bool& look_changed);
+
+  /// A field of text, also for other parts of the panel. True when the user has finished another text; until then
+  /// `value` stays.
+  bool text(const char* name, const char* hint, std::string& value);
+  /// The same for a number; an empty text, or one that is no number from 0, gives `otherwise`, which is shown as empty.
+  bool number(const char* name, const char* hint, double otherwise, double& value);
+
+ private:
+  bool draw_colours(const SceneFacts& facts, ViewerLook& look);
+  bool draw_light(ViewerEffects& effects, bool& shadows, ViewerLook& look);
+  bool draw_lines(const SceneFacts& facts, ViewerEffects& effects, ViewerLook& look);
+  void draw_lens(ViewerSettings& settings);
+  void draw_labels(ViewerSettings& settings);
+
+  std::string edited_field_, edited_text_;  // what is being written, and where
+  bool own_lights_ = false;                 // chosen, although there are none yet
+  int focus_kind_ = -1;                     // chosen, although its distance or selection is not given yet
+};
+
+}  // namespace bihive::window

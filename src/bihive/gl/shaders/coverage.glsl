@@ -1,0 +1,20 @@
+// Of each sample, the share of the picture that its light covers: 1 where it hits something, and less where all that it
+// meets lets light through. For transparent backgrounds.
+#include "film"
+#include "scene_hit"
+
+void main() {
+  Ray ray = sample_ray();
+  float behind = 1.0;
+  Hit hit = scene_hit(ray);
+#ifdef LAYERS
+  while (is_layer(hit.sphere)) {
+    behind *= passing(hit.sphere).x;
+    ray.t_passed = hit.t;
+    ray.id_passed = int(sphere_id(hit.sphere));
+    hit = scene_hit(ray);
+  }
+#endif
+  if (hit.sphere != kNothing) behind = 0.0;
+  add_to_film(vec4(1.0 - behind, 0.0, 0.0, 0.0));
+}

@@ -1,0 +1,23 @@
+// Periodic cells as files state them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "bihive/geometry/cell.h"
+
+namespace bihive {
+
+/// From the lengths a, b, c and the angles alpha, beta, gamma in degrees of a crystal: a along x, b in the plane of x
+/// and y, as PDB and mmCIF place their atoms. Nothing: the numbers are no cell, or those that files without a crystal
+/// have (lengths of 1 or 0).
+std::optional<Cell> unit_cell(const std::array<double, 6>& lengths_and_angles);
+
+/// From nine numbers with blanks between them: the vectors a, b and c one after the other.
+std::optional<Cell> cell_of_vectors(std::string_view nine);
+
+/// Whether every number is finite.
+bool is_finite(const Cell& cell);
+
+}  // namespace bihive

@@ -1,0 +1,29 @@
+// From a sphere set to a file of spheres: so that a reader can be checked, and another program can go on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bihive/geometry/sphere_set.h"
+
+namespace bihive {
+
+enum class SphereFileFormat {
+  xyz,           ///< symbol x y z
+  extended_xyz,  ///< radius and attributes as properties
+  csv,           ///< radius and attributes as columns
+  npy,           ///< n x 4: x, y, z, radius
+  ply,           ///< ascii; radius, colours and numbers as properties
+};
+
+struct WrittenSpheres {
+  std::string bytes;                  ///< the whole file
+  std::vector<std::string> left_out;  ///< what the format cannot hold, a sentence each
+};
+
+/// World units, in the set's order. Every number is the shortest decimal that reads as the same bits again; NPY holds
+/// float32, or float64 if the set's range needs it. Looks (outlines, creases, clips) are left out. Texts are changed
+/// where a format has no place for blanks or empty ones; `left_out` says so. docs/formats.md#writing lists the columns.
+WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format);
+
+}  // namespace bihive

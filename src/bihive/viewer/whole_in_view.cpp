@@ -1,0 +1,56 @@
+#include "bihive/viewer/whole_in_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bihive/math/elementary.h"
+
+namespace bihive {
+namespace {
+
+constexpr double kFreeBorder = 0.04;  // as a share of the picture's side, as framing.cpp has it
+
+// The tangent of the angle to one side of the picture, and the length of (1, tangent).
+struct Slope {
+  double tangent, length;
+
+  explicit Slope(double t) : tangent(t), length(std::sqrt(1 + t * t)) {}
+  // The distance of the eye from look_at at which a sphere touches that side from inside.
+  double distance(double aside, double depth, double radius) const {
+    return depth + (std::abs(aside) + radius * length) / tangent;
+  }
+};
+
+}  // namespace
+
+Camera with_all_in_view(const SphereSet& spheres, const Camera& camera, PictureSizePx size) {
+  const Vec3d offset = camera.eye - camera.look_at;
+  const Vec3d back = normalized(offset);
+  const Vec3d right = normalized(cross(camera.up, back));
+  const Vec3d up = cross(back, right);
+  const double shorter = std::min(size.width, size.height);
+  const double tangent = tan_deg(camera.fov_deg / 2) * (1 - 2 * kFreeBorder);
+  const Slope across{tangent * size.width / shorter}, along{tangent * size.height / shorter};
+
+  double distance = 0, side_length = 0, front = 0;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const Vec3d centre = spheres.centre(id) - camera.look_at;
+    const double radius = spheres.radius(id);
+    const double x = dot(centre, right), y = dot(centre, up), z = dot(centre, back);
+    front = std::max(front, z + radius);
+    distance = std::max({distance, across.distance(x, z, radius), along.distance(y, z, radius)});
+    side_length = std::max({side_length, 2 * (std::abs(x) + radius) * shorter / size.width,
+                            2 * (std::abs(y) + radius) * shorter / size.height});
+  }
+
+  Camera moved = camera;
+  if (camera.projection == Projection::orthographic) {
+    moved.shorter_side = std::max(camera.shorter_side, side_length / (1 - 2 * kFreeBorder));
+    // Origins are rounded to binary32, and must not come to lie in a sphere.
+    distance = front + 0.5 * moved.shorter_side;
+  }
+  if (distance > length(offset)) moved.eye = camera.look_at + distance * back;
+  return check_camera(moved) ? moved : camera;
+}
+
+}  // namespace bihive

@@ -1,0 +1,278 @@
+#!/usr/bin/env python3
+"""Lets each call of a program fail in turn, and judges what the program makes of it.
+
+Usage: run_faults.py [--most N] [--jobs J] [--command NAME...] [--kind KIND...] BIHIVE FAULTS_LIBRARY
+
+For each command and each kind of call (faults.cpp) it runs the program again and again: the first call fails, then the second,
+until a run meets no fault. With --most N it takes N of these calls, evenly spread.
+What the program reserves before it looks at the words of its command (some 6,500 allocations) fails in one command alone.
+
+A run is right if
+  - the exit code is 0, 1 or 3, and no signal ended the program;
+  - stderr is empty, or with exit code 1 or 3 one line of error, after warnings at most;
+  - with exit code 0 the outputs are the bytes of a run without faults; otherwise all of them are these, or all are the old
+    files (absent, or those of a previous run);
+  - no other file has come, gone or changed, and no descriptor is open at the end.
+Prints a line for each run that is not, a table, and ends with exit code 1 if there is one.
+"""
+
+import argparse
+import concurrent.futures
+import fcntl
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+XYZ = "4\nfour\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\nC 1 1 1\n"
+SMALL = ["--size", "16x12", "--samples", "1", "--threads", "3"]
+PATIENCE_S = 120
+GLIBC_ENDS_IT = "Fatal glibc error: failed to register TLS destructor: out of memory"
+
+# Name: words of the command, files that it writes.
+COMMANDS = {
+    "render": (["render", "in.xyz", "--size", "160x130", "--samples", "1", "--threads", "3", "-o", "a.png"], ["a.png"]),
+    "render-exr": (["render", "in.xyz", *SMALL, "-o", "a.exr", "--layers", "radiance,depth,id"], ["a.exr"]),
+    "render-json": (["render", "scene.json", *SMALL, "-o", "a.png", "--json"], ["a.png"]),
+    "render-stream": (["render", "in.xyz", *SMALL, "-o", "-"], []),
+    "render-look": (["render", "in.xyz.gz", *SMALL, "-o", "a.png", "--select", "element O or within 1 of element C",
+                     "--colour", "red", "--view-from", "iso", "--legend", "--title", "T"], ["a.png"]),
+    "trace": (["trace", "in.xyz", "--rays", "rays.npy", "--t", "t.npy", "--id", "id.npy", "--threads", "2"],
+              ["t.npy", "id.npy"]),
+    "scene-json": (["scene", "four-spheres", "-o", "four.json"], ["four.json"]),
+    "scene-npy": (["scene", "scenario2", "--count", "64", "-o", "two.npy"], ["two.npy"]),
+    "info": (["info", "in.pdb", "--attributes"], []),
+    "info-json": (["info", "in.cif", "--json"], []),
+    "info-lammps": (["info", "in.lammpstrj"], []),
+    "info-csv": (["info", "in.csv"], []),
+    "select": (["select", "in.pdb", "within 3 of (name CA and not chain B) or index 0..1"], []),
+    "stats": (["stats", "in.xyz", "--json"], []),
+    "styles": (["styles"], []),
+    "help": (["render", "--help"], []),
+    "usage": (["render", "in.xyz", "-o", "a.jpg"], []),
+    "missing": (["info", "missing.xyz"], []),
+    "version": (["--version"], []),
+}
+WHOLE = "styles"  # of this command every allocation fails
+OF_ITS_OWN = 100  # allocations of --version that other commands need not have
+USAGE = {"usage"}  # these end with exit code 2 without a fault, and may end so with one
+MISSING = {"missing"}  # ... with 1
+
+# In this order; those with + let all later calls fail too.
+KINDS = ["malloc", "malloc+", "open", "open+", "read", "read-short", "read-eintr", "write", "write+", "write-short",
+         "write-eintr", "fsync", "close", "rename", "linkat", "unlink", "mmap", "pthread_create", "pthread_create+", "fchmod",
+         "fchown", "flock", "ftruncate", "lseek", "access"]
+
+
+def inputs():
+    """Name: bytes of the files in a command's folder."""
+    import gzip
+    import struct
+
+    atom = "ATOM  {:5d}  {:<3} {} {}{:4d}    {:8.3f}{:8.3f}{:8.3f}  1.00 20.00           {}  \n"
+    pdb = "".join(atom.format(i, n, "ALA", c, i, i * 1.5, i % 3, i % 2, e) for i, (n, c, e) in enumerate(
+        [("N", "A", "N"), ("CA", "A", "C"), ("C", "A", "C"), ("O", "B", "O"), ("CB", "B", "C")], 1))
+    cif = ("data_x\nloop_\n_atom_site.group_PDB\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.Cartn_x\n"
+           "_atom_site.Cartn_y\n_atom_site.Cartn_z\nATOM C CA 0 0 0\nATOM O O 1 2 3\n")
+    lammps = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
+              "ITEM: ATOMS id type x y z q\n1 1 0 0 0 0.5\n2 2 1 1 1 -0.5\n")
+    head = "{'descr': '<f4', 'fortran_order': False, 'shape': (40, 6), }"
+    head += " " * (63 - (10 + len(head)) % 64) + "\n"
+    numbers = [0.1 * i - 2 for i in range(40) for _ in range(3)]
+    rows = b"".join(struct.pack("<6f", *numbers[3 * i:3 * i + 3], 1, 0.1 * i, -1) for i in range(40))
+    return {
+        "in.xyz": XYZ.encode(),
+        "in.xyz.gz": gzip.compress(XYZ.encode(), mtime=0),
+        "in.pdb": pdb.encode(),
+        "in.cif": cif.encode(),
+        "in.lammpstrj": lammps.encode(),
+        "in.csv": b"x,y,z,r,charge,part\n0,0,0,1,-1,a\n1,1,1,0.5,2,b\n",
+        "scene.json": b'{"bihive_scene": 2, "name": "s", "spheres": {"file": "in.xyz"}, "lights": [{"position": [9, 9, 9]}], '
+                      b'"looks": [{"select": "element O", "colour": "#ff0000"}]}',
+        "rays.npy": b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head.encode() + rows,
+    }
+
+
+class Case:
+    """One command in folders of its own."""
+
+    def __init__(self, options, name, nameless, shared):
+        self.program, self.library = os.path.abspath(options.bihive), os.path.abspath(options.library)
+        self.name, self.nameless = name, nameless
+        self.words, self.outputs = COMMANDS[name]
+        self.files = inputs()
+        self.prepared = lambda folder: None
+        self.top = tempfile.mkdtemp(prefix="bihive_faults_")
+        clean = self.run("", 0)
+        expected = 2 if name in USAGE else 1 if name in MISSING else 0
+        if clean["code"] != expected:
+            raise SystemExit(f"{name} ends with {clean['code']} without a fault: {clean['err']}")
+        self.code = expected
+        self.shared = shared
+        self.ended_by_glibc = 0
+        pairs = [note.split() for note in clean["notes"] if note]
+        self.calls = {pair[0]: int(pair[1]) for pair in pairs if len(pair) == 2}
+        self.new = {output: clean["files"].get(output) for output in self.outputs}
+        self.old = {output: b"old " + output.encode() for output in self.outputs}
+
+    def run(self, kind, at):
+        folder = os.path.join(self.top, f"{kind}.{at}")
+        os.mkdir(folder)
+        files = dict(self.files)
+        if kind and at % 2:
+            files.update(self.old)
+        for name, data in files.items():
+            with open(os.path.join(folder, name), "wb") as file:
+                file.write(data)
+        self.prepared(folder)
+        report = folder + ".report"
+        environment = {"PATH": "/usr/bin:/bin", "LD_PRELOAD": self.library, "BIHIVE_FAULT_REPORT": report}
+        if kind:
+            environment["BIHIVE_FAULT"] = f"{kind.rstrip('+')}:{at}{'+' if kind.endswith('+') else ''}"
+        if not self.nameless:
+            environment["BIHIVE_FAULT_NO_TMPFILE"] = "1"
+        try:
+            done = subprocess.run([self.program, *self.words], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                                  capture_output=True, timeout=PATIENCE_S)
+            code, out, err = done.returncode, done.stdout, done.stderr.decode(errors="replace")
+        except subprocess.TimeoutExpired:
+            code, out, err = "no end", b"", ""
+        found = {}
+        for name in sorted(os.listdir(folder)):
+            with open(os.path.join(folder, name), "rb") as file:
+                found[name] = file.read()
+        notes = []
+        if os.path.exists(report):
+            with open(report) as file:
+                notes = file.read().split("\n")
+            os.remove(report)
+        shutil.rmtree(folder)
+        return {"code": code, "out": out, "err": err, "files": found, "notes": notes, "before": files}
+
+    def faults_of(self, kind, result):
+        """What is wrong with a run, as a list of texts."""
+        wrong = []
+        # The C library ends the program itself where it finds no memory for this; docs/reliability.md states it. Other
+        # threads may have said before that there is none. All else is judged.
+        if kind.startswith("malloc") and GLIBC_ENDS_IT in result["err"] and result["code"] in (-6, 1):
+            self.ended_by_glibc += 1
+            result["code"], result["err"] = 1, "bihive: error: not enough memory\n"
+        code, lines = result["code"], result["err"].splitlines()
+        if code not in {0, 1, 3, self.code}:
+            wrong.append(f"exit code {code}")
+        # Where the picture goes to stdout, "-: 16 x 12 ..." is the report.
+        errors = [line for line in lines if not line.startswith(("bihive: warning: ", "-: 16 x 12"))]
+        if code == 0 and errors:
+            wrong.append("success, and lines on stderr")
+        if code in (1, 2, 3) and (len(errors) != 1 or not errors[0].startswith("bihive: error: ")):
+            wrong.append(f"{len(errors)} lines of error")
+        files, before = result["files"], result["before"]
+        is_new = [files.get(name) == self.new[name] for name in self.outputs]
+        is_old = [files.get(name) == before.get(name) for name in self.outputs]
+        if code == 0 and not all(is_new):
+            wrong.append("success, and an output is not whole")
+        if not all(is_new) and not all(is_old):
+            wrong.append("outputs are neither whole nor as before")
+        others = {name: data for name, data in files.items() if name not in self.outputs}
+        # Where removing is what fails, something stays.
+        if others != self.files and not (kind == "unlink" and set(self.files) < set(others)):
+            wrong.append("other files: " + ", ".join(sorted(set(others) ^ set(self.files))))
+        if "open 0" not in result["notes"] and any(note.startswith("open") for note in result["notes"]):
+            wrong.append("descriptors stay " + " ".join(note for note in result["notes"] if note.startswith("open")))
+        return wrong
+
+    def close(self):
+        shutil.rmtree(self.top)
+
+
+def leftovers(options):
+    """Where files have names from the beginning, a run removes what a killed one left, and nothing else."""
+    case = Case(options, "scene-npy", False, 0)
+    dead, alive, other = [".bihive-" + name + ".part" for name in ["0123456789abcdef", "fedcba9876543210", "short"]]
+    case.files.update({dead: b"left", alive: b"in use", other: b"no file of ours"})
+    holder = None
+
+    def hold(path):
+        nonlocal holder
+        holder = open(path, "rb")
+        fcntl.flock(holder, fcntl.LOCK_EX)
+
+    case.prepared = lambda folder: hold(os.path.join(folder, alive))
+    result = case.run("", 0)
+    holder.close()
+    case.close()
+    if dead in result["files"] or not {alive, other} <= set(result["files"]):
+        return [f"leftovers: {sorted(result['files'])}"]
+    return []
+
+
+def step(case, kind, most, pool, jobs):
+    """Lets calls of a kind fail: each until a run meets no fault, or so many of them. (runs, texts of wrong ones)"""
+    # What all commands do before they look at their words is tried once, by one of them.
+    before = case.shared if kind.startswith("malloc") and case.name != WHOLE else 0
+    runs, wrong, at = 0, [], before + 1
+    calls = case.calls.get(kind.rstrip("+"), 0) - before
+    if most and calls > most:
+        first = zlib.crc32(f"{case.name} {kind}".encode())
+        chosen = [before + 1 + (first + k * calls // most) % calls for k in range(most)]
+    else:
+        chosen = None
+    while True:
+        batch = chosen if chosen else range(at, at + 4 * jobs)
+        met_all = True
+        for n, result in pool.map(lambda n: (n, case.run(kind, n)), batch):
+            met = "fault" in result["notes"]
+            met_all = met_all and met
+            runs += met
+            for text in case.faults_of(kind, result) if met else []:
+                wrong.append(f"{case.name} {kind}:{n}: {text}: {result['err'][:300]!r}")
+        if chosen or not met_all:
+            return runs, wrong
+        at += 4 * jobs
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--most", type=int, default=0, help="runs for each command and kind; 0: all")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--command", nargs="*", default=list(COMMANDS))
+    parser.add_argument("--kind", nargs="*", default=KINDS)
+    parser.add_argument("bihive")
+    parser.add_argument("library")
+    options = parser.parse_args()
+    begin = time.monotonic()
+    version = Case(options, "version", True, 0)
+    shared = version.calls["malloc"] - OF_ITS_OWN
+    version.close()
+    all_runs, all_wrong, by_glibc = 0, leftovers(options), 0
+    for text in all_wrong:
+        print("WRONG", text)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for name in options.command:
+            for nameless in [True, False] if COMMANDS[name][1] else [True]:
+                case = Case(options, name, nameless, shared)
+                runs_of_case = {}
+                for kind in options.kind:
+                    if not nameless and kind in ("malloc", "malloc+", "read", "read-short", "read-eintr"):
+                        continue
+                    runs, wrong = step(case, kind, options.most, pool, options.jobs)
+                    runs_of_case[kind] = runs
+                    all_runs += runs
+                    all_wrong += wrong
+                    for text in wrong:
+                        print("WRONG", text, flush=True)
+                by_glibc += case.ended_by_glibc
+                case.close()
+                met = ", ".join(f"{kind} {runs}" for kind, runs in runs_of_case.items() if runs)
+                print(f"{name}{'' if nameless else ' (named files)'}: {met}", flush=True)
+    print(f"{all_runs} runs with a fault, {len(all_wrong)} wrong, {by_glibc} ended by the C library itself, "
+          f"{time.monotonic() - begin:.0f} s")
+    # No fault at all would prove nothing.
+    return 1 if all_wrong or all_runs == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,159 @@
+// Periodic cells: what files state, and where centres go by them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "support/read_text.h"
+
+namespace bihive {
+namespace {
+
+using test::error_of;
+using test::read_text;
+
+const std::string kAtom = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 20.25           N\n";
+
+Cell cell_of(const SphereFile& file) {
+  EXPECT_TRUE(file.spheres.cell().has_value());
+  return file.spheres.cell().value_or(Cell{});
+}
+
+void expect_near(Vec3d a, Vec3d b) {
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b[axis], 1e-12);
+}
+
+TEST(Cell, OfPdbHasItsFirstVectorAlongX) {
+  const Cell hexagonal =
+      cell_of(read_text("CRYST1   60.000   40.000   80.000  90.00  90.00 120.00 P 61         12\n" + kAtom, "a.pdb"));
+  expect_near(hexagonal.vectors[0], {60, 0, 0});
+  expect_near(hexagonal.vectors[1], {-20, 20 * std::sqrt(3.0), 0});
+  expect_near(hexagonal.vectors[2], {0, 0, 80});
+  const Cell tilted =
+      cell_of(read_text("CRYST1   10.000   10.000   10.000  60.00  60.00  60.00 P 1\n" + kAtom, "a.pdb"));
+  for (const Vec3d& vector : tilted.vectors) EXPECT_NEAR(length(vector), 10, 1e-12);
+  EXPECT_NEAR(dot(tilted.vectors[0], tilted.vectors[2]), 50, 1e-12);
+  EXPECT_NEAR(dot(tilted.vectors[1], tilted.vectors[2]), 50, 1e-12);
+}
+
+TEST(Cell, OfPdbWithoutACrystalIsNone) {
+  for (const char* record : {"CRYST1    1.000    1.000    1.000  90.00  90.00  90.00 P 1\n",
+                             "CRYST1    0.000    0.000    0.000  90.00  90.00  90.00 P 1\n", "CRYST1\n",
+                             "CRYST1   10.000   10.000   10.000  10.00  20.00 120.00 P 1\n", ""})
+    EXPECT_FALSE(read_text(record + kAtom, "a.pdb").spheres.cell().has_value()) << record;
+}
+
+TEST(Cell, OfMmcifIsThatOfItsBlock) {
+  const std::string atoms =
+      "loop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.type_symbol\n1 2 3 C\n";
+  const std::string cell =
+      "_cell.length_a 10(1)\n_cell.length_b 20.5\n_cell.length_c 30\n_cell.angle_alpha 90\n_cell.angle_beta 90\n"
+      "_cell.angle_gamma 90\n";
+  const Cell found = cell_of(read_text("data_a\n" + cell + atoms, "a.cif"));
+  expect_near(found.vectors[0], {10, 0, 0});
+  expect_near(found.vectors[1], {0, 20.5, 0});
+  expect_near(found.vectors[2], {0, 0, 30});
+  EXPECT_EQ(cell_of(read_text("data_a\n" + atoms + cell, "a.cif")).vectors, found.vectors);
+  EXPECT_FALSE(read_text("data_a\n" + cell + "data_b\n" + atoms, "a.cif").spheres.cell().has_value());
+}
+
+TEST(Cell, OfExtendedXyzIsTheLatticeOfItsFrame) {
+  const std::string frames =
+      "1\nLattice=\"1 2 3 4 5 6 7 8 10\" Properties=species:S:1:pos:R:3\nC 0 0 0\n"
+      "1\nProperties=species:S:1:pos:R:3 Lattice='2 0 0 0 2 0 0 0 2' Origin=\"-1 -2 -3\"\nC 0 0 0\n1\n\nC 0 0 0\n";
+  EXPECT_EQ(cell_of(read_text(frames, "a.xyz")), (Cell{{}, {Vec3d{1, 2, 3}, Vec3d{4, 5, 6}, Vec3d{7, 8, 10}}}));
+  EXPECT_EQ(cell_of(read_text(frames, "a.xyz", test::at_frame(1))),
+            (Cell{{-1, -2, -3}, {Vec3d{2, 0, 0}, Vec3d{0, 2, 0}, Vec3d{0, 0, 2}}}));
+  EXPECT_FALSE(read_text(frames, "a.xyz", test::at_frame(2)).spheres.cell().has_value());
+  EXPECT_NE(error_of("1\nLattice=\"1 2 3\"\nC 0 0 0\n", "a.xyz").find("a.xyz:2: expected nine finite numbers"),
+            std::string::npos);
+  EXPECT_NE(error_of("1\nLattice=\"1 0 0 0 1 0 0 0 nan\"\nC 0 0 0\n", "a.xyz").find("nine finite"), std::string::npos);
+}
+
+std::string dump(const std::string& box, const std::string& atoms = "1 0 0 0\n",
+                 const std::string& columns = "id x y z") {
+  return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + std::to_string(std::count(atoms.begin(), atoms.end(), '\n')) +
+         "\nITEM: BOX BOUNDS " + box + "ITEM: ATOMS " + columns + "\n" + atoms;
+}
+
+TEST(Cell, OfLammpsIsItsBox) {
+  EXPECT_EQ(cell_of(read_text(dump("pp pp pp\n-1 1\n0 4\n10 20\n"), "a.dump")),
+            (Cell{{-1, 0, 10}, {Vec3d{2, 0, 0}, Vec3d{0, 4, 0}, Vec3d{0, 0, 10}}}));
+  EXPECT_EQ(cell_of(read_text(dump("xy xz yz pp pp pp\n0 3 1\n0 2 0\n0 5 0\n"), "a.dump")),
+            (Cell{{}, {Vec3d{2, 0, 0}, Vec3d{1, 2, 0}, Vec3d{0, 0, 5}}}));
+}
+
+ReadOptions with(Wrapping wrapping) {
+  ReadOptions options;
+  options.wrapping = wrapping;
+  return options;
+}
+
+TEST(Wrap, BringsEveryCentreIntoTheCell) {
+  const std::string box = "xy xz yz pp pp pp\n-1 3.5 1.5\n0 2 0\n0 5 0\n";
+  std::string atoms;
+  for (int i = -20; i <= 20; ++i)
+    atoms += std::to_string(i) + " " + std::to_string(0.71 * i) + " " + std::to_string(-1.3 * i) + " " +
+             std::to_string(i * i * 0.37 - 40) + "\n";
+  const SphereFile before = read_text(dump(box, atoms), "a.dump");
+  const SphereFile after = read_text(dump(box, atoms), "a.dump", with(Wrapping::wrap));
+  const Cell cell = cell_of(after);
+  for (std::int64_t id = 0; id < after.spheres.size(); ++id) {
+    // The cell's vectors are (3, 0, 0), (1.5, 2, 0), (0, 0, 5).
+    const Vec3d at = after.spheres.centre(id) - cell.origin;
+    const double b = at.y / 2, c = at.z / 5, a = (at.x - 1.5 * b) / 3;
+    for (const double share : {a, b, c}) {
+      EXPECT_GE(share, -1e-6);
+      EXPECT_LT(share, 1 + 1e-6);
+    }
+    const Vec3d by = before.spheres.centre(id) - after.spheres.centre(id);
+    const double nb = by.y / 2, nc = by.z / 5, na = (by.x - 1.5 * nb) / 3;
+    for (const double n : {na, nb, nc}) EXPECT_NEAR(n, std::round(n), 1e-5);
+  }
+}
+
+TEST(Wrap, PutsTheFarBorderOnTheNearOne) {
+  const SphereFile file =
+      read_text(dump("pp pp pp\n0 1\n0 1\n0 1\n", "1 1 0 -1\n2 -1e-30 0.5 7.25\n"), "a.dump", with(Wrapping::wrap));
+  EXPECT_EQ(file.spheres.centre(0), (Vec3d{0, 0, 0}));
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{0, 0.5, 0.25}));
+}
+
+TEST(Unwrap, GoesByImageFlagsBeforeMolecules) {
+  const SphereFile file =
+      read_text(dump("pp pp pp\n0 10\n0 10\n0 10\n", "7 9 0 0 0 0 0\n7 1 0 0 1 0 -2\n", "mol x y z ix iy iz"), "a.dump",
+                with(Wrapping::unwrap));
+  EXPECT_EQ(file.spheres.centre(0), (Vec3d{9, 0, 0}));
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{11, 0, -20}));
+  EXPECT_NE(error_of(dump("pp pp pp\n0 10\n0 10\n0 10\n", "9 0 0 0.5 0 0\n", "x y z ix iy iz"), "a.dump",
+                     with(Wrapping::unwrap))
+                .find("whole numbers"),
+            std::string::npos);
+}
+
+TEST(Unwrap, KeepsMoleculesTogether) {
+  // A chain of molecule 7 that leaves the cell twice, and a single atom of another one in between.
+  const SphereFile file = read_text(
+      dump("pp pp pp\n0 10\n0 10\n0 10\n", "7 8 5 5\n3 1 1 1\n7 1 5 5\n7 4 5 9\n7 7 5 2\n7 0.5 5 2\n", "mol x y z"),
+      "a.dump", with(Wrapping::unwrap));
+  const std::array<Vec3d, 6> expected{Vec3d{8, 5, 5},  Vec3d{1, 1, 1},   Vec3d{11, 5, 5},
+                                      Vec3d{14, 5, 9}, Vec3d{17, 5, 12}, Vec3d{20.5, 5, 12}};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(file.spheres.centre(static_cast<std::int64_t>(i)), expected[i]) << i;
+}
+
+TEST(Replicate, CountsTheMiddleOfAllCopies) {
+  ReadOptions options;
+  options.replicate = {3, 1, 1};
+  options.recenter = true;
+  const SphereFile file = read_text(dump("pp pp pp\n0 2\n0 2\n0 2\n", "1 0 0 0\n2 1 1 1\n"), "a.dump", options);
+  EXPECT_EQ(file.recentred_by, (Vec3d{2.5, 0.5, 0.5}));
+  EXPECT_EQ(cell_of(file).origin, (Vec3d{-2.5, -0.5, -0.5}));
+  EXPECT_EQ(file.spheres.total_size(), 6);
+  EXPECT_EQ(file.spheres.centre(5), (Vec3d{2.5, 0.5, 0.5}));
+}
+
+}  // namespace
+}  // namespace bihive

@@ -1,0 +1,282 @@
+// Faults that the page once had: each test fails on the page before.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { made_files, ways_in } from './page_files.mjs';
+import {
+  and_settle, assert_same_picture, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
+  scratch, set_value, settled, sheet_still, shown_error, source,
+} from './page_kit.mjs';
+import { serve } from './page_server.mjs';
+
+// From a small phone to a large screen.
+const sizes = [[320, 480], [360, 740], [768, 1024], [1280, 800], [2560, 1440]];
+const small = { viewport: { width: 800, height: 240 } };
+const molecule = { name: 'mine.pdb', bytes: readFileSync(join(source, 'data/1hpv.pdb')) };
+const points = { name: 'points.csv', bytes: Buffer.from('x,y,z\n0,0,0\n1,0,0\n0,2,0\n') };
+
+let browser, server;
+before(async () => {
+  browser = await launch();
+  server = await serve(folder);
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const open_panel = async (page) => {
+  if ((await page.getAttribute('#panel_toggle', 'aria-expanded')) === 'true') return;
+  await page.click('#panel_toggle');
+  await sheet_still(page);
+};
+const scrolled = (page) =>
+  page.evaluate(() => [...document.querySelectorAll('html, body, main, #stage, #picture')].map((box) => [box.scrollTop, box.scrollLeft]).flat());
+const not_scrolled = async (page, what) => assert.deepEqual(new Set(await scrolled(page)), new Set([0]), what);
+
+test('a link made from a file of one’s own asks for that file, and gives its camera to no other', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => ways_in.picker(page, molecule));
+  await and_settle(page, () => page.click('[data-side=left]'));
+  await and_settle(page, () => page.press('#picture', 'ArrowUp'));
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  const state = await link_state(page);
+  assert.deepEqual(state.source, { file: 'mine.pdb' });
+  const picture = await saved_picture(page, 96, 64);
+
+  const other = await open_page(browser, page.url(), small);
+  assert.ok(await other.page.isVisible('#ask'));
+  assert.match(await other.page.textContent('#ask'), /made for your file mine\.pdb.*Open mine\.pdb/s);
+  assert.equal(await other.page.getAttribute('#ask', 'role'), 'alert');
+  const fresh = await open_page(browser, server.url, small);
+  assert.deepEqual((await link_state(other.page)).settings.camera, (await link_state(fresh.page)).settings.camera);
+  await fresh.context.close();
+
+  // Another file stays as it is, and the link waits on.
+  await and_settle(other.page, () => ways_in.picker(other.page, { ...made_files[0], name: 'another.pdb' }));
+  assert.match(await other.page.textContent('#ask'), /another\.pdb is open.*made for mine\.pdb/);
+  assert.notDeepEqual((await link_state(other.page)).settings.camera, state.settings.camera);
+
+  // Its own file comes by the box's button, and with it everything else.
+  const chooser = other.page.waitForEvent('filechooser');
+  await other.page.focus('#ask_open');
+  await other.page.keyboard.press('Enter');
+  const { name, bytes } = molecule;
+  await and_settle(other.page, async () =>
+    (await chooser).setFiles({ name, mimeType: 'application/octet-stream', buffer: bytes }));
+  assert.ok(await other.page.isHidden('#ask'));
+  assert.deepEqual(await link_state(other.page), state);
+  assert_same_picture(await saved_picture(other.page, 96, 64), picture, 'by the link');
+  for (const one of [{ context, complaints }, other]) {
+    no_complaints(one.complaints);
+    await one.context.close();
+  }
+});
+
+for (const [width, height] of sizes)
+  test(`by click and by Tab nothing scrolls the picture away, ${width} x ${height}`, async () => {
+    const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width, height } });
+    await and_settle(page, () => set_value(page, '#samples', 1));
+    await open_panel(page);
+    await page.evaluate(() => document.querySelectorAll('details.group').forEach((group) => (group.open = true)));
+
+    // Clicks on what stands for hidden inputs, far down in the panel.
+    for (const control of ['#style input[value=plain] + *', '#theme input[value=dark] + span', '#engine input[value=cpu] + span', '#theme input[value=auto] + span']) {
+      await page.locator(control).scrollIntoViewIfNeeded();
+      await page.click(control);
+      await not_scrolled(page, `a click on ${control}`);
+    }
+
+    // Tab goes to every control once; each is seen while it has the focus.
+    const wanted = await page.$$eval('#panel_body :is(input, select, button, summary)', (all) =>
+      all.filter((one) => !one.disabled && one.getClientRects().length > 0).length);
+    await page.focus(width <= 760 ? '#panel_toggle' : '#built_in');
+    let seen = 0;
+    for (let i = 0; i < wanted + 3; ++i) {
+      await page.keyboard.press('Tab');
+      const place = await page.evaluate(() => {
+        const focused = document.activeElement;
+        if (!focused || !focused.closest('#panel_body')) return null;
+        const box = (focused.closest('label') ?? focused).getBoundingClientRect();
+        const visible = box.bottom > 0 && box.top < innerHeight && box.right > 0 && box.left < innerWidth;
+        return { name: focused.id || focused.textContent.trim() || focused.value, visible, wide: box.right > innerWidth + 1 };
+      });
+      if (!place) break;
+      ++seen;
+      assert.ok(place.visible && !place.wide, `${place.name} is seen while it has the focus`);
+      await not_scrolled(page, `Tab to ${place.name}`);
+    }
+    assert.ok(seen > 40, `Tab reaches ${seen} controls`);
+    const box = await page.locator('#picture').boundingBox();
+    assert.deepEqual([box.x, box.y], [0, 0], 'the picture is where it was');
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    await page.screenshot({ path: join(scratch, `panel-${width}x${height}.png`) });
+    no_complaints(complaints);
+    await context.close();
+  });
+
+test('notes and errors go with the file that they are about', async () => {
+  const { page, context } = await open_page(browser, server.url, small);
+  await and_settle(page, () => ways_in.picker(page, points));
+  await page.waitForSelector('#messages .message');
+  assert.match(await page.textContent('#messages'), /radius/);
+  await and_settle(page, () => ways_in.picker(page, made_files[5]));
+  assert.equal(await page.locator('#messages .message').count(), 0, 'no words about the file before');
+  await context.close();
+});
+
+test('progress ends with the first picture, not before', async () => {
+  const { page, context } = await open_page(browser, server.url, small);
+  // Every end of the progress, and whether the new scene's picture was there.
+  await page.evaluate(() => {
+    window.ends = [];
+    const canvas = document.getElementById('badge_frame');
+    new MutationObserver(() => (window.drawn = true)).observe(canvas, { childList: true });
+    new MutationObserver(() => {
+      const busy = document.getElementById('busy');
+      if (!busy.hidden) window.drawn = false;
+      else window.ends.push(window.drawn);
+    }).observe(document.getElementById('busy'), { attributes: true, attributeFilter: ['hidden'] });
+  });
+  await and_settle(page, () => ways_in.picker(page, molecule));
+  assert.deepEqual(await page.evaluate(() => window.ends), [true]);
+  await context.close();
+});
+
+test('keys move the picture before anybody has clicked it', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  const camera = async () => (await link_state(page)).settings.camera;
+  const first = await camera();
+  await page.evaluate(() => document.activeElement?.blur());
+  await and_settle(page, () => page.keyboard.press('ArrowLeft'));
+  const turned = await camera();
+  assert.notDeepEqual(turned.eye, first.eye);
+  await and_settle(page, () => page.click('[data-side=front]'));
+  await and_settle(page, () => page.keyboard.press('4'));
+  assert.equal((await link_state(page)).settings.view, 'normal', 'also after a click on a button');
+  await and_settle(page, () => page.keyboard.press('1'));
+
+  // Fields keep the words that are written into them, and sliders their keys.
+  await page.focus('#url');
+  await page.keyboard.type('4e+');
+  await page.focus('#recursion');
+  const before = await page.inputValue('#recursion');
+  await page.keyboard.press('ArrowRight');
+  assert.notEqual(await page.inputValue('#recursion'), before);
+  const state = await link_state(page);
+  assert.equal(state.settings.view, 'shaded');
+  assert.equal(await page.inputValue('#url'), '4e+');
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a scene that turns for two seconds announces nothing', async () => {
+  const { page, context } = await open_page(browser, server.url, small);
+  await page.evaluate(() => {
+    window.announced = [];
+    const live = (node) => {
+      for (let box = node.nodeType === 1 ? node : node.parentElement; box; box = box.parentElement) {
+        const said = box.getAttribute('aria-live');
+        if (said) return said !== 'off';
+        if (['status', 'alert', 'log'].includes(box.getAttribute('role')) || box.localName === 'output') return true;
+      }
+      return false;
+    };
+    new MutationObserver((records) => {
+      for (const { target } of records) if (live(target)) window.announced.push(target.textContent);
+    }).observe(document.body, { subtree: true, childList: true, characterData: true });
+  });
+  const end = Date.now() + 2000;
+  let moves = 0;
+  for (; Date.now() < end; ++moves) {
+    await page.press('#picture', 'ArrowLeft');
+    await page.waitForTimeout(20);
+  }
+  await settled(page);
+  assert.ok(moves > 10);
+  assert.deepEqual(await page.evaluate(() => window.announced), []);
+  await context.close();
+});
+
+test('without JavaScript, or without OffscreenCanvas, the page says so', async () => {
+  const context = await browser.newContext({ javaScriptEnabled: false });
+  const page = await context.newPage();
+  await page.goto(server.url);
+  assert.match(await page.innerText('body'), /JavaScript is\s+switched off here/);
+  await context.close();
+
+  const lacking = await browser.newContext();
+  await lacking.addInitScript(() => {
+    delete window.OffscreenCanvas;
+    delete HTMLCanvasElement.prototype.transferControlToOffscreen;
+  });
+  const poor = await lacking.newPage();
+  const faults = [];
+  poor.on('pageerror', (error) => faults.push(error.message));
+  await poor.goto(server.url);
+  assert.match(await shown_error(poor), /This browser has no OffscreenCanvas, so the page cannot draw/);
+  assert.deepEqual(faults, []);
+  await lacking.close();
+});
+
+test('a long molecule stays in the picture while it turns', async () => {
+  const { page, context } = await open_page(browser, server.url, { viewport: { width: 800, height: 300 } });
+  const rod = `x,y,z,r\n${Array.from({ length: 81 }, (_, i) => `0,0,${i - 40},1`).join('\n')}\n`;
+  await and_settle(page, () => ways_in.picker(page, { name: 'rod.csv', bytes: Buffer.from(rod) }));
+  await and_settle(page, () => page.selectOption('#background', 'none'));
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  for (let i = 0; i < 3; ++i) {
+    await and_settle(page, () => page.press('#picture', 'ArrowLeft'));
+    const png = await saved_picture(page, 468, 300);
+    const clear = await page.evaluate(async (base64) => {
+      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+      const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+      canvas.drawImage(bitmap, 0, 0);
+      const { data, width, height } = canvas.getImageData(0, 0, bitmap.width, bitmap.height);
+      let opaque = 0;
+      for (let y = 0; y < height; ++y) opaque += data[4 * y * width + 3] + data[4 * (y * width + width - 1) + 3];
+      return opaque === 0 && data.some((value, i) => i % 4 === 3 && value > 0);
+    }, png.toString('base64'));
+    assert.ok(clear, `nothing is cropped at the left and right border after ${i + 1} steps`);
+  }
+  await context.close();
+});
+
+test('a radius is a field and an address, and messages name the field', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  await and_settle(page, () => ways_in.picker(page, points));
+  const words = await page.textContent('#messages');
+  assert.match(words, /“Radius” in the panel sets another/);
+  assert.doesNotMatch(words, /--/);
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#radius', 0.25));
+  const state = await link_state(page);
+  assert.deepEqual(state.source, { file: 'points.csv', reading: { radius: 0.25 } });
+  assert.equal(state.settings.samples_per_pixel, 1, 'settings stay');
+  const file = join(scratch, 'points.csv');
+  writeFileSync(file, points.bytes);
+  const native = (...options) => native_picture(file, 'radius', '--size', '468x240', '--samples', '1', ...options);
+  assert_same_picture(await saved_picture(page, 468, 240), native('--radius', '0.25'), 'a radius of 0.25');
+  await and_settle(page, () => set_value(page, '#radius_scale', 3));
+  assert_same_picture(await saved_picture(page, 468, 240), native('--radius', '0.25', '--radius-scale', '3'), 'times 3');
+  await and_settle(page, () => set_value(page, '#radius', ''));
+  await and_settle(page, () => set_value(page, '#radius_scale', ''));
+  assert_same_picture(await saved_picture(page, 468, 240), native(), 'the file’s own');
+  no_complaints(complaints);
+  await context.close();
+
+  const asked = await open_page(browser, `${server.url}?radius=0.5&radius_scale=2`, small);
+  await and_settle(asked.page, () => ways_in.picker(asked.page, points));
+  assert.equal(await asked.page.inputValue('#radius'), '0.5');
+  await and_settle(asked.page, () => set_value(asked.page, '#samples', 1));
+  assert_same_picture(await saved_picture(asked.page, 468, 240), native('--radius', '0.5', '--radius-scale', '2'), 'by address');
+  await asked.context.close();
+
+  const wrong = await open_page(browser, `${server.url}?radius=wide`, small);
+  assert.match(await shown_error(wrong.page), /radius=wide in the address: expected a number from 0/);
+  await wrong.context.close();
+});

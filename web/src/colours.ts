@@ -1,0 +1,121 @@
+// The panel's controls of the look that are for all spheres: lights, lines between groups, and colours by an attribute.
+import { element } from './dom';
+import type { ColouredBy, Facts, Look } from './protocol';
+
+const presets = ['studio', 'cloudy', 'headlight', 'thesis'];
+const grey = '#808080';
+
+/** The parts of ATTR:MAP:MIN,MAX:log, as `bihive render --colour-by` takes it. */
+interface ColourBy {
+  attribute: string;
+  map: string;
+  min: string;
+  max: string;
+  log: boolean;
+}
+
+export function parts_of(text: string): ColourBy {
+  const [attribute = '', map = '', range = '', log = ''] = text.split(':');
+  const [min = '', max = ''] = range.split(',');
+  return { attribute, map, min, max, log: log === 'log' };
+}
+
+export function text_of({ attribute, map, min, max, log }: ColourBy): string {
+  if (attribute === '') return '';
+  const parts = [attribute, map, min !== '' && max !== '' ? `${min},${max}` : '', log ? 'log' : ''];
+  while (parts.at(-1) === '') parts.pop();
+  return parts.join(':');
+}
+
+// A list with a first entry of its own; a name that is not in it is added.
+function fill(select: HTMLSelectElement, first: string, names: string[]): void {
+  const option = (value: string, text: string) => Object.assign(document.createElement('option'), { value, textContent: text });
+  select.replaceChildren(option('', first), ...names.map((name) => option(name, name)));
+}
+
+function choose(select: HTMLSelectElement, value: string): void {
+  if (![...select.options].some((option) => option.value === value)) select.add(new Option(value, value));
+  select.value = value;
+}
+
+export class ColourControls {
+  private readonly lights = element<HTMLSelectElement>('lights');
+  private readonly own_lights = element<HTMLInputElement>('own_lights');
+  private readonly crease = element<HTMLSelectElement>('crease');
+  private readonly attribute = element<HTMLSelectElement>('colour_by');
+  private readonly map = element<HTMLSelectElement>('colour_map');
+  private readonly min = element<HTMLInputElement>('colour_min');
+  private readonly max = element<HTMLInputElement>('colour_max');
+  private readonly log = element<HTMLInputElement>('colour_log');
+  private readonly nan_colour = element<HTMLInputElement>('nan_colour');
+
+  constructor(private readonly change: (changes: Partial<Look>) => void) {
+    this.lights.addEventListener('change', () => this.change_lights());
+    this.own_lights.addEventListener('change', () => this.change_lights());
+    this.crease.addEventListener('change', () => change({ crease: this.crease.value }));
+    this.attribute.addEventListener('change', () => {
+      // Another attribute has another range.
+      this.min.value = this.max.value = '';
+      this.change_colours();
+    });
+    for (const input of [this.map, this.min, this.max, this.log])
+      input.addEventListener('change', () => this.change_colours());
+    this.nan_colour.addEventListener('change', () => change({ nan_colour: this.nan_colour.value }));
+  }
+
+  private change_lights(): void {
+    const own = this.lights.value === 'own';
+    this.show_own_lights(own);
+    const texts = this.own_lights.value.split(/\s+/).filter(Boolean);
+    if (own && texts.length === 0) return this.own_lights.focus();
+    this.change({ lights: own ? texts : this.lights.value === '' ? [] : [this.lights.value] });
+  }
+
+  private show_own_lights(own: boolean): void {
+    element('own_lights_row').hidden = !own;
+    element('own_lights_help').hidden = !own;
+  }
+
+  private change_colours(): void {
+    // One end of a range waits for the other.
+    if ((this.min.value === '') !== (this.max.value === '')) return;
+    const { value: attribute } = this.attribute;
+    const parts = { attribute, map: this.map.value, min: this.min.value, max: this.max.value, log: this.log.checked };
+    this.change({ colour_by: text_of(parts) });
+  }
+
+  show_facts(facts: Facts): void {
+    const whose = facts.is_file_of_spheres ? 'the style’s' : 'the file’s';
+    fill(this.attribute, `${whose} colours`, facts.attributes);
+    fill(this.crease, facts.is_file_of_spheres ? 'the style’s lines' : 'the file’s lines', facts.attributes);
+    this.lights.options[0]!.textContent = whose;
+  }
+
+  show(look: Look): void {
+    const own = look.lights.length > 1 || (look.lights.length === 1 && !presets.includes(look.lights[0]!));
+    const waits = [this.lights, this.own_lights].includes(document.activeElement as HTMLInputElement);
+    if (own || !waits) {
+      this.lights.value = own ? 'own' : look.lights[0] ?? '';
+      this.show_own_lights(own);
+      if (own && !waits) this.own_lights.value = look.lights.join(' ');
+    }
+    choose(this.crease, look.crease);
+    const parts = parts_of(look.colour_by);
+    choose(this.attribute, parts.attribute);
+    choose(this.map, parts.map);
+    if (![this.min, this.max].includes(document.activeElement as HTMLInputElement)) {
+      this.min.value = parts.min;
+      this.max.value = parts.max;
+    }
+    this.log.checked = parts.log;
+    element<HTMLFieldSetElement>('colour_map_box').disabled = parts.attribute === '';
+    this.nan_colour.value = /^#[0-9a-f]{6}$/i.test(look.nan_colour) ? look.nan_colour : grey;
+  }
+
+  /** The range that the library took stands in the empty fields. */
+  show_ranges(coloured_by: ColouredBy[]): void {
+    const range = coloured_by.find(({ attribute }) => attribute === this.attribute.value)?.range;
+    this.min.placeholder = range ? String(+range[0].toPrecision(4)) : '';
+    this.max.placeholder = range ? String(+range[1].toPrecision(4)) : '';
+  }
+}
