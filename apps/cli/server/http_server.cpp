@@ -38,7 +38,9 @@ constexpr std::size_t kMostDiscarded = 1 << 20;
 constexpr std::size_t kChunkBytes = 256 * 1024;
 constexpr std::uint32_t kMostHeaderBytes = 16 * 1024;
 constexpr int kMostConnections = 200;
-constexpr std::chrono::milliseconds kRestAfterAnError{200};
+// A client has this time for its next request before another client may take its place.
+constexpr std::chrono::seconds kLeastPatience{2};
+constexpr std::chrono::milliseconds kRest{200};  // after an error, and while no place is free
 
 std::string text_of(beast::string_view text) {
   return {text.data(), text.size()};
@@ -211,13 +213,14 @@ struct HttpServer::State {
   }
 
   // Ends the connection that has waited longest for a request, so that those who only wait cannot keep others out.
-  // False if all are at work.
+  // False if all are at work or began to wait a moment ago.
   bool drop_longest_waiting() {
     const auto longest = std::min_element(all.begin(), all.end(), [](const Connection* a, const Connection* b) {
       if (!a->waits_since() || !b->waits_since()) return a->waits_since().has_value() && !b->waits_since();
       return *a->waits_since() < *b->waits_since();
     });
     if (longest == all.end() || !(*longest)->waits_since()) return false;
+    if (std::chrono::steady_clock::now() - *(*longest)->waits_since() < kLeastPatience) return false;
     (*longest)->drop();
     return true;
   }
@@ -225,14 +228,14 @@ struct HttpServer::State {
   void accept() {
     if (static_cast<int>(all.size()) >= kMostConnections && !drop_longest_waiting()) {
       full = true;
+      rest();
       return;
     }
     acceptor.async_accept([this](error_code code, Tcp::socket socket) {
       if (code == asio::error::operation_aborted) return;
       if (code) {  // for example, no more descriptors
         drop_longest_waiting();
-        pause.expires_after(kRestAfterAnError);
-        pause.async_wait([this](error_code) { accept(); });
+        rest();
         return;
       }
       const auto connection =
@@ -243,11 +246,22 @@ struct HttpServer::State {
     });
   }
 
+  // Accepts again after a short time, or when a connection ends.
+  void rest() {
+    pause.expires_after(kRest);
+    pause.async_wait([this](error_code code) {
+      if (code) return;
+      full = false;
+      accept();
+    });
+  }
+
   void on_end(Connection* ended) {
     all.erase(ended);
     if (!full) return;
     full = false;
-    accept();
+    // None to cancel: the rest is over, and its handler, which is on the way, accepts.
+    if (pause.cancel() > 0) accept();
   }
 
   std::function<Answer(const Question&)> handler;
