@@ -1,0 +1,31 @@
+// A file of spheres with any number of frames, opened once.
+//
+// Opening finds where each frame begins; a frame is read when it is asked for, so that memory holds the frames in use and
+// never the file.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "bihive/base/result.h"
+#include "bihive/io/read_spheres.h"
+
+namespace bihive {
+
+/// Any number of threads may read at a time.
+class Frames {
+ public:
+  virtual ~Frames() = default;
+
+  virtual std::int64_t count() const = 0;
+  /// The same, bit for bit, as read_spheres() of the same file and options with this frame, 0 to count() - 1. Errors: as
+  /// there; no such frame; the file changed meanwhile.
+  virtual Result<SphereFile> read(std::int64_t frame) const = 0;
+};
+
+/// Opens the file of any format that read_spheres() reads, or its trajectory (`options.trajectory`). `options.frame` is
+/// not looked at. Errors: as read_spheres() with frame 0.
+Result<std::shared_ptr<const Frames>> open_frames(const std::string& path, const ReadOptions& options);
+
+}  // namespace bihive
