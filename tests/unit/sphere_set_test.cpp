@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -111,6 +112,19 @@ TEST(SphereSet, CountsWhatItHolds) {
   set.attributes().type.resize(100);
   set.attributes().numbers.push_back({"charge", std::vector<double>(10)});
   EXPECT_GE(set.allocated_bytes(), bare + 400 + 80);
+}
+
+// An empty set has no spheres to count, but its copies are.
+TEST(SphereSet, an_empty_set_has_a_limit_of_copies_too) {
+  SphereSet nothing;
+  const std::array<Vec3d, 3> cube{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+  constexpr std::int32_t kMany = std::numeric_limits<std::int32_t>::max();
+  const Status status = nothing.replicate(cube, {kMany, kMany, kMany});
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("2^40"), std::string::npos) << status.error().message;
+  EXPECT_FALSE(nothing.has_images());
+  ASSERT_TRUE(nothing.replicate(cube, {2, 3, 4}));
+  EXPECT_EQ(nothing.total_size(), 0);
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ bool is_foreign_link(const struct stat& link, const struct stat& folder) {
   return of_everybody && link.st_uid != geteuid() && link.st_uid != folder.st_uid;
 }
 
-// The folder must be there, and files can be made in it.
+// The folder must be there. check_replacement() looks whether it may be written to.
 Status check_folder(const std::string& folder, const std::string& given, struct stat& info) {
   if (::stat(folder.c_str(), &info) != 0)
     return system_error("the folder " + folder + " cannot be used", given, errno, "make the folder first");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <new>
 
 #include "bihive/base/memory.h"
 #include "bihive/base/output_place.h"
@@ -39,9 +40,8 @@ ssize_t read_some(int file, char* to, std::size_t count) {
   return got;
 }
 
-}  // namespace
-
-Result<std::string> read_descriptor(int file, const std::string& name, bool* grew) {
+// May throw, where memory is short.
+Result<std::string> read_open_file(int file, const std::string& name, bool* grew) {
   if (grew != nullptr) *grew = false;
   struct stat info {};
   if (::fstat(file, &info) != 0) return system_error("cannot be read", name, errno);
@@ -61,7 +61,7 @@ Result<std::string> read_descriptor(int file, const std::string& name, bool* gre
     }
   }
 
-  // Read into the text itself, with one byte more for what has grown.
+  // Read piece by piece, up to that size.
   std::string bytes;
   if (has_size) bytes.reserve(static_cast<std::size_t>(most));
   std::string piece(kPiece, '\0');
@@ -79,11 +79,22 @@ Result<std::string> read_descriptor(int file, const std::string& name, bool* gre
       return error;
     }
   }
+  // One byte more tells whether it has grown.
   if (has_size && grew != nullptr && bytes.size() == most) {
     char more = 0;
     *grew = read_some(file, &more, 1) > 0;
   }
   return bytes;
+}
+
+}  // namespace
+
+Result<std::string> read_descriptor(int file, const std::string& name, bool* grew) {
+  try {
+    return read_open_file(file, name, grew);
+  } catch (const std::bad_alloc&) {
+    return Error{"there is not enough memory to read it", name, 0, 0, ""};
+  }
 }
 
 Result<std::string> read_file(const std::string& path, bool* grew) {

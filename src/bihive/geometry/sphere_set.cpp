@@ -132,7 +132,7 @@ Status SphereSet::replicate(const std::array<Vec3d, 3>& vectors, const std::arra
   const auto bad = [](const std::string& message) { return Error{message, "", 0, 0, ""}; };
   // Check the vectors and the counts.
   constexpr double kLargest = std::numeric_limits<float>::max();
-  double all = static_cast<double>(size());
+  double all = static_cast<double>(std::max<std::int64_t>(1, size()));  // an empty set's copies are counted too
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string name(1, "abc"[k]);
     if (counts[k] < 1) return bad("there must be at least 1 copy along the cell's vector " + name);

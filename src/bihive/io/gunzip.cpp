@@ -1,6 +1,7 @@
 #include "bihive/io/gunzip.h"
 
 #include <algorithm>
+#include <new>
 
 #include "bihive/base/memory.h"
 
@@ -37,9 +38,8 @@ struct Inflater {
   Inflater& operator=(const Inflater&) = delete;
 };
 
-}  // namespace
-
-Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
+// May throw, where memory is short.
+Result<std::string> gunzip_all(std::string_view bytes, const std::string& name) {
   const auto bad = [&name](const std::string& what) { return Error{what, name, 0, 0, ""}; };
   Inflater inflater;
   if (!inflater.ready) return bad("there is no memory left to undo gzip");
@@ -83,6 +83,16 @@ Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
     if (rest.find_first_not_of('\0') == std::string_view::npos) return unpacked;
     if (!looks_gzipped(rest)) return bad("the gzip data is damaged: something else follows its end mark");
     inflateReset(&stream);
+  }
+}
+
+}  // namespace
+
+Result<std::string> gunzip(std::string_view bytes, const std::string& name) {
+  try {
+    return gunzip_all(bytes, name);
+  } catch (const std::bad_alloc&) {
+    return Error{"there is not enough memory to unpack it", name, 0, 0, ""};
   }
 }
 
