@@ -11,9 +11,6 @@ using namespace std::string_literals;
 
 TEST(Foreign, NamesTheFormatByItsContent) {
   const std::pair<std::string, const char*> cases[] = {
-      {"\x54\0\0\0CORD"s + std::string(80, '\0'), "a DCD trajectory of CHARMM, NAMD or LAMMPS"},
-      {"\0\0\x07\xcb"s + std::string(80, '\0'), "an XTC trajectory of GROMACS"},
-      {"\0\0\x07\xc9"s + std::string(80, '\0'), "a TRR trajectory of GROMACS"},
       {"CDF\x02"s + std::string(80, '\0'), "a NetCDF file"},
       {"\x89HDF\r\n\x1a\n"s + std::string(80, '\0'), "an HDF5 file"},
       {"PK\x03\x04"s + std::string(80, '\0'), "a zip archive, as numpy.savez writes it (NPZ)"},
@@ -46,6 +43,19 @@ TEST(Foreign, NamesTheFormatByItsContent) {
       EXPECT_EQ(error.rfind(file + ": this is "s + name + ", which bihive does not read", 0), 0u) << error;
       EXPECT_NE(error.find("; "), std::string::npos) << error;
     }
+}
+
+TEST(Foreign, SaysThatATrajectoryIsReadWithItsAtoms) {
+  const std::string advice =
+      ", which is read only together with a file of its atoms; give that file first, as in 'bihive render ATOMS.gro "
+      "FILE'";
+  const std::pair<std::string, const char*> cases[] = {
+      {"\x54\0\0\0CORD"s + std::string(80, '\0'), "a DCD trajectory of CHARMM, NAMD or LAMMPS"},
+      {"\0\0\x07\xcb"s + std::string(80, '\0'), "an XTC trajectory of GROMACS"},
+      {"\0\0\x07\xc9"s + std::string(80, '\0'), "a TRR trajectory of GROMACS"},
+  };
+  for (const auto& [text, name] : cases) EXPECT_EQ(error_of(text, "a"), "a: this is "s + name + advice);
+  EXPECT_EQ(error_of("what is this?\n", "a.xtc"), "a.xtc: this is an XTC trajectory of GROMACS" + advice);
 }
 
 TEST(Foreign, GoesByTheNameWhereContentSaysNothing) {

@@ -26,8 +26,7 @@ bool is_pdb_record(std::string_view line) {
   return line.substr(0, 5) == "ATOM " || line.substr(0, 6) == "HETATM";
 }
 
-// One line with a count, a comment, then a line of at least four fields of which three are numbers. A lone number on
-// the first line is enough, so that a cut file gets the reader's own message.
+// A lone number on the first line is enough, so that a cut file gets the reader's own message.
 bool is_xyz(TextScanner scanner) {
   std::string_view field;
   if (!scanner.next_field(field) || !parse_double(field)) return false;
@@ -85,7 +84,23 @@ bool is_pqr(TextScanner scanner, const std::string& name) {
   return named_so || one_does_not_fit_pdb;
 }
 
-std::optional<Format> by_content(std::string_view bytes, const std::string& name) {
+}  // namespace
+
+std::optional<Format> format_by_name(const std::string& name) {
+  static constexpr std::pair<std::string_view, Format> endings[] = {
+      {".pdb", Format::pdb},    {".ent", Format::pdb},          {".pqr", Format::pqr},
+      {".pdbx", Format::mmcif}, {".cif", Format::mmcif},        {".mmcif", Format::mmcif},
+      {".xyz", Format::xyz},    {".extxyz", Format::xyz},       {".gro", Format::gro},
+      {".gsd", Format::gsd},    {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
+      {".csv", Format::csv},    {".tsv", Format::csv},          {".txt", Format::csv},
+      {".dat", Format::csv},    {".npy", Format::npy},
+  };
+  for (const auto& [ending, format] : endings)
+    if (name_ends(name, ending)) return format;
+  return std::nullopt;
+}
+
+std::optional<Format> format_by_content(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, 6) == "\x93NUMPY") return Format::npy;
   if (GsdFile::looks_like(bytes)) return Format::gsd;
   const std::string_view head = bytes.substr(0, kLook);
@@ -106,31 +121,9 @@ std::optional<Format> by_content(std::string_view bytes, const std::string& name
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<Format> format_by_name(const std::string& name) {
-  static constexpr std::pair<std::string_view, Format> endings[] = {
-      {".pdb", Format::pdb},    {".ent", Format::pdb},          {".pqr", Format::pqr},
-      {".pdbx", Format::mmcif}, {".cif", Format::mmcif},        {".mmcif", Format::mmcif},
-      {".xyz", Format::xyz},    {".extxyz", Format::xyz},       {".gro", Format::gro},
-      {".gsd", Format::gsd},    {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
-      {".csv", Format::csv},    {".tsv", Format::csv},          {".txt", Format::csv},
-      {".dat", Format::csv},    {".npy", Format::npy},
-  };
-  for (const auto& [ending, format] : endings)
-    if (name_ends(name, ending)) return format;
-  return std::nullopt;
-}
-
-std::optional<Format> format_by_content(std::string_view bytes, const std::string& name) {
-  return by_content(bytes, name);
-}
-
 std::string known_formats() {
   return "PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS dump "
-         "(.dump .lammpstrj), CSV or "
-         "plain "
-         "'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+         "(.dump .lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
 }
 
 }  // namespace bihive

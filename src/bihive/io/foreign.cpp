@@ -13,8 +13,7 @@ namespace {
 struct Known {
   std::string_view key, name, endings, advice;
 };
-constexpr std::string_view kTopologyFirst =
-    "it holds places without names: give the file of its atoms first, as in 'bihive render ATOMS.gro FILE'";
+constexpr std::string_view kTopologyFirst = "give that file first, as in 'bihive render ATOMS.gro FILE'";
 constexpr std::string_view kTrajectory =
     "write one frame as PDB: 'gmx trjconv -f FILE -s TOPOLOGY -dump 0 -o OUT.pdb', or MDAnalysis";
 constexpr std::string_view kMdanalysis =
@@ -70,9 +69,13 @@ constexpr Known kKnown[] = {
     {"html", "a web page (HTML)", ".html .htm", "download the file itself, not the page that links to it"},
 };
 
+ForeignFormat format_of(const Known& known) {
+  return {std::string(known.name), std::string(known.advice), known.advice == kTopologyFirst};
+}
+
 std::optional<ForeignFormat> named(std::string_view key) {
   for (const Known& known : kKnown)
-    if (known.key == key) return ForeignFormat{std::string(known.name), std::string(known.advice)};
+    if (known.key == key) return format_of(known);
   return std::nullopt;
 }
 
@@ -240,8 +243,7 @@ std::optional<ForeignFormat> foreign_by_name(const std::string& name) {
   const std::string ending = lower.substr(dot);
   for (const Known& known : kKnown) {
     const std::string endings = ' ' + std::string(known.endings) + ' ';
-    if (endings.find(' ' + ending + ' ') != std::string::npos)
-      return ForeignFormat{std::string(known.name), std::string(known.advice)};
+    if (endings.find(' ' + ending + ' ') != std::string::npos) return format_of(known);
   }
   return std::nullopt;
 }

@@ -1,4 +1,5 @@
-// Formats that bihive knows and does not read: a message that names the format and what to convert it with.
+// Formats that bihive knows and does not read, or not alone: for a message that names the format and what to do with
+// it.
 #pragma once
 
 #include <optional>
@@ -8,8 +9,9 @@
 namespace bihive {
 
 struct ForeignFormat {
-  std::string name;    ///< "a GROMACS structure (GRO)"
-  std::string advice;  ///< "convert it with 'gmx editconf -f FILE.gro -o OUT.pdb'"
+  std::string name;          ///< "a run input file of GROMACS (TPR)"
+  std::string advice;        ///< "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"
+  bool needs_atoms = false;  ///< a trajectory that io/trajectory.h reads, beside a file of its atoms
 };
 
 /// The format of unpacked bytes, by their content alone; nothing if it is none of those known.

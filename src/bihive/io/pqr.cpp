@@ -48,19 +48,15 @@ class PqrReader {
           "expected 'ATOM serial name residue [chain] number x y z charge radius' but found " + quote(scanner_.line()),
           scanner_.at_end() && !scanner_.ends_in_newline() ? "the file is cut on this line" : "");
 
-    // The last five fields are numbers.
+    // The last five fields are numbers, which may be too large or negative.
     static constexpr const char* names[] = {"x", "y", "z", "the charge", "the radius"};
     double numbers[5] = {};
     for (std::size_t i = 0; i < 5; ++i) {
       const std::string_view field = atom->numbers[i];
-      const auto bad = [&](const std::string& what) {
-        return scanner_.column_error(field.data() - scanner_.line().data() + 1, what);
-      };
-      const auto value = parse_double(field);
-      if (!value) return bad(std::string("expected a number for ") + names[i] + " but found " + quote(field));
-      if (const char* fault = i == 4 ? radius_fault(*value) : coordinate_fault(*value))
-        return bad(std::string(names[i]) + " " + fault + ": " + quote(field));
-      numbers[i] = *value;
+      numbers[i] = *parse_double(field);
+      if (const char* fault = i == 4 ? radius_fault(numbers[i]) : coordinate_fault(numbers[i]))
+        return scanner_.column_error(field.data() - scanner_.line().data() + 1,
+                                     std::string(names[i]) + " " + fault + ": " + quote(field));
     }
     spheres_.x.push_back(numbers[0]);
     spheres_.y.push_back(numbers[1]);

@@ -40,7 +40,7 @@ Result<RawSpheres> read_format(Format format, std::string_view bytes, const std:
   return Error{"unknown format", name, 0, 0, ""};
 }
 
-// The content tells, then the name. A format that is known and not read is named.
+// The content tells, then the name. A format that is known and not read, or not without another file, is named.
 Result<Format> find_format(std::string_view bytes, const std::string& name) {
   if (const auto format = format_by_content(bytes, name)) return *format;
   std::optional<ForeignFormat> foreign = foreign_by_content(bytes);
@@ -48,7 +48,11 @@ Result<Format> find_format(std::string_view bytes, const std::string& name) {
     if (const auto format = format_by_name(name)) return *format;
     foreign = foreign_by_name(name);
   }
-  if (foreign) return Error{"this is " + foreign->name + ", which bihive does not read", name, 0, 0, foreign->advice};
+  if (foreign) {
+    const char* const why = foreign->needs_atoms ? ", which is read only together with a file of its atoms"
+                                                 : ", which bihive does not read";
+    return Error{"this is " + foreign->name + why, name, 0, 0, foreign->advice};
+  }
   return Error{"this is no file of spheres in a known format", name, 0, 0, "known are " + known_formats()};
 }
 
