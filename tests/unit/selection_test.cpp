@@ -192,6 +192,7 @@ TEST(Selection, ErrorsNameThePlaceAndTheRemedy) {
       {"within 5 all", "10", "expected 'of'"},
       {"within -1 of all", "1", "at least 0"},
       {"index 5..2", "7", "the range '5..2' is empty"},
+      {"element 8..6", "9", "the range '8..6' is empty"},
       {"index solid", "7", "expected a number for 'index', found 'solid'"},
       {"phase 1..2", "7", "'phase' holds texts, and a range needs numbers"},
       {"phase > 2", "1", "'phase' holds texts, and this comparison needs numbers"},
@@ -222,6 +223,14 @@ TEST(Selection, DeepAndLongTextsAreErrors) {
   EXPECT_EQ(ids(std::string(100, '(') + "all" + std::string(100, ')')), ids("all"));
   EXPECT_THAT(error_in(table(), std::string(101, '(') + "all" + std::string(101, ')')).message,
               testing::HasSubstr("at most 100 deep"));
+  EXPECT_EQ(error_in(table(), std::string(101, '(') + "all" + std::string(101, ')')).column, 101);
+  EXPECT_EQ(ids(std::string(100, '(') + "x" + std::string(100, ')') + " > 1"), ids("x > 1"));
+  EXPECT_EQ(error_in(table(), "all or " + std::string(101, '(') + "x" + std::string(101, ')') + " > 1").column, 108);
+  // Parentheses in quotes are none, whichever way they open.
+  EXPECT_EQ(ids("phase \"" + std::string(101, '(') + "\" or x > 1"), ids("x > 1"));
+  EXPECT_THAT(
+      error_in(table(), "phase \"" + std::string(30000, ')') + "\" or " + std::string(30000, '(') + "all").message,
+      testing::HasSubstr("at most 100 deep"));
   EXPECT_THAT(error_in(table(), std::string(70000, ' ') + "all").message, testing::HasSubstr("at most 65536 bytes"));
   EXPECT_EQ(ids(std::string(60000, '!') + "x > 1"), ids("x > 1"));
   EXPECT_EQ(ids(std::string(60001, '!') + "x > 1"), ids("not x > 1"));

@@ -161,10 +161,16 @@ class Evaluation {
     return Done{};
   }
 
+  Status check_range(const SelectionValue& value) const {
+    if (value.first <= value.last) return Done{};
+    return error(value.place, "the range " + quote(value.text) + " is empty: its first number is above its last");
+  }
+
   Result<SphereMask> elements(const Expression& expression) const {
     std::vector<bool> wanted(256, false);
     for (const SelectionValue& value : expression.values) {
       if (value.kind != SelectionValue::Kind::text) {
+        if (Status status = check_range(value); !status) return status.error();
         for (std::size_t number = 0; number < wanted.size(); ++number)
           if (double(number) >= value.first && double(number) <= value.last) wanted[number] = true;
         continue;
@@ -192,8 +198,7 @@ class Evaluation {
       if (value.kind == SelectionValue::Kind::text)
         return error(value.place, "expected a number for " + quote(expression.name) + ", found " + quote(value.text),
                      "write numbers, or ranges such as 10..20");
-      if (value.first > value.last)
-        return error(value.place, "the range " + quote(value.text) + " is empty: its first number is above its last");
+      if (Status status = check_range(value); !status) return status.error();
     }
     const std::vector<NumberRange> ranges = disjoint_ranges(expression.values);
     return mask_by(

@@ -5,6 +5,7 @@
 #include <new>
 #include <tao/pegtl.hpp>
 #include <tao/pegtl/contrib/parse_tree.hpp>
+#include <type_traits>
 #include <utility>
 
 #include "bihive/io/parse_number.h"
@@ -141,11 +142,28 @@ constexpr unsigned kExpectedBy<grammar::close> = kClose;
 template <>
 constexpr unsigned kExpectedBy<grammar::end_of_text> = kEnd;
 
+// The grammar's recursion went too far; `place`: behind the parenthesis that opens one level too many.
+struct TooDeep {
+  TextPlace place;
+};
+
+// How deep the grammar is in parentheses: every one leads to another disjunction, or to another sum of a comparison.
+// Counted while it reads, because only the grammar knows which parentheses stand in quotes.
+struct Nesting {
+  int disjunctions = 0, sums = 0;
+
+  void enter(int& rules, TextPlace place) {
+    ++rules;
+    if (disjunctions + sums - (sums > 0 ? 2 : 1) > kDeepestSelection) throw TooDeep{place};
+  }
+};
+
 // The farthest place that any rule reached and could not pass, and what these rules wanted there.
 struct FarthestFailure {
   TextPlace place = 0;
   unsigned expected = kNothingSpecial;
   std::vector<TextPlace> begun;  // of the kWatched rules that are being tried
+  Nesting nesting;
 
   void begin(TextPlace at) { begun.push_back(at); }
   void succeed() { begun.pop_back(); }
@@ -162,18 +180,30 @@ struct FarthestFailure {
 template <class Rule>
 struct Watch : tao::pegtl::normal<Rule> {
   static constexpr bool kWatched = kExpectedBy<Rule> != kNothingSpecial;
+  static constexpr bool kDisjunction = std::is_same_v<Rule, grammar::disjunction>;
+  static constexpr bool kSum = std::is_same_v<Rule, grammar::sum>;
 
   template <class Input>
   static void start(const Input& in, FarthestFailure& farthest) {
     if constexpr (kWatched) farthest.begin(in.position().byte);
+    if constexpr (kDisjunction) farthest.nesting.enter(farthest.nesting.disjunctions, in.position().byte);
+    if constexpr (kSum) farthest.nesting.enter(farthest.nesting.sums, in.position().byte);
   }
   template <class Input>
   static void success(const Input&, FarthestFailure& farthest) {
     if constexpr (kWatched) farthest.succeed();
+    leave(farthest);
   }
   template <class Input>
   static void failure(const Input&, FarthestFailure& farthest) {
     if constexpr (kWatched) farthest.fail(kExpectedBy<Rule>);
+    leave(farthest);
+  }
+
+ private:
+  static void leave(FarthestFailure& farthest) {
+    if constexpr (kDisjunction) --farthest.nesting.disjunctions;
+    if constexpr (kSum) --farthest.nesting.sums;
   }
 };
 
@@ -350,16 +380,6 @@ Expression expression_of(const ParseNode& node) {
   return made;
 }
 
-// The place of the parenthesis that opens one level too many; text.size() if there is none.
-TextPlace too_deep(std::string_view text) {
-  int depth = 0;
-  for (TextPlace i = 0; i < text.size(); ++i) {
-    if (text[i] == '(' && ++depth > kDeepestSelection) return i;
-    if (text[i] == ')') --depth;
-  }
-  return text.size();
-}
-
 // The place of the 'within' beyond the most that a selection may have; text.size() if there is none.
 TextPlace too_many_within(const ParseNode& node, int& left, std::size_t none) {
   if (node.is_type<grammar::within_prefix>() && --left < 0) return place_of(node);
@@ -386,9 +406,6 @@ Error selection_error(std::string_view text, TextPlace place, const std::string&
 Result<Expression> parse_expression(std::string_view text) {
   if (text.size() > kLongestSelection)
     return selection_error(text, 0, "a selection has at most " + std::to_string(kLongestSelection) + " bytes");
-  if (const TextPlace place = too_deep(text); place < text.size())
-    return selection_error(text, place,
-                           "parentheses lie at most " + std::to_string(kDeepestSelection) + " deep in each other");
   try {
     tao::pegtl::memory_input<> input(text.data(), text.size(), "");
     FarthestFailure farthest;
@@ -405,6 +422,9 @@ Result<Expression> parse_expression(std::string_view text) {
       return selection_error(text, place,
                              "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within'");
     return expression_of(whole);
+  } catch (const TooDeep& deep) {
+    return selection_error(text, text.rfind('(', deep.place),
+                           "parentheses lie at most " + std::to_string(kDeepestSelection) + " deep in each other");
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the expression
   } catch (const std::exception& e) {
