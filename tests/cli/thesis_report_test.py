@@ -1,11 +1,13 @@
 """The report of `bihive thesis`: interrupted runs, resumed runs, verdicts, and results.json against its schema."""
 
+import contextlib
 import html.parser
 import json
 import os
 import shutil
 import signal
 import subprocess
+import threading
 import time
 
 import jsonschema
@@ -146,6 +148,22 @@ class Report(ProgramTest):
         self.assertEqual(counts[1]["differs"], counts[0]["differs"] + 1)
         self.assertEqual(counts[1]["agrees"], counts[0]["agrees"] - 1)
 
+    def test_a_claim_shows_the_finding_that_decides(self):
+        """What the text states weighs more than what we infer, whichever comes first."""
+        shutil.copytree(os.path.join(SOURCE, "thesis"), self.path("values"))
+        changed = "values/figure-4.1/values.json"
+        document = json.loads(self.read(changed))
+        document["values"]["camera.look_at"]["value"] = [0, 0, 77]
+        document["values"]["light.position"]["value"] = [0, 41, 0]
+        for name in ["camera.look_at", "light.position"]:
+            document["values"][name].pop("printed", None)
+        self.write(changed, json.dumps(document))
+        self.succeed("thesis", "figure-4.1", "--quick", "--out", "out", "--values", "values")
+        (claim,) = [each for each in self.results("out")["verdicts"] if each["claim"].startswith("Camera, light and plane")]
+        self.assertEqual(claim["verdict"], "contradicted")
+        self.assertIn("41", claim["found"])
+        self.assertNotIn("77", claim["found"])
+
     def test_text_of_the_values_is_text(self):
         # Sentences come from a file: none of them may become part of the page's code.
         shutil.copytree(os.path.join(SOURCE, "thesis"), self.path("values"))
@@ -196,6 +214,18 @@ class Report(ProgramTest):
         busy, report = self.with_load(0.5)
         self.assertEqual((busy["load"]["busy"], busy["load"]["others"]), (True, 0.5))
         self.assertLess(report.index('class="banner busy"'), report.index("<nav"))
+
+    def test_damaged_steps_are_run_again(self):
+        self.succeed("thesis", "section-d", "--quick", "--out", "out")
+        whole = self.step_files("out", "section-d")
+        for i, name in enumerate(whole):
+            path = "out/steps/section-d/" + name + ".json"
+            step = json.loads(self.read(path))
+            step["load"] = [{"seconds": "1"}, {}, None, 1][i % 4]
+            self.write(path, json.dumps(step))
+        self.succeed("thesis", "section-d", "--quick", "--out", "out")
+        for name in whole:
+            self.assertIsInstance(json.loads(self.read("out/steps/section-d/" + name + ".json"))["load"]["seconds"], float)
 
     def test_an_older_run_beside_a_new_one(self):
         run = ["thesis", "section-d", "figure-4.5", "--quick", "--out"]
@@ -250,20 +280,51 @@ class Report(ProgramTest):
         run["configurations"][0]["frame_ms"] = [0]
         self.write("bad.json", json.dumps(run))
         self.write("worse.json", "[1]")
-        for file in ("bad.json", "worse.json", "none.json"):
-            done = self.run_bihive("thesis", "section-d", "--quick", "--out", "bad", "--device", file)
-            self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertIn(file, done.stderr)
+        del run["configurations"][0]
+        run["configurations"][0]["max_prims"] = 0
+        self.write("zero.json", json.dumps(run))
+        for file in ("bad.json", "worse.json", "zero.json", "none.json"):
+            self.assertIn(file + ": ", self.fail_input("thesis", "section-d", "--quick", "--out", "bad", "--device", file))
+        self.assertFalse(os.path.exists(self.path("bad")))
 
     def test_an_older_run_that_is_none(self):
         self.write("bad.json", "{}")
+        self.write("text.json", '{"bihive_results": "2", "experiments": []}')
         self.write("worse.json", '{"bihive_results": 2, "experiments": [{"id": "a", "findings": [{"name": 1}]}]}')
-        for file, words in [("bad.json", "expected results.json of bihive thesis"), ("worse.json", "a finding is not"), ("none.json", "")]:
-            done = self.run_bihive("thesis", "section-d", "--quick", "--out", "out", "--against", file)
-            self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertIn(file, done.stderr)
-            self.assertIn(words, done.stderr)
-            self.assertFalse(os.path.exists(self.path("out/report.html")))
+        wrong = "it is not as docs/results.schema.json says"
+        cases = [("bad.json", "expected results.json of bihive thesis"), ("text.json", "expected results.json of bihive thesis"),
+                 ("worse.json", wrong), ("none.json", "")]
+        for i, document in enumerate([{"experiments": None}, {"experiments": 3}, {"experiments": [1]},
+                                      {"experiments": [{"id": "a", "findings": None}]},
+                                      {"experiments": [{"id": "a", "findings": [{"name": "b", "ours": 1, "verdict": "agrees"}]}]},
+                                      {"experiments": [], "version": 1}, {"experiments": [], "date": None}]):
+            self.write(f"{i}.json", json.dumps({"bihive_results": 2, **document}))
+            cases.append((f"{i}.json", wrong))
+        for file, words in cases:
+            error = self.fail_input("thesis", "section-d", "--quick", "--out", "out", "--against", file)
+            self.assertIn(file + ": ", error)
+            self.assertIn(words, error)
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_older_runs_are_read_once_and_first(self):
+        """A pipe gives its bytes once; and a run may replace the file that it is compared with."""
+        run = ["thesis", "section-d", "--quick", "--out", "out"]
+        self.succeed(*run)
+        older = self.read("out/results.json")
+        read, write = os.pipe()
+
+        def feed():
+            with contextlib.suppress(BrokenPipeError), os.fdopen(write, "wb") as pipe:
+                pipe.write(older)
+
+        writer = threading.Thread(target=feed)
+        writer.start()
+        done = self.run_bihive(*run, "--against", f"/dev/fd/{read}", pass_fds=[read])
+        os.close(read)
+        writer.join()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("Beside an older run", self.report("out"))
+        self.assertIn("0 of the older run were not looked at", self.report("out"))
 
     def test_every_claim_is_decided_by_findings_that_exist(self):
         with open(os.path.join(SOURCE, "thesis/report/claims.json")) as file:

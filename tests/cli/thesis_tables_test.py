@@ -293,6 +293,8 @@ class ThesisTables(ProgramTest):
             ("figure-4.5", {"max_prims_list": [-1]}),
             ("figure-4.5", {"max_prims_list": [1.5]}),
             ("section-d", {"width_px": 0}),
+            ("section-d", {"height_px": 2**32 + 16}),
+            ("figure-4.4", {"width_px": 2**32 + 16}),
         ]:
             self.write_values(experiment, **changes)
             done = self.run_bihive(

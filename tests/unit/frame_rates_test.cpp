@@ -51,6 +51,22 @@ TEST(FrameRatePlan, SaysWhichValueIsMissing) {
   EXPECT_NE(plan.error().message.find("spheres_list"), std::string::npos);
 }
 
+// 2^32 + 16 pixels are not 16.
+TEST(FrameRatePlan, RefusesNumbersThatAreTooLarge) {
+  std::string text(builtin_values_figure_4_4());
+  const std::string key = "\"width_px\"";
+  const std::size_t value = text.find("1136", text.find(key));
+  ASSERT_NE(value, std::string::npos);
+  for (const char* const wrong : {"4294967312", "65537", "0", "-1"}) {
+    const Result<StatedValues> values =
+        StatedValues::parse(text.substr(0, value) + wrong + text.substr(value + 4), "values.json");
+    ASSERT_TRUE(values) << values.error().to_string();
+    const Result<FrameRatePlan> plan = FrameRatePlan::from_values(*values);
+    ASSERT_FALSE(plan) << wrong;
+    EXPECT_NE(plan.error().message.find("width_px"), std::string::npos);
+  }
+}
+
 TEST(FrameRateRun, TakesTurnsAndCountsAllButTheFirstRound) {
   FrameRateRun run(small_plan(), {});
   int steps = 0;

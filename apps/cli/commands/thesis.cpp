@@ -7,6 +7,8 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
@@ -57,7 +59,7 @@ bool has_its_pictures(const Run& run, const Settings& settings, const std::strin
   Section section;
   try {
     section = run.experiment.section({settings, run.values, run.results, run.folder});
-  } catch (const Json::exception&) {
+  } catch (const std::exception&) {
     warn(out + "/steps/" + run.experiment.id + ": holds what this program did not write; the steps are run again");
     return false;
   }
@@ -104,7 +106,10 @@ std::vector<Run> collect_runs(const ThesisOptions& options, const Settings& sett
         run.results.emplace(step.name, std::move(saved->result));
         run.loads.emplace(step.name, saved->load);
       }
-    if (!has_its_pictures(run, settings, options.out)) run.results.clear();
+    if (!has_its_pictures(run, settings, options.out)) {
+      run.results.clear();
+      run.loads.clear();
+    }
     const bool all =
         options.experiments.empty() || std::count(options.experiments.begin(), options.experiments.end(), "all") > 0;
     run.asked = all || std::count(options.experiments.begin(), options.experiments.end(), run.experiment.id) > 0;
@@ -228,13 +233,14 @@ void run_thesis(const ThesisOptions& options) {
   const Settings settings{options.quick, static_cast<int>(options.threads), options.seed};
   check_values(options);
   if (options.out == kStandardStream) fail_usage("--out names a folder, and - is none");
+  // Other runs are read before the long work: a file that is none is told at once, and this run may write over it.
+  std::optional<OlderRun> older;
+  if (!options.against.empty()) older = read_older_run(options.against);
+  std::optional<ReportFront> devices;
+  if (!options.devices.empty()) devices = devices_page(options.devices, load_values("figure-4.4", options.values));
   make_folder(options.out);
   const std::string report = options.out + "/report.html";
   if (const Status status = check_writable(report); !status) fail(status.error());
-  // A file that is none is told before the run.
-  if (!options.against.empty()) compared_with(options.against, {});
-  const Values figure_4_4 = load_values("figure-4.4", options.values);
-  if (!options.devices.empty()) devices_page(options.devices, figure_4_4);
   const StepStore store(options.out, settings);
   std::vector<Run> runs = collect_runs(options, settings, store);
 
@@ -254,8 +260,8 @@ void run_thesis(const ThesisOptions& options) {
                       {}};
   for (const ReportSection& of_experiment : sections) header.load.add(of_experiment.load);
   std::vector<ReportFront> fronts{verdict_page(sections)};
-  if (!options.devices.empty()) fronts.push_back(devices_page(options.devices, figure_4_4));
-  if (!options.against.empty()) fronts.push_back(compared_with(options.against, sections));
+  if (devices) fronts.push_back(std::move(*devices));
+  if (older) fronts.push_back(compared_with(*older, sections));
   const std::string json = results_json(header, fronts, sections).dump(2) + "\n";
   if (const Status status = write_file(options.out + "/results.json", json); !status) fail(status.error());
   if (const Status status = write_file(report, report_html(header, fronts, sections, options.out)); !status)

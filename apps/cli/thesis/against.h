@@ -1,14 +1,26 @@
 // A run beside an older one: which findings have another verdict?
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "thesis/report.h"
 
 namespace bihive::cli::thesis {
 
-/// `file` is a results.json of an older run. Fails if it is none.
-ReportFront compared_with(const std::string& file, const std::vector<ReportSection>& sections);
+/// An older run, read from its results.json.
+struct OlderRun {
+  struct Words {
+    std::string ours, verdict;
+  };
+  std::string file, version, commit, machine, date;
+  std::map<std::pair<std::string, std::string>, Words> findings;  ///< by the experiment's id and the finding's name
+};
+/// Fails if the file is none.
+OlderRun read_older_run(const std::string& file);
+
+ReportFront compared_with(const OlderRun& older, const std::vector<ReportSection>& sections);
 
 }  // namespace bihive::cli::thesis

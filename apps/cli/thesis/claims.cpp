@@ -41,47 +41,70 @@ std::vector<const Finding*> findings_of(const Json& claim, const Section& sectio
   return found;
 }
 
-// The worst finding decides: red before amber before undecided before green.
+// How bad a finding is: the worst one decides on its claim, and is shown.
+enum Rank { kAgrees, kOpen, kSpread, kSelfContradiction, kOtherThanInferred, kOtherThanStated };
+Rank rank_of(const Finding& finding) {
+  switch (finding.verdict) {
+    case Verdict::agrees:
+      return kAgrees;
+    case Verdict::none:
+      return kOpen;
+    case Verdict::undecided:
+      return kSpread;
+    case Verdict::text_inconsistent:
+      return kSelfContradiction;
+    case Verdict::differs:
+      break;
+  }
+  return finding.kind == ValueKind::stated ? kOtherThanStated : kOtherThanInferred;
+}
+
+// The first of the worst; there must be one.
+const Finding& worst_of(const std::vector<const Finding*>& found) {
+  return **std::max_element(found.begin(), found.end(),
+                            [](const Finding* a, const Finding* b) { return rank_of(*a) < rank_of(*b); });
+}
+
 Fate fate_of(const Json& claim, const std::vector<const Finding*>& found) {
   if (claim.value("lost", false)) return kLost;
   if (claim.value("not_compared", false)) return kNotCompared;
   if (found.empty()) return kNotRun;
-  const auto any = [&](Verdict verdict) {
-    return std::any_of(found.begin(), found.end(), [&](const Finding* finding) { return finding->verdict == verdict; });
+  switch (rank_of(worst_of(found))) {
+    case kOtherThanStated:
+      return kContradicted;
+    case kOtherThanInferred:
+      return kNotInferred;
+    case kSelfContradiction:
+      return kInconsistent;
+    case kSpread:
+      return kUndecided;
+    case kOpen:
+    case kAgrees:
+      break;
+  }
+  const auto any = [&](auto matching) {
+    return std::any_of(found.begin(), found.end(), [&](const Finding* finding) { return matching(*finding); });
   };
-  const auto any_stated = [&](Verdict verdict) {
-    return std::any_of(found.begin(), found.end(), [&](const Finding* finding) {
-      return finding->verdict == verdict && finding->kind == ValueKind::stated;
-    });
-  };
-  if (any_stated(Verdict::differs)) return kContradicted;
-  if (any(Verdict::differs)) return kNotInferred;
-  if (any(Verdict::text_inconsistent)) return kInconsistent;
-  if (any(Verdict::undecided)) return kUndecided;
-  if (!any(Verdict::agrees)) return kNotRun;
-  const bool only_checks = std::all_of(found.begin(), found.end(),
-                                       [](const Finding* finding) { return finding->kind == ValueKind::own_check; });
+  const auto agrees = [](const Finding& finding) { return finding.verdict == Verdict::agrees; };
+  if (!any(agrees)) return kNotRun;
+  const bool only_checks = !any([](const Finding& finding) { return finding.kind != ValueKind::own_check; });
   if (claim.value("shape", false) && !only_checks) return kShape;
   // A value that rests on an inference of ours is not the text's alone.
-  const bool inferred = std::any_of(found.begin(), found.end(),
-                                    [](const Finding* finding) { return finding->kind == ValueKind::inferred; });
-  if (inferred) return kInferred;
-  return any_stated(Verdict::agrees) ? kReproduced : kChecked;
+  if (any([](const Finding& finding) { return finding.kind == ValueKind::inferred; })) return kInferred;
+  const bool of_text =
+      any([&](const Finding& finding) { return agrees(finding) && finding.kind == ValueKind::stated; });
+  return of_text ? kReproduced : kChecked;
 }
 
-// The single finding's words; of several the number of those that agree, and the words of the first that does not.
+// The single finding's words; of several the number of those that agree, and the words of the worst that does not.
 std::string found_text(const std::vector<const Finding*>& found) {
   if (found.empty()) return "";
   if (found.size() == 1) return found.front()->ours;
-  std::size_t agree = 0;
-  const Finding* other = nullptr;
-  for (const Finding* finding : found)
-    if (finding->verdict == Verdict::agrees)
-      ++agree;
-    else if (other == nullptr || (finding->verdict == Verdict::differs && other->verdict != Verdict::differs))
-      other = finding;
+  const auto agree = std::count_if(found.begin(), found.end(),
+                                   [](const Finding* finding) { return finding->verdict == Verdict::agrees; });
   std::string text = fmt::format("{} of {} findings agree", agree, found.size());
-  if (other != nullptr) text += fmt::format("; {}: {} ({} expected)", other->statement, other->ours, other->expected);
+  if (const Finding& worst = worst_of(found); worst.verdict != Verdict::agrees)
+    text += fmt::format("; {}: {} ({} expected)", worst.statement, worst.ours, worst.expected);
   return text;
 }
 

@@ -40,6 +40,8 @@ DeviceRun read_run(const std::string& file) {
       ConfigurationTimes& times =
           run.times[{one.at("scenario").get<std::int64_t>(), one.at("spheres").get<std::int64_t>()}];
       const Json& max_prims = one.at("max_prims");
+      if (!max_prims.is_null() && max_prims.get<std::int64_t>() < 1)
+        throw Json::other_error::create(501, "max_prims below 1", &document);
       (max_prims.is_null() ? times.brute : times.trees[max_prims.get<std::int64_t>()]) = ms;
       run.drifts.push_back(ms.back() / ms.front());
     }
@@ -50,12 +52,10 @@ DeviceRun read_run(const std::string& file) {
   return run;
 }
 
-// The best tree's frames of a configuration; nothing if it has no tree or no brute force.
+// The best tree's frames of a configuration; null if it has no tree or no brute force.
 const std::vector<double>* best_tree(const ConfigurationTimes& times) {
-  const std::vector<double>* best = nullptr;
-  for (const auto& [prims, ms] : times.trees)
-    if (best == nullptr || median(ms) < median(*best)) best = &ms;
-  return times.brute.empty() ? nullptr : best;
+  const std::int64_t fastest = fastest_tree(times);
+  return times.brute.empty() || fastest == 0 ? nullptr : &times.trees.at(fastest);
 }
 
 // Least, most and mean gain in percent of a scenario; nothing unless all its numbers of spheres are there.
@@ -139,9 +139,8 @@ ReportFront devices_page(const std::vector<std::string>& files, const Values& va
   ReportFront page{"devices", "On other devices", {}, {}, {}, {}, Json::array()};
   page.paragraphs.push_back(
       "Runs of Figure 4.4 that the page made on other devices (\"Run the thesis on this device\", \"Save JSON\"), "
-      "beside "
-      "what the text states of its phone. Engine cpu: the reference tree in WebAssembly; gpu: the same by a shader. "
-      "Medians over the rounds; no verdicts.");
+      "beside what the text states of its phone. Engine cpu: the reference tree in WebAssembly; gpu: the same by a "
+      "shader. Medians over the rounds; no verdicts.");
   page.table.title = "Frames a second, gains over brute force, drift";
   page.table.columns = {"Device", "Engine", "Picture"};
   for (const std::int64_t count : values.integers("spheres_list"))

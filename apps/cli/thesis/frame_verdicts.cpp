@@ -83,10 +83,7 @@ class Judge {
     std::set<std::int64_t> possible;
   };
   static Best best_of(const ConfigurationTimes& times, const std::function<bool(std::int64_t)>& counts) {
-    Best best;
-    for (const auto& [prims, ms] : times.trees)
-      if (counts(prims) && (best.max_prims == 0 || median(ms) < median(times.trees.at(best.max_prims))))
-        best.max_prims = prims;
+    Best best{fastest_tree(times, counts), {}};
     for (const auto& [prims, ms] : times.trees)
       if (counts(prims) && (prims == best.max_prims || times_as_fast(times.trees.at(best.max_prims), ms).lower <= 1))
         best.possible.insert(prims);
@@ -223,27 +220,19 @@ class Judge {
 
   // What a curve over MAX_PRIMS may be. A step counts where its quartiles lie on one side of "no change".
   enum class Shape { rises, peaks, falls };
-  struct Shapes {
+  static std::set<Shape> shapes_of(const std::vector<const Rounds*>& curve) {
     std::set<Shape> possible;
-    bool flat = true;  // no step counts
-  };
-  static Shapes shapes_of(const std::vector<const Rounds*>& curve) {
-    Shapes shapes;
     const auto rises = [&](std::size_t a, std::size_t b) { return times_as_fast(*curve[b], *curve[a]).lower > 1; };
     const auto falls = [&](std::size_t a, std::size_t b) { return times_as_fast(*curve[b], *curve[a]).upper < 1; };
     const std::size_t last = curve.size() - 1;
     for (std::size_t peak = 0; peak <= last; ++peak) {
       // Nothing falls before the peak, and nothing rises behind it.
       bool fits = true;
-      for (std::size_t i = 0; i < last; ++i) {
-        shapes.flat = shapes.flat && !rises(i, i + 1) && !falls(i, i + 1);
-        fits = fits && !(i < peak ? falls(i, i + 1) : rises(i, i + 1));
-      }
-      if (peak > 0 && !rises(0, peak) && falls(0, peak)) fits = false;
-      if (peak < last && rises(peak, last)) fits = false;
-      if (fits) shapes.possible.insert(peak == 0 ? Shape::falls : peak == last ? Shape::rises : Shape::peaks);
+      for (std::size_t i = 0; i < last; ++i) fits = fits && !(i < peak ? falls(i, i + 1) : rises(i, i + 1));
+      if (falls(0, peak) || rises(peak, last)) fits = false;
+      if (fits) possible.insert(peak == 0 ? Shape::falls : peak == last ? Shape::rises : Shape::peaks);
     }
-    return shapes;
+    return possible;
   }
   static const char* text_of(Shape shape) {
     return shape == Shape::rises ? "only rises" : shape == Shape::falls ? "only falls" : "rises, peaks, falls";
@@ -258,14 +247,14 @@ class Judge {
         curve.push_back(&times.trees.at(prims));
         rates += (rates.empty() ? "" : " ") + fmt::format("{:.1f}", fps_quartiles(*curve.back()).median);
       }
-      const Shapes shapes = shapes_of(curve);
+      const std::set<Shape> shapes = shapes_of(curve);
       const Shape stated = only_rises ? Shape::rises : Shape::peaks;
       std::vector<std::string> names;
-      for (const Shape shape : shapes.possible) names.emplace_back(text_of(shape));
+      for (const Shape shape : shapes) names.emplace_back(text_of(shape));
       const std::string ours = names.empty() ? "up and down" : fmt::format("{}", fmt::join(names, " or "));
       add(kCurves, fmt::format("curve.scenario{}.spheres{}", key.first, key.second),
           fmt::format("Scenario {}, {} spheres", key.first, key.second), text_of(stated),
-          fmt::format("{} ({} fps)", ours, rates), verdict_among(shapes.possible, {stated}));
+          fmt::format("{} ({} fps)", ours, rates), verdict_among(shapes, {stated}));
       if (only_rises) sweet_spot(times);
     }
     convergence();
@@ -352,6 +341,15 @@ class Judge {
 };
 
 }  // namespace
+
+std::int64_t fastest_tree(const ConfigurationTimes& times, const std::function<bool(std::int64_t)>& takes_part) {
+  std::int64_t fastest = 0;
+  for (const auto& [prims, ms] : times.trees) {
+    if (takes_part != nullptr && !takes_part(prims)) continue;
+    if (fastest == 0 || median(ms) < median(times.trees.at(fastest))) fastest = prims;
+  }
+  return fastest;
+}
 
 EngineTimes capped(EngineTimes times, double fps) {
   const auto cap = [fps](Rounds& rounds) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -29,6 +30,10 @@ Quartiles fps_quartiles(const std::vector<double>& frame_ms);
 
 /// The quartiles of the rounds' ratios: above 1 where `one` is faster than `other`.
 Quartiles times_as_fast(const std::vector<double>& one, const std::vector<double>& other);
+
+/// The MAX_PRIMS of the fastest tree, by its median; 0 without trees. `takes_part`: by MAX_PRIMS; null: all do.
+std::int64_t fastest_tree(const ConfigurationTimes& times,
+                          const std::function<bool(std::int64_t)>& takes_part = nullptr);
 
 /// A row. Rows of one table stand together.
 struct Judgement {

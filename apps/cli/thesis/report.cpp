@@ -157,7 +157,7 @@ std::string cell_html(const Cell& cell, bool first, bool number) {
   return first ? "<th scope=\"row\"" + content + "</th>" : "<td" + content + "</td>";
 }
 
-// `links` and `row_classes` belong to the rows of a front table; both are empty for others.
+// `links` and `row_classes` belong to the rows of a front table; both may be empty.
 std::string table_html(const Table& table, const char* heading, const std::vector<std::string>& links = {},
                        const std::vector<std::string>& row_classes = {}) {
   std::string head;

@@ -69,9 +69,15 @@ struct PrimaryRays {
 };
 
 PrimaryRays primary_rays(const StepContext& context, const Tracer& tree) {
-  const int width = static_cast<int>(context.values.integer("width_px"));
-  const int height = static_cast<int>(context.values.integer("height_px"));
-  if (width < 1 || height < 1) fail({"the picture needs at least one pixel", "values.json", 0, 0, ""});
+  const auto side = [&](const char* name) {
+    constexpr std::int64_t kLargestPx = 65535;
+    const std::int64_t px = context.values.integer(name);
+    if (px < 1 || px > kLargestPx)
+      fail({std::string("/values/") + name + ": expected 1 to 65535 pixels", "values.json", 0, 0, ""});
+    return static_cast<int>(px);
+  };
+  const int width = side("width_px");
+  const int height = side("height_px");
   const PixelRays pixels(thesis_scene_without_spheres().camera, width, height);
   PrimaryRays rays;
   for (int y = 0; y < height; y += context.settings.quick ? kQuickRowStride : 1)

@@ -28,11 +28,14 @@ std::optional<StepStore::Saved> StepStore::load(const std::string& experiment, c
   Json document = Json::parse(*bytes, nullptr, /*allow_exceptions=*/false);
   if (!document.is_object() || !document.contains("key") || !document.contains("result")) return std::nullopt;
   if (document["key"] != key(values) || !document.contains("load")) return std::nullopt;
-  const Json& load = document["load"];
-  if (!load.is_object()) return std::nullopt;
-  return Saved{std::move(document["result"]),
-               {load.value("seconds", 0.0), load.value("others", 0.0), load.value("known", false),
-                load.value("most_others", 0.0)}};
+  try {
+    const Json& load = document["load"];
+    const MachineLoad known{load.at("seconds").get<double>(), load.at("others").get<double>(),
+                            load.at("known").get<bool>(), load.at("most_others").get<double>()};
+    return Saved{std::move(document["result"]), known};
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
 }
 
 void StepStore::save(const std::string& experiment, const std::string& step, const Values& values,

@@ -12,6 +12,7 @@ namespace bihive {
 namespace {
 
 constexpr int kQuickDivisor = 4, kQuickRounds = 3;
+constexpr std::int64_t kLargestNumber = 65536;  // of pixels along a side, and of recursions
 // Time between two looks at the cancel token. Without a token a frame is drawn without a break.
 constexpr double kSliceMs = 100, kWholeFrameMs = 1e9;
 
@@ -66,7 +67,7 @@ Result<FrameRatePlan> FrameRatePlan::from_values(const StatedValues& values) {
   for (const auto& [name, number] :
        {std::pair{"width_px", &plan.width_px}, {"height_px", &plan.height_px}, {"recursion", &plan.recursion}}) {
     const Result<std::int64_t> value = values.integer(name);
-    if (!value || *value < 1) return bad_value(name, "a number");
+    if (!value || *value < 1 || *value > kLargestNumber) return bad_value(name, "a whole number from 1 to 65536");
     *number = static_cast<int>(*value);
   }
   const Result<double> radius = values.number("radius");
