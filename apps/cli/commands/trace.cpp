@@ -36,16 +36,17 @@ constexpr std::int64_t kSpheresPerChunk = 1 << 25;  // brute force tests per chu
 class RayFile {
  public:
   explicit RayFile(const std::string& path) {
-    Result<NpyArray> array = parse_npy(read_input(path), path);
+    const std::string name = input_name(path);
+    Result<NpyArray> array = parse_npy(read_input(path), name);
     array_ = value_or_fail(std::move(array));
     const std::string& dtype = array_.dtype;
     if (dtype.size() < 2 || dtype.substr(dtype.size() - 2) != "f4")
-      fail({"expected rays of dtype float32, found " + dtype, path, 0, 0, "convert them: rays.astype(numpy.float32)"});
+      fail({"expected rays of dtype float32, found " + dtype, name, 0, 0, "convert them: rays.astype(numpy.float32)"});
     if (array_.shape.size() != 2 || (array_.shape[1] != 6 && array_.shape[1] != 8)) {
       std::string shape;
       for (const std::int64_t side : array_.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(side);
       fail({"expected rays of shape (n, 6): origin, direction; or (n, 8): and t_min, t_max; found (" + shape + ")",
-            path, 0, 0, ""});
+            name, 0, 0, ""});
     }
   }
 

@@ -11,8 +11,6 @@
 namespace bihive::cli {
 namespace {
 
-const std::string kNameOfStandardInput = "standard input";
-
 void only_for(bool given, const std::string& option, const std::string& what, const std::string& input) {
   if (given) fail_usage(option + " is for " + what + ", not for " + input);
 }
@@ -59,10 +57,15 @@ ReadOptions read_options(const InputOptions& options) {
 
 std::string read_input(const std::string& path) {
   bool grew = false;
-  std::string bytes = value_or_fail(path == kStandardStream ? read_descriptor(STDIN_FILENO, kNameOfStandardInput, &grew)
-                                                            : read_file(path, &grew));
-  if (grew) warn(path + ": grew while it was read; what it held when it was opened counts");
+  const std::string name = input_name(path);
+  std::string bytes =
+      value_or_fail(path == kStandardStream ? read_descriptor(STDIN_FILENO, name, &grew) : read_file(path, &grew));
+  if (grew) warn(name + ": grew while it was read; what it held when it was opened counts");
   return bytes;
+}
+
+std::string input_name(const std::string& path) {
+  return path == kStandardStream ? "standard input" : path;
 }
 
 std::string file_of(const InputOptions& options) {
@@ -107,8 +110,7 @@ Input load_input(const InputOptions& options, LooksOfFile looks, const Style* st
   const ReadOptions reading = read_options(options);
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
-    const bool piped = options.input == kStandardStream;
-    const std::string name = piped ? kNameOfStandardInput : options.input;
+    const std::string name = input_name(options.input);
     const std::string bytes = value_or_fail(unpack_gzip(read_input(options.input), name));
     return load_scene(bytes, name, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);
   };

@@ -32,6 +32,9 @@ struct InputOptions {
 /// The bytes of a file, or of the standard input for "-". Warns if the file grew meanwhile. Fails with kBadInput.
 std::string read_input(const std::string& path);
 
+/// How messages name that file: "standard input" for "-".
+std::string input_name(const std::string& path);
+
 /// The path of the input's file; empty for the names of built-in scenes and the standard input.
 std::string file_of(const InputOptions& options);
 

@@ -40,14 +40,14 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
       fail({"is the file of the standard input too, and writing it would destroy that", output, 0, 0,
             "name another output"});
     for (const std::string& other : seen)
-      if (is_same_file(path, other) || (is_standard_output(path) && is_standard_output(other)))
+      if (is_same_file(path, output_path(other)) || (is_standard_output(path) && on_standard_output({other})))
         fail_usage("two outputs name the same file: " + other + " and " + output, "name two files");
     if (const Status status = check_writable(path); !status) fail(status.error());
     if (is_file_of(STDOUT_FILENO, path))
       fail({"is the file of the standard output too", output, 0, 0, "send the report elsewhere, or write to -"});
     if (!are_text && is_standard_output(path) && isatty(STDOUT_FILENO) != 0)
       fail_usage(output + " would write binary data to the terminal", "send it to a program or into a file");
-    seen.push_back(path);
+    seen.push_back(output);
   }
 }
 
