@@ -90,13 +90,16 @@ class Sizes(ProgramTest):
             start_new_session=True,
         )
         try:
-            for _ in range(20):
-                done = self.run_bihive("info", "grows.txt")
-                self.assertIn(done.returncode, (0, 1))
-                if "grew while it was read" in done.stderr:
-                    break
-            else:
-                self.fail("the file grew, and nobody said so")
+            for name in ["grows.txt", "-"]:
+                for _ in range(20):
+                    with open(self.path("grows.txt")) as file:
+                        done = self.run_bihive("info", name, stdin=file)
+                    self.assertIn(done.returncode, (0, 1))
+                    if "grew while it was read" in done.stderr:
+                        break
+                else:
+                    self.fail("the file grew, and nobody said so")
+                self.assertIn((name if name != "-" else "standard input") + ": grew", done.stderr)
         finally:
             # Both programs of the pipe.
             with contextlib.suppress(ProcessLookupError):

@@ -292,18 +292,40 @@ TEST(GpuViewer, draws_lens_tone_and_labels) {
   ASSERT_TRUE(viewer.set(settings));
   expect_same_pictures(viewer, "with effects");
   EXPECT_GT(share_off(shown(viewer), plain), 0.05);
+}
 
-  // Letters stay sharp while something moves.
+// Labels stay as they are while the picture under them is coarse.
+TEST(GpuViewer, labels_are_sharp_in_coarse_pictures) {
+  constexpr int kTallWidth = 400, kTallHeight = 800, kTitleHeight = 60;
+  Viewer viewer;
+  viewer.resize(kTallWidth, kTallHeight);
+  ASSERT_TRUE(viewer.attach_gl(gl()));
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  choose_plain(viewer);
+  choose(viewer, ViewerEngine::gpu);
+  ViewerSettings settings = viewer.settings();
+  settings.effects.labels.title = "a title";
+  ASSERT_TRUE(viewer.set(settings));
+  settle(viewer);
+  const auto top = [&] {
+    Image image = shown(viewer, kTallWidth, kTallHeight);
+    image.height = kTitleHeight;
+    image.rgb.resize(std::size_t{3} * kTallWidth * kTitleHeight);
+    return image;
+  };
   viewer.orbit(40, 0);
-  for (int i = 0; i < 1000; ++i)
-    if (viewer.frame(1e-3)->drawn) break;
+  Result<FrameReport> report = viewer.frame(1e-3);
+  for (int i = 0; i < 1000 && report && !report->drawn; ++i) report = viewer.frame(1e-3);
+  ASSERT_TRUE(report && report->drawn);
+  EXPECT_GT(report->divisor, 1);
+  const Image coarse = top();
+  settle(viewer);
+  EXPECT_EQ(share_off(top(), coarse), 0) << "above the molecule there is the title alone";
   settings = viewer.settings();
   settings.effects.labels = {};
-  const Image moving = shown(viewer);
   ASSERT_TRUE(viewer.set(settings));
-  for (int i = 0; i < 1000; ++i)
-    if (viewer.frame(1e-3)->drawn) break;
-  EXPECT_GT(share_off(shown(viewer), moving), 0.01) << "labels were there";
+  settle(viewer);
+  EXPECT_GT(share_off(top(), coarse), 0.001) << "the title was there";
 }
 
 TEST(GpuViewer, cut_spheres_stay_with_the_cpu) {

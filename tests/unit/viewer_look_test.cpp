@@ -541,6 +541,10 @@ TEST(ViewerLook, labels_are_sharp_in_coarse_pictures) {
   const std::vector<std::uint8_t> coarse = top();
   settle(viewer);
   EXPECT_TRUE(top() == coarse) << "above the molecule there is the title alone";
+  settings.effects.labels = {};
+  ASSERT_TRUE(viewer.set(settings));
+  settle(viewer);
+  EXPECT_FALSE(top() == coarse) << "the title was there";
 }
 
 }  // namespace
