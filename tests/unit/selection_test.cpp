@@ -228,9 +228,10 @@ TEST(Selection, DeepAndLongTextsAreErrors) {
   EXPECT_EQ(error_in(table(), "all or " + std::string(101, '(') + "x" + std::string(101, ')') + " > 1").column, 108);
   // Parentheses in quotes are none, whichever way they open.
   EXPECT_EQ(ids("phase \"" + std::string(101, '(') + "\" or x > 1"), ids("x > 1"));
-  EXPECT_THAT(
-      error_in(table(), "phase \"" + std::string(30000, ')') + "\" or " + std::string(30000, '(') + "all").message,
-      testing::HasSubstr("at most 100 deep"));
+  const Error deep =
+      error_in(table(), "phase \"" + std::string(30000, ')') + "\" or " + std::string(30000, '(') + "all");
+  EXPECT_THAT(deep.message, testing::HasSubstr("at most 100 deep"));
+  EXPECT_EQ(deep.column, 7 + 30000 + 5 + 101);
   EXPECT_THAT(error_in(table(), std::string(70000, ' ') + "all").message, testing::HasSubstr("at most 65536 bytes"));
   EXPECT_EQ(ids(std::string(60000, '!') + "x > 1"), ids("x > 1"));
   EXPECT_EQ(ids(std::string(60001, '!') + "x > 1"), ids("not x > 1"));

@@ -423,7 +423,7 @@ Result<Expression> parse_expression(std::string_view text) {
                              "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within'");
     return expression_of(whole);
   } catch (const TooDeep& deep) {
-    return selection_error(text, text.rfind('(', deep.place),
+    return selection_error(text, text.rfind('(', deep.place - 1),
                            "parentheses lie at most " + std::to_string(kDeepestSelection) + " deep in each other");
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the expression
