@@ -196,6 +196,8 @@ class Report(ProgramTest):
             self.assertIn(text.replace("&", "&amp;"), report)
         self.assertIn("Efficient Ray Tracing for Mobile Devices", report)
         self.assertNotIn("as in the thesis", report)
+        self.succeed("thesis", "figure-4.5", "--quick", "--out", "a user's out")
+        self.assertEqual(self.results("a user's out")["command"], r"bihive thesis figure-4.5 --out 'a user'\''s out' --quick")
 
     def with_load(self, others):
         """A report whose steps were measured beside so much other work."""

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "bihive/base/parallel.h"
@@ -182,17 +183,29 @@ std::string compiler() {
   return fmt::format("{}{}{}; vectors: {}", name, __VERSION__, checks, active_target());
 }
 
+// A word of a command line, in quotes where a shell would take it apart.
+std::string in_shell(const std::string& word) {
+  const bool plain = std::all_of(word.begin(), word.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_./:=,+@%-").find(c) != std::string_view::npos;
+  });
+  if (plain && !word.empty()) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 // The command of this run, as one could write it again; defaults are left out.
 std::string command_of(const ThesisOptions& options) {
   std::string command = "bihive thesis";
   for (const std::string& experiment : options.experiments) command += " " + experiment;
-  command += " --out " + options.out;
+  command += " --out " + in_shell(options.out);
   if (options.quick) command += " --quick";
   if (options.seed != ThesisOptions{}.seed) command += fmt::format(" --seed {}", options.seed);
   if (options.threads != 0) command += fmt::format(" --threads {}", options.threads);
-  if (!options.values.empty()) command += " --values " + options.values;
-  for (const std::string& device : options.devices) command += " --device " + device;
-  if (!options.against.empty()) command += " --against " + options.against;
+  if (!options.values.empty()) command += " --values " + in_shell(options.values);
+  for (const std::string& device : options.devices) command += " --device " + in_shell(device);
+  if (!options.against.empty()) command += " --against " + in_shell(options.against);
   return command;
 }
 
