@@ -60,7 +60,7 @@ Rank rank_of(const Finding& finding) {
 }
 
 // The first of the worst; there must be one.
-const Finding& worst_of(const std::vector<const Finding*>& found) {
+const Finding& worst_finding(const std::vector<const Finding*>& found) {
   return **std::max_element(found.begin(), found.end(),
                             [](const Finding* a, const Finding* b) { return rank_of(*a) < rank_of(*b); });
 }
@@ -69,7 +69,7 @@ Fate fate_of(const Json& claim, const std::vector<const Finding*>& found) {
   if (claim.value("lost", false)) return kLost;
   if (claim.value("not_compared", false)) return kNotCompared;
   if (found.empty()) return kNotRun;
-  switch (rank_of(worst_of(found))) {
+  switch (rank_of(worst_finding(found))) {
     case kOtherThanStated:
       return kContradicted;
     case kOtherThanInferred:
@@ -103,7 +103,7 @@ std::string found_text(const std::vector<const Finding*>& found) {
   const auto agree = std::count_if(found.begin(), found.end(),
                                    [](const Finding* finding) { return finding->verdict == Verdict::agrees; });
   std::string text = fmt::format("{} of {} findings agree", agree, found.size());
-  if (const Finding& worst = worst_of(found); worst.verdict != Verdict::agrees)
+  if (const Finding& worst = worst_finding(found); worst.verdict != Verdict::agrees)
     text += fmt::format("; {}: {} ({} expected)", worst.statement, worst.ours, worst.expected);
   return text;
 }
