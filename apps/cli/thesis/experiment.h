@@ -20,7 +20,7 @@ namespace bihive::cli::thesis {
 struct Settings {
   bool quick = false;      ///< everything small, within a minute on two cores
   int threads = 0;         ///< 0 = all
-  std::uint64_t seed = 1;  ///< of "ours (this seed)"
+  std::uint64_t seed = 1;  ///< of "this seed", and of pictures; means are over the seeds 1, 2, ...
 };
 
 /// The context of a step. Long work watches `cancel`.

@@ -41,13 +41,14 @@ struct ReportHeader {
   MachineLoad load;      ///< of all steps
 };
 
-/// A part of the report that stands before the experiments: the page of verdicts, or the comparison with a file.
+/// A part of the report that stands before the experiments: the page of verdicts, the runs of other devices, or the
+/// comparison with an older run.
 struct ReportFront {
   std::string id, title;
   std::vector<std::string> paragraphs;
-  Table table;                           ///< its first column is a claim
-  std::vector<std::string> links;        ///< ids of the experiments, one a row, shown as a last column
-  std::vector<std::string> row_classes;  ///< of CSS, one a row
+  Table table;                           ///< left out where it has no rows
+  std::vector<std::string> links;        ///< ids of the experiments, one a row, shown as a last column; or none
+  std::vector<std::string> row_classes;  ///< of CSS, one a row; or none
   Json data = Json::array();             ///< for results.json
 };
 

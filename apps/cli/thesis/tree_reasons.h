@@ -14,7 +14,7 @@ namespace bihive::cli::thesis {
 struct ReasonTrees {
   std::vector<std::int64_t> scenarios, spheres, max_prims;
   double radius = 1;
-  std::int64_t seeds = 20;  ///< 1, 2, ...; Scenario 1 has no chance in it
+  std::int64_t seeds = 20;  ///< 1, 2, ..., whatever --seed says; Scenario 1 has no chance in it
 };
 
 /// [{"scenario", "spheres", "max_prims", "seeds", "spheres_per_leaf": {"mean", "sd"}, "relative_sd", "overlap_share",

@@ -9,7 +9,7 @@ namespace bihive {
 
 /// The smallest of four: this machine's memory (in a browser, the largest heap of the page); BIHIVE_MEMORY in the
 /// environment, a number of bytes; the limit of the control group (a container), version 1 or 2; the limits of the
-/// process (RLIMIT_AS and RLIMIT_DATA), less what it has mapped already.
+/// process: RLIMIT_AS less what it has mapped already, and RLIMIT_DATA as it is.
 struct MemoryLimit {
   double bytes;
   std::string whose;  ///< "this machine has", "BIHIVE_MEMORY allows", ...: the number follows

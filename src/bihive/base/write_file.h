@@ -89,7 +89,7 @@ bool is_standard_output(const std::string& path);
 bool is_same_file(const std::string& a, const std::string& b);
 
 /// The whole file, as long as it was when it was opened: `grew` (if not null) says whether it has become longer
-/// meanwhile. Errors: missing, a folder, unreadable, longer than the memory (base/memory.h).
+/// meanwhile. Errors: missing, a folder, unreadable, longer than the memory (base/memory.h), or no memory left for it.
 Result<std::string> read_file(const std::string& path, bool* grew = nullptr);
 
 /// All bytes of an open file from its present place on; `name` is for messages.

@@ -50,7 +50,8 @@ class SphereSet {
   /// of an image is the stored centre plus Images::shift(), a sum in binary64, rounded once to binary32. Nothing is
   /// copied; the stored units change, so that all images are within [-1, 1]. Images that it had before are gone; 1 x 1
   /// x 1 leaves none. Error: a count below 1, a vector that is not finite or of length 0 where there are copies along
-  /// it, copies beyond binary32's range, or more than 2^40 spheres with images.
+  /// it, copies beyond binary32's range, or more than 2^40 spheres with images (of an empty set: 2^40
+  /// copies).
   Status replicate(const std::array<Vec3d, 3>& vectors, const std::array<std::int32_t, 3>& counts);
   /// The same copies and cell as `other` has; for a set that was made from its spheres.
   Status keep_cell_of(const SphereSet& other);

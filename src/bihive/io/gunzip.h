@@ -12,7 +12,7 @@ namespace bihive {
 bool looks_gzipped(std::string_view bytes);
 
 /// Unpacks all members of a gzip file in a row; zeros behind the last member are padding. Errors: cut or damaged data,
-/// or a build without zlib. `name` is for messages. Memory grows with the unpacked bytes only.
+/// no memory left, or a build without zlib. `name` is for messages. Memory grows with the unpacked bytes only.
 Result<std::string> gunzip(std::string_view bytes, const std::string& name);
 
 }  // namespace bihive

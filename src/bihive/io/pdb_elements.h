@@ -1,8 +1,9 @@
-// The elements of atoms in PDB and PQR files.
+// The elements of atoms in PDB, PQR and GRO files.
 //
-// Columns 77 and 78 state them; many files leave those empty. Then the residue tells: standard residues hold few
-// elements, and ions have names of their own. Only then the columns of the atom's name count, and only in files that
-// keep to them: several programs write every name from column 13 on, where "CA" would be calcium.
+// Columns 77 and 78 of PDB state them; many files leave those empty, and PQR and GRO have none. Then the residue tells:
+// standard residues hold few elements, and ions have names of their own. Only then the columns of the atom's name
+// count, and only in files that keep to them: several programs write every name from column 13 on, where "CA" would be
+// calcium.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,7 @@ struct ElementClues {
 
 class PdbElements {
  public:
-  /// `names_in_columns`: false where a name's place on the line means nothing (PQR).
+  /// `names_in_columns`: false where a name's place on the line means nothing (PQR, GRO).
   explicit PdbElements(bool names_in_columns) : names_in_columns_(names_in_columns) {}
 
   /// The next atom. Its texts must live until the call of `take`, because `place` is compared with the next one's.

@@ -11,14 +11,14 @@ struct PqrLine {
   bool hetero = false;
   std::string_view name, residue, chain, residue_number, insertion;
   std::string_view place;       ///< all that names the residue
-  std::string_view numbers[5];  ///< x, y, z, charge, radius: texts, not yet checked
+  std::string_view numbers[5];  ///< x, y, z, charge, radius: parse_double() reads each
 };
 
 bool is_atom_record(std::string_view line);
 
-/// The fields where blanks stand between them: 9, or 10 with a chain, behind the record's name; more on the line are
-/// left out if the fifth to ninth, or sixth to tenth, are numbers. Else the columns of pdb2pqr. Nothing if there are
-/// too few.
+/// The fields where blanks stand between them: exactly 9, or 10 with a chain, behind the record's name, of which the
+/// last five are numbers. Else the columns of pdb2pqr, with numbers in the last five and nothing behind them. Nothing
+/// if the line is neither.
 std::optional<PqrLine> split_pqr_line(std::string_view line);
 
 /// True if the line is PQR and cannot be PDB: the fields are there, and PDB's columns would cut numbers in two.
