@@ -129,7 +129,7 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
   print(as_text(json, 2) + "\n");
 }
 
-// Makes the pictures that are missing. After a signal or a failure nothing is left if no picture is whole.
+// Makes the pictures that are missing, and the film of all unless this is a shard. After a signal or a failure nothing is left if no picture is whole.
 FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
                        const std::vector<std::int64_t>& wanted, const std::vector<std::int64_t>& missing,
                        FilmFolder& folder, FilmSink& sink) {
@@ -137,7 +137,9 @@ FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const Fi
     return std::none_of(wanted.begin(), wanted.end(), [&](std::int64_t number) { return sink.has(number); });
   };
   try {
-    return make_film(source, plan, options.picture, style, missing, sink);
+    const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink);
+    if (!options.shard) sink.finish();
+    return times;
   } catch (const Interrupted&) {
     // The folder of a shard belongs to the others too.
     if (!options.shard && nothing_is_whole()) folder.leave_nothing();
@@ -239,10 +241,7 @@ void run_film(const FilmOptions& asked) {
   FilmReport report;
   report.kept = static_cast<std::int64_t>(wanted.size() - missing.size());
   report.times = make_missing(source, plan, options, style, wanted, missing, folder, *sink);
-  if (!options.shard) {
-    sink->finish();
-    folder.finish(plan);
-  }
+  if (!options.shard) folder.finish(plan);
   report.all_ms = timer.elapsed_ms();
   print_film_report(options, plan, report);
 }

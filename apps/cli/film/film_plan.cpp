@@ -12,7 +12,6 @@
 namespace bihive::cli {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
@@ -21,7 +20,7 @@ ordered_json vector_json(Vec3d v) {
   return {v.x, v.y, v.z};
 }
 
-Vec3d vector_of(const json& value) {
+Vec3d vector_of(const ordered_json& value) {
   return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
 }
 
@@ -29,7 +28,7 @@ ordered_json range_json(const ColourRange& range) {
   return range ? ordered_json{range->first, range->second} : ordered_json();
 }
 
-ColourRange range_of(const json& value) {
+ColourRange range_of(const ordered_json& value) {
   if (value.is_null()) return std::nullopt;
   return std::pair{value.at(0).get<double>(), value.at(1).get<double>()};
 }
@@ -45,7 +44,7 @@ ordered_json camera_json(const Camera& camera) {
           {"focus", camera.focus}};
 }
 
-Camera camera_of(const json& value) {
+Camera camera_of(const ordered_json& value) {
   Camera camera;
   camera.eye = vector_of(value.at("eye"));
   camera.look_at = vector_of(value.at("look_at"));
@@ -76,11 +75,11 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   return object;
 }
 
-FilmPlan::Asked asked_of(const json& value, const std::string& path) {
+FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   FilmPlan::Asked asked;
   asked.program = value.at("program").get<std::string>();
-  asked.input = ordered_json::parse(value.at("input").dump());
-  const json& frames = value.at("frames");
+  asked.input = value.at("input");
+  const ordered_json& frames = value.at("frames");
   asked.frames = {frames.at("first").get<std::int64_t>(), frames.at("step").get<std::int64_t>(),
                   frames.at("count").get<std::int64_t>()};
   asked.pictures = value.at("pictures").get<std::int64_t>();
@@ -96,14 +95,14 @@ FilmPlan::Asked asked_of(const json& value, const std::string& path) {
   return asked;
 }
 
-FilmPlan::Fixed fixed_of(const json& value) {
+FilmPlan::Fixed fixed_of(const ordered_json& value) {
   FilmPlan::Fixed fixed;
   fixed.width_px = value.at("size_px").at(0).get<int>();
   fixed.height_px = value.at("size_px").at(1).get<int>();
   fixed.camera = camera_of(value.at("camera"));
   if (!check_camera(fixed.camera)) throw std::out_of_range("camera");
   fixed.range_of_style = range_of(value.at("range_of_style"));
-  for (const json& range : value.at("ranges_of_looks")) fixed.ranges_of_looks.push_back(range_of(range));
+  for (const ordered_json& range : value.at("ranges_of_looks")) fixed.ranges_of_looks.push_back(range_of(range));
   return fixed;
 }
 
@@ -123,14 +122,14 @@ std::string film_plan_to_json(const FilmPlan& plan) {
 FilmPlan read_film_plan(const std::string& path) {
   const std::string text = value_or_fail(read_file(path));
   try {
-    const json document = json::parse(text);
+    const ordered_json document = ordered_json::parse(text);
     if (document.at("bihive_film") == kFormat) {
       FilmPlan plan;
       plan.asked = asked_of(document.at("asked"), path);
       plan.fixed = fixed_of(document.at("fixed"));
       return plan;
     }
-  } catch (const json::exception&) {
+  } catch (const ordered_json::exception&) {
     // Any other file.
   } catch (const std::out_of_range&) {
     // A number that no film has.
