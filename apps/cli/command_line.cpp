@@ -313,7 +313,9 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_value(command, "--layers", options.layers, "L,L...",
             ".exr: what it holds: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
   add_picture_options(command, options);
-  command.add_option("--film", options.film, "Draw a picture of this film (bihive film), with its options and camera:\nFILE.json")
+  command
+      .add_option("--film", options.film,
+                  "Draw a picture of this film (bihive film), with its options and camera:\nFILE.json")
       ->type_name("FILE");
   add_integer(command, "--picture", options.picture, 0, kUnlimited,
               "--film: which one of its pictures, from 0; or name its frame by --frame");
@@ -322,8 +324,8 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
 // The words of a picture among those of `bihive film`: all but INPUT, and what decides how the film is made.
 std::vector<std::string> picture_words(const CLI::App& command, int argc, const char* const* argv) {
   static const std::vector<std::string> of_film{
-      "-o",       "--output", "--frames", "--pictures", "--fps",  "--turntable", "--camera-keys", "--colour-range",
-      "--codec",  "--shard",  "--join",   "--json",     "--threads", "--trajectory"};
+      "-o",      "--output", "--frames", "--pictures", "--fps",     "--turntable", "--camera-keys", "--colour-range",
+      "--codec", "--shard",  "--join",   "--json",     "--threads", "--trajectory"};
   std::vector<std::string> words;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
@@ -344,7 +346,7 @@ std::vector<std::string> picture_words(const CLI::App& command, int argc, const 
 void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {
   CLI::App& command = add_command(app, "film", "Make a film of a trajectory, or of a camera that moves",
                                   "bihive film run.xyz -o run.mp4 --fps 30 --title 't = {time:.1f} ps'",
-                                  "bihive film data/1hpv.pdb -o turn.mp4 --turntable 360", options, request);
+                                  "bihive film demo -o turn.mp4 --turntable 360 --size 640x480", options, request);
   command.final_callback([&options, &request, &command, argc, argv] {
     options.words = picture_words(command, argc, argv);
     request = options;
@@ -356,17 +358,20 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
            "The film: .mp4, .mov, .mkv or .webm by the program ffmpeg; .y4m; or PNG files:\nrun/%05d.png");
   add_value(command, "--frames", options.frames, "A:B:STEP",
             "Every STEP-th frame from A to before B (all); negative: from the end", frame_range_from_text);
-  add_value(command, "--fps", options.rate, "N", "Pictures a second (25); 29.97 and 30000/1001 are too", frame_rate_from);
+  add_value(command, "--fps", options.rate, "N", "Pictures a second (25); 29.97 and 30000/1001 are too",
+            frame_rate_from);
   add_integer(command, "--pictures", options.pictures, 1, kUnlimited,
               "How many pictures of an input with one frame (ten seconds, or all keys)");
   add_value(command, "--turntable", options.turntable_deg, "DEG",
             "The camera goes so far around the scene while the film runs",
             [](const std::string& text) { return number_from(text, -1e6, 1e6); });
-  command.add_option("--camera-keys", options.camera_keys, "Key frames of the camera: docs/films.md")->type_name("FILE");
+  command.add_option("--camera-keys", options.camera_keys, "Key frames of the camera: docs/films.md")
+      ->type_name("FILE");
   add_choice(command, "--colour-range", options.range_of_colours, kRangesOfColours,
              "Ranges of --colour-by without MIN,MAX: of the first frame, of the whole film (reads\n"
              "it twice), or of each frame (first)");
-  command.add_option("--codec", options.codec, "ffmpeg's words for the codec (H.264, webm: VP9): '-c:v libx265 -crf 20'")
+  command
+      .add_option("--codec", options.codec, "ffmpeg's words for the codec (H.264, webm: VP9): '-c:v libx265 -crf 20'")
       ->type_name("WORDS");
   add_value(command, "--shard", options.shard, "i/N",
             "Draw every N-th picture from number i on; another command joins all N", shard_from);

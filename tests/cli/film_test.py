@@ -148,8 +148,10 @@ class Sequences(FilmTest):
         for trajectory in trajectories:
             for top in tops:
                 paths = [os.path.join(data, top), os.path.join(data, trajectory)]
-                done = self.run_bihive("film", *paths, "-o", f"{trajectory}-%d.png", *SMALL, "--frames", ":2", "--json")
+                done = self.run_bihive("film", *paths, "-o", f"{trajectory}-%d.png", *SMALL, "--frames", ":2",
+                                       "--title", "{time:.1f} ps, {spheres}")
                 if done.returncode == 0:
+                    self.assertRegex(png_text(self.read(f"{trajectory}-1.png"))["Settings"], r'"[1-9]\d*\.\d ps, \d+"')
                     self.succeed("render", *paths, "--film", f"{trajectory}-film.json", "--frame", "0", "-o", "a.png")
                     self.assertEqual(self.read("a.png"), self.read(f"{trajectory}-0.png"))
                     return

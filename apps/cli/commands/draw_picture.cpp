@@ -31,12 +31,12 @@ void succeed_or_leave(const Status& status) {
 }
 
 Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile& file,
-            const ProgressCallback& progress) {
+                  const ProgressCallback& progress) {
   const int band_rows = rows_of_band(drawn_pixels(settings).height(), bytes_of_row(settings, file));
   Result<RenderedBands> result = render_in_bands(
       scene, tracer, settings, band_rows,
-      [&file](const Film& film, const Tile& pixels) { return file.add(film, pixels); },
-      progress, &CancellableSection::token());
+      [&file](const Film& film, const Tile& pixels) { return file.add(film, pixels); }, progress,
+      &CancellableSection::token());
   stop_if_interrupted();
   const RenderedBands rendered = value_or_fail(std::move(result));
   const RenderCounts& rays = rendered.rays;
@@ -49,8 +49,7 @@ Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings
 }
 
 // Layers without light: one ray for each pixel.
-Drawn draw_layers_alone(const RenderSettings& settings, PictureFile& file,
-            const ProgressCallback& progress) {
+Drawn draw_layers_alone(const RenderSettings& settings, PictureFile& file, const ProgressCallback& progress) {
   const Timer timer;
   const Tile all = drawn_pixels(settings);
   const int band_rows = rows_of_band(all.height(), bytes_of_row(settings, file));
@@ -66,7 +65,7 @@ Drawn draw_layers_alone(const RenderSettings& settings, PictureFile& file,
 }
 
 Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile& file,
-            const ProgressCallback& progress) {
+                  const ProgressCallback& progress) {
   GpuPicture picture = render_on_gpu(scene, tracer.tree(), settings, [&](double done) {
     progress(done);
     stop_if_interrupted();

@@ -44,8 +44,7 @@ void check_film_options(const FilmOptions& options, FilmKind kind) {
   const RenderOptions& picture = options.picture;
   if (options.join && (!picture.input.input.empty() || options.shard || options.frames || options.pictures))
     fail_usage("--join takes the film's output alone: the shards know the rest", "bihive film --join -o run.mp4");
-  if (!options.join && picture.input.input.empty())
-    fail_usage("bihive film needs an INPUT", "see bihive film --help");
+  if (!options.join && picture.input.input.empty()) fail_usage("bihive film needs an INPUT", "see bihive film --help");
   if (!options.codec.empty() && kind != FilmKind::encoded)
     fail_usage("--codec is for films that ffmpeg encodes", "let the output end in .mp4, .mov, .mkv or .webm");
   if (kind != FilmKind::pictures && picture.bits.value_or(8) != 8)
@@ -103,11 +102,12 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
     const std::string kept = report.kept > 0 ? fmt::format(", {} kept from before", grouped(report.kept)) : "";
     const std::string of_shard =
         options.shard ? fmt::format(" (shard {}/{})", options.shard->index, options.shard->count) : "";
-    print(fmt::format("{}{}: {} pictures of {} x {}{}; {} at {:.3g} a second; read {}, build {}, trace {}, write {}; "
-                      "peak memory {}\n",
-                      escaped(output), of_shard, grouped(times.pictures), plan.fixed.width_px, plan.fixed.height_px,
-                      kept, readable_ms(report.all_ms), rate, readable_ms(times.read_ms), readable_ms(times.build_ms),
-                      readable_ms(times.trace_ms), readable_ms(times.write_ms), readable_bytes(peak_memory_bytes())));
+    print(
+        fmt::format("{}{}: {} pictures of {} x {}{}; {} at {:.3g} a second; read {}, build {}, trace {}, write {}; "
+                    "peak memory {}\n",
+                    escaped(output), of_shard, grouped(times.pictures), plan.fixed.width_px, plan.fixed.height_px, kept,
+                    readable_ms(report.all_ms), rate, readable_ms(times.read_ms), readable_ms(times.build_ms),
+                    readable_ms(times.trace_ms), readable_ms(times.write_ms), readable_bytes(peak_memory_bytes())));
     return;
   }
   ordered_json json = ordered_json::object();
@@ -129,7 +129,8 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
   print(as_text(json, 2) + "\n");
 }
 
-// Makes the pictures that are missing, and the film of all unless this is a shard. After a signal or a failure nothing is left if no picture is whole.
+// Makes the pictures that are missing, and the film of all unless this is a shard. After a signal or a failure nothing
+// is left if no picture is whole.
 FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
                        const std::vector<std::int64_t>& wanted, const std::vector<std::int64_t>& missing,
                        FilmFolder& folder, FilmSink& sink) {
@@ -156,7 +157,8 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
   const std::string& output = options.picture.output;
   FilmFolder folder(output, kind != FilmKind::pictures);
   if (!folder.kept())
-    fail({"there are no shards of this film", output, 0, 0, "make them first: bihive film INPUT -o OUTPUT --shard i/N"});
+    fail(
+        {"there are no shards of this film", output, 0, 0, "make them first: bihive film INPUT -o OUTPUT --shard i/N"});
   const FilmPlan plan = *folder.kept();
   const std::unique_ptr<FilmSink> shards = open_sequence(plan, output, kind != FilmKind::pictures, 0);
   std::int64_t missing = 0, first = -1;
@@ -184,7 +186,8 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
       if (sink->has(k)) continue;
       PngFile file = value_or_fail(read_png(shard_picture_path(output, k)));
       if (file.image.width != plan.fixed.width_px || file.image.height != plan.fixed.height_px)
-        fail({"has another size than the film", shard_picture_path(output, k), 0, 0, "remove it, and run its shard again"});
+        fail({"has another size than the film", shard_picture_path(output, k), 0, 0,
+              "remove it, and run its shard again"});
       FilmPicture picture;
       picture.number = k;
       picture.pixels = {file.image.width, file.image.height, 3, 8, std::move(file.image.rgb)};

@@ -150,6 +150,8 @@ void check_picture_name(const std::string& output) {
                                ".ps",  ".webp", ".avif", ".heic", ".psd",  ".ico", ".xpm", ".mp4", ".webm"};
   const std::string ending = ending_of(output);
   if (std::find(kOthers.begin(), kOthers.end(), ending) == kOthers.end()) return;
+  if (ending == ".mp4" || ending == ".webm")
+    fail_usage("bihive render draws one picture, and " + ending + " is a film", "make films by bihive film");
   fail_usage("bihive writes PNG and OpenEXR, not " + ending, "let the output end in .png or .exr");
 }
 

@@ -14,11 +14,11 @@
 #include <memory>
 #include <utility>
 
-#include "bihive/base/output_place.h"
 #include "bihive/base/timer.h"
 #include "bihive/base/write_file.h"
 #include "film/ffmpeg.h"
 #include "film/film_sink.h"
+#include "film/system_failure.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -68,11 +68,16 @@ class EncodedFilm final : public FilmSink {
         ffmpeg_(std::move(ffmpeg)),
         pictures_(plan.asked.pictures),
         shortest_((plan.asked.rate.pictures + plan.asked.rate.seconds - 1) / plan.asked.rate.seconds) {
-    input_ = {"-f",          "rawvideo",
-              "-pixel_format", "rgb24",
-              "-video_size", fmt::format("{}x{}", plan.fixed.width_px, plan.fixed.height_px),
-              "-framerate",  fmt::format("{}/{}", plan.asked.rate.pictures, plan.asked.rate.seconds),
-              "-i",          "pipe:0",
+    input_ = {"-f",
+              "rawvideo",
+              "-pixel_format",
+              "rgb24",
+              "-video_size",
+              fmt::format("{}x{}", plan.fixed.width_px, plan.fixed.height_px),
+              "-framerate",
+              fmt::format("{}/{}", plan.asked.rate.pictures, plan.asked.rate.seconds),
+              "-i",
+              "pipe:0",
               "-an"};
     codec_ = plan.asked.codec.empty() ? default_codec(ending_) : words_of(plan.asked.codec);
     find_segments();
@@ -103,7 +108,7 @@ class EncodedFilm final : public FilmSink {
     std::string whole = segment_path(segments_.front());
     if (segments_.size() > 1) whole = joined();
     sync(whole);
-    if (std::rename(whole.c_str(), output_.c_str()) != 0) fail(system_error("cannot be written", output_, errno));
+    if (std::rename(whole.c_str(), output_.c_str()) != 0) fail_of_system("cannot be written", output_, errno);
   }
 
  private:
@@ -118,7 +123,7 @@ class EncodedFilm final : public FilmSink {
   void find_segments() {
     std::vector<Segment> found;
     DIR* const folder = opendir(folder_.c_str());
-    if (folder == nullptr) fail(system_error("cannot be read", folder_, errno));
+    if (folder == nullptr) fail_of_system("cannot be read", folder_, errno);
     while (const dirent* const entry = readdir(folder)) {
       long long begin = 0, end = 0;
       if (std::sscanf(entry->d_name, "segment-%lld-%lld", &begin, &end) == 2 && begin < end)
@@ -154,7 +159,7 @@ class EncodedFilm final : public FilmSink {
     const Segment whole{begin, begin + in_segment_};
     sync(unfinished_path());
     if (std::rename(unfinished_path().c_str(), segment_path(whole).c_str()) != 0)
-      fail(system_error("ffmpeg has not written it", unfinished_path(), errno));
+      fail_of_system("ffmpeg has not written it", unfinished_path(), errno);
     segments_.push_back(whole);
   }
 
@@ -164,7 +169,7 @@ class EncodedFilm final : public FilmSink {
     const bool good = file >= 0 && fsync(file) == 0;
     const int code = errno;
     if (file >= 0) close(file);
-    if (!good) fail(system_error("ffmpeg has not written it", path, code));
+    if (!good) fail_of_system("ffmpeg has not written it", path, code);
   }
 
   // Paths in ffmpeg's list are relative to it.

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "bihive/base/output_place.h"
 #include "bihive/base/write_file.h"
+#include "film/system_failure.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -50,7 +50,7 @@ void FilmFolder::take(const FilmPlan& plan, bool alone) {
   if (!folder_.empty() && mkdir(folder_.c_str(), 0777) == 0)
     made_folder_ = folder_;
   else if (!folder_.empty() && errno != EEXIST)
-    fail(system_error("cannot be made", folder_, errno));
+    fail_of_system("cannot be made", folder_, errno);
   if (parts_) lock(alone);
   if (kept_) return;
   value_or_fail(write_file(plan_, film_plan_to_json(plan)));
@@ -61,7 +61,7 @@ void FilmFolder::take(const FilmPlan& plan, bool alone) {
 void FilmFolder::lock(bool alone) {
   const std::string path = folder_ + "/lock";
   lock_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock_ < 0) fail(system_error("cannot be written", path, errno));
+  if (lock_ < 0) fail_of_system("cannot be written", path, errno);
   if (flock(lock_, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   fail({"another run of bihive film works on this film", folder_, 0, 0, "wait for its end, or name another output"});
 }

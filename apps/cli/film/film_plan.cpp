@@ -68,8 +68,8 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   object["fps"] = fmt::format("{}/{}", asked.rate.pictures, asked.rate.seconds);
   object["options"] = asked.options;
   object["turntable_deg"] = asked.path.turntable_deg;
-  object["camera"] = asked.path.keys.empty() ? ordered_json()
-                                             : ordered_json::parse(camera_keys_to_json(asked.path.keys));
+  object["camera"] =
+      asked.path.keys.empty() ? ordered_json() : ordered_json::parse(camera_keys_to_json(asked.path.keys));
   object["colour_range"] = asked.range_of_colours;
   object["codec"] = asked.codec;
   return object;
@@ -102,6 +102,7 @@ FilmPlan::Fixed fixed_of(const ordered_json& value) {
   fixed.camera = camera_of(value.at("camera"));
   if (!check_camera(fixed.camera)) throw std::out_of_range("camera");
   fixed.range_of_style = range_of(value.at("range_of_style"));
+  fixed.ranges_of_looks.reserve(value.at("ranges_of_looks").size());
   for (const ordered_json& range : value.at("ranges_of_looks")) fixed.ranges_of_looks.push_back(range_of(range));
   return fixed;
 }

@@ -15,10 +15,10 @@ namespace bihive::cli {
 struct FilmPlan {
   /// The user's wishes and the input's file. A run goes on where another one was if they are equal.
   struct Asked {
-    std::string program;               ///< its version
-    nlohmann::ordered_json input;      ///< path, size and time of its files
-    FrameList frames;                  ///< of the input
-    std::int64_t pictures = 1;         ///< as many as frames; or of one frame
+    std::string program;           ///< its version
+    nlohmann::ordered_json input;  ///< path, size and time of its files
+    FrameList frames;              ///< of the input
+    std::int64_t pictures = 1;     ///< as many as frames; or of one frame
     FrameRate rate;
     std::vector<std::string> options;  ///< of each picture
     CameraPath path;

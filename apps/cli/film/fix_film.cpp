@@ -33,8 +33,8 @@ ordered_json described_file(const std::string& path) {
   struct stat found {};
   if (is_built_in_scene(path) || stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return object;
   object["bytes"] = static_cast<std::int64_t>(found.st_size);
-  object["changed_ns"] =
-      static_cast<std::int64_t>(found.st_mtim.tv_sec) * 1'000'000'000 + static_cast<std::int64_t>(found.st_mtim.tv_nsec);
+  object["changed_ns"] = static_cast<std::int64_t>(found.st_mtim.tv_sec) * 1'000'000'000 +
+                         static_cast<std::int64_t>(found.st_mtim.tv_nsec);
   return object;
 }
 
@@ -85,7 +85,8 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   asked.options = options.words;
   asked.path.turntable_deg = options.turntable_deg;
   if (!options.camera_keys.empty())
-    asked.path.keys = value_or_fail(parse_camera_keys(value_or_fail(read_file(options.camera_keys)), options.camera_keys));
+    asked.path.keys =
+        value_or_fail(parse_camera_keys(value_or_fail(read_file(options.camera_keys)), options.camera_keys));
   if (options.pictures && asked.frames.count > 1)
     fail_usage("--pictures is for a film of one frame, and this one has " + std::to_string(asked.frames.count),
                "name one by --frames 0, or leave --pictures out");
@@ -96,9 +97,9 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
     if (!asked.path.keys.empty())
       asked.pictures = asked.path.keys.back().picture + 1;
     else if (asked.path.turntable_deg != 0)
-      asked.pictures = std::max<std::int64_t>(
-          1, std::llround(kSecondsOfTurn * static_cast<double>(asked.rate.pictures) /
-                          static_cast<double>(asked.rate.seconds)));
+      asked.pictures =
+          std::max<std::int64_t>(1, std::llround(kSecondsOfTurn * static_cast<double>(asked.rate.pictures) /
+                                                 static_cast<double>(asked.rate.seconds)));
   }
   if (asked.pictures > kMostPictures) fail_usage("a film has at most 100,000,000 pictures");
   if (!asked.path.keys.empty() && asked.path.keys.back().picture >= asked.pictures)

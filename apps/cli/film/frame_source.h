@@ -28,7 +28,7 @@ class FrameSource {
   FrameSource() = default;
 
   InputOptions options_;
-  bool asked_for_ = false;  // the style
+  bool asked_for_ = false;    // the style
   std::string name_, bytes_;  // of an input that is not read frame by frame
   std::shared_ptr<const Frames> frames_;
   std::int64_t count_ = 1;

@@ -168,7 +168,8 @@ class FilmSteps {
                    [&](double share) {
                      progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
                    });
-      const nlohmann::ordered_json described = settings_json(picture.options, picture.settings, picture.input.scene, {});
+      const nlohmann::ordered_json described =
+          settings_json(picture.options, picture.settings, picture.input.scene, {});
       for (auto& [name, text] : text_of(picture.input.scene, described)) drawn.text.emplace_back(name, latin1(text));
       times_.trace_ms += timer.elapsed_ms();
       ++done;

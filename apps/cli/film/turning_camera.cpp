@@ -1,10 +1,10 @@
 #include "film/turning_camera.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "bihive/geometry/each_sphere.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/framing.h"
 #include "support/failure.h"
@@ -40,13 +40,12 @@ Camera camera_around(const Input& input, const Camera& camera, const RenderOptio
     }
   const Vec3d middle = 0.5 * lo + 0.5 * hi;
   double radius = 0;
-  for_each_sphere(remaining.set(), [&](std::int64_t, Vec3d centre, double of_sphere) {
-    radius = std::max(radius, length(centre - middle) + of_sphere);
-  });
+  const SphereSet& spheres = remaining.set();
+  for (std::int64_t id = 0; id < spheres.total_size(); ++id)
+    radius = std::max(radius, length(spheres.centre(id) - middle) + spheres.radius(spheres.stored_id(id)));
   for (const Vec3d corner : corners) radius = std::max(radius, length(corner - middle));
   const auto one = [](double value) { return std::vector<double>{value}; };
-  const SphereSet ball =
-      value_or_fail(SphereSet::from_world(one(middle.x), one(middle.y), one(middle.z), one(radius)));
+  const SphereSet ball = value_or_fail(SphereSet::from_world(one(middle.x), one(middle.y), one(middle.z), one(radius)));
 
   // The camera that shows the ball, in the direction of the other one.
   const Vec3d offset = camera.eye - camera.look_at;

@@ -13,8 +13,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "bihive/base/output_place.h"
 #include "film/film_sink.h"
+#include "film/system_failure.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -43,7 +43,7 @@ class Y4mFilm final : public FilmSink {
                         plan.asked.rate.pictures, plan.asked.rate.seconds);
     picture_bytes_ = std::int64_t{3} * plan.fixed.width_px * plan.fixed.height_px + 6;
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) fail(system_error("cannot be written", path_, errno));
+    if (file_ < 0) fail_of_system("cannot be written", path_, errno);
     keep_whole_pictures();
   }
   ~Y4mFilm() override {
@@ -61,19 +61,18 @@ class Y4mFilm final : public FilmSink {
 
   void finish() override {
     if (fsync(file_) != 0 || std::rename(path_.c_str(), output_.c_str()) != 0)
-      fail(system_error("cannot be written", output_, errno));
+      fail_of_system("cannot be written", output_, errno);
   }
 
  private:
   // What a killed program left behind the last whole picture goes away.
   void keep_whole_pictures() {
     struct stat found {};
-    if (fstat(file_, &found) != 0) fail(system_error("cannot be read", path_, errno));
+    if (fstat(file_, &found) != 0) fail_of_system("cannot be read", path_, errno);
     const auto head_bytes = static_cast<std::int64_t>(head_.size());
     whole_ = found.st_size < head_bytes ? 0 : (found.st_size - head_bytes) / picture_bytes_;
     const std::int64_t kept = found.st_size < head_bytes ? 0 : head_bytes + whole_ * picture_bytes_;
-    if (ftruncate(file_, kept) != 0 || lseek(file_, 0, SEEK_END) < 0)
-      fail(system_error("cannot be written", path_, errno));
+    if (ftruncate(file_, kept) != 0 || lseek(file_, 0, SEEK_END) < 0) fail_of_system("cannot be written", path_, errno);
     if (kept == 0) write_all(head_);
   }
 
@@ -81,7 +80,7 @@ class Y4mFilm final : public FilmSink {
     std::size_t done = 0;
     while (done < bytes.size()) {
       const ssize_t written = write(file_, bytes.data() + done, bytes.size() - done);
-      if (written < 0 && errno != EINTR) fail(system_error("writing failed", path_, errno));
+      if (written < 0 && errno != EINTR) fail_of_system("writing failed", path_, errno);
       if (written > 0) done += static_cast<std::size_t>(written);
     }
   }

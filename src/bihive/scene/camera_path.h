@@ -16,10 +16,10 @@ namespace bihive {
 /// What the camera does at one picture of the film. What is unset comes from the keys before and after that state it,
 /// and before the first and behind the last of these from that one alone.
 struct CameraKey {
-  std::int64_t picture = 0;       ///< from 0
-  std::optional<Turn> turn;       ///< around what it looks at, from the film's camera; may be above 360
-  std::optional<double> zoom;     ///< everything so many times as large; above 0
-  std::optional<Vec3d> look_at;   ///< the camera moves along with it
+  std::int64_t picture = 0;      ///< from 0
+  std::optional<Turn> turn;      ///< around what it looks at, from the film's camera; may be above 360
+  std::optional<double> zoom;    ///< everything so many times as large; above 0
+  std::optional<Vec3d> look_at;  ///< the camera moves along with it
 };
 
 struct CameraPath {
@@ -30,9 +30,9 @@ struct CameraPath {
 };
 
 /// The camera of a picture, 0 to `pictures` - 1, of a film whose camera is `base`. The turntable turns by equal angles,
-/// and picture `pictures` would be at its end, so that a film of 360 degrees goes round without a jolt. Between two keys
-/// each number follows a cubic curve that overshoots neither, and stands still at its first and last key. The same bits
-/// on every platform.
+/// and picture `pictures` would be at its end, so that a film of 360 degrees goes round without a jolt. Between two
+/// keys each number follows a cubic curve that overshoots neither, and stands still at its first and last key. The same
+/// bits on every platform.
 Camera camera_at(const CameraPath& path, const Camera& base, std::int64_t picture, std::int64_t pictures);
 
 /// Key frames from JSON: {"keys": [{"picture": 0, "turn": [0, 0, 0], "zoom": 1, "look_at": [0, 0, 0]}, ...]}. Errors

@@ -90,8 +90,7 @@ Result<std::vector<CameraKey>> parse_camera_keys(std::string_view text, const st
     Result<CameraKey> key = key_from(value, name, pointer);
     if (!key) return key.error();
     if (!keys.empty() && key->picture <= keys.back().picture)
-      return Place(name, pointer + "/picture")
-          .expected("a picture behind that of the key before", value.at("picture"));
+      return Place(name, pointer + "/picture").expected("a picture behind that of the key before", value.at("picture"));
     keys.push_back(*key);
   }
   return keys;

@@ -33,7 +33,8 @@ Result<std::string> value_text(const std::string& words, const TitleValues& valu
     return title_error("a title knows no {" + words + "}", "there are " + names + "; {{ is a brace");
   }
   if (std::isnan(found->second))
-    return title_error("the frame does not state its " + name + ", which the title asks for", "leave {" + words + "} out");
+    return title_error("the frame does not state its " + name + ", which the title asks for",
+                       "leave {" + words + "} out");
   if (colon == std::string::npos) {
     const bool whole = std::abs(found->second) < 1e15 && found->second == std::floor(found->second);
     return whole ? fmt::format("{:.0f}", found->second) : readable_number(found->second);
