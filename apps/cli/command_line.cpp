@@ -173,7 +173,14 @@ void add_labels(CLI::App& app, LabelOptions& labels) {
   app.add_flag("--legend", labels.legend, "Say what the colours mean: a colour bar, or names");
   app.add_flag("--scale-bar", labels.scale_bar, "Show a round length; for --projection orthographic");
   app.add_flag("--axes", labels.axes, "Show the directions of x, y and z");
-  app.add_option("--title", labels.title, "Write this at the top")->type_name("TEXT");
+  app.add_option(
+         "--title", labels.title,
+         "Write this at the top; {time}, {step}, {frame}, {spheres} are values of the\nframe, {time:.2f} has two "
+         "digits behind the point")
+      ->type_name("TEXT");
+  app.add_option("--title-values", labels.title_values,
+                 "CSV: a row for each frame, from 0; the first line names the columns: {NAME}")
+      ->type_name("FILE");
   app.add_option("--length-unit", labels.length_unit,
                  "Unit behind the scale bar's number (PDB, mmCIF: \u00C5; else none)")
       ->type_name("TEXT");

@@ -393,6 +393,19 @@ class Titles(FilmTest):
         self.succeed("render", "run.xyz", "-o", "a.png", *SMALL, "--frame", "4", "--title", "frame {frame}")
         self.assertEqual(self.title("a.png"), "frame 4")
 
+    def test_values_of_a_table(self):
+        self.write("log.csv", "energy, time\n" + "".join(f"{-1.25 * k},{k}\n" for k in range(6)))
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--title-values", "log.csv", "--title", "{energy:.2f} {time}", "--frames", "::2")
+        self.assertEqual(self.title("run/2.png"), "-5.00 4")
+        self.assertEqual(self.read("run/1.png"), self.single("run/film.json", "--frame", "2"))
+        for text, words in (("e\n1\n", "log.csv:3: has no row for frame 1"), ("e,e\n1,2\n", "two columns"),
+                            ("e\nx\n", "log.csv:2: expected"), ("e\n1,2\n", "expected 1 fields, found 2"), ("", "no line of names")):
+            self.write("log.csv", text)
+            said = self.run_bihive("film", "run.xyz", "-o", "x/%d.png", *SMALL, "--title-values", "log.csv", "--title", "{e}")
+            self.assertEqual(said.returncode, 1)
+            self.assertIn(words, said.stderr)
+            shutil.rmtree(self.path("x"), ignore_errors=True)
+
     def test_a_value_that_is_not_there(self):
         for title, words in (("{tme}", "a title knows no {tme}; there are {frame}, {time}, {step}, {spheres}"),
                              ("{step}", "the frame does not state its step"), ("{frame", "without its partner"),

@@ -50,6 +50,7 @@ struct StyleOptions {
 struct LabelOptions {
   bool legend = false, scale_bar = false, axes = false, none = false;
   std::optional<std::string> title, length_unit;
+  std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
 };
 
 /// What a film keeps the same in all its pictures.

@@ -15,6 +15,7 @@
 #include "commands/choose_labels.h"
 #include "commands/choose_look.h"
 #include "commands/names.h"
+#include "commands/title_values.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -74,10 +75,14 @@ void choose_samples(const RenderOptions& options, RenderSettings& settings) {
 // The title with the frame's values. A generated scene has no frame; its number is 0.
 std::string filled_title(const std::string& title, const RenderOptions& options, const Input& input) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  const TitleValues values{{"frame", static_cast<double>(options.input.frame.value_or(0))},
-                           {"time", input.time_ps.value_or(kUnknown)},
-                           {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
-                           {"spheres", static_cast<double>(input.scene.spheres.size())}};
+  TitleValues values{{"frame", static_cast<double>(options.input.frame.value_or(0))},
+                     {"time", input.time_ps.value_or(kUnknown)},
+                     {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
+                     {"spheres", static_cast<double>(input.scene.spheres.size())}};
+  if (!options.labels.title_values.empty()) {
+    const TitleValues more = values_of_frame(options.labels.title_values, options.input.frame.value_or(0));
+    values.insert(values.begin(), more.begin(), more.end());
+  }
   Result<std::string> filled = fill_title(title, values);
   if (!filled) fail_usage("--title: " + filled.error().message, filled.error().hint);
   return *filled;

@@ -78,6 +78,8 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   asked.input = {described_file(options.picture.input.input)};
   if (!options.picture.input.trajectory.empty())
     asked.input.push_back(described_file(options.picture.input.trajectory));
+  if (!options.picture.labels.title_values.empty())
+    asked.input.push_back(described_file(options.picture.labels.title_values));
   const Result<FrameList> list = frames_in(options.frames.value_or(FrameRange{}), frames);
   if (!list) fail_usage("--frames: " + list.error().message, list.error().hint);
   asked.frames = *list;

@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr double kMostDegrees = 1e6;
+constexpr double kMostKeyDegrees = 1e6;
 constexpr double kLargestPlace = 3.4028234663852886e38;
 constexpr double kMostZoom = 1e6;
 constexpr std::int64_t kMostPictures = std::int64_t{1} << 40;
@@ -55,7 +55,7 @@ Result<CameraKey> key_from(const json& value, const std::string& name, const std
         return at(word).expected("a whole number from 0", given);
       key.picture = given.get<std::int64_t>();
     } else if (word == "turn") {
-      const std::optional<Vec3d> turn = three_numbers(given, kMostDegrees);
+      const std::optional<Vec3d> turn = three_numbers(given, kMostKeyDegrees);
       if (!turn) return at(word).expected("[azimuth, elevation, roll] in degrees", given);
       key.turn = Turn{turn->x, turn->y, turn->z};
     } else if (word == "zoom") {
