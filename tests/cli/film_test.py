@@ -176,6 +176,13 @@ class Y4m(FilmTest):
             red = bytes(128 + ((28784 * r - 24103 * g - 4681 * b + 32767) >> 16) for r, g, b in pixels)
             self.assertEqual(frame[6 : 6 + 3 * size], luma + blue + red)
 
+    def test_a_link_is_followed(self):
+        os.mkdir(self.path("there"))
+        os.symlink("there/run.y4m", self.path("link.y4m"))
+        self.film("run.xyz", "-o", "link.y4m", *SMALL)
+        self.assertTrue(os.path.islink(self.path("link.y4m")))
+        self.assertEqual(self.names("there"), ["run.y4m", "run.y4m.json"])
+
     def test_white_and_black_are_those_of_the_format(self):
         self.write("one.xyz", "1\n\nAr 0 0 0\n")
         for colour, value in (("white", b"\xeb\x80\x80"), ("black", b"\x10\x80\x80")):

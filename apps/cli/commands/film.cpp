@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
@@ -70,6 +71,16 @@ void check_film_output(const FilmOptions& options, FilmKind kind) {
   const std::filesystem::path folder = std::filesystem::path(described).parent_path();
   std::error_code code;
   if (folder.empty() || std::filesystem::exists(folder, code)) check_outputs({described}, inputs);
+}
+
+// The path that a link leads to, also if nothing is there yet. check_outputs() has refused links without an end.
+std::string behind_links(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  std::filesystem::path place = path;
+  std::error_code code;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(place, code); ++i)
+    place = place.parent_path() / std::filesystem::read_symlink(place, code);
+  return place.string();
 }
 
 std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
@@ -210,6 +221,8 @@ void run_film(const FilmOptions& asked) {
   // Missing programs are named before any work.
   const std::string ffmpeg = kind == FilmKind::encoded && !options.shard ? find_ffmpeg() : "";
   check_film_output(options, kind);
+  // A link stays, and the film is made beside the file that it leads to.
+  if (kind != FilmKind::pictures) options.picture.output = behind_links(options.picture.output);
   if (options.join) return join_shards(options, kind, ffmpeg);
   choose_engine(options.picture);
   warn_of_each_text_once();
