@@ -1,6 +1,7 @@
 #include "command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "bihive/base/version.h"
 #include "bihive/io/cell_options.h"
@@ -8,6 +9,7 @@
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "commands/names.h"
+#include "film/film_plan.h"
 #include "server/addresses.h"
 #include "support/failure.h"
 
@@ -171,7 +173,14 @@ void add_labels(CLI::App& app, LabelOptions& labels) {
   app.add_flag("--legend", labels.legend, "Say what the colours mean: a colour bar, or names");
   app.add_flag("--scale-bar", labels.scale_bar, "Show a round length; for --projection orthographic");
   app.add_flag("--axes", labels.axes, "Show the directions of x, y and z");
-  app.add_option("--title", labels.title, "Write this at the top")->type_name("TEXT");
+  app.add_option(
+         "--title", labels.title,
+         "Write this at the top; {time}, {step}, {frame}, {spheres} are values of the\nframe, {time:.2f} has two "
+         "digits behind the point")
+      ->type_name("TEXT");
+  app.add_option("--title-values", labels.title_values,
+                 "CSV: a row for each frame, from 0; the first line names the columns: {NAME}")
+      ->type_name("FILE");
   app.add_option("--length-unit", labels.length_unit,
                  "Unit behind the scale bar's number (PDB, mmCIF: \u00C5; else none)")
       ->type_name("TEXT");
@@ -246,15 +255,8 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
   return *command;
 }
 
-void add_render(CLI::App& app, RenderOptions& options, Request& request) {
-  CLI::App& command = add_command(
-      app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
-      "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
-  add_input(command, options.input);
-  add_path(command, "-o,--output", options.output,
-           "The picture: PNG, or OpenEXR (.exr); - writes a PNG to the standard\noutput");
-  add_value(command, "--layers", options.layers, "L,L...",
-            ".exr: what it holds: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
+// The options that decide how a picture looks, for commands that draw one or many.
+void add_picture_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--size", options.size, "WxH", "Pixels (1280x720)", size_from);
   add_value(command, "--crop", options.crop, "X0,Y0,X1,Y1",
             "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",
@@ -306,6 +308,83 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   command.add_flag("--cell", options.cell, "Draw the edges of the periodic cell, and of its copies");
   add_labels(command, options.labels);
   add_json_flag(command, options.json);
+}
+
+void add_render(CLI::App& app, RenderOptions& options, Request& request) {
+  CLI::App& command = add_command(
+      app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
+      "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
+  add_input(command, options.input);
+  add_path(command, "-o,--output", options.output,
+           "The picture: PNG, or OpenEXR (.exr); - writes a PNG to the standard\noutput");
+  add_value(command, "--layers", options.layers, "L,L...",
+            ".exr: what it holds: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
+  add_picture_options(command, options);
+  command
+      .add_option("--film", options.film,
+                  "Draw a picture of this film (bihive film), with its options and camera:\nFILE.json")
+      ->type_name("FILE");
+  add_integer(command, "--picture", options.picture, 0, kUnlimited,
+              "--film: which one of its pictures, from 0; or name its frame by --frame");
+}
+
+// The words of a picture among those of `bihive film`: all but INPUT, and what decides how the film is made.
+std::vector<std::string> picture_words(const CLI::App& command, int argc, const char* const* argv) {
+  static const std::vector<std::string> of_film{
+      "-o",      "--output", "--frames", "--pictures", "--fps",     "--turntable", "--camera-keys", "--colour-range",
+      "--codec", "--shard",  "--join",   "--json",     "--threads", "--trajectory"};
+  std::vector<std::string> words;
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.size() < 2 || word.front() != '-') continue;
+    const std::string name = word[1] == '-' ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (option == nullptr) continue;
+    const bool in_next_word = option->get_items_expected_max() > 0 && name.size() == word.size() && i + 1 < argc;
+    const bool kept = std::find(of_film.begin(), of_film.end(), name) == of_film.end();
+    if (kept) words.push_back(word);
+    if (!in_next_word) continue;
+    ++i;
+    if (kept) words.emplace_back(argv[i]);
+  }
+  return words;
+}
+
+void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {
+  CLI::App& command = add_command(app, "film", "Make a film of a trajectory, or of a camera that moves",
+                                  "bihive film run.xyz -o run.mp4 --fps 30 --title 't = {time:.1f} ps'",
+                                  "bihive film demo -o turn.mp4 --turntable 360 --size 640x480", options, request);
+  command.final_callback([&options, &request, &command, argc, argv] {
+    options.words = picture_words(command, argc, argv);
+    request = options;
+  });
+  RenderOptions& picture = options.picture;
+  add_input(command, picture.input);
+  command.get_option("INPUT")->required(false);
+  add_path(command, "-o,--output", picture.output,
+           "The film: .mp4, .mov, .mkv or .webm by the program ffmpeg; .y4m; or PNG files:\nrun/%05d.png");
+  add_value(command, "--frames", options.frames, "A:B:STEP",
+            "Every STEP-th frame from A to before B (all); negative: from the end", frame_range_from_text);
+  add_value(command, "--fps", options.rate, "N", "Pictures a second (25); 29.97 and 30000/1001 are too",
+            frame_rate_from);
+  add_integer(command, "--pictures", options.pictures, 1, kUnlimited,
+              "How many pictures of an input with one frame (ten seconds, or all keys)");
+  add_value(command, "--turntable", options.turntable_deg, "DEG",
+            "The camera goes so far around the scene while the film runs",
+            [](const std::string& text) { return number_from(text, -1e6, 1e6); });
+  command.add_option("--camera-keys", options.camera_keys, "Key frames of the camera: docs/films.md")
+      ->type_name("FILE");
+  add_choice(command, "--colour-range", options.range_of_colours, kRangesOfColours,
+             "Ranges of --colour-by without MIN,MAX: of the first frame, of the whole film (reads\n"
+             "it twice), or of each frame (first)");
+  command
+      .add_option("--codec", options.codec, "ffmpeg's words for the codec (H.264, webm: VP9): '-c:v libx265 -crf 20'")
+      ->type_name("WORDS");
+  add_value(command, "--shard", options.shard, "i/N",
+            "Draw every N-th picture from number i on; another command joins all N", shard_from);
+  command.add_flag("--join", options.join, "Join the shards of the film -o, without INPUT");
+  add_picture_options(command, picture);
+  command.remove_option(command.get_option("--frame"));
 }
 
 void add_view(CLI::App& app, ViewOptions& options, Request& request) {
@@ -467,9 +546,8 @@ std::string version_text() {
   return "bihive " + std::string(version()) + revision;
 }
 
-}  // namespace
-
-Request parse_command_line(int argc, const char* const* argv) {
+// `with_film`: the words of a film stand among them.
+Request parse_words(int argc, const char* const* argv, bool with_film) {
   CLI::App app("bihive: ray tracing of spheres on a bounding interval hierarchy", "bihive");
   app.set_version_flag("--version", version_text());
   app.get_formatter()->column_width(34);
@@ -477,6 +555,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(0, 1);
 
   RenderOptions render;
+  FilmOptions film;
   ViewOptions view;
   StatsOptions stats;
   TraceOptions trace;
@@ -489,6 +568,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   WebOptions web;
   Request request = HelpText{"", false};
   add_render(app, render, request);
+  add_film(app, film, request, argc, argv);
   add_view(app, view, request);
   add_stats(app, stats, request);
   add_trace(app, trace, request);
@@ -517,10 +597,31 @@ Request parse_command_line(int argc, const char* const* argv) {
     std::string what = error.what();
     const std::size_t repeated = what.find(": At Most 1 required but received ");
     if (repeated != std::string::npos) what = what.substr(0, repeated) + " is given more than once";
+    if (with_film && repeated != std::string::npos)
+      fail_usage(what + ": here, and in the film's options", "leave it out here");
     fail_usage(what, "see " + command + " --help");
   }
   if (std::holds_alternative<HelpText>(request)) return HelpText{app.help(), false};
   return request;
+}
+
+}  // namespace
+
+Request parse_command_line(int argc, const char* const* argv) {
+  Request request = parse_words(argc, argv, /*with_film=*/false);
+  const RenderOptions* const render = std::get_if<RenderOptions>(&request);
+  if (render == nullptr) return request;
+  if (render->film.empty()) {
+    if (render->picture) fail_usage("--picture is for --film", "leave it out, or name the film's FILE.json");
+    return request;
+  }
+  // A picture of a film has the film's options, and those that are given here behind them.
+  const FilmPlan plan = read_film_plan(render->film);
+  std::vector<const char*> words{argv[0], argv[1]};
+  words.reserve(words.size() + plan.asked.options.size() + static_cast<std::size_t>(argc));
+  for (const std::string& word : plan.asked.options) words.push_back(word.c_str());
+  words.insert(words.end(), argv + 2, argv + argc);
+  return parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/true);
 }
 
 }  // namespace bihive::cli

@@ -14,8 +14,9 @@ struct HelpText {
   std::string text;
   bool asked_for;  ///< true: exit code 0, stdout; false: a sub-command is missing, exit code 2, stderr
 };
-using Request = std::variant<HelpText, RenderOptions, ViewOptions, StatsOptions, TraceOptions, SceneOptions,
-                             InfoOptions, SelectOptions, ConvertOptions, StylesOptions, ThesisOptions, WebOptions>;
+using Request =
+    std::variant<HelpText, RenderOptions, FilmOptions, ViewOptions, StatsOptions, TraceOptions, SceneOptions,
+                 InfoOptions, SelectOptions, ConvertOptions, StylesOptions, ThesisOptions, WebOptions>;
 
 /// Fails with kBadUsage on any word that is unknown, missing, repeated or out of range.
 Request parse_command_line(int argc, const char* const* argv);

@@ -1,6 +1,9 @@
 #include "look_options.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
+#include <variant>
 
 #include "bihive/base/write_file.h"
 #include "bihive/scene/element_colours.h"
@@ -18,6 +21,13 @@ void recolour(LoadedScene& input, const std::string& choice) {
   if (!colours) colours = value_or_fail(read_element_colours(value_or_fail(read_file(choice)), choice));
   if (const Status status = recolour_elements(input.scene, *colours); !status)
     fail_usage("--element-colours: " + status.error().message, "leave it out");
+}
+
+std::size_t colourings_of(const std::vector<Look>& looks) {
+  std::size_t count = 0;
+  for (const Look& one : looks)
+    for (const LookAction& action : one.actions) count += std::holds_alternative<ColourBy>(action) ? 1 : 0;
+  return count;
 }
 
 }  // namespace
@@ -74,7 +84,7 @@ void LookOptions::hide_word(const std::string& option, const std::string& word) 
   current_ = looks.size() - 1;
 }
 
-void look(LoadedScene& input, const LookOptions& options) {
+void look(LoadedScene& input, const LookOptions& options, const std::vector<ColourRange>& ranges) {
   if (!options.element_colours.empty()) recolour(input, options.element_colours);
   std::vector<Look> looks = input.looks;
   for (Look one : options.looks) {
@@ -83,6 +93,13 @@ void look(LoadedScene& input, const LookOptions& options) {
         how->nan_colour = *colour_choice_from_text(options.nan_colour);
     looks.push_back(std::move(one));
   }
+  std::size_t next = 0;
+  for (Look& one : looks)
+    for (LookAction& action : one.actions)
+      if (auto* const how = std::get_if<ColourBy>(&action); how != nullptr && next < ranges.size()) {
+        if (!how->range) how->range = ranges[next];
+        ++next;
+      }
   if (looks.empty()) return;
 
   std::size_t failed = 0;
@@ -100,6 +117,25 @@ void look(LoadedScene& input, const LookOptions& options) {
   for (std::size_t i = own; i < looks.size(); ++i)
     if ((*counts)[i] == 0 && options.of_look[i - own] == "--select" && !looks[i].actions.empty())
       warn("--select \"" + looks[i].select + "\" selects no sphere");
+}
+
+std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOptions& options) {
+  // The meanings of the looks' colours stand behind that of the style.
+  const std::vector<ColourBy>& meanings = input.scene.coloured_by;
+  const std::size_t count = std::min(meanings.size(), colourings_of(input.looks) + colourings_of(options.looks));
+  std::vector<ColourRange> ranges;
+  ranges.reserve(count);
+  for (std::size_t i = meanings.size() - count; i < meanings.size(); ++i) ranges.push_back(meanings[i].range);
+  return ranges;
+}
+
+ColourRange range_of_style(const LoadedScene& input, const LookOptions& options) {
+  const std::size_t of_looks = colourings_of(input.looks) + colourings_of(options.looks);
+  return input.scene.coloured_by.size() > of_looks ? input.scene.coloured_by.front().range : std::nullopt;
+}
+
+void fix_range(Style& style, const ColourRange& range) {
+  if (style.colour_by && !style.colour_by->range) style.colour_by->range = range;
 }
 
 }  // namespace bihive::cli

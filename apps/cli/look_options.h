@@ -1,7 +1,9 @@
 // The options of `bihive render` that change how selected spheres look, in the order of the command line.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/result.h"
@@ -35,9 +37,20 @@ struct LookOptions {
   bool has_current_ = false;
 };
 
+/// The range of the numbers that colours stand for; unset: not said, or there is none.
+using ColourRange = std::optional<std::pair<double, double>>;
+
 /// Gives elements their colours, does the input's own looks, then these. Fails with kBadInput on a file of colours that
 /// cannot be read. Fails with kBadUsage on a selection or action that does not fit the input.
-/// Warns of a --select without spheres.
-void look(LoadedScene& input, const LookOptions& options);
+/// Warns of a --select without spheres. `ranges`: for each action that colours by an attribute, in their order, those
+/// of the input first; they replace ranges that the action leaves open.
+void look(LoadedScene& input, const LookOptions& options, const std::vector<ColourRange>& ranges = {});
+
+/// The ranges by which look() has coloured the input, for its last argument; nothing where colours stand for
+/// categories. And that of the style with which the input was loaded.
+std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOptions& options);
+ColourRange range_of_style(const LoadedScene& input, const LookOptions& options);
+/// The style with this range, if it colours by an attribute and leaves the range open.
+void fix_range(Style& style, const ColourRange& range);
 
 }  // namespace bihive::cli

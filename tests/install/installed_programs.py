@@ -32,7 +32,7 @@ def fetch(address):
 
 
 def test_help():
-    for command in ("", "render", "view", "stats", "trace", "scene", "info", "styles", "thesis", "web"):
+    for command in ("", "render", "film", "view", "stats", "trace", "scene", "info", "styles", "thesis", "web"):
         text = bihive(*command.split(), "--help")
         assert "Usage:" in text or "usage:" in text, (command, text)
 

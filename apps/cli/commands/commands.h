@@ -11,6 +11,8 @@
 #include "bihive/render/layers.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/frame_range.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/turn.h"
@@ -48,6 +50,14 @@ struct StyleOptions {
 struct LabelOptions {
   bool legend = false, scale_bar = false, axes = false, none = false;
   std::optional<std::string> title, length_unit;
+  std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
+};
+
+/// What a film keeps the same in all its pictures.
+struct FixedByFilm {
+  Camera camera;  ///< of this picture
+  ColourRange range_of_style;
+  std::vector<ColourRange> ranges_of_looks;
 };
 
 /// Unset: the scene's value.
@@ -84,8 +94,43 @@ struct RenderOptions {
   std::optional<double> aperture;  ///< world units, at least 0
   std::optional<Focus> focus;      ///< world units, 0: where the camera looks at; or what is sharp
   bool json = false;
+  std::string film;                     ///< the file that describes a film, of which this is a picture; empty: none
+  std::optional<std::int64_t> picture;  ///< of the film, from 0; unset: input.frame says it
+  std::optional<FixedByFilm> fixed;     ///< taken from the film
 };
 void run_render(const RenderOptions& options);
+
+/// Pictures a second: a fraction, so that 30000/1001 is exact.
+struct FrameRate {
+  std::int64_t pictures = 25, seconds = 1;
+};
+/// "25", "29.97" or "30000/1001", above 0.
+Result<FrameRate> frame_rate_from(const std::string& text);
+
+/// Every `count`-th picture of a film, from picture `index` on.
+struct Shard {
+  std::int64_t index = 0, count = 1;
+};
+/// "i/N" with 0 <= i < N.
+Result<Shard> shard_from(const std::string& text);
+
+/// From which frames the colours of numbers get their range.
+enum class RangeOfColours { first, film, frame };
+
+struct FilmOptions {
+  RenderOptions picture;           ///< of every picture; its output is the film's
+  std::vector<std::string> words;  ///< the options of a picture, as they stand on the command line
+  std::optional<FrameRange> frames;
+  std::optional<std::int64_t> pictures;  ///< of one frame
+  FrameRate rate;
+  double turntable_deg = 0;
+  std::string camera_keys;  ///< a file; empty: none
+  RangeOfColours range_of_colours = RangeOfColours::first;
+  std::string codec;  ///< ffmpeg's words for the film's codec, one space between them; empty: by the output's ending
+  std::optional<Shard> shard;
+  bool join = false;
+};
+void run_film(const FilmOptions& options);
 
 struct StylesOptions {
   bool json = false;

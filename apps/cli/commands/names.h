@@ -19,6 +19,8 @@ inline const Names<RenderEngine> kRenderEngines{
     {"reference", RenderEngine::reference},   {"brute", RenderEngine::brute},
     {"wide-brute", RenderEngine::wide_brute}, {"gpu", RenderEngine::gpu},
     {"gpu-brute", RenderEngine::gpu_brute}};
+inline const Names<RangeOfColours> kRangesOfColours{
+    {"first", RangeOfColours::first}, {"film", RangeOfColours::film}, {"frame", RangeOfColours::frame}};
 inline const Names<Transfer> kTransfers{{"srgb", Transfer::srgb}, {"none", Transfer::none}};
 
 }  // namespace bihive::cli

@@ -15,24 +15,6 @@
 namespace bihive::cli {
 namespace {
 
-// PNG's plain text knows Latin-1 only.
-std::string latin1(const std::string& text) {
-  std::string converted;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    if (byte < 0x80) {
-      converted += text[i];
-    } else if ((byte == 0xC2 || byte == 0xC3) && (next & 0xC0) == 0x80) {
-      converted += static_cast<char>((byte << 6 & 0xC0) | (next & 0x3F));
-      ++i;
-    } else if ((byte & 0xC0) != 0x80) {
-      converted += '?';
-    }
-  }
-  return converted;
-}
-
 // The settings of a part of the picture.
 RenderSettings settings_of(const RenderSettings& settings, const Tile& pixels) {
   RenderSettings of_part = settings;
@@ -145,12 +127,31 @@ class ExrFileOfRows : public PictureFile {
 
 }  // namespace
 
+std::string latin1(const std::string& text) {
+  std::string converted;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte < 0x80) {
+      converted += text[i];
+    } else if ((byte == 0xC2 || byte == 0xC3) && (next & 0xC0) == 0x80) {
+      converted += static_cast<char>((byte << 6 & 0xC0) | (next & 0x3F));
+      ++i;
+    } else if ((byte & 0xC0) != 0x80) {
+      converted += '?';
+    }
+  }
+  return converted;
+}
+
 void check_picture_name(const std::string& output) {
   constexpr std::array kOthers{".jpg", ".jpeg", ".jpe",  ".jp2",  ".jxl",  ".ppm", ".pgm", ".pbm", ".pnm", ".pam",
                                ".bmp", ".gif",  ".tif",  ".tga",  ".tiff", ".hdr", ".pfm", ".svg", ".pdf", ".eps",
                                ".ps",  ".webp", ".avif", ".heic", ".psd",  ".ico", ".xpm", ".mp4", ".webm"};
   const std::string ending = ending_of(output);
   if (std::find(kOthers.begin(), kOthers.end(), ending) == kOthers.end()) return;
+  if (ending == ".mp4" || ending == ".webm")
+    fail_usage("bihive render draws one picture, and " + ending + " is a film", "make films by bihive film");
   fail_usage("bihive writes PNG and OpenEXR, not " + ending, "let the output end in .png or .exr");
 }
 

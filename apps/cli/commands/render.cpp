@@ -2,23 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bihive/base/version.h"
-#include "bihive/render/memory.h"
-#include "bihive/render/tree_picture.h"
-#include "bihive/scene/clips.h"
 #include "bihive/simd/target.h"
-#include "commands/choose_camera.h"
-#include "commands/choose_labels.h"
 #include "commands/choose_look.h"
 #include "commands/commands.h"
+#include "commands/draw_picture.h"
 #include "commands/names.h"
 #include "commands/picture_file.h"
-#include "commands/render_on_gpu.h"
+#include "commands/picture_settings.h"
+#include "film/film_plan.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
@@ -29,308 +23,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-bool shows_reference_tree(View view) {
-  return view == View::traversal || view == View::tree;
-}
-
-bool is_gpu(RenderEngine engine) {
-  return engine == RenderEngine::gpu || engine == RenderEngine::gpu_brute;
-}
-
-// The pictures of the tree show the reference tree, also if another engine is faster.
-RenderEngine choose_engine(const RenderOptions& options) {
-  const RenderEngine engine = options.engine;
-  if (!shows_reference_tree(options.view) || engine == RenderEngine::reference) return engine;
-  if (engine == RenderEngine::automatic) return RenderEngine::reference;
-  const std::string view = "--view " + name_of(kViews, options.view);
-  const std::string chosen = "--engine " + name_of(kRenderEngines, engine);
-  if (engine == RenderEngine::brute || engine == RenderEngine::wide_brute || engine == RenderEngine::gpu_brute)
-    fail_usage(view + " shows a tree, and " + chosen + " has none");
-  if (engine == RenderEngine::wide)
-    fail_usage(view + " shows the reference tree, and --engine wide has another one",
-               "leave --engine out, or choose --engine reference");
-  if (options.view == View::tree)
-    fail_usage(view + " is drawn by the CPU alone, not by " + chosen,
-               "leave --engine out, or choose --engine reference");
-  return engine;
-}
-
-// The structure that an engine builds.
-Engine structure_of(RenderEngine engine) {
-  switch (engine) {
-    case RenderEngine::wide:
-      return Engine::wide;
-    case RenderEngine::reference:
-    case RenderEngine::gpu:
-      return Engine::reference;
-    case RenderEngine::brute:
-    case RenderEngine::gpu_brute:
-      return Engine::brute;
-    case RenderEngine::wide_brute:
-      return Engine::wide_brute;
-    case RenderEngine::automatic:
-      break;
-  }
-  return Engine::automatic;
-}
-
-// With the ambient light and the lights that throw soft shadows; only what differs from plain pictures.
-void describe_effects(const RenderSettings& settings, const Scene& scene, ordered_json& json) {
-  if (settings.ambient_occlusion) {
-    const AmbientOcclusion& ambient = *settings.ambient_occlusion;
-    ordered_json& object = json["ambient_occlusion"] = ordered_json::object();
-    if (std::isfinite(ambient.distance)) object["distance"] = ambient.distance;
-    object["directions"] = ambient.directions;
-  }
-  if (settings.opacity_rule != OpacityRule::each_surface && lets_light_through(scene))
-    json["opacity_rule"] = name_of(kOpacityRules, settings.opacity_rule);
-  for (const PointLight& light : scene.lights)
-    if (light.radius > 0) json["light_points"] = settings.light_points;
-  if (settings.outline) json["outline_px"] = settings.outline->width_px;
-  if (settings.fog) json["fog"] = settings.fog->strength;
-  if (settings.tone.any()) {
-    json["exposure"] = settings.tone.exposure_stops;
-    json["tone"] = name_of(kToneCurves, settings.tone.curve);
-  }
-}
-
-void describe_labels(const Labels& labels, ordered_json& json) {
-  if (!labels.any()) return;
-  ordered_json& object = json["labels"] = ordered_json::object();
-  if (labels.legend) object["legend"] = true;
-  if (labels.scale_bar) object["scale_bar"] = true;
-  if (labels.axes) object["axes"] = true;
-  if (!labels.title.empty()) object["title"] = labels.title;
-  if (labels.length_unit) object["length_unit"] = *labels.length_unit;
-}
-
-// Everything that decides the picture, for its text chunk. Threads and engine do not.
-ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene,
-                           const std::vector<Layer>& layers) {
-  const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
-  ordered_json json = ordered_json::object();
-  json["view"] = name_of(kViews, settings.view);
-  if (!layers.empty()) json["layers"] = ordered_json::array();
-  for (const Layer& layer : layers) json["layers"].push_back(name_of_layer(layer));
-  json["width_px"] = settings.width_px;
-  json["height_px"] = settings.height_px;
-  if (settings.crop) json["crop"] = {settings.crop->x0, settings.crop->y0, settings.crop->x1, settings.crop->y1};
-  json["samples_per_pixel"] =
-      settings.adaptive_samples ? ordered_json("auto") : ordered_json(settings.samples_per_pixel);
-  json["recursion"] = settings.recursion;
-  json["shadows"] = settings.shadows;
-  describe_effects(settings, scene, json);
-  if (layers.empty()) json["transfer"] = name_of(kTransfers, scene.picture.transfer);
-  json["background"] = vector(scene.background);
-  if (settings.transparent) json["transparent"] = true;
-  describe_labels(settings.labels, json);
-  if (options.bits) json["bits"] = *options.bits;
-  if (options.dots_per_inch > 0) json["dpi"] = options.dots_per_inch;
-  json["camera"] = {{"eye", vector(scene.camera.eye)},
-                    {"look_at", vector(scene.camera.look_at)},
-                    {"up", vector(scene.camera.up)},
-                    {"fov_deg", scene.camera.fov_deg}};
-  if (scene.camera.projection == Projection::orthographic) {
-    json["camera"]["projection"] = name_of(kProjections, scene.camera.projection);
-    json["camera"]["shorter_side"] = scene.camera.shorter_side;
-  }
-  if (scene.camera.aperture > 0) {
-    json["camera"]["aperture"] = scene.camera.aperture;
-    json["camera"]["focus"] = focus_distance(scene.camera);
-  }
-  if (shows_reference_tree(settings.view)) {
-    const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
-    const BuildParameters tree = options.tree.for_reference();
-    json["max_prims"] = limit(tree.max_prims);
-    json["max_depth"] = limit(tree.max_depth);
-  }
-  const InputOptions& input = options.input;
-  json["spheres"] = scene.spheres.size();
-  if (input.radius) json["radius"] = *input.radius;
-  if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
-  if (input.frame) json["frame"] = *input.frame;
-  if (!input.trajectory.empty()) json["trajectory"] = input.trajectory;
-  if (input.recenter) json["recenter"] = true;
-  if (!input.assembly.empty()) json["assembly"] = input.assembly;
-  if (scene.spheres.has_images()) json["replicate"] = scene.spheres.images().counts;
-  if (input.cell_vectors)
-    for (const Vec3d& v : *input.cell_vectors) json["cell_vectors"].push_back({v.x, v.y, v.z});
-  if (input.cell_origin) json["cell_origin"] = {input.cell_origin->x, input.cell_origin->y, input.cell_origin->z};
-  if (input.wrapping != Wrapping::none) json["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
-  if (settings.cell_lines) json["cell"] = true;
-  if (!options.looks.element_colours.empty()) json["element_colours"] = options.looks.element_colours;
-  if (!options.looks.words.empty()) json["looks"] = options.looks.words;
-  return json;
-}
-
-std::string as_text(const ordered_json& json, int indent) {
-  return json.dump(indent, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace);
-}
-
-// The texts in the file about its picture.
-std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const ordered_json& settings) {
-  std::vector<std::pair<std::string, std::string>> text{
-      {"Software", "bihive " + std::string(version())}, {"Scene", scene.name}, {"Settings", as_text(settings, -1)}};
-  if (scene.seed) text.emplace_back("Seed", std::to_string(*scene.seed));
-  return text;
-}
-
-// The report of a picture.
-struct Drawn {
-  std::int64_t all_rays = 0;
-  double render_ms = 0;
-  ordered_json rays, gpu;
-};
-
-// The views distance and tree, and pictures of graphics processors, are drawn whole.
-bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
-  return is_gpu(engine) || settings.view == View::distance || settings.view == View::tree;
-}
-
-// Film and file of a row. Adaptive samples keep a film of their own, and which pixels lie on edges.
-double bytes_of_row(const RenderSettings& settings, const PictureFile& file) {
-  const double film = sizeof(Vec3f) + (settings.transparent ? sizeof(float) : 0);
-  const double pixel = film + (settings.adaptive_samples ? film + 1 : 0) + file.bytes_of_pixel();
-  return pixel * drawn_pixels(settings).width();
-}
-
-// Ends the program if a signal came, else if there is an error.
-void succeed_or_leave(const Status& status) {
-  CancellableSection::leave_if_cancelled();
-  if (!status) fail(status.error());
-}
-
-Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile& file) {
-  const CancellableSection section;
-  Progress progress("rendering");
-  const int band_rows = rows_of_band(drawn_pixels(settings).height(), bytes_of_row(settings, file));
-  Result<RenderedBands> result = render_in_bands(
-      scene, tracer, settings, band_rows,
-      [&file](const Film& film, const Tile& pixels) { return file.add(film, pixels); },
-      [&](double done) { progress.update(done); }, &CancellableSection::token());
-  CancellableSection::leave_if_cancelled();
-  const RenderedBands rendered = value_or_fail(std::move(result));
-  const RenderCounts& rays = rendered.rays;
-  Drawn drawn;
-  drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient;
-  drawn.rays = {{"primary", rays.primary},         {"shadow", rays.shadow},   {"reflected", rays.reflected},
-                {"transmitted", rays.transmitted}, {"ambient", rays.ambient}, {"all", drawn.all_rays}};
-  drawn.render_ms = rendered.render_ms;
-  return drawn;
-}
-
-// Layers without light: one ray for each pixel.
-Drawn draw_layers_alone(const RenderSettings& settings, PictureFile& file) {
-  const CancellableSection section;
-  Progress progress("rendering");
-  const Timer timer;
-  const Tile all = drawn_pixels(settings);
-  const int band_rows = rows_of_band(all.height(), bytes_of_row(settings, file));
-  for (int y = all.y0; y < all.y1; y += band_rows) {
-    succeed_or_leave(file.add({}, {all.x0, y, all.x1, std::min(y + band_rows, all.y1)}));
-    progress.update(static_cast<double>(y - all.y0) / all.height());
-  }
-  Drawn drawn;
-  drawn.all_rays = std::int64_t{all.width()} * all.height();
-  drawn.rays = {{"primary", drawn.all_rays}, {"all", drawn.all_rays}};
-  drawn.render_ms = timer.elapsed_ms();
-  return drawn;
-}
-
-Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile& file) {
-  const CancellableSection section;
-  Progress progress("rendering");
-  GpuPicture picture = render_on_gpu(scene, tracer.tree(), settings, [&](double done) {
-    progress.update(done);
-    CancellableSection::leave_if_cancelled();
-  });
-  succeed_or_leave(file.add(picture.film, drawn_pixels(settings)));
-  Drawn drawn;
-  drawn.all_rays = picture.primary + picture.others;
-  drawn.rays = {{"primary", picture.primary}, {"all", drawn.all_rays}};
-  drawn.gpu = picture.gpu;
-  drawn.render_ms = picture.render_ms;
-  return drawn;
-}
-
-// The samples of a picture with --aperture and without --samples: so many places on the lens are hardly seen one by
-// one.
-constexpr int kLensSamples = 64;
-
-void choose_samples(const RenderOptions& options, RenderSettings& settings) {
-  if (options.samples) {
-    settings.adaptive_samples = *options.samples == kAutomaticSamples;
-    if (!settings.adaptive_samples) settings.samples_per_pixel = static_cast<int>(*options.samples);
-  } else if (options.aperture.value_or(0) > 0) {
-    settings.adaptive_samples = false;
-    settings.samples_per_pixel = std::max(settings.samples_per_pixel, kLensSamples);
-  }
-}
-
-// Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
-// user's options are the result.
-RenderSettings apply_options(const RenderOptions& options, Input& input) {
-  Scene& scene = input.scene;
-  RenderSettings settings = settings_from(scene.picture);
-  if (options.size) settings.width_px = options.size->width_px;
-  if (options.size) settings.height_px = options.size->height_px;
-  settings.crop = options.crop;
-  if (options.crop && (options.crop->x1 > settings.width_px || options.crop->y1 > settings.height_px))
-    fail_usage(
-        fmt::format("--crop ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
-        "give the size of the whole picture by --size");
-  choose_samples(options, settings);
-  settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
-  settings.shadows = options.shadows.value_or(settings.shadows);
-  apply_effects(options.style, settings);
-  if (options.cell && !settings.cell_lines) settings.cell_lines.emplace();
-  if (options.cell && !scene.spheres.cell())
-    fail({"there is no periodic cell that --cell could draw", options.input.input, 0, 0,
-          "give one with --cell-vectors"});
-  if (options.cell && options.view != View::shaded)
-    fail_usage("--cell draws on the shaded picture alone", "leave out --view");
-  settings.view = options.view;
-  settings.threads = static_cast<int>(options.threads);
-  scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
-  if (options.background) settings.transparent = *options.background == kNoBackground;
-  if (options.background && !settings.transparent)
-    scene.background = *colour_from(*options.background, scene.picture.transfer);
-  if (settings.transparent && shows_reference_tree(settings.view))
-    fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
-               "give a colour by --background, or choose another view");
-  scene.camera = choose_camera(input, options, settings);
-  if (settings.adaptive_samples && scene.camera.aperture > 0)
-    fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
-               "give a number: --samples 64");
-  apply_look(options.style, input);
-  choose_labels(options.labels, scene, settings);
-  return settings;
-}
-
-// What the graphics processor cannot draw.
-void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings& settings) {
-  const auto refuse = [engine](const std::string& what, const std::string& without) {
-    fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + what,
-               "leave --engine out, or draw " + without);
-  };
-  if (settings.cell_lines) refuse("edges of a cell", "without --cell");
-  if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: --samples 4");
-  if (has_clips(scene)) refuse("cut spheres", "without --clip");
-  if (scene.spheres.has_images()) refuse("replicated spheres", "without --replicate");
-}
-
 void check_output(const RenderOptions& options) {
   check_picture_name(options.output);
   check_outputs({options.output}, {file_of(options.input), options.style.name, options.looks.element_colours});
   if (options.json && on_standard_output({options.output}))
     fail_usage("--json prints where -o " + options.output + " writes the picture", "write the picture into a file");
-}
-
-// A picture that does not come in bands, and the tree, must fit the memory.
-void check_memory_of(RenderEngine engine, const Input& input, const RenderOptions& options,
-                     const RenderSettings& settings) {
-  if (comes_whole(engine, settings)) value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
-  value_or_fail(check_tree_memory(input.scene.spheres, structure_of(engine), options.tree));
 }
 
 ordered_json report_json(const RenderOptions& options, const Input& input, const RenderSettings& settings,
@@ -352,28 +49,21 @@ ordered_json report_json(const RenderOptions& options, const Input& input, const
 
 }  // namespace
 
-void run_render(const RenderOptions& options) {
+void run_render(const RenderOptions& asked) {
+  RenderOptions options = asked;
+  if (!asked.film.empty()) take_film(options, read_film_plan(asked.film));
   const RenderEngine engine = choose_engine(options);
   check_output(options);
 
   // Load the scene and apply the user's options to it.
   const bool named = !options.style.name.empty();
-  const Style style = choose_style(options.style);
+  Style style = choose_style(options.style);
+  if (options.fixed) fix_range(style, options.fixed->range_of_style);
   Input input = load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named);
   check_outputs({options.output}, input.files);
-  if (options.transfer) input.scene.picture.transfer = *options.transfer;
-  look(input, options.looks);
-  RenderSettings settings = apply_options(options, input);
-  if (shows_reference_tree(settings.view) && has_clips(input.scene))
-    fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of whole spheres", "leave out --clip");
-  if (shows_reference_tree(settings.view) && input.scene.spheres.has_images())
-    fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of the stored spheres",
-               "leave out --replicate");
-  if (input.scene.spheres.has_images() && has_clips(input.scene))
-    fail_usage("--clip does not cut the copies of --replicate", "leave one of them out");
+  RenderSettings settings = prepare_picture(options, engine, input);
   const Scene& scene = input.scene;
   const std::vector<Layer> layers = choose_layers(options, scene, settings);
-  if (is_gpu(engine)) refuse_on_gpu(engine, scene, settings);
   check_memory_of(engine, input, options, settings);
 
   // Build, render, write.
@@ -381,10 +71,16 @@ void run_render(const RenderOptions& options) {
   const ordered_json described = settings_json(options, settings, scene, layers);
   const std::unique_ptr<PictureFile> file =
       open_picture({options, scene, tracer, settings, layers, text_of(scene, described)});
-  const bool without_light = !layers.empty() && !has_radiance(layers);
-  const Drawn drawn = without_light    ? draw_layers_alone(settings, *file)
-                      : is_gpu(engine) ? draw_on_gpu(scene, tracer, settings, *file)
-                                       : draw_on_cpu(scene, tracer, settings, *file);
+  const Drawn drawn = [&] {
+    const CancellableSection section;
+    Progress progress("rendering");
+    try {
+      return draw_picture(scene, tracer, engine, settings, layers, *file, [&](double done) { progress.update(done); });
+    } catch (const Interrupted&) {
+      CancellableSection::leave_if_cancelled();
+      throw;
+    }
+  }();
   value_or_fail(file->finish());
 
   // Print the report.

@@ -33,7 +33,8 @@ void refuse_file_options(const InputOptions& options) {
   only_for(options.wrapping == Wrapping::unwrap, "--unwrap", "files", options.input);
 }
 
-// Made by the program, not read.
+}  // namespace
+
 bool is_generated(const std::string& name) {
   return is_built_in_scene(name) && name != "demo";
 }
@@ -52,8 +53,6 @@ ReadOptions read_options(const InputOptions& options) {
   reading.wrapping = options.wrapping;
   return reading;
 }
-
-}  // namespace
 
 std::string read_input(const std::string& path) {
   bool grew = false;

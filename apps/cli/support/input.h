@@ -51,6 +51,12 @@ void check_input_options(const InputOptions& options);
 Input load_input(const InputOptions& options, LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr,
                  bool asked_for = false);
 
+/// The readers' options; the frame is 0 if none is named.
+ReadOptions read_options(const InputOptions& options);
+
+/// Made by the program, not read: scenario1, scenario2, scenario3, four-spheres.
+bool is_generated(const std::string& name);
+
 /// The scene of a name of `bihive scene`: scenario1, scenario2, scenario3 or four-spheres; nothing for other names.
 std::optional<Scene> generated_scene(const InputOptions& options);
 

@@ -4,10 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
+#include <set>
 
 #include "support/failure.h"
 
@@ -18,6 +21,8 @@ constexpr double kFirstDrawMs = 1000;
 constexpr double kRedrawMs = 100;
 constexpr int kBarCharacters = 24;
 
+std::atomic<bool> g_once{false};
+
 // File names and other texts of users may hold anything.
 void say(const std::string& text) {
   const std::string line = "bihive: " + escaped(text) + "\n";
@@ -26,7 +31,19 @@ void say(const std::string& text) {
 
 }  // namespace
 
+void warn_of_each_text_once() {
+  g_once = true;
+}
+
 void warn(const std::string& text) {
+  if (g_once) {
+    static std::mutex mutex;
+    static std::set<std::string> said;
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (!said.insert(text).second) return;
+    // A progress line of another thread may stand there.
+    if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+  }
   say("warning: " + text);
 }
 

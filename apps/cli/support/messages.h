@@ -13,6 +13,9 @@ namespace bihive::cli {
 /// "bihive: warning: ..." in one line.
 void warn(const std::string& text);
 void warn(const std::vector<std::string>& texts);
+/// From now on a warning whose text was said before is dropped: for commands that read many frames. Then any number of
+/// threads may warn.
+void warn_of_each_text_once();
 /// "bihive: error: ..." in one line.
 void say_error(const std::string& text);
 

@@ -1,0 +1,265 @@
+// bihive film: from a trajectory, or a camera that moves, to a film.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "bihive/base/version.h"
+#include "bihive/base/write_file.h"
+#include "bihive/render/memory.h"
+#include "commands/choose_look.h"
+#include "commands/commands.h"
+#include "commands/draw_picture.h"
+#include "commands/picture_settings.h"
+#include "film/ffmpeg.h"
+#include "film/film_folder.h"
+#include "film/film_plan.h"
+#include "film/film_sink.h"
+#include "film/fix_film.h"
+#include "film/frame_source.h"
+#include "film/make_film.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+#include "support/outputs.h"
+
+namespace bihive::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+double peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+// What contradicts the kind of the film, before anything is read.
+void check_film_options(const FilmOptions& options, FilmKind kind) {
+  const RenderOptions& picture = options.picture;
+  if (options.join && (!picture.input.input.empty() || options.shard || options.frames || options.pictures))
+    fail_usage("--join takes the film's output alone: the shards know the rest", "bihive film --join -o run.mp4");
+  if (!options.join && picture.input.input.empty()) fail_usage("bihive film needs an INPUT", "see bihive film --help");
+  if (!options.codec.empty() && kind != FilmKind::encoded)
+    fail_usage("--codec is for films that ffmpeg encodes", "let the output end in .mp4, .mov, .mkv or .webm");
+  if (kind != FilmKind::pictures && picture.bits.value_or(8) != 8)
+    fail_usage("--bits 16 is for a sequence of pictures", "name the output run/%05d.png");
+  if (kind != FilmKind::pictures && picture.background == kNoBackground)
+    fail_usage("a film in one file has no transparent background", "name the output run/%05d.png");
+  if (options.turntable_deg != 0 && !options.camera_keys.empty())
+    fail_usage("--turntable and --camera-keys both move the camera", "leave one of them out");
+}
+
+void check_film_output(const FilmOptions& options, FilmKind kind) {
+  const RenderOptions& picture = options.picture;
+  const std::vector<std::string> inputs{file_of(picture.input), picture.input.trajectory, picture.style.name,
+                                        picture.looks.element_colours, options.camera_keys};
+  const std::string described = plan_path(picture.output);
+  if (kind != FilmKind::pictures) {
+    check_outputs({picture.output, described}, inputs);
+    if (is_stream(picture.output))
+      fail_usage("a film is made in a folder beside it, so " + picture.output + " cannot hold it", "name a file");
+    return;
+  }
+  // The folder of a sequence is made if it is missing.
+  const std::filesystem::path folder = std::filesystem::path(described).parent_path();
+  std::error_code code;
+  if (folder.empty() || std::filesystem::exists(folder, code)) check_outputs({described}, inputs);
+}
+
+// The path that a link leads to, also if nothing is there yet. check_outputs() has refused links without an end.
+std::string behind_links(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  std::filesystem::path place = path;
+  std::error_code code;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(place, code); ++i)
+    place = place.parent_path() / std::filesystem::read_symlink(place, code);
+  return place.string();
+}
+
+std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
+                                    const std::string& ffmpeg) {
+  const std::string& output = options.picture.output;
+  const bool store = options.shard && kind != FilmKind::pictures;
+  if (store || kind == FilmKind::pictures) return open_sequence(plan, output, store, options.picture.dots_per_inch);
+  return kind == FilmKind::y4m ? open_y4m(plan, output) : open_encoded(plan, output, ffmpeg);
+}
+
+// The pictures of this run: its shard's, or all.
+std::vector<std::int64_t> wanted_pictures(const FilmPlan& plan, const FilmOptions& options) {
+  const Shard shard = options.shard.value_or(Shard{});
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t k = shard.index; k < plan.asked.pictures; k += shard.count) numbers.push_back(k);
+  return numbers;
+}
+
+struct FilmReport {
+  FilmTimes times;
+  std::int64_t kept = 0;
+  double all_ms = 0;
+};
+
+void print_film_report(const FilmOptions& options, const FilmPlan& plan, const FilmReport& report) {
+  const FilmTimes& times = report.times;
+  const double rate = report.all_ms > 0 ? 1000.0 * static_cast<double>(times.pictures) / report.all_ms : 0;
+  const std::string& output = options.picture.output;
+  if (!options.picture.json) {
+    const std::string kept = report.kept > 0 ? fmt::format(", {} kept from before", grouped(report.kept)) : "";
+    const std::string of_shard =
+        options.shard ? fmt::format(" (shard {}/{})", options.shard->index, options.shard->count) : "";
+    print(
+        fmt::format("{}{}: {} pictures of {} x {}{}; {} at {:.3g} a second; read {}, build {}, trace {}, write {}; "
+                    "peak memory {}\n",
+                    escaped(output), of_shard, grouped(times.pictures), plan.fixed.width_px, plan.fixed.height_px, kept,
+                    readable_ms(report.all_ms), rate, readable_ms(times.read_ms), readable_ms(times.build_ms),
+                    readable_ms(times.trace_ms), readable_ms(times.write_ms), readable_bytes(peak_memory_bytes())));
+    return;
+  }
+  ordered_json json = ordered_json::object();
+  json["output"] = output;
+  json["film"] = options.shard ? ordered_json() : ordered_json(plan_path(output));
+  json["size"] = fmt::format("{}x{}", plan.fixed.width_px, plan.fixed.height_px);
+  json["fps"] = static_cast<double>(plan.asked.rate.pictures) / static_cast<double>(plan.asked.rate.seconds);
+  json["pictures"] = plan.asked.pictures;
+  json["drawn"] = times.pictures;
+  json["kept"] = report.kept;
+  if (options.shard) json["shard"] = fmt::format("{}/{}", options.shard->index, options.shard->count);
+  json["read_ms"] = times.read_ms;
+  json["build_ms"] = times.build_ms;
+  json["trace_ms"] = times.trace_ms;
+  json["write_ms"] = times.write_ms;
+  json["all_ms"] = report.all_ms;
+  json["pictures_per_s"] = rate;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  print(as_text(json, 2) + "\n");
+}
+
+// Makes the pictures that are missing, and the film of all unless this is a shard. After a signal or a failure nothing
+// is left if no picture is whole.
+FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
+                       const std::vector<std::int64_t>& wanted, const std::vector<std::int64_t>& missing,
+                       FilmFolder& folder, FilmSink& sink) {
+  const auto nothing_is_whole = [&] {
+    return std::none_of(wanted.begin(), wanted.end(), [&](std::int64_t number) { return sink.has(number); });
+  };
+  try {
+    const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink);
+    if (!options.shard) sink.finish();
+    return times;
+  } catch (const Interrupted&) {
+    // The folder of a shard belongs to the others too.
+    if (!options.shard && nothing_is_whole()) folder.leave_nothing();
+    CancellableSection::leave_if_cancelled();
+    throw;
+  } catch (...) {
+    if (!options.shard && nothing_is_whole()) folder.leave_nothing();
+    throw;
+  }
+}
+
+void join_shards(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg) {
+  const Timer timer;
+  const std::string& output = options.picture.output;
+  FilmFolder folder(output, kind != FilmKind::pictures);
+  if (!folder.kept())
+    fail(
+        {"there are no shards of this film", output, 0, 0, "make them first: bihive film INPUT -o OUTPUT --shard i/N"});
+  const FilmPlan plan = *folder.kept();
+  const std::unique_ptr<FilmSink> shards = open_sequence(plan, output, kind != FilmKind::pictures, 0);
+  std::int64_t missing = 0, first = -1;
+  for (std::int64_t k = plan.asked.pictures - 1; k >= 0; --k)
+    if (!shards->has(k)) {
+      ++missing;
+      first = k;
+    }
+  if (missing > 0)
+    fail({fmt::format("{} of {} pictures are missing, the first is number {}", missing, plan.asked.pictures, first),
+          output, 0, 0, "run the shards that lack them again"});
+  FilmReport report;
+  report.kept = plan.asked.pictures;
+  if (kind != FilmKind::pictures) {
+    const CancellableSection section;
+    folder.take(plan, /*alone=*/true);
+    const std::unique_ptr<FilmSink> sink = open_sink(plan, options, kind, ffmpeg);
+    Progress progress("joining");
+    for (std::int64_t k = 0; k < plan.asked.pictures; ++k) {
+      if (CancellableSection::token().cancelled()) {
+        sink->pause();
+        CancellableSection::leave_if_cancelled();
+      }
+      progress.update(static_cast<double>(k) / static_cast<double>(plan.asked.pictures));
+      if (sink->has(k)) continue;
+      PngFile file = value_or_fail(read_png(shard_picture_path(output, k)));
+      if (file.image.width != plan.fixed.width_px || file.image.height != plan.fixed.height_px)
+        fail({"has another size than the film", shard_picture_path(output, k), 0, 0,
+              "remove it, and run its shard again"});
+      FilmPicture picture;
+      picture.number = k;
+      picture.pixels = {file.image.width, file.image.height, 3, 8, std::move(file.image.rgb)};
+      sink->add(picture);
+    }
+    sink->finish();
+    folder.finish(plan);
+  }
+  report.all_ms = timer.elapsed_ms();
+  print_film_report(options, plan, report);
+}
+
+}  // namespace
+
+void run_film(const FilmOptions& asked) {
+  const Timer timer;
+  FilmOptions options = asked;
+  const FilmKind kind = film_kind(options.picture.output);
+  check_film_options(options, kind);
+  // Missing programs are named before any work.
+  const std::string ffmpeg = kind == FilmKind::encoded && !options.shard ? find_ffmpeg() : "";
+  check_film_output(options, kind);
+  // A link stays, and the film is made beside the file that it leads to.
+  if (kind != FilmKind::pictures) options.picture.output = behind_links(options.picture.output);
+  if (options.join) return join_shards(options, kind, ffmpeg);
+  choose_engine(options.picture);
+  warn_of_each_text_once();
+
+  // What the film shows, and whether an earlier run has begun it.
+  const Style style = choose_style(options.picture.style);
+  const FrameSource source = FrameSource::open(options.picture.input, style, !options.picture.style.name.empty());
+  FilmPlan plan;
+  plan.asked = film_asked_for(options, source.count());
+  FilmFolder folder(options.picture.output, kind != FilmKind::pictures);
+  if (folder.kept()) {
+    const std::string differs = difference(folder.kept()->asked, plan.asked);
+    if (!differs.empty())
+      fail({"holds pictures of another film: " + differs,
+            kind == FilmKind::pictures ? plan_path(options.picture.output) : part_path(options.picture.output), 0, 0,
+            "remove it to begin anew, or name another output"});
+    plan = *folder.kept();
+  }
+
+  const CancellableSection section;
+  if (!folder.kept()) plan.fixed = fixed_by_film(source, plan, options, style);
+  CancellableSection::leave_if_cancelled();
+  value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
+  folder.take(plan, /*alone=*/!options.shard);
+  const std::unique_ptr<FilmSink> sink = open_sink(plan, options, kind, ffmpeg);
+  const std::vector<std::int64_t> wanted = wanted_pictures(plan, options);
+  std::vector<std::int64_t> missing;
+  for (const std::int64_t number : wanted)
+    if (!sink->has(number)) missing.push_back(number);
+
+  // Make it.
+  FilmReport report;
+  report.kept = static_cast<std::int64_t>(wanted.size() - missing.size());
+  report.times = make_missing(source, plan, options, style, wanted, missing, folder, *sink);
+  if (!options.shard) folder.finish(plan);
+  report.all_ms = timer.elapsed_ms();
+  print_film_report(options, plan, report);
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,173 @@
+#include "film/film_plan.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "bihive/base/write_file.h"
+#include "bihive/scene/names.h"
+#include "commands/picture_settings.h"
+#include "support/failure.h"
+
+namespace bihive::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+
+ordered_json vector_json(Vec3d v) {
+  return {v.x, v.y, v.z};
+}
+
+Vec3d vector_of(const ordered_json& value) {
+  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
+
+ordered_json range_json(const ColourRange& range) {
+  return range ? ordered_json{range->first, range->second} : ordered_json();
+}
+
+ColourRange range_of(const ordered_json& value) {
+  if (value.is_null()) return std::nullopt;
+  return std::pair{value.at(0).get<double>(), value.at(1).get<double>()};
+}
+
+ordered_json camera_json(const Camera& camera) {
+  return {{"eye", vector_json(camera.eye)},
+          {"look_at", vector_json(camera.look_at)},
+          {"up", vector_json(camera.up)},
+          {"fov_deg", camera.fov_deg},
+          {"projection", name_of(kProjections, camera.projection)},
+          {"shorter_side", camera.shorter_side},
+          {"aperture", camera.aperture},
+          {"focus", camera.focus}};
+}
+
+Camera camera_of(const ordered_json& value) {
+  Camera camera;
+  camera.eye = vector_of(value.at("eye"));
+  camera.look_at = vector_of(value.at("look_at"));
+  camera.up = vector_of(value.at("up"));
+  camera.fov_deg = value.at("fov_deg").get<double>();
+  const auto projection = value_named(kProjections, value.at("projection").get<std::string>());
+  if (!projection) throw std::out_of_range("projection");
+  camera.projection = *projection;
+  camera.shorter_side = value.at("shorter_side").get<double>();
+  camera.aperture = value.at("aperture").get<double>();
+  camera.focus = value.at("focus").get<double>();
+  return camera;
+}
+
+ordered_json asked_json(const FilmPlan::Asked& asked) {
+  ordered_json object = ordered_json::object();
+  object["program"] = asked.program;
+  object["input"] = asked.input;
+  object["frames"] = {{"first", asked.frames.first}, {"step", asked.frames.step}, {"count", asked.frames.count}};
+  object["pictures"] = asked.pictures;
+  object["fps"] = fmt::format("{}/{}", asked.rate.pictures, asked.rate.seconds);
+  object["options"] = asked.options;
+  object["turntable_deg"] = asked.path.turntable_deg;
+  object["camera"] =
+      asked.path.keys.empty() ? ordered_json() : ordered_json::parse(camera_keys_to_json(asked.path.keys));
+  object["colour_range"] = asked.range_of_colours;
+  object["codec"] = asked.codec;
+  return object;
+}
+
+FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
+  FilmPlan::Asked asked;
+  asked.program = value.at("program").get<std::string>();
+  asked.input = value.at("input");
+  const ordered_json& frames = value.at("frames");
+  asked.frames = {frames.at("first").get<std::int64_t>(), frames.at("step").get<std::int64_t>(),
+                  frames.at("count").get<std::int64_t>()};
+  asked.pictures = value.at("pictures").get<std::int64_t>();
+  asked.rate = value_or_fail(frame_rate_from(value.at("fps").get<std::string>()));
+  asked.options = value.at("options").get<std::vector<std::string>>();
+  asked.path.turntable_deg = value.at("turntable_deg").get<double>();
+  if (!value.at("camera").is_null())
+    asked.path.keys = value_or_fail(parse_camera_keys(value.at("camera").dump(), path));
+  asked.range_of_colours = value.at("colour_range").get<std::string>();
+  asked.codec = value.at("codec").get<std::string>();
+  if (asked.frames.first < 0 || asked.frames.step < 1 || asked.frames.count < 1 || asked.pictures < 1)
+    throw std::out_of_range("frames");
+  return asked;
+}
+
+FilmPlan::Fixed fixed_of(const ordered_json& value) {
+  FilmPlan::Fixed fixed;
+  fixed.width_px = value.at("size_px").at(0).get<int>();
+  fixed.height_px = value.at("size_px").at(1).get<int>();
+  fixed.camera = camera_of(value.at("camera"));
+  if (!check_camera(fixed.camera)) throw std::out_of_range("camera");
+  fixed.range_of_style = range_of(value.at("range_of_style"));
+  fixed.ranges_of_looks.reserve(value.at("ranges_of_looks").size());
+  for (const ordered_json& range : value.at("ranges_of_looks")) fixed.ranges_of_looks.push_back(range_of(range));
+  return fixed;
+}
+
+}  // namespace
+
+std::string film_plan_to_json(const FilmPlan& plan) {
+  ordered_json fixed = ordered_json::object();
+  fixed["size_px"] = {plan.fixed.width_px, plan.fixed.height_px};
+  fixed["camera"] = camera_json(plan.fixed.camera);
+  fixed["range_of_style"] = range_json(plan.fixed.range_of_style);
+  fixed["ranges_of_looks"] = ordered_json::array();
+  for (const ColourRange& range : plan.fixed.ranges_of_looks) fixed["ranges_of_looks"].push_back(range_json(range));
+  const ordered_json document = {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
+  return as_text(document, 2) + "\n";
+}
+
+FilmPlan read_film_plan(const std::string& path) {
+  const std::string text = value_or_fail(read_file(path));
+  try {
+    const ordered_json document = ordered_json::parse(text);
+    if (document.at("bihive_film") == kFormat) {
+      FilmPlan plan;
+      plan.asked = asked_of(document.at("asked"), path);
+      plan.fixed = fixed_of(document.at("fixed"));
+      return plan;
+    }
+  } catch (const ordered_json::exception&) {
+    // Any other file.
+  } catch (const std::out_of_range&) {
+    // A number that no film has.
+  }
+  fail({"is no description of a film", path, 0, 0, "bihive film writes one beside the film, with the ending .json"});
+}
+
+std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked) {
+  const ordered_json old = asked_json(kept), now = asked_json(asked);
+  for (const auto& [word, value] : now.items())
+    if (old.at(word) != value)
+      return fmt::format("its {} was {}, and is {} now", word, as_text(old.at(word), -1), as_text(value, -1));
+  return "";
+}
+
+void take_film(RenderOptions& options, const FilmPlan& plan) {
+  const FilmPlan::Asked& asked = plan.asked;
+  if (!options.picture && !options.input.frame)
+    fail_usage("--film needs the number of a frame of the input or of a picture of the film",
+               "give --frame I or --picture K, from 0");
+  std::int64_t picture = options.picture.value_or(0);
+  if (options.picture && options.input.frame) fail_usage("--picture and --frame both say which picture it is");
+  if (!options.picture) {
+    const std::optional<std::int64_t> found = asked.frames.picture_of(*options.input.frame);
+    if (!found)
+      fail_usage(fmt::format("frame {} is not in the film, which has frames {} to {} by steps of {}",
+                             *options.input.frame, asked.frames.first, asked.frames.frame(asked.frames.count - 1),
+                             asked.frames.step));
+    if (asked.frames.count == 1 && asked.pictures > 1)
+      fail_usage("all pictures of the film show this frame", "say which one by --picture K, from 0");
+    picture = *found;
+  }
+  if (picture >= asked.pictures)
+    fail_usage(fmt::format("the film has no picture {}: its last one is {}", picture, asked.pictures - 1));
+  if (!is_generated(options.input.input)) options.input.frame = plan.frame_of(picture);
+  options.fixed = FixedByFilm{camera_at(asked.path, plan.fixed.camera, picture, asked.pictures),
+                              plan.fixed.range_of_style, plan.fixed.ranges_of_looks};
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,54 @@
+// The description of a film, in the file beside it: all that its pictures depend on besides their frames.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bihive/scene/camera_path.h"
+#include "bihive/scene/frame_range.h"
+#include "commands/commands.h"
+
+namespace bihive::cli {
+
+struct FilmPlan {
+  /// The user's wishes and the input's file. A run goes on where another one was if they are equal.
+  struct Asked {
+    std::string program;           ///< its version
+    nlohmann::ordered_json input;  ///< path, size and time of its files
+    FrameList frames;              ///< of the input
+    std::int64_t pictures = 1;     ///< as many as frames; or of one frame
+    FrameRate rate;
+    std::vector<std::string> options;  ///< of each picture
+    CameraPath path;
+    std::string range_of_colours;
+    std::string codec;
+  } asked;
+
+  /// From the film's first frame.
+  struct Fixed {
+    int width_px = 0, height_px = 0;  ///< of a picture in the film
+    Camera camera;                    ///< before it moves
+    ColourRange range_of_style;
+    std::vector<ColourRange> ranges_of_looks;
+  } fixed;
+
+  std::int64_t frame_of(std::int64_t picture) const {
+    return asked.frames.count == 1 ? asked.frames.first : asked.frames.frame(picture);
+  }
+};
+
+std::string film_plan_to_json(const FilmPlan& plan);
+
+/// Fails with kBadInput if the file is no such description.
+FilmPlan read_film_plan(const std::string& path);
+
+/// What differs between two wishes, for a message: "its frames are ..., not ..."; empty: nothing.
+std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked);
+
+/// Sets the options' frame, camera and ranges to those of the picture that `options.picture` or `options.input.frame`
+/// names. Fails with kBadUsage if the film has no such picture.
+void take_film(RenderOptions& options, const FilmPlan& plan);
+
+}  // namespace bihive::cli

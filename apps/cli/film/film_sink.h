@@ -1,0 +1,60 @@
+// Where the pictures of a film go.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "bihive/image/png.h"
+#include "film/film_plan.h"
+
+namespace bihive::cli {
+
+/// A finished picture.
+struct FilmPicture {
+  std::int64_t number = 0;  ///< from 0
+  PngPixels pixels;
+  PngText text;
+};
+
+/// All functions fail with a Failure; what is whole by then stays for the next run.
+class FilmSink {
+ public:
+  virtual ~FilmSink() = default;
+
+  /// Whether an earlier run has left the picture, whole and of the same film.
+  virtual bool has(std::int64_t number) const = 0;
+  /// The next picture that was missing, in rising order. From one thread.
+  virtual void add(const FilmPicture& picture) = 0;
+  /// No more pictures come now: makes what is whole ready for the next run, and leaves nothing if nothing is.
+  virtual void pause() = 0;
+  /// All pictures are there: the film takes its place.
+  virtual void finish() = 0;
+};
+
+/// The kinds of films, by the output's ending.
+enum class FilmKind { pictures, y4m, encoded };
+
+/// Fails with kBadUsage on another ending, or on a sequence without one place for the number.
+FilmKind film_kind(const std::string& output);
+
+/// The file beside the film: run.mp4.json, or film.json for run/%05d.png.
+std::string plan_path(const std::string& output);
+
+/// The path of one picture of a sequence.
+std::string picture_path(const std::string& pattern, std::int64_t number);
+
+/// The folder where a film is made: run.mp4.part.
+std::string part_path(const std::string& output);
+
+/// A picture of a shard there, until bihive film --join takes it.
+std::string shard_picture_path(const std::string& output, std::int64_t number);
+
+/// `dots_per_inch`: as for encode_png(). `store`: pictures of a shard, which wait as PNG files whatever the kind is.
+std::unique_ptr<FilmSink> open_sequence(const FilmPlan& plan, const std::string& output, bool store,
+                                        double dots_per_inch);
+std::unique_ptr<FilmSink> open_y4m(const FilmPlan& plan, const std::string& output);
+/// `ffmpeg`: the program's path. Needs the folder part_path().
+std::unique_ptr<FilmSink> open_encoded(const FilmPlan& plan, const std::string& output, const std::string& ffmpeg);
+
+}  // namespace bihive::cli

@@ -1,0 +1,140 @@
+#include "film/fix_film.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "bihive/base/version.h"
+#include "bihive/base/write_file.h"
+#include "commands/names.h"
+#include "commands/picture_settings.h"
+#include "film/turning_camera.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+// The seconds of a film that shows one frame from all sides.
+constexpr double kSecondsOfTurn = 10;
+
+constexpr std::int64_t kMostPictures = 100'000'000;
+
+// A file by its path, size and time; a name for anything else.
+ordered_json described_file(const std::string& path) {
+  ordered_json object = {{"path", path}};
+  struct stat found {};
+  if (is_built_in_scene(path) || stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return object;
+  object["bytes"] = static_cast<std::int64_t>(found.st_size);
+  object["changed_ns"] = static_cast<std::int64_t>(found.st_mtim.tv_sec) * 1'000'000'000 +
+                         static_cast<std::int64_t>(found.st_mtim.tv_nsec);
+  return object;
+}
+
+void widen(ColourRange& range, const ColourRange& other) {
+  if (!other) return;
+  if (!range) range = other;
+  range->first = std::min(range->first, other->first);
+  range->second = std::max(range->second, other->second);
+}
+
+// A range needs an extent. A single number gets the middle of the colours.
+void give_extent(ColourRange& range) {
+  if (!range || range->first < range->second) return;
+  const double value = range->first;
+  const double half = value != 0 ? std::abs(value) / 2 : 0.5;
+  range = {value - half, value + half};
+}
+
+// The ranges of all frames of the film.
+void widen_over_film(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
+                     FilmPlan::Fixed& fixed) {
+  Progress progress("ranges of colours");
+  for (std::int64_t k = 1; k < plan.asked.frames.count; ++k) {
+    CancellableSection::leave_if_cancelled();
+    Input input = source.load(plan.asked.frames.frame(k), style);
+    if (options.picture.transfer) input.scene.picture.transfer = *options.picture.transfer;
+    look(input, options.picture.looks);
+    widen(fixed.range_of_style, range_of_style(input, options.picture.looks));
+    const std::vector<ColourRange> ranges = ranges_of_looks(input, options.picture.looks);
+    for (std::size_t i = 0; i < std::min(ranges.size(), fixed.ranges_of_looks.size()); ++i)
+      widen(fixed.ranges_of_looks[i], ranges[i]);
+    progress.update(static_cast<double>(k) / static_cast<double>(plan.asked.frames.count));
+  }
+}
+
+}  // namespace
+
+FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) {
+  FilmPlan::Asked asked;
+  asked.program = version();
+  asked.input = {described_file(options.picture.input.input)};
+  if (!options.picture.input.trajectory.empty())
+    asked.input.push_back(described_file(options.picture.input.trajectory));
+  if (!options.picture.labels.title_values.empty())
+    asked.input.push_back(described_file(options.picture.labels.title_values));
+  const Result<FrameList> list = frames_in(options.frames.value_or(FrameRange{}), frames);
+  if (!list) fail_usage("--frames: " + list.error().message, list.error().hint);
+  asked.frames = *list;
+  asked.rate = options.rate;
+  asked.options = options.words;
+  asked.path.turntable_deg = options.turntable_deg;
+  if (!options.camera_keys.empty())
+    asked.path.keys =
+        value_or_fail(parse_camera_keys(value_or_fail(read_file(options.camera_keys)), options.camera_keys));
+  if (options.pictures && asked.frames.count > 1)
+    fail_usage("--pictures is for a film of one frame, and this one has " + std::to_string(asked.frames.count),
+               "name one by --frames 0, or leave --pictures out");
+
+  // Each frame is one picture. One frame alone is shown while the camera moves.
+  asked.pictures = options.pictures.value_or(asked.frames.count);
+  if (!options.pictures && asked.frames.count == 1) {
+    if (!asked.path.keys.empty())
+      asked.pictures = asked.path.keys.back().picture + 1;
+    else if (asked.path.turntable_deg != 0)
+      asked.pictures =
+          std::max<std::int64_t>(1, std::llround(kSecondsOfTurn * static_cast<double>(asked.rate.pictures) /
+                                                 static_cast<double>(asked.rate.seconds)));
+  }
+  if (asked.pictures > kMostPictures) fail_usage("a film has at most 100,000,000 pictures");
+  if (!asked.path.keys.empty() && asked.path.keys.back().picture >= asked.pictures)
+    fail_usage(fmt::format("--camera-keys: the last key is for picture {}, and the last picture is {}",
+                           asked.path.keys.back().picture, asked.pictures - 1));
+  asked.range_of_colours = name_of(kRangesOfColours, options.range_of_colours);
+  asked.codec = options.codec;
+  return asked;
+}
+
+FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options,
+                              const Style& style) {
+  RenderOptions first = options.picture;
+  if (!is_generated(first.input.input)) first.input.frame = plan.frame_of(0);
+  Input input = source.load(plan.frame_of(0), style);
+  warn(input.warnings);
+  const RenderSettings settings = prepare_picture(first, choose_engine(first), input);
+
+  FilmPlan::Fixed fixed;
+  const Tile drawn = drawn_pixels(settings);
+  fixed.width_px = drawn.width();
+  fixed.height_px = drawn.height();
+  fixed.camera = input.scene.camera;
+  const bool user_places = first.eye || first.look_at || first.up;
+  if (plan.asked.path.moves() && !user_places && (!input.has_camera || first.view_from))
+    fixed.camera = camera_around(input, fixed.camera, first, settings);
+  if (options.range_of_colours == RangeOfColours::frame) return fixed;
+  fixed.range_of_style = range_of_style(input, first.looks);
+  fixed.ranges_of_looks = ranges_of_looks(input, first.looks);
+  if (options.range_of_colours == RangeOfColours::film) widen_over_film(source, plan, options, style, fixed);
+  give_extent(fixed.range_of_style);
+  for (ColourRange& range : fixed.ranges_of_looks) give_extent(range);
+  return fixed;
+}
+
+}  // namespace bihive::cli

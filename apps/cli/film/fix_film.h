@@ -1,0 +1,20 @@
+// From the user's options to the description of a film.
+#pragma once
+
+#include <cstdint>
+
+#include "bihive/scene/style.h"
+#include "film/film_plan.h"
+#include "film/frame_source.h"
+
+namespace bihive::cli {
+
+/// Of an input with so many frames. Fails where options contradict each other or the input.
+FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames);
+
+/// Camera, size and ranges of colours, from the film's first frame; the ranges from all its frames if the user wants
+/// that, which reads all of them.
+FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options,
+                              const Style& style);
+
+}  // namespace bihive::cli

@@ -1,0 +1,210 @@
+#include "film/make_film.h"
+
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "bihive/base/timer.h"
+#include "bihive/render/draw_labels.h"
+#include "commands/draw_picture.h"
+#include "commands/picture_settings.h"
+#include "film/picture_queue.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+
+namespace bihive::cli {
+namespace {
+
+struct ReadPicture {
+  RenderOptions options;
+  std::int64_t number = 0;
+  Input input;
+};
+
+// The tracer refers to the scene, so this stays where it is.
+struct BuiltPicture {
+  RenderOptions options;
+  std::int64_t number = 0;
+  Input input;
+  RenderSettings settings;
+  std::optional<Tracer> tracer;
+};
+
+// Collects the bands of a picture as pixels, as the file of `bihive render` does.
+class PixelsInMemory final : public PictureFile {
+ public:
+  PixelsInMemory(const BuiltPicture& picture, PngPixels& pixels) : picture_(picture), pixels_(pixels) {}
+
+  Status add(const Film& film, const Tile& part) override {
+    RenderSettings settings = picture_.settings;
+    const Transfer curve = settings.view == View::shaded ? picture_.input.scene.picture.transfer : Transfer::none;
+    PngPixels rows = png_pixels_from_film(film, curve, bits(), settings.threads);
+    settings.crop = part;
+    draw_labels(rows, picture_.input.scene, settings, picture_.options.dots_per_inch);
+    if (pixels_.height == 0) {
+      pixels_ = std::move(rows);
+      return Done{};
+    }
+    pixels_.height += rows.height;
+    pixels_.bytes.insert(pixels_.bytes.end(), rows.bytes.begin(), rows.bytes.end());
+    return Done{};
+  }
+  Status finish() override { return Done{}; }
+  double bytes_of_pixel() const override { return (picture_.settings.transparent ? 4 : 3) * (bits() / 8.0); }
+
+ private:
+  int bits() const { return static_cast<int>(picture_.options.bits.value_or(8)); }
+
+  const BuiltPicture& picture_;
+  PngPixels& pixels_;
+};
+
+// The steps of one film and the queues between them.
+class FilmSteps {
+ public:
+  FilmSteps(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
+            const std::vector<std::int64_t>& pictures, FilmSink& sink)
+      : source_(source), plan_(plan), options_(options), style_(style), pictures_(pictures), sink_(sink) {}
+
+  FilmTimes run() {
+    std::vector<std::thread> threads;
+    try {
+      threads.emplace_back([this] { guarded([this] { read_all(); }); });
+      threads.emplace_back([this] { guarded([this] { build_all(); }); });
+      threads.emplace_back([this] {
+        guarded([this] { write_all(); });
+        drawn_.close();
+      });
+    } catch (const std::system_error&) {
+      // The system has no more threads: the film cannot be made.
+      stop(std::current_exception());
+    }
+    guarded([this] { trace_all(); });
+    for (std::thread& thread : threads) thread.join();
+
+    // The writer is done, so that this thread may use the sink.
+    if (failure_ || CancellableSection::token().cancelled()) {
+      guarded([this] { sink_.pause(); });
+      if (CancellableSection::token().cancelled()) throw Interrupted{};
+      std::rethrow_exception(failure_);
+    }
+    times_.pictures = static_cast<std::int64_t>(pictures_.size());
+    return times_;
+  }
+
+ private:
+  // Runs a step. Its first failure ends all steps.
+  template <class Step>
+  void guarded(const Step& step) {
+    try {
+      step();
+    } catch (...) {
+      stop(std::current_exception());
+    }
+  }
+  void stop(std::exception_ptr failure) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!failure_) failure_ = std::move(failure);
+    }
+    read_.close();
+    built_.close();
+    drawn_.end();  // what is drawn is still written
+  }
+
+  void read_all() {
+    for (const std::int64_t number : pictures_) {
+      if (CancellableSection::token().cancelled()) break;
+      const Timer timer;
+      ReadPicture picture{options_, number, {}};
+      picture.options.picture = number;
+      picture.options.input.frame.reset();
+      take_film(picture.options, plan_);
+      Style style = style_;
+      fix_range(style, plan_.fixed.range_of_style);
+      picture.input = source_.load(plan_.frame_of(number), style);
+      warn(picture.input.warnings);
+      times_.read_ms += timer.elapsed_ms();
+      if (!read_.push(std::move(picture))) break;
+    }
+    read_.end();
+  }
+
+  void build_all() {
+    while (std::optional<ReadPicture> read = read_.pop()) {
+      const Timer timer;
+      auto picture = std::make_unique<BuiltPicture>();
+      picture->options = std::move(read->options);
+      picture->number = read->number;
+      picture->input = std::move(read->input);
+      const RenderEngine engine = choose_engine(options_);
+      picture->settings = prepare_picture(picture->options, engine, picture->input);
+      if (picture->settings.width_px != plan_.fixed.width_px || picture->settings.height_px != plan_.fixed.height_px)
+        if (!picture->settings.crop) fail({"the pictures of the film differ in size", "", 0, 0, "give one by --size"});
+      check_memory_of(engine, picture->input, picture->options, picture->settings);
+      picture->tracer = value_or_fail(
+          Tracer::build(picture->input.scene, structure_of(engine), options_.tree, picture->settings.threads));
+      times_.build_ms += timer.elapsed_ms();
+      if (!built_.push(std::move(picture))) break;
+    }
+    built_.end();
+  }
+
+  void trace_all() {
+    Progress progress("film");
+    std::size_t done = 0;
+    while (const std::optional<std::unique_ptr<BuiltPicture>> next = built_.pop()) {
+      const Timer timer;
+      const BuiltPicture& picture = **next;
+      FilmPicture drawn;
+      drawn.number = picture.number;
+      PixelsInMemory pixels(picture, drawn.pixels);
+      draw_picture(picture.input.scene, *picture.tracer, choose_engine(options_), picture.settings, {}, pixels,
+                   [&](double share) {
+                     progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
+                   });
+      const nlohmann::ordered_json described =
+          settings_json(picture.options, picture.settings, picture.input.scene, {});
+      for (auto& [name, text] : text_of(picture.input.scene, described)) drawn.text.emplace_back(name, latin1(text));
+      times_.trace_ms += timer.elapsed_ms();
+      ++done;
+      if (!drawn_.push(std::move(drawn))) break;
+    }
+    drawn_.end();
+  }
+
+  void write_all() {
+    while (const std::optional<FilmPicture> picture = drawn_.pop()) {
+      const Timer timer;
+      sink_.add(*picture);
+      times_.write_ms += timer.elapsed_ms();
+    }
+  }
+
+  const FrameSource& source_;
+  const FilmPlan& plan_;
+  const RenderOptions& options_;
+  const Style& style_;
+  const std::vector<std::int64_t>& pictures_;
+  FilmSink& sink_;
+  PictureQueue<ReadPicture> read_{1, CancellableSection::token()};
+  PictureQueue<std::unique_ptr<BuiltPicture>> built_{1, CancellableSection::token()};
+  PictureQueue<FilmPicture> drawn_{1, CancellableSection::token()};
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  FilmTimes times_;  // each thread adds to its own
+};
+
+}  // namespace
+
+FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
+                    const std::vector<std::int64_t>& pictures, FilmSink& sink) {
+  return FilmSteps(source, plan, options, style, pictures, sink).run();
+}
+
+}  // namespace bihive::cli

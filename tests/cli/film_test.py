@@ -1,0 +1,463 @@
+"""bihive film: sequences, y4m and encoded films; resume, shards, cameras, titles and wrong options."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import stat
+import subprocess
+import time
+import unittest
+
+from program import BIHIVE, PATIENCE_S, ProgramTest, main, png_numbers, png_pixels, png_text
+
+SMALL = ["--size", "48x32", "--style", "plain", "--samples", "1"]
+HAS_FFMPEG = shutil.which("ffmpeg") is not None
+# Lossless, and of the pixels as they are.
+LOSSLESS = ["--codec", "-c:v ffv1 -pix_fmt gbrp"]
+
+
+def frames_of(count, spheres=12, seed=1, changing=False):
+    """An extended XYZ file: spheres that wander, with a velocity each, a time and a step."""
+    numbers = random.Random(seed)
+    places = [[numbers.uniform(-5, 5) for _ in range(3)] for _ in range(spheres)]
+    text = ""
+    for frame in range(count):
+        here = places[: spheres - frame % 3] if changing else places
+        text += f"{len(here)}\nProperties=species:S:1:pos:R:3:speed:R:1 Time={0.5 * frame}\n"
+        for i, place in enumerate(here):
+            text += f"Ar {place[0]:.6f} {place[1]:.6f} {place[2]:.6f} {i * (frame + 1)}\n"
+            for axis in range(3):
+                place[axis] += numbers.uniform(-0.4, 0.4)
+    return text
+
+
+class FilmTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("run.xyz", frames_of(6))
+
+    def film(self, *arguments):
+        return self.succeed_json("film", *arguments)
+
+    def names(self, folder="."):
+        return sorted(os.listdir(self.path(folder)))
+
+    def single(self, film, *which):
+        """The bytes of one picture of a film, rendered alone."""
+        self.succeed("render", "run.xyz", "--film", film, *which, "-o", "single.png")
+        picture = self.read("single.png")
+        os.unlink(self.path("single.png"))
+        return picture
+
+    def fake_ffmpeg(self, script):
+        os.makedirs(self.path("bin"), exist_ok=True)
+        self.write("bin/ffmpeg", "#!/bin/sh\n" + script)
+        os.chmod(self.path("bin/ffmpeg"), stat.S_IRWXU)
+        return {**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]}
+
+    def decoded(self, name):
+        """The pixels of a film, as one text of bytes."""
+        return subprocess.run(
+            ["ffmpeg", "-v", "error", "-i", self.path(name), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+            stdout=subprocess.PIPE, check=True, timeout=PATIENCE_S,
+        ).stdout
+
+    def pixels_of_sequence(self, folder):
+        rows = b""
+        for name in self.names(folder):
+            if name.endswith(".png"):
+                rows += b"".join(bytes(pixel) for row in png_pixels(self.read(f"{folder}/{name}")) for pixel in row)
+        return rows
+
+
+class Sequences(FilmTest):
+    def test_each_picture_has_the_bytes_of_a_single_one(self):
+        looks = ["--colour-by", "speed", "--select", "index 3", "--radius-scale", "2", "--title", "frame {frame}"]
+        report = self.film("run.xyz", "-o", "run/%04d.png", *SMALL, *looks)
+        self.assertEqual((report["pictures"], report["drawn"], report["kept"], report["size"]), (6, 6, 0, "48x32"))
+        self.assertEqual(self.names("run"), [f"000{k}.png" for k in range(6)] + ["film.json"])
+        for k in (0, 2, 5):
+            self.assertEqual(self.read(f"run/000{k}.png"), self.single("run/film.json", "--frame", str(k)))
+        pictures = {self.read(f"run/000{k}.png") for k in range(6)}
+        self.assertEqual(len(pictures), 6)
+
+    def test_frames_are_chosen(self):
+        self.film("run.xyz", "-o", "p%d.png", *SMALL, "--frames", "1::2")
+        self.assertEqual(self.names(),
+                         ["p0.png", "p1.png", "p2.png", "pfilm.json", "run.xyz"])
+        self.assertEqual(self.read("p2.png"), self.single("pfilm.json", "--frame", "5"))
+        self.assertEqual(self.read("p1.png"), self.single("pfilm.json", "--picture", "1"))
+        self.assertIn("frame 2 is not in the film",
+                      self.fail_usage("render", "run.xyz", "--film", "pfilm.json", "--frame", "2", "-o", "x.png"))
+        self.assertIn("no picture 3",
+                      self.fail_usage("render", "run.xyz", "--film", "pfilm.json", "--picture", "3", "-o", "x.png"))
+
+    def test_camera_and_colours_stay_those_of_the_first_frame(self):
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--colour-by", "speed")
+        settings = [json.loads(png_text(self.read(f"run/{k}.png"))["Settings"]) for k in range(6)]
+        self.assertEqual([one["camera"] for one in settings], [settings[0]["camera"]] * 6)
+        fixed = json.loads(self.read("run/film.json"))["fixed"]
+        self.assertEqual(fixed["ranges_of_looks"], [[0, 11]])
+        self.film("run.xyz", "-o", "all/%d.png", *SMALL, "--colour-by", "speed", "--colour-range", "film")
+        self.assertEqual(json.loads(self.read("all/film.json"))["fixed"]["ranges_of_looks"], [[0, 66]])
+        self.assertEqual(self.read("all/4.png"), self.single("all/film.json", "--frame", "4"))
+        self.film("run.xyz", "-o", "each/%d.png", *SMALL, "--colour-by", "speed", "--colour-range", "frame")
+        self.assertEqual(self.read("each/4.png"), self.single("each/film.json", "--frame", "4"))
+        self.assertEqual(len({self.read(f"{folder}/4.png") for folder in ("run", "all", "each")}), 3)
+
+    def test_existing_pictures_are_kept(self):
+        whole = ["film", "run.xyz", "-o", "run/%d.png", *SMALL]
+        self.succeed(*whole)
+        before = self.contents()
+        os.unlink(self.path("run/3.png"))
+        kept_at = os.stat(self.path("run/2.png")).st_mtime_ns
+        report = self.succeed_json(*whole)
+        self.assertEqual((report["drawn"], report["kept"]), (1, 5))
+        self.assertEqual(self.contents(), before)
+        self.assertEqual(os.stat(self.path("run/2.png")).st_mtime_ns, kept_at)
+
+    def test_other_options_or_another_input_are_another_film(self):
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL)
+        for more in (["--zoom", "2"], ["--fps", "30"], ["--frames", ":3"], ["--turntable", "90"]):
+            said = self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL, *more)
+            self.assertIn("holds pictures of another film", said)
+            self.assertIn("run/film.json", said)
+        self.write("run.xyz", frames_of(6, seed=2))
+        self.assertIn("its input was", self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL))
+
+    def test_frames_of_different_numbers_of_spheres(self):
+        self.write("run.xyz", frames_of(5, changing=True))
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--select", "x > 0", "--colour", "red")
+        for k in range(5):
+            self.assertEqual(self.read(f"run/{k}.png"), self.single("run/film.json", "--frame", str(k)))
+
+    def test_sixteen_bits_and_no_background(self):
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--bits", "16", "--background", "none", "--frames", ":2")
+        self.assertEqual(len(png_numbers(self.read("run/1.png"))[0][0]), 4)
+        self.assertEqual(self.read("run/1.png"), self.single("run/film.json", "--frame", "1"))
+
+    def test_a_trajectory_beside_its_atoms(self):
+        data = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../data/io/trajectories")
+        files = sorted(os.listdir(data)) if os.path.isdir(data) else []
+        trajectories = [name for name in files if name.endswith((".dcd", ".xtc", ".trr"))]
+        self.assertTrue(trajectories)
+        tops = [name for name in files if name.endswith((".gro", ".pdb", ".xyz"))]
+        self.assertTrue(tops)
+        for trajectory in trajectories:
+            for top in tops:
+                paths = [os.path.join(data, top), os.path.join(data, trajectory)]
+                done = self.run_bihive("film", *paths, "-o", f"{trajectory}-%d.png", *SMALL, "--frames", ":2",
+                                       "--title", "{time:.1f} ps, {spheres}")
+                if done.returncode == 0:
+                    self.assertRegex(png_text(self.read(f"{trajectory}-1.png"))["Settings"], r'"[1-9]\d*\.\d ps, \d+"')
+                    self.succeed("render", *paths, "--film", f"{trajectory}-film.json", "--frame", "0", "-o", "a.png")
+                    self.assertEqual(self.read("a.png"), self.read(f"{trajectory}-0.png"))
+                    return
+        self.fail("no pair of these files fits")
+
+
+class Y4m(FilmTest):
+    def test_each_picture_has_the_pixels_of_a_single_one(self):
+        self.film("run.xyz", "-o", "run.y4m", *SMALL, "--fps", "29.97")
+        self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json"])
+        data = self.read("run.y4m")
+        head, rest = data.split(b"\n", 1)
+        self.assertEqual(head, b"YUV4MPEG2 W48 H32 F2997:100 Ip A1:1 C444")
+        size = 48 * 32
+        self.assertEqual(len(rest), 6 * (6 + 3 * size))
+        for k in (0, 4):
+            frame = rest[k * (6 + 3 * size) :]
+            self.assertEqual(frame[:6], b"FRAME\n")
+            pixels = [pixel for row in png_pixels(self.single("run.y4m.json", "--frame", str(k))) for pixel in row]
+            luma = bytes(16 + ((16829 * r + 33039 * g + 6416 * b + 32768) >> 16) for r, g, b in pixels)
+            blue = bytes(128 + ((-9714 * r - 19071 * g + 28784 * b + 32767) >> 16) for r, g, b in pixels)
+            red = bytes(128 + ((28784 * r - 24103 * g - 4681 * b + 32767) >> 16) for r, g, b in pixels)
+            self.assertEqual(frame[6 : 6 + 3 * size], luma + blue + red)
+
+    def test_a_link_is_followed(self):
+        os.mkdir(self.path("there"))
+        os.symlink("there/run.y4m", self.path("link.y4m"))
+        self.film("run.xyz", "-o", "link.y4m", *SMALL)
+        self.assertTrue(os.path.islink(self.path("link.y4m")))
+        self.assertEqual(self.names("there"), ["run.y4m", "run.y4m.json"])
+
+    def test_white_and_black_are_those_of_the_format(self):
+        self.write("one.xyz", "1\n\nAr 0 0 0\n")
+        for colour, value in (("white", b"\xeb\x80\x80"), ("black", b"\x10\x80\x80")):
+            self.film("one.xyz", "-o", "one.y4m", "--size", "9x9", "--style", "plain", "--background", colour)
+            plane = self.read("one.y4m").split(b"FRAME\n", 1)[1]
+            self.assertEqual(bytes([plane[0], plane[81], plane[162]]), value)
+            self.assertIn(value[:1], plane)
+
+
+class Interrupted(FilmTest):
+    def setUp(self):
+        super().setUp()
+        # A frame takes a part of a second; the whole film minutes.
+        self.slow = ["--size", "400x300", "--style", "plain", "--samples", "9"]
+
+    def begin(self, *arguments, **options):
+        return subprocess.Popen([BIHIVE, "film", *arguments], cwd=self.folder, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, **options)
+
+    def wait_for(self, there):
+        end = time.monotonic() + PATIENCE_S
+        while not there():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+
+    def test_a_killed_sequence_goes_on(self):
+        self.write("run.xyz", frames_of(20))
+        command = ["run.xyz", "-o", "run/%d.png", *self.slow]
+        process = self.begin(*command)
+        self.wait_for(lambda: os.path.exists(self.path("run/2.png")))
+        process.kill()
+        process.communicate()
+        there = len(self.names("run")) - 1
+        self.assertLess(there, 20)
+        for name in self.names("run"):
+            self.assertTrue(name == "film.json" or len(png_text(self.read("run/" + name))) >= 3, name)
+        report = self.film(*command)
+        self.assertEqual((report["kept"], report["drawn"]), (there, 20 - there))
+        self.assertEqual(self.read("run/19.png"), self.single("run/film.json", "--frame", "19"))
+
+    def test_a_killed_y4m_goes_on_behind_its_last_whole_picture(self):
+        self.write("run.xyz", frames_of(20))
+        command = ["run.xyz", "-o", "run.y4m", *self.slow]
+        process = self.begin(*command)
+        part = self.path("run.y4m.part/film.y4m")
+        self.wait_for(lambda: os.path.exists(part) and os.path.getsize(part) > 3 * 360006 + 100)
+        process.kill()
+        process.communicate()
+        # A picture that was being written.
+        with open(part, "ab") as file:
+            file.write(b"FRAME\n" + bytes(1000))
+        report = self.film(*command)
+        self.assertGreaterEqual(report["kept"], 3)
+        self.assertEqual(report["kept"] + report["drawn"], 20)
+        self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json"])
+        self.film("run.xyz", "-o", "again.y4m", *self.slow)
+        self.assertEqual(self.read("run.y4m"), self.read("again.y4m"))
+
+    def test_ctrl_c_keeps_whole_pictures_and_else_leaves_nothing(self):
+        before = self.contents()
+        for output in ("run/%d.png", "run.y4m"):
+            process = self.begin("run.xyz", "-o", output, "--size", "4000x4000", "--samples", "256")
+            self.let_work(process, 1)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=PATIENCE_S)
+            self.assertEqual((process.returncode, out, err), (130, "", ""))
+            self.assertEqual(self.contents(), before)
+        self.write("run.xyz", frames_of(30))
+        command = ["run.xyz", "-o", "run/%d.png", *self.slow]
+        process = self.begin(*command)
+        self.wait_for(lambda: os.path.exists(self.path("run/1.png")))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=PATIENCE_S), 130)
+        process.communicate()
+        self.assertEqual(set(self.names("run")) - {f"{k}.png" for k in range(30)}, {"film.json"})
+        self.assertGreater(self.film(*command)["kept"], 1)
+
+    @unittest.skipUnless(HAS_FFMPEG, "there is no ffmpeg here")
+    def test_an_encoded_film_goes_on(self):
+        self.write("run.xyz", frames_of(30))
+        command = ["run.xyz", "-o", "run.mkv", "--size", "300x200", "--style", "plain", "--samples", "16", *LOSSLESS]
+        process = self.begin(*command)
+        self.wait_for(lambda: os.path.exists(self.path("run.mkv.part/unfinished.mkv")))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=PATIENCE_S), 130)
+        process.communicate()
+        segments = [name for name in self.names("run.mkv.part") if name.startswith("segment-00000000-")]
+        self.assertEqual(len(segments), 1)
+        self.assertIn("another film",
+                      self.fail_input("film", *command, "--zoom", "2"))
+        report = self.film(*command)
+        self.assertEqual(report["kept"], int(segments[0].split("-")[2].split(".")[0]))
+        self.assertEqual(self.names(), ["run.mkv", "run.mkv.json", "run.xyz"])
+        self.film(*command[:1], "-o", "all/%03d.png", *command[3:-2])
+        self.assertEqual(self.decoded("run.mkv"), self.pixels_of_sequence("all"))
+
+
+class Encoded(FilmTest):
+    @unittest.skipUnless(HAS_FFMPEG, "there is no ffmpeg here")
+    def test_a_film_has_all_pictures(self):
+        for name in ("run.mp4", "run.webm", "run.mov"):
+            self.film("run.xyz", "-o", name, "--size", "49x33", "--style", "plain", "--samples", "1", "--fps", "10")
+            shown = json.loads(subprocess.run(
+                ["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", self.path(name)],
+                stdout=subprocess.PIPE, check=True).stdout)["streams"][0]
+            # Sides are even.
+            self.assertEqual((shown["width"], shown["height"], shown["nb_read_frames"]), (50, 34, "6"))
+            self.assertEqual(shown["avg_frame_rate"], "10/1")
+        self.film("run.xyz", "-o", "run.mkv", *SMALL, *LOSSLESS)
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL)
+        self.assertEqual(self.decoded("run.mkv"), self.pixels_of_sequence("run"))
+
+    def test_a_missing_ffmpeg_is_said_before_any_work(self):
+        os.mkdir(self.path("empty"))
+        said = self.fail_with(3, "film", "run.xyz", "-o", "run.mp4", env={**os.environ, "PATH": self.path("empty")})
+        self.assertIn("the program ffmpeg, which encodes films, is not installed", said)
+        self.assertIn(".y4m", said)
+
+    def test_an_ffmpeg_that_fails(self):
+        for script, words in (("cat >/dev/null; echo 'no codec' >&2; exit 4", "failed with exit code 4, and said: no codec"),
+                              ("echo bad >&2; exit 1", "bad"), ("cat >/dev/null; kill -9 $$", "ended by signal 9"),
+                              ("cat >/dev/null", "ffmpeg has not written it")):
+            environment = self.fake_ffmpeg(script)
+            done = self.run_bihive("film", "run.xyz", "-o", "run.mp4", *SMALL, env=environment)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(done.returncode, 1 if "not written" in words else 3)
+            self.assert_one_error_line(done.stderr)
+            self.assertEqual(self.names(), ["bin", "run.xyz"])
+
+    def test_ffmpeg_does_not_see_ctrl_c(self):
+        environment = self.fake_ffmpeg("for word in \"$@\"; do last=${word#file:}; done; cat > \"$last\"")
+        report = subprocess.run([BIHIVE, "film", "run.xyz", "-o", "run.mp4", *SMALL, "--json"], cwd=self.folder,
+                                env=environment, stdout=subprocess.PIPE, check=True, timeout=PATIENCE_S)
+        self.assertEqual(json.loads(report.stdout)["drawn"], 6)
+        # What the program sends: rows of pixels, and nothing else.
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL)
+        self.assertEqual(self.read("run.mp4"), self.pixels_of_sequence("run"))
+
+
+class Shards(FilmTest):
+    def test_joined_shards_equal_the_whole(self):
+        self.film("run.xyz", "-o", "whole.y4m", *SMALL)
+        self.assertIn("there are no shards", self.fail_input("film", "--join", "-o", "run.y4m"))
+        for shard in ("1/3", "0/3"):
+            report = self.film("run.xyz", "-o", "run.y4m", *SMALL, "--shard", shard)
+            self.assertEqual((report["drawn"], report["shard"]), (2, shard))
+        self.assertIn("2 of 6 pictures are missing, the first is number 2",
+                      self.fail_input("film", "--join", "-o", "run.y4m"))
+        self.film("run.xyz", "-o", "run.y4m", *SMALL, "--shard", "2/3")
+        self.assertEqual(self.film("run.xyz", "-o", "run.y4m", *SMALL, "--shard", "2/3")["kept"], 2)
+        self.assertEqual(self.film("--join", "-o", "run.y4m")["pictures"], 6)
+        self.assertEqual(self.read("run.y4m"), self.read("whole.y4m"))
+        self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json", "whole.y4m", "whole.y4m.json"])
+
+    def test_shards_of_a_sequence(self):
+        for shard in ("0/2", "1/2"):
+            self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--shard", shard)
+        self.film("--join", "-o", "run/%d.png")
+        self.film("run.xyz", "-o", "all/%d.png", *SMALL)
+        self.assertEqual(self.pixels_of_sequence("run"), self.pixels_of_sequence("all"))
+
+    @unittest.skipUnless(HAS_FFMPEG, "there is no ffmpeg here")
+    def test_shards_are_encoded_when_they_are_joined(self):
+        for shard in ("0/2", "1/2"):
+            self.film("run.xyz", "-o", "run.mkv", *SMALL, *LOSSLESS, "--shard", shard)
+        self.film("--join", "-o", "run.mkv")
+        self.film("run.xyz", "-o", "all/%d.png", *SMALL)
+        self.assertEqual(self.decoded("run.mkv"), self.pixels_of_sequence("all"))
+
+
+class Cameras(FilmTest):
+    def camera(self, picture):
+        return json.loads(png_text(self.read(picture))["Settings"])["camera"]
+
+    def test_a_turntable_of_one_frame(self):
+        self.write("one.xyz", "3\n\nC 0 0 0\nO 3 0 0\nN 0 2 1\n")
+        report = self.film("one.xyz", "-o", "turn/%d.png", *SMALL, "--turntable", "360", "--pictures", "4")
+        self.assertEqual(report["pictures"], 4)
+        eyes = [self.camera(f"turn/{k}.png")["eye"] for k in range(4)]
+        middle = self.camera("turn/0.png")["look_at"]
+        for k in range(4):
+            there, opposite = eyes[k], eyes[(k + 2) % 4]
+            for axis in range(3):
+                self.assertAlmostEqual(there[axis] + opposite[axis], 2 * middle[axis], places=5)
+        self.succeed("render", "one.xyz", "--film", "turn/film.json", "--picture", "3", "-o", "3.png")
+        self.assertEqual(self.read("3.png"), self.read("turn/3.png"))
+        self.assertIn("--picture", self.fail_usage("render", "one.xyz", "--film", "turn/film.json", "--frame", "0", "-o", "4.png"))
+        self.assertEqual(self.film("one.xyz", "-o", "ten.y4m", *SMALL, "--turntable", "90", "--fps", "1")["pictures"], 10)
+
+    def test_a_turntable_of_a_generated_scene(self):
+        self.film("scenario1", "--count", "64", "-o", "turn/%d.png", "--size", "32x32", "--turntable", "90", "--pictures", "2")
+        self.succeed("render", "scenario1", "--film", "turn/film.json", "--picture", "1", "-o", "1.png")
+        self.assertEqual(self.read("1.png"), self.read("turn/1.png"))
+
+    def test_key_frames(self):
+        self.write("keys.json", json.dumps({"keys": [{"picture": 0, "turn": [0, 0, 0]},
+                                                     {"picture": 5, "turn": [90, 20, 0], "zoom": 2}]}))
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--camera-keys", "keys.json")
+        self.assertEqual(len({tuple(self.camera(f"run/{k}.png")["eye"]) for k in range(6)}), 6)
+        self.assertEqual(self.read("run/3.png"), self.single("run/film.json", "--frame", "3"))
+        self.write("bad.json", '{"keys": [{"picture": 0, "zoom": 0}]}')
+        said = self.fail_input("film", "run.xyz", "-o", "x.y4m", "--camera-keys", "bad.json")
+        self.assertIn("bad.json: /keys/0/zoom: expected a number above 0, found 0", said)
+        self.write("late.json", '{"keys": [{"picture": 6, "zoom": 1}]}')
+        self.assertIn("the last picture is 5", self.fail_usage("film", "run.xyz", "-o", "x.y4m", "--camera-keys", "late.json"))
+
+
+class Titles(FilmTest):
+    def title(self, picture):
+        return json.loads(png_text(self.read(picture))["Settings"])["labels"]["title"]
+
+    def test_values_of_the_frame(self):
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--frames", "2:4", "--title", "{{n}} {frame:.1f} {spheres}")
+        self.assertEqual([self.title(f"run/{k}.png") for k in (0, 1)], ["{n} 2.0 12", "{n} 3.0 12"])
+        self.succeed("render", "run.xyz", "-o", "a.png", *SMALL, "--frame", "4", "--title", "frame {frame}")
+        self.assertEqual(self.title("a.png"), "frame 4")
+
+    def test_values_of_a_table(self):
+        self.write("log.csv", "energy, time\n" + "".join(f"{-1.25 * k},{k}\n" for k in range(6)))
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--title-values", "log.csv", "--title", "{energy:.2f} {time}", "--frames", "::2")
+        self.assertEqual(self.title("run/2.png"), "-5.00 4")
+        self.assertEqual(self.read("run/1.png"), self.single("run/film.json", "--frame", "2"))
+        for text, words in (("e\n1\n", "log.csv:3: has no row for frame 1"), ("e,e\n1,2\n", "two columns"),
+                            ("e\nx\n", "log.csv:2: expected"), ("e\n1,2\n", "expected 1 fields, found 2"), ("", "no line of names")):
+            self.write("log.csv", text)
+            said = self.run_bihive("film", "run.xyz", "-o", "x/%d.png", *SMALL, "--title-values", "log.csv", "--title", "{e}")
+            self.assertEqual(said.returncode, 1)
+            self.assertIn(words, said.stderr)
+            shutil.rmtree(self.path("x"), ignore_errors=True)
+
+    def test_a_value_that_is_not_there(self):
+        for title, words in (("{tme}", "a title knows no {tme}; there are {frame}, {time}, {step}, {spheres}"),
+                             ("{step}", "the frame does not state its step"), ("{frame", "without its partner"),
+                             ("{frame:3}", "expected {frame} or {frame:.2f}")):
+            self.assertIn(words, self.fail_usage("film", "run.xyz", "-o", "x.y4m", "--title", title))
+
+
+class WrongOptions(FilmTest):
+    def test_wrong_options(self):
+        film = ["film", "run.xyz", "-o", "x.y4m"]
+        for more in (["--frames", "9:"], ["--frames", "a"], ["--frames", "0:5:0"], ["--fps", "0"], ["--fps", "1/0"],
+                     ["--shard", "3/3"], ["--shard", "1"], ["--pictures", "3"], ["--codec", "-c:v x"], ["--bits", "16"],
+                     ["--background", "none"], ["--frame", "1"], ["--layers", "depth"], ["--join"], ["--film", "x"],
+                     ["--colour-range", "x"], ["--turntable", "9", "--camera-keys", "k"]):
+            self.fail_usage(*film, *more)
+        for output in ("x.gif", "x", "x.png", "%d%d.png", "%s.png", "a%d/b.png", "%5d.png", "-"):
+            self.fail_usage("film", "run.xyz", "-o", output)
+        self.fail_usage("film", "-o", "x.y4m")
+        self.fail_usage("film", "run.xyz")
+        self.fail_usage("render", "run.xyz", "-o", "x.png", "--picture", "1")
+        self.fail_input("film", "missing.xyz", "-o", "x.y4m")
+        self.fail_input("film", "run.xyz", "-o", "missing/x.y4m")
+        self.write("no.json", "{}")
+        self.assertIn("is no description of a film",
+                      self.fail_input("render", "run.xyz", "--film", "no.json", "--frame", "0", "-o", "x.png"))
+
+    def test_options_of_the_film_are_not_given_again(self):
+        self.film("run.xyz", "-o", "x.y4m", *SMALL)
+        said = self.fail_usage("render", "run.xyz", "--film", "x.y4m.json", "--frame", "0", "-o", "x.png", "--size", "9x9")
+        self.assertIn("--size is given more than once: here, and in the film's options", said)
+
+    def test_a_folder_in_the_way(self):
+        os.mkdir(self.path("x.y4m.part"))
+        self.write("x.y4m.part/mine", "kept")
+        self.assertIn("is in the place", self.fail_input("film", "run.xyz", "-o", "x.y4m", *SMALL))
+
+    def test_a_broken_frame_ends_the_film(self):
+        self.write("run.xyz", frames_of(3) + "2\n\nAr 0 0 0\nAr 0 zero 0\n")
+        done = self.run_bihive("film", "run.xyz", "-o", "x.y4m", *SMALL)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assert_one_error_line(done.stderr)
+        self.assertIn("run.xyz:", done.stderr)
+        # What is whole stays for another attempt; there is no film.
+        self.assertNotIn("x.y4m", self.names())
+
+
+if __name__ == "__main__":
+    main()
