@@ -33,6 +33,12 @@ TEST(Detect, GoesByContentFirst) {
       {"\"x\",\"y\",\"z\"\n", Format::csv},
       {"x\ty\tz\tcolumn 4\n", Format::csv},
       {"\x93NUMPY", Format::npy},
+      {"SITE\n\n4 atoms\n1 atom types\n", Format::lammps_data},
+      {"diamond\n3.7\n0.5 0.5 0.0\n0.0 0.5 0.5\n0.5 0.0 0.5\nC\n2\nDirect\n0 0 0\n", Format::poscar},
+      {"12\n3.7\n0.5 0.5 0.0\n0.0 0.5 0.5\n0.5 0.0 0.5\n2\nselective\nDirect\n0 0 0\n", Format::poscar},
+      {"run\n1\n5 0 0\n0 5 0\n0 0 5\nC\n2\nDirect configuration=     1\n0 0 0\n", Format::xdatcar},
+      {"\n  program\n\n  6  6  0  0  0  0  0  0  0  0999 V2000\n", Format::sdf},
+      {"# name\n\n@<TRIPOS>MOLECULE\nbenzene\n", Format::mol2},
   };
   for (const auto& [text, format] : cases)
     for (const char* name : {"a", "a.pdb", "a.npy", "a.xyz.gz"})
@@ -48,6 +54,10 @@ TEST(Detect, GoesByNameWhereContentSaysNothing) {
       {"a.csv", Format::csv},          {"a.tsv", Format::csv},
       {"a.txt.GZ", Format::csv},       {"a.dat", Format::csv},
       {"a.npy", Format::npy},          {"a.pqr", Format::pqr},
+      {"a.lmp", Format::lammps_data},  {"a.sdf", Format::sdf},
+      {"a.MOL.gz", Format::sdf},       {"a.mol2", Format::mol2},
+      {"a.vasp", Format::poscar},      {"b/CONTCAR.gz", Format::poscar},
+      {"XDATCAR", Format::xdatcar},
   };
   for (const auto& [name, format] : cases) EXPECT_EQ(format_by_name(name), format) << name;
   for (const char* name : {"a", "pdb", "a.", "a.zip", "a.pdb.zip", ".gz"})
@@ -149,8 +159,8 @@ TEST(ReadSpheres, WarnsOfVanishingRadii) {
 TEST(ReadSpheres, NamesWhatItCannotRead) {
   const std::string known =
       "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), "
-      "LAMMPS "
-      "dump (.dump .lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+      "LAMMPS dump (.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf "
+      ".mol), MOL2 (.mol2), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;

@@ -30,6 +30,16 @@ Result<RawSpheres> read_format(Format format, std::string_view bytes, const std:
       return read_gro(bytes, name, frame);
     case Format::lammps_dump:
       return read_lammps_dump(bytes, name, frame);
+    case Format::lammps_data:
+      return read_lammps_data(bytes, name, frame);
+    case Format::poscar:
+      return read_poscar(bytes, name, frame);
+    case Format::xdatcar:
+      return read_xdatcar(bytes, name, frame);
+    case Format::sdf:
+      return read_sdf(bytes, name, frame);
+    case Format::mol2:
+      return read_mol2(bytes, name, frame);
     case Format::gsd:
       return read_gsd(bytes, name, frame);
     case Format::csv:
