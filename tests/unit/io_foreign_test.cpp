@@ -19,10 +19,6 @@ TEST(Foreign, NamesTheFormatByItsContent) {
       {"PK\x03\x04"s + std::string(80, '\0'), "a zip archive, as numpy.savez writes it (NPZ)"},
       {"BZh91AY", "a file packed with bzip2"},
       {"{\"1\": {\n \"ctime\": 1, \"numbers\": [1]}}", "a database of ASE in JSON"},
-      {"ply\nformat ascii 1.0\n", "a PLY file of points or a mesh"},
-      {"# .PCD v0.7\nVERSION 0.7\n", "a point cloud (PCD)"},
-      {"# vtk DataFile Version 3.0\npoints\nASCII\n", "a VTK file"},
-      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", "a VTK file"},
       {"<!DOCTYPE html>\n<html>", "a web page (HTML)"},
       {"PSF CMAP\n\n 1 !NTITLE\n", "a topology of CHARMM or NAMD (PSF), without coordinates"},
       {"%VERSION  VERSION_STAMP = V0001.000\n", "a topology of Amber (PRMTOP), without coordinates"},
@@ -53,7 +49,9 @@ TEST(Foreign, GoesByTheNameWhereContentSaysNothing) {
 
 TEST(Foreign, TakesNothingOfBihivesOwn) {
   for (const char* text :
-       {"2\nx\nC 1 2 3\nC 2 3 4\n", "1 2 3\n", "ITEM: TIMESTEP\n0\n", "data_x\n", "@<TRIPOS>MOLECULE\nbenzene\n",
+       {"2\nx\nC 1 2 3\nC 2 3 4\n", "1 2 3\n", "ITEM: TIMESTEP\n0\n", "data_x\n",         "ply\nformat ascii 1.0\n", "# .PCD v0.7\nVERSION 0.7\n", "# vtk DataFile Version 3.0\npoints\nASCII\n",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n",
+        "@<TRIPOS>MOLECULE\nbenzene\n",
         "benzene\n  program\n\n  6  6  0  0  0  0  0  0  0  0999 V2000\n",
         "diamond\n3.7\n0.5 0.5 0.0\n0.0 0.5 0.5\n0.5 0.0 0.5\nC\n2\nDirect\n0 0 0\n",
         "LAMMPS data file\n\n4 atoms\n1 atom types\n",

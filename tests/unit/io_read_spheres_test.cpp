@@ -33,6 +33,12 @@ TEST(Detect, GoesByContentFirst) {
       {"\"x\",\"y\",\"z\"\n", Format::csv},
       {"x\ty\tz\tcolumn 4\n", Format::csv},
       {"\x93NUMPY", Format::npy},
+      {"ply\nformat ascii 1.0\n", Format::ply},
+      {"# .PCD v0.7\nVERSION 0.7\n", Format::pcd},
+      {"VERSION 0.7\nFIELDS x y z\n", Format::pcd},
+      {"# vtk DataFile Version 3.0\npoints\nASCII\n", Format::vtk_legacy},
+      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", Format::vtk_xml},
+      {"data_x\n_cell_length_a 1\n_atom_site_fract_x 0\n", Format::small_cif},
       {"SITE\n\n4 atoms\n1 atom types\n", Format::lammps_data},
       {"diamond\n3.7\n0.5 0.5 0.0\n0.0 0.5 0.5\n0.5 0.0 0.5\nC\n2\nDirect\n0 0 0\n", Format::poscar},
       {"12\n3.7\n0.5 0.5 0.0\n0.0 0.5 0.5\n0.5 0.0 0.5\n2\nselective\nDirect\n0 0 0\n", Format::poscar},
@@ -56,6 +62,8 @@ TEST(Detect, GoesByNameWhereContentSaysNothing) {
       {"a.npy", Format::npy},          {"a.pqr", Format::pqr},
       {"a.lmp", Format::lammps_data},  {"a.sdf", Format::sdf},
       {"a.MOL.gz", Format::sdf},       {"a.mol2", Format::mol2},
+      {"a.ply", Format::ply},          {"a.pcd", Format::pcd},
+      {"a.vtk.gz", Format::vtk_legacy}, {"a.vtp", Format::vtk_xml},
       {"a.vasp", Format::poscar},      {"b/CONTCAR.gz", Format::poscar},
       {"XDATCAR", Format::xdatcar},
   };
@@ -158,9 +166,9 @@ TEST(ReadSpheres, WarnsOfVanishingRadii) {
 
 TEST(ReadSpheres, NamesWhatItCannotRead) {
   const std::string known =
-      "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), "
+      "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), "
       "LAMMPS dump (.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf "
-      ".mol), MOL2 (.mol2), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+      ".mol), MOL2 (.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;

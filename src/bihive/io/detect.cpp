@@ -89,6 +89,11 @@ std::optional<Format> by_content(std::string_view bytes, const std::string& name
   if (bytes.substr(0, 6) == "\x93NUMPY") return Format::npy;
   if (GsdFile::looks_like(bytes)) return Format::gsd;
   const std::string_view head = bytes.substr(0, kLook);
+  // Their headers are text, and what follows may be binary.
+  if (head.substr(0, 4) == "ply\n" || head.substr(0, 5) == "ply\r\n") return Format::ply;
+  if (head.substr(0, 15) == "# vtk DataFile ") return Format::vtk_legacy;
+  if (is_pcd(head)) return Format::pcd;
+  if (is_vtk_xml(head)) return Format::vtk_xml;
   if (head.find('\0') != std::string_view::npos) return std::nullopt;
 
   TextScanner scanner(head, "");
@@ -109,7 +114,8 @@ std::optional<Format> by_content(std::string_view bytes, const std::string& name
   // CIF may begin with comments.
   while (trim(scanner.line()).substr(0, 1) == "#")
     if (!scanner.next_filled_line()) return std::nullopt;
-  if (lower_case(trim(scanner.line()).substr(0, 5)) == "data_") return Format::mmcif;
+  if (lower_case(trim(scanner.line()).substr(0, 5)) == "data_")
+    return is_small_cif(bytes) ? Format::small_cif : Format::mmcif;
   return std::nullopt;
 }
 
@@ -127,6 +133,7 @@ std::optional<Format> format_by_name(const std::string& name) {
       {".poscar", Format::poscar},    {".vasp", Format::poscar},
       {".sdf", Format::sdf},          {".sd", Format::sdf},
       {".mol", Format::sdf},          {".mol2", Format::mol2},
+      {".ply", Format::ply}, {".pcd", Format::pcd}, {".vtk", Format::vtk_legacy}, {".vtp", Format::vtk_xml}, {".vtu", Format::vtk_xml}, {".vts", Format::vtk_xml},
       {".csv", Format::csv},          {".tsv", Format::csv},
       {".txt", Format::csv},          {".dat", Format::csv},
       {".npy", Format::npy},
@@ -145,10 +152,10 @@ std::optional<Format> format_by_content(std::string_view bytes, const std::strin
 }
 
 std::string known_formats() {
-  return "PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS dump "
+  return "PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS dump "
          "(.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf .mol), "
          "MOL2 "
-         "(.mol2), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+         "(.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
 }
 
 }  // namespace bihive

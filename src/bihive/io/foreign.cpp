@@ -41,9 +41,7 @@ constexpr Known kKnown[] = {
     {"cml", "a CML file (XML)", ".cml", kBabel},
     {"ase-json", "a database of ASE in JSON", "", kAse},
     {"json", "JSON, but no scene of bihive", "", "scene files have the key \"bihive_scene\": docs/scene_format.md"},
-    {"ply", "a PLY file of points or a mesh", ".ply", kPoints},
-    {"pcd", "a point cloud (PCD)", ".pcd", kPoints},
-    {"vtk", "a VTK file", ".vtk .vtp .vtu", kPoints},
+    {"vtk", "a VTK file without points of its own", ".vti .vtr .pvtp .pvtu .vtm .pvd", kPoints},
     {"stl", "a mesh (STL)", ".stl", kPoints},
     {"psf", "a topology of CHARMM or NAMD (PSF), without coordinates", ".psf", kMdanalysis},
     {"prmtop", "a topology of Amber (PRMTOP), without coordinates", ".prmtop .parm7",
@@ -97,10 +95,6 @@ std::string_view by_mark(std::string_view bytes) {
       {"SQLite format 3\0"sv, "ase-db"},
       {"%PDF-"sv, "pdf"},
       {"%VERSION"sv, "prmtop"},
-      {"ply\n"sv, "ply"},
-      {"ply\r\n"sv, "ply"},
-      {"# .PCD"sv, "pcd"},
-      {"# vtk DataFile"sv, "vtk"},
       {"solid "sv, "stl"},
       {"PSF "sv, "psf"},
       {"PSF\n"sv, "psf"},
@@ -121,7 +115,7 @@ std::string_view by_element(std::string_view text) {
   const std::string head = lower_case(text.substr(0, 2000));
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || head[first] != '<') return "";
-  const std::pair<std::string_view, std::string_view> elements[] = {{"<vtkfile", "vtk"}, {"<pdbx:", "pdbml"},
+  const std::pair<std::string_view, std::string_view> elements[] = {{"<pdbx:", "pdbml"},
                                                                     {"<html", "html"},   {"<!doctype html", "html"},
                                                                     {"<cml", "cml"},     {"<molecule", "cml"}};
   for (const auto& [element, key] : elements)
@@ -151,7 +145,6 @@ std::string_view by_lines(std::string_view text) {
   const auto line = [&lines](std::size_t i) { return i < lines.size() ? lines[i] : std::string_view(); };
 
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (begins(lines[i], "VERSION") && begins(line(i + 1), "FIELDS")) return "pcd";
     const std::string_view bare = trim(lines[i]);
     if (bare == "PRIMCOORD" || bare == "PRIMVEC" || begins(bare, "ANIMSTEPS")) return "xsf";
   }

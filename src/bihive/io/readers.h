@@ -48,7 +48,25 @@ Result<RawSpheres> read_sdf(std::string_view text, const std::string& file, std:
 /// MOL2 of Tripos; each molecule is a frame.
 Result<RawSpheres> read_mol2(std::string_view text, const std::string& file, std::int64_t frame);
 
-/// Whether the first lines of a text are those of the format.
+/// CIF of small molecules and crystals: the whole cell, by its symmetry; each data block with atoms is a frame.
+Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// The points of PLY, in text or binary. One frame.
+Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// Point clouds of PCL (PCD), in text, binary or packed. One frame.
+Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// The points of VTK's old format, in text or binary. One frame.
+Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// The points of VTK's XML format (.vtp .vtu .vts). One frame.
+Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// Whether the first lines of a text are those of the format. is_small_cif: whether a CIF has fractional coordinates.
+bool is_small_cif(std::string_view text);
+bool is_pcd(std::string_view head);
+bool is_vtk_xml(std::string_view head);
 bool is_lammps_data(std::string_view head);
 bool is_poscar(std::string_view head);
 bool is_xdatcar(std::string_view head);
