@@ -27,12 +27,11 @@ const std::string kHeader =
     "HEIGHT 1\n"
     "VIEWPOINT 0 0 0 1 0 0 0\n"
     "POINTS 3\n";
-const std::string kText =
-    kHeader +
-    "DATA ascii\n"
-    "1 2 3 16711935 0.5 0.25 0 0\n"
-    "nan nan nan 0 0 0 0 0\n"
-    "-1 -2 -3.5 255 7 8 0 0\n";
+const std::string kText = kHeader +
+                          "DATA ascii\n"
+                          "1 2 3 16711935 0.5 0.25 0 0\n"
+                          "nan nan nan 0 0 0 0 0\n"
+                          "-1 -2 -3.5 255 7 8 0 0\n";
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
   EXPECT_NE(text.find(from), std::string::npos) << from;
@@ -94,23 +93,31 @@ TEST(Pcd, TakesColoursInTheBitsOfAFloat) {
   const std::string text =
       "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3 4.2108e+06\n";
   const SphereFile file = read_text(text, "a");
-  // 4210800 is the float 0x4A808060: bytes 128, 128, 96.
+  // 4210800 is the float 0x4A8080E0: the bytes 128, 128 and 224.
   EXPECT_EQ(file.spheres.attributes().colour[0].y, static_cast<float>(linear_from_srgb(128.0 / 255)));
 }
 
 TEST(Pcd, SaysWhereItIsWrong) {
   EXPECT_EQ(error_of(with(kText, "1 2 3 16", "1 b 3 16"), "a"), "a:12:3: expected a number for y but found 'b'");
   EXPECT_EQ(error_of(with(kText, "1 2 3 16", "1 inf 3 16"), "a"), "a:12: y is not finite: inf");
-  EXPECT_EQ(error_of(with(kText, "POINTS 3", "POINTS 4"), "a"), "a:14: the file ends too early: expected 4 points but found 3");
-  EXPECT_EQ(error_of(with(kText, "POINTS 3", "POINTS 9000000000000000000"), "a").rfind("a:14: the file ends too early", 0), 0u);
-  EXPECT_EQ(error_of(with(kText, "POINTS 3", "POINTS x"), "a").rfind("a:10:8: expected a whole number for POINTS", 0), 0u);
+  EXPECT_EQ(error_of(with(kText, "POINTS 3", "POINTS 4"), "a"),
+            "a:14: the file ends too early: expected 4 points but found 3");
+  EXPECT_EQ(
+      error_of(with(kText, "POINTS 3", "POINTS 9000000000000000000"), "a").rfind("a:14: the file ends too early", 0),
+      0u);
+  EXPECT_EQ(error_of(with(kText, "POINTS 3", "POINTS x"), "a").rfind("a:10:8: expected a whole number for POINTS", 0),
+            0u);
   EXPECT_EQ(error_of(with(kText, "HEIGHT 1", "WIDTH 1"), "a"), "a:8: 'WIDTH' comes twice");
-  EXPECT_NE(error_of(with(kText, "TYPE F F F U F U", "TYPE F F F U F"), "a").find("different numbers of fields"), std::string::npos);
+  EXPECT_NE(error_of(with(kText, "TYPE F F F U F U", "TYPE F F F U F"), "a").find("different numbers of fields"),
+            std::string::npos);
   EXPECT_NE(error_of(with(kText, "SIZE 4 4 8", "SIZE 4 3 8"), "a").find("which is no number"), std::string::npos);
-  EXPECT_NE(error_of(with(kText, "COUNT 1 1 1 1 2", "COUNT 1 1 1 1 900000"), "a").find("COUNT '900000'"), std::string::npos);
+  EXPECT_NE(error_of(with(kText, "COUNT 1 1 1 1 2", "COUNT 1 1 1 1 900000"), "a").find("COUNT '900000'"),
+            std::string::npos);
   EXPECT_NE(error_of(with(kText, "x y z rgb", "x y w rgb"), "a").find("there is no z in FIELDS"), std::string::npos);
-  EXPECT_EQ(error_of(with(kText, "ascii", "zip"), "a").rfind("a:11:6: expected ascii, binary or binary_compressed", 0), 0u);
-  EXPECT_NE(error_of(with(binary(), "POINTS 3", "POINTS 900000000000000"), "a").find("ends too early"), std::string::npos);
+  EXPECT_EQ(error_of(with(kText, "ascii", "zip"), "a").rfind("a:11:6: expected ascii, binary or binary_compressed", 0),
+            0u);
+  EXPECT_NE(error_of(with(binary(), "POINTS 3", "POINTS 900000000000000"), "a").find("ends too early"),
+            std::string::npos);
   EXPECT_NE(error_of(with(packed(), "POINTS 3", "POINTS 2"), "a").find("the packed points have"), std::string::npos);
   std::string damaged = packed();
   damaged[damaged.size() - 2] = static_cast<char>(7 << 5);
@@ -125,7 +132,8 @@ TEST(Lzf, UnpacksLiteralsAndCopies) {
   EXPECT_EQ(unpack_lzf("\x02"s + "abc" + "\x20\x02"s, 6), "abcabc");
   // A long copy: the length goes on in the next byte.
   EXPECT_EQ(unpack_lzf("\0a\xe0\x01\0"s, 11), std::string(11, 'a'));
-  for (const std::string& wrong : {"\x02"s + "ab", "\x20\x00"s, "\0a\x20\x05"s, "\0a\x20"s, "\0a\xe0"s, "\0a\xe0\x01"s, "\0a"s})
+  for (const std::string& wrong :
+       {"\x02"s + "ab", "\x20\x00"s, "\0a\x20\x05"s, "\0a\x20"s, "\0a\xe0"s, "\0a\xe0\x01"s, "\0a"s})
     EXPECT_FALSE(unpack_lzf(wrong, 4).has_value());
   EXPECT_FALSE(unpack_lzf("\0a"s, std::size_t{1} << 40).has_value());
 }

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <limits>
+
 #include "bihive/image/transfer.h"
 #include "bihive/io/write_spheres.h"
 #include "support/read_text.h"
@@ -79,7 +82,8 @@ TEST(Ply, TakesPointsInTextAndBinary) {
 }
 
 TEST(Ply, ReadsWhatConvertWrites) {
-  const SphereFile file = read_text("x,y,z,radius,q,red,green,blue\n1,2,3,0.5,-1,0.25,0.5,1\n4,5,6,1,2,0,0,0\n", "a.csv");
+  const SphereFile file =
+      read_text("x,y,z,radius,q,red,green,blue\n1,2,3,0.5,-1,0.25,0.5,1\n4,5,6,1,2,0,0,0\n", "a.csv");
   const SphereFile again = read_text(write_spheres(file.spheres, SphereFileFormat::ply).bytes, "a.ply");
   ASSERT_EQ(again.spheres.size(), 2);
   EXPECT_EQ(again.spheres.centre(1), (Vec3d{4, 5, 6}));
@@ -92,15 +96,21 @@ TEST(Ply, SaysWhereItIsWrong) {
   EXPECT_EQ(error_of(with(kPoints, "1 2 3 1", "1 b 3 1"), "a"), "a:20:3: expected a number for y but found 'b'");
   EXPECT_EQ(error_of(with(kPoints, "1 2 3 1", "1 nan 3 1"), "a"), "a:20: y is not finite: nan");
   EXPECT_EQ(error_of(with(kPoints, "0.5 0.25", "-0.5 0.25"), "a"), "a:20: radius is negative: -0.5");
-  EXPECT_EQ(error_of(with(kPoints, "0.5 0.25", "0.5 0.25 9"), "a"), "a:20:28: expected the end of the line but found '9'");
-  EXPECT_EQ(error_of(with(kPoints, "vertex 2", "vertex 4"), "a").rfind("a:22:7: expected a number for red", 0), 0u);
+  EXPECT_EQ(error_of(with(kPoints, "0.5 0.25", "0.5 0.25 9"), "a"),
+            "a:20:28: expected the end of the line but found '9'");
+  EXPECT_EQ(error_of(with(kPoints, "vertex 2", "vertex 4"), "a").rfind("a:22:8: expected a number for green", 0), 0u);
   EXPECT_EQ(error_of(with(kPoints, "vertex 2", "vertex 9000000000000"), "a").rfind("a:22:", 0), 0u);
-  EXPECT_EQ(error_of(with(kPoints, "vertex 2", "vertex -2"), "a").rfind("a:6:16: expected the number of 'vertex'", 0), 0u);
+  EXPECT_EQ(error_of(with(kPoints, "vertex 2", "vertex -2"), "a").rfind("a:6:16: expected the number of 'vertex'", 0),
+            0u);
   EXPECT_EQ(error_of(with(kPoints, "element face", "element vertex"), "a"), "a:16:9: the element 'vertex' comes twice");
-  EXPECT_EQ(error_of(with(kPoints, "property double z", "property double w"), "a").rfind("a:18: expected columns x, y", 0), 0u);
-  EXPECT_EQ(error_of(with(kPoints, "property double z", "property real z"), "a").rfind("a:9:10: expected a type", 0), 0u);
+  EXPECT_EQ(
+      error_of(with(kPoints, "property double z", "property double w"), "a").rfind("a:19: expected columns x, y", 0),
+      0u);
+  EXPECT_EQ(error_of(with(kPoints, "property double z", "property real z"), "a").rfind("a:9:10: expected a type", 0),
+            0u);
   EXPECT_EQ(error_of(with(kPoints, "ascii", "text"), "a").rfind("a:2:8: expected ascii", 0), 0u);
-  EXPECT_EQ(error_of("ply\nformat ascii 1.0\nend_header\n", "a").rfind("a:3: the header has no 'element vertex'", 0), 0u);
+  EXPECT_EQ(error_of("ply\nformat ascii 1.0\nend_header\n", "a").rfind("a:3: the header has no 'element vertex'", 0),
+            0u);
   EXPECT_NE(error_of(kPoints, "a", at_frame(1)).find("there is no frame 1"), std::string::npos);
   std::string damaged = binary(false);
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -109,7 +119,8 @@ TEST(Ply, SaysWhereItIsWrong) {
   for (const std::string& text : {kPoints, binary(false)})
     for (std::size_t length = 0; length < text.size(); ++length)
       (void)read_spheres_from_memory(std::string_view(text).substr(0, length), "a.ply", {});
-  EXPECT_EQ(error_of(with(binary(false), "vertex 2", "vertex 900000000000"), "a").find("a:18: the file ends too early"), 0u);
+  EXPECT_EQ(error_of(with(binary(false), "vertex 2", "vertex 900000000000"), "a").find("a:18: the file ends too early"),
+            0u);
 }
 
 }  // namespace

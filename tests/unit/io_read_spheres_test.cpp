@@ -53,18 +53,18 @@ TEST(Detect, GoesByContentFirst) {
 
 TEST(Detect, GoesByNameWhereContentSaysNothing) {
   const std::pair<const char*, Format> cases[] = {
-      {"a.pdb", Format::pdb},          {"a.ENT", Format::pdb},
-      {"b/a.cif.gz", Format::mmcif},   {"a.mmcif", Format::mmcif},
-      {"a.xyz", Format::xyz},          {"a.extxyz", Format::xyz},
-      {"a.dump", Format::lammps_dump}, {"a.lammpstrj", Format::lammps_dump},
-      {"a.csv", Format::csv},          {"a.tsv", Format::csv},
-      {"a.txt.GZ", Format::csv},       {"a.dat", Format::csv},
-      {"a.npy", Format::npy},          {"a.pqr", Format::pqr},
-      {"a.lmp", Format::lammps_data},  {"a.sdf", Format::sdf},
-      {"a.MOL.gz", Format::sdf},       {"a.mol2", Format::mol2},
-      {"a.ply", Format::ply},          {"a.pcd", Format::pcd},
+      {"a.pdb", Format::pdb},           {"a.ENT", Format::pdb},
+      {"b/a.cif.gz", Format::mmcif},    {"a.mmcif", Format::mmcif},
+      {"a.xyz", Format::xyz},           {"a.extxyz", Format::xyz},
+      {"a.dump", Format::lammps_dump},  {"a.lammpstrj", Format::lammps_dump},
+      {"a.csv", Format::csv},           {"a.tsv", Format::csv},
+      {"a.txt.GZ", Format::csv},        {"a.dat", Format::csv},
+      {"a.npy", Format::npy},           {"a.pqr", Format::pqr},
+      {"a.lmp", Format::lammps_data},   {"a.sdf", Format::sdf},
+      {"a.MOL.gz", Format::sdf},        {"a.mol2", Format::mol2},
+      {"a.ply", Format::ply},           {"a.pcd", Format::pcd},
       {"a.vtk.gz", Format::vtk_legacy}, {"a.vtp", Format::vtk_xml},
-      {"a.vasp", Format::poscar},      {"b/CONTCAR.gz", Format::poscar},
+      {"a.vasp", Format::poscar},       {"b/CONTCAR.gz", Format::poscar},
       {"XDATCAR", Format::xdatcar},
   };
   for (const auto& [name, format] : cases) EXPECT_EQ(format_by_name(name), format) << name;
@@ -166,9 +166,11 @@ TEST(ReadSpheres, WarnsOfVanishingRadii) {
 
 TEST(ReadSpheres, NamesWhatItCannotRead) {
   const std::string known =
-      "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), "
+      "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD "
+      "(.gsd), "
       "LAMMPS dump (.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf "
-      ".mol), MOL2 (.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+      ".mol), MOL2 (.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt "
+      ".dat), NPY and NPZ (.npy .npz), each also as .gz";
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;

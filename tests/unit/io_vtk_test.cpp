@@ -47,8 +47,10 @@ std::string xml(const std::string& attributes, const std::string& format, const 
          "<DataArray type=\"Float64\" Name=\"radius\" format=\"" +
          format + "\"" + radius +
          "</DataArray>\n<DataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\" format=\"" + format + "\"" +
-         rgb + "</DataArray>\n</PointData>\n<CellData>\n<DataArray type=\"Int32\" Name=\"c\" format=\"ascii\"/>\n</CellData>\n"
-               "<Points>\n<DataArray type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\" format=\"" +
+         rgb +
+         "</DataArray>\n</PointData>\n<CellData>\n<DataArray type=\"Int32\" Name=\"c\" "
+         "format=\"ascii\"/>\n</CellData>\n"
+         "<Points>\n<DataArray type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\" format=\"" +
          format + "\"" + places + "</DataArray>\n</Points>\n</Piece>\n</PolyData>\n";
 }
 
@@ -60,8 +62,8 @@ std::string xml_text() {
   return xml(kLittle, "ascii", ">\n 1 2 3\n -1 -2 -3.5\n", ">0.5 0.25", ">1 0 0 0 255 0") + kEnd;
 }
 std::string xml_inline() {
-  return xml(kLittle, "binary", ">\n  GAAAAAAAgD8AAABAAABAQAAAgL8AAADAAABgwA==\n", ">EAAAAAAAAAAAAOA/AAAAAAAA0D8=",
-             ">BgAAAAEAAAD/AA==") +
+  return xml(kLittle, "binary", ">\n  GAAAAAAAgD8AAABAAABAQAAAgL8AAADAAABgwA==\n",
+             ">EAAAAAAAAAAAAOA/AAAAAAAA0D8=", ">BgAAAAEAAAD/AA==") +
          kEnd;
 }
 std::string xml_packed() {
@@ -137,13 +139,20 @@ TEST(VtkLegacy, TakesBigEndianBinary) {
 TEST(VtkLegacy, SaysWhereItIsWrong) {
   EXPECT_EQ(error_of(with(kLegacy, "-2 -3.5", "-2 x"), "a"), "a:10: expected a number but found 'x'");
   EXPECT_EQ(error_of(with(kLegacy, "-2 -3.5", "-2 nan"), "a"), "a: point 1 (from 0): z is not finite: nan");
-  EXPECT_NE(error_of(with(kLegacy, "POINTS 2", "POINTS 200000000"), "a").find("the file ends inside of an array"), std::string::npos);
-  EXPECT_NE(error_of(with(kLegacy, "POINTS 2", "POINTS 9000000000000000000"), "a").find("expected the number of points"), std::string::npos);
-  EXPECT_NE(error_of(with(kLegacy, "POINT_DATA 2", "POINT_DATA 3"), "a").find("POINT_DATA is of 3 points"), std::string::npos);
-  EXPECT_NE(error_of(with(kLegacy, "VERTICES 2 4\n1 0\n1 1", "POINTS 1 float\n1 0 0"), "a").find("POINTS come twice"), std::string::npos);
-  EXPECT_NE(error_of(with(kLegacy, "POLYDATA", "STRUCTURED_POINTS"), "a").find("no points of its own"), std::string::npos);
-  EXPECT_NE(error_of(with(kLegacy, "VECTORS", "ARROWS"), "a").find("the keyword 'ARROWS' is unknown"), std::string::npos);
-  EXPECT_NE(error_of(with(kLegacy, "ASCII", "TEXT"), "a").find("a:4: expected ASCII or BINARY"), std::string::npos);
+  EXPECT_NE(error_of(with(kLegacy, "POINTS 2", "POINTS 200000000"), "a").find("the file ends inside of an array"),
+            std::string::npos);
+  EXPECT_NE(
+      error_of(with(kLegacy, "POINTS 2", "POINTS 9000000000000000000"), "a").find("expected the number of points"),
+      std::string::npos);
+  EXPECT_NE(error_of(with(kLegacy, "POINT_DATA 2", "POINT_DATA 3"), "a").find("POINT_DATA is of 3 points"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(kLegacy, "VERTICES 2 4\n1 0\n1 1", "POINTS 1 float\n1 0 0"), "a").find("POINTS come twice"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(kLegacy, "POLYDATA", "STRUCTURED_POINTS"), "a").find("no points of its own"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(kLegacy, "VECTORS", "ARROWS"), "a").find("the keyword 'ARROWS' is unknown"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(kLegacy, "ASCII", "TEXT"), "a").find("a:3: expected ASCII or BINARY"), std::string::npos);
   EXPECT_NE(error_of(kLegacy, "a", at_frame(1)).find("there is no frame 1"), std::string::npos);
   for (std::size_t length = 0; length < kLegacy.size(); ++length)
     (void)read_spheres_from_memory(std::string_view(kLegacy).substr(0, length), "a.vtk", {});
@@ -158,9 +167,11 @@ TEST(VtkXml, TakesEveryEncoding) {
   const SphereFile file = read_text(xml_text(), "a.vtp");
   EXPECT_EQ(file.spheres.attributes().colour[0].x, static_cast<float>(linear_from_srgb(1.0 / 255)));
   // The length in eight bytes, padded by itself.
-  std::string text = with(xml(kLittle, "ascii", ">GAAAAAAAAAA=AACAPwAAAEAAAEBAAACAvwAAAMAAAGDA", ">0.5 0.25", ">0 0 0 0 0 0") + kEnd,
-                          "UInt32", "UInt64");
-  text = with(text, "Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\"", "Name=\"Points\" NumberOfComponents=\"3\" format=\"binary\"");
+  std::string text =
+      with(xml(kLittle, "ascii", ">GAAAAAAAAAA=AACAPwAAAEAAAEBAAACAvwAAAMAAAGDA", ">0.5 0.25", ">0 0 0 0 0 0") + kEnd,
+           "UInt32", "UInt64");
+  text = with(text, "Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\"",
+              "Name=\"Points\" NumberOfComponents=\"3\" format=\"binary\"");
   expect_two_points(text, "padded.vtp");
 }
 
@@ -176,18 +187,28 @@ TEST(VtkXml, JoinsPieces) {
 }
 
 TEST(VtkXml, SaysWhereItIsWrong) {
-  EXPECT_NE(error_of(with(xml_text(), "-1 -2 -3.5", "-1 -2 x"), "a").find("expected a number but found 'x'"), std::string::npos);
-  EXPECT_NE(error_of(with(xml_text(), "-1 -2 -3.5", "-1 -2"), "a").find("expected 6 numbers but found 5"), std::string::npos);
-  EXPECT_NE(error_of(with(xml_text(), "-1 -2 -3.5", "-1 -2 3 4"), "a").find("expected 6 numbers but found more"), std::string::npos);
+  EXPECT_NE(error_of(with(xml_text(), "-1 -2 -3.5", "-1 -2 x"), "a").find("expected a number but found 'x'"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(xml_text(), "-1 -2 -3.5", "-1 -2"), "a").find("expected 6 numbers but found 5"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(xml_text(), "-1 -2 -3.5", "-1 -2 3 4"), "a").find("expected 6 numbers but found more"),
+            std::string::npos);
   EXPECT_EQ(error_of(with(xml_text(), "-1 -2 -3.5", "-1 -2 inf"), "a"), "a: point 1 (from 0): z is not finite: inf");
   EXPECT_NE(error_of(with(xml_text(), "0.5 0.25", "0.5 -1"), "a").find("radius is negative: -1"), std::string::npos);
   EXPECT_NE(error_of(with(xml_inline(), "GAAAAAAA", "GQAAAAAA"), "a").find("it states 25"), std::string::npos);
-  EXPECT_NE(error_of(with(xml_packed(), "eJxjYGiw", "eJxjYGix"), "a").find("packed block 0 is damaged"), std::string::npos);
-  EXPECT_NE(error_of(with(xml_packed(), "vtkZLib", "vtkLZ4"), "a").find("packed by 'vtkLZ4DataCompressor'"), std::string::npos);
-  EXPECT_NE(error_of(with(xml_appended(false), "offset=\"68\"", "offset=\"680\""), "a").find("offset is not in the"), std::string::npos);
-  EXPECT_NE(error_of(with(xml_text(), "NumberOfPoints=\"2\"", "NumberOfPoints=\"-2\""), "a").find("expected NumberOfPoints"), std::string::npos);
+  EXPECT_NE(error_of(with(xml_packed(), "eJxjYGiw", "eJxjYGix"), "a").find("packed block 0 is damaged"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(xml_packed(), "vtkZLib", "vtkLZ4"), "a").find("packed by 'vtkLZ4DataCompressor'"),
+            std::string::npos);
+  EXPECT_NE(error_of(with(xml_appended(false), "offset=\"68\"", "offset=\"680\""), "a").find("offset is not in the"),
+            std::string::npos);
+  EXPECT_NE(
+      error_of(with(xml_text(), "NumberOfPoints=\"2\"", "NumberOfPoints=\"-2\""), "a").find("expected NumberOfPoints"),
+      std::string::npos);
   EXPECT_FALSE(error_of(with(xml_text(), "NumberOfPoints=\"2\"", "NumberOfPoints=\"900000000000\""), "a").empty());
-  EXPECT_NE(error_of(with(xml_text(), "type=\"PolyData\"", "type=\"ImageData\""), "a").find("'ImageData' has no points"), std::string::npos);
+  EXPECT_NE(
+      error_of(with(xml_text(), "type=\"PolyData\"", "type=\"ImageData\""), "a").find("'ImageData' has no points"),
+      std::string::npos);
   EXPECT_NE(error_of(xml_text(), "a", at_frame(1)).find("there is no frame 1"), std::string::npos);
   for (const std::string& text : {xml_text(), xml_inline(), xml_packed(), xml_appended(false), xml_appended(true)})
     for (std::size_t length = 0; length < text.size(); length += 3)

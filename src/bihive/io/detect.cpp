@@ -87,6 +87,7 @@ bool is_pqr(TextScanner scanner, const std::string& name) {
 
 std::optional<Format> by_content(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, 6) == "\x93NUMPY") return Format::npy;
+  if (bytes.substr(0, 4) == "PK\x03\x04") return Format::npz;
   if (GsdFile::looks_like(bytes)) return Format::gsd;
   const std::string_view head = bytes.substr(0, kLook);
   // Their headers are text, and what follows may be binary.
@@ -133,10 +134,12 @@ std::optional<Format> format_by_name(const std::string& name) {
       {".poscar", Format::poscar},    {".vasp", Format::poscar},
       {".sdf", Format::sdf},          {".sd", Format::sdf},
       {".mol", Format::sdf},          {".mol2", Format::mol2},
-      {".ply", Format::ply}, {".pcd", Format::pcd}, {".vtk", Format::vtk_legacy}, {".vtp", Format::vtk_xml}, {".vtu", Format::vtk_xml}, {".vts", Format::vtk_xml},
+      {".ply", Format::ply},          {".pcd", Format::pcd},
+      {".vtk", Format::vtk_legacy},   {".vtp", Format::vtk_xml},
+      {".vtu", Format::vtk_xml},      {".vts", Format::vtk_xml},
       {".csv", Format::csv},          {".tsv", Format::csv},
       {".txt", Format::csv},          {".dat", Format::csv},
-      {".npy", Format::npy},
+      {".npy", Format::npy},          {".npz", Format::npz},
   };
   for (const auto& [ending, format] : endings)
     if (name_ends(name, ending)) return format;
@@ -152,10 +155,12 @@ std::optional<Format> format_by_content(std::string_view bytes, const std::strin
 }
 
 std::string known_formats() {
-  return "PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS dump "
+  return "PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS "
+         "dump "
          "(.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf .mol), "
          "MOL2 "
-         "(.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+         "(.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt .dat), "
+         "NPY and NPZ (.npy .npz), each also as .gz";
 }
 
 }  // namespace bihive

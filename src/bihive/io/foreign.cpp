@@ -22,7 +22,6 @@ constexpr std::string_view kMdanalysis =
 constexpr std::string_view kBabel = "convert it with 'obabel FILE -O OUT.pdb' (Open Babel)";
 constexpr std::string_view kAse = "convert it with 'ase convert FILE OUT.xyz' (ASE)";
 constexpr std::string_view kPoints = "write the points as CSV with a header, for example with meshio or CloudCompare";
-constexpr std::string_view kMetrics = "write its arrays with numpy.save: n x 3 or n x 4 numbers in one .npy file";
 constexpr Known kKnown[] = {
     {"dcd", "a DCD trajectory of CHARMM, NAMD or LAMMPS", ".dcd", kTopologyFirst},
     {"xtc", "an XTC trajectory of GROMACS", ".xtc", kTopologyFirst},
@@ -31,7 +30,6 @@ constexpr Known kKnown[] = {
     {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
     {"netcdf", "a NetCDF file", ".nc .ncdf .netcdf", kMdanalysis},
     {"hdf5", "an HDF5 file", ".h5 .hdf5 .h5md .hdf", "write its data set with h5py and numpy.save as .npy"},
-    {"npz", "a zip archive, as numpy.savez writes it (NPZ)", ".npz .zip", kMetrics},
     {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'"},
     {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'"},
     {"zstd", "a file packed with zstd", ".zst", "unpack it first: 'unzstd FILE'"},
@@ -82,7 +80,6 @@ std::string_view by_mark(std::string_view bytes) {
       {"CDF\x02"sv, "netcdf"},
       {"CDF\x05"sv, "netcdf"},
       {"\x89HDF\r\n\x1a\n"sv, "hdf5"},
-      {"PK\x03\x04"sv, "npz"},
       {"BZh"sv, "bzip2"},
       {"\xfd"
        "7zXZ\0"sv,
@@ -115,9 +112,8 @@ std::string_view by_element(std::string_view text) {
   const std::string head = lower_case(text.substr(0, 2000));
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || head[first] != '<') return "";
-  const std::pair<std::string_view, std::string_view> elements[] = {{"<pdbx:", "pdbml"},
-                                                                    {"<html", "html"},   {"<!doctype html", "html"},
-                                                                    {"<cml", "cml"},     {"<molecule", "cml"}};
+  const std::pair<std::string_view, std::string_view> elements[] = {
+      {"<pdbx:", "pdbml"}, {"<html", "html"}, {"<!doctype html", "html"}, {"<cml", "cml"}, {"<molecule", "cml"}};
   for (const auto& [element, key] : elements)
     if (head.find(element) != std::string::npos) return key;
   return "";

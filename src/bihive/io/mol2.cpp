@@ -13,11 +13,11 @@
 namespace bihive {
 namespace {
 
-constexpr std::string_view kMark = "@<TRIPOS>";
+constexpr std::string_view kTripos = "@<TRIPOS>";
 
 // The element of a type of SYBYL (C.3, Ca) or of GAFF (c3, cl); 0: it is stated that there is none (Du, LP); nothing:
 // the type does not tell.
-std::optional<int> element_of_type(std::string_view type) {
+std::optional<int> element_of_mol2_type(std::string_view type) {
   const std::string base(type.substr(0, type.find('.')));
   for (const char* const none : {"Du", "LP", "Any", "Hal", "Het", "Hev"})
     if (base == none) return 0;
@@ -43,11 +43,11 @@ class Mol2Reader {
     bool more = next_line();
     while (more) {
       const std::string_view line = trim(scanner_.line());
-      if (line.substr(0, kMark.size()) != kMark) {
+      if (line.substr(0, kTripos.size()) != kTripos) {
         more = next_line();
         continue;
       }
-      const std::string section(line.substr(kMark.size()));
+      const std::string section(line.substr(kTripos.size()));
       Status status = Done{};
       if (section == "MOLECULE")
         status = read_molecule();
@@ -98,12 +98,12 @@ class Mol2Reader {
   }
 
   Status read_atoms() {
-    if (frames_ == 0) return scanner_.line_error("expected " + std::string(kMark) + "MOLECULE before its atoms");
+    if (frames_ == 0) return scanner_.line_error("expected " + std::string(kTripos) + "MOLECULE before its atoms");
     if (has_atoms_) return scanner_.line_error("the section ATOM comes twice in one molecule");
     has_atoms_ = true;
     for (std::int64_t i = 0; i < count_; ++i) {
       if (!next_line() || trim(scanner_.line())[0] == '@')
-        return scanner_.line_error("expected " + std::to_string(count_) + " atoms (" +
+        return scanner_.line_error("expected " + std::to_string(count_) + " atoms (line " +
                                    std::to_string(molecule_line_ + 2) + ") but found " + std::to_string(i));
       if (!is_wanted()) continue;
       if (Status atom = read_atom(); !atom) return atom;
@@ -160,12 +160,12 @@ class Mol2Reader {
     elements_.take(spheres_, scanner_.file());
     SphereAttributes& attributes = spheres_.attributes;
     attributes.element.resize(spheres_.size());
-    std::vector<std::optional<int>> element_of_text;
-    for (const std::string& type : types_.texts()) element_of_text.push_back(element_of_type(type));
+    std::vector<std::optional<int>> element_of_label;
+    for (const std::string& type : types_.texts()) element_of_label.push_back(element_of_mol2_type(type));
     for (std::size_t i = 0; i < spheres_.size(); ++i) {
       const auto type = static_cast<std::size_t>(types_.text_of_sphere()[i]);
       attributes.type.push_back(static_cast<std::int32_t>(type + 1));
-      if (element_of_text[type]) attributes.element[i] = static_cast<std::uint8_t>(*element_of_text[type]);
+      if (element_of_label[type]) attributes.element[i] = static_cast<std::uint8_t>(*element_of_label[type]);
     }
     if (std::all_of(attributes.element.begin(), attributes.element.end(), [](auto number) { return number == 0; }))
       attributes.element.clear();
@@ -192,7 +192,7 @@ class Mol2Reader {
 bool is_mol2(std::string_view head) {
   TextScanner scanner(head, "");
   for (int line = 0; line < 200 && scanner.next_line(); ++line)
-    if (scanner.line().substr(0, kMark.size()) == kMark) return true;
+    if (scanner.line().substr(0, kTripos.size()) == kTripos) return true;
   return false;
 }
 

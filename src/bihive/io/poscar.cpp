@@ -19,10 +19,14 @@ struct Species {
   std::int64_t count = 0;
 };
 
+// The words up to a comment.
 std::vector<std::string> words_on(TextScanner scanner) {
   scanner.restart_line();
   std::vector<std::string> words;
-  for (std::string_view word; words.size() < 10000 && scanner.next_field(word);) words.emplace_back(word);
+  for (std::string_view word; words.size() < 10000 && scanner.next_field(word);) {
+    if (word[0] == '!' || word[0] == '#') break;
+    words.emplace_back(word);
+  }
   return words;
 }
 
@@ -88,6 +92,7 @@ class VaspReader {
         if (has_head && trim(scanner_.line()).empty()) {
           TextScanner ahead(scanner_);
           if (!ahead.next_filled_line()) break;
+          if (is_configuration(ahead.line())) continue;
         }
         if (Status head = read_head(); !head) return head.error();
         has_head = true;
@@ -264,7 +269,7 @@ bool begins_as_vasp(TextScanner& scanner) {
     const std::vector<std::string> words = words_on(scanner);
     std::size_t count = 0;
     while (count < words.size() && is_number(words[count])) ++count;
-    return count >= least && count <= most && (count == words.size() || words[count].find_first_of("!#") == 0);
+    return count >= least && count <= most && count == words.size();
   };
   if (!scanner.next_line() || !scanner.next_line() || !(numbers(1, 1) || numbers(3, 3))) return false;
   for (int vector = 0; vector < 3; ++vector)

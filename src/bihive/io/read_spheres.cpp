@@ -56,6 +56,8 @@ Result<RawSpheres> read_format(Format format, std::string_view bytes, const std:
       return read_csv(bytes, name, frame);
     case Format::npy:
       return read_npy(bytes, name, frame);
+    case Format::npz:
+      return read_npz(bytes, name, frame);
   }
   return Error{"unknown format", name, 0, 0, ""};
 }
@@ -64,6 +66,7 @@ Result<RawSpheres> read_format(Format format, std::string_view bytes, const std:
 bool ends_in_a_line(Format format) {
   switch (format) {
     case Format::npy:
+    case Format::npz:
     case Format::gsd:
     case Format::ply:
     case Format::pcd:

@@ -63,6 +63,9 @@ Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& fi
 /// The points of VTK's XML format (.vtp .vtu .vts). One frame.
 Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame);
 
+/// NPZ of NumPy: columns x, y, z, or one array of places, and other arrays of as many rows. One frame.
+Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std::int64_t frame);
+
 /// Whether the first lines of a text are those of the format. is_small_cif: whether a CIF has fractional coordinates.
 bool is_small_cif(std::string_view text);
 bool is_pcd(std::string_view head);

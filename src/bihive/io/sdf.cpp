@@ -190,23 +190,28 @@ class SdfReader {
   }
 
   Status read_v3000_atom(bool wanted) {
-    if (wanted) {
-      skip_fields(3);
-      std::string_view symbol, field;
-      if (!scanner_.next_field(symbol)) return scanner_.line_error("expected the symbol of an atom");
-      // A list of symbols in quotes may have blanks.
-      if (symbol[0] == '"')
-        for (field = symbol; !field.empty() && (field.size() < 2 || field.back() != '"');) scanner_.next_field(field);
-      if (symbol == "NOT") scanner_.next_field(field);
-      const Result<Vec3d> at = take_place(scanner_);
-      if (!at) return at.error();
-      double charge = 0;
-      while (scanner_.next_field(field))
-        if (field.substr(0, 4) == "CHG=") charge = parse_double(field.substr(4)).value_or(0);
-      add(*at, symbol, charge);
+    if (!wanted) {
+      while (trim(scanner_.line()).back() == '-')
+        if (!scanner_.next_line() || trim(scanner_.line()).empty()) return cut("the rest of an atom");
+      return Done{};
     }
-    while (trim(scanner_.line()).size() > 6 && trim(scanner_.line()).back() == '-')
+    skip_fields(3);
+    std::string_view symbol, field;
+    if (!scanner_.next_field(symbol)) return scanner_.line_error("expected the symbol of an atom");
+    // A list of symbols in quotes may have blanks.
+    if (symbol[0] == '"')
+      for (field = symbol; !field.empty() && (field.size() < 2 || field.back() != '"');) scanner_.next_field(field);
+    if (symbol == "NOT") scanner_.next_field(field);
+    const Result<Vec3d> at = take_place(scanner_);
+    if (!at) return at.error();
+    double charge = 0;
+    while (scanner_.next_field(field)) {
+      if (field.substr(0, 4) == "CHG=") charge = parse_double(field.substr(4)).value_or(0);
+      if (field.back() != '-') continue;
       if (!scanner_.next_line()) return cut("the rest of an atom");
+      skip_fields(2);
+    }
+    add(*at, symbol, charge);
     return Done{};
   }
 

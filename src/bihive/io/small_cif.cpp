@@ -198,14 +198,15 @@ class CrystalReader {
       add_images(fraction, label, symbol, row.has2(kGroup) ? row.str(kGroup) : "", number_in(kOccupancy, 1), b);
     }
     if (without_place > 0)
-      spheres_.warnings.push_back(file_ + ": " + spheres_have(without_place) + " no place ('?') and are left out");
+      spheres_.warnings.push_back(file_ + ": " + spheres_have(without_place) +
+                                  " no place ('?'), so the file's other atoms are shown");
     return Done{};
   }
 
   // The images of a site inside of the cell, each once.
   void add_images(Vec3d fraction, const std::string& label, const std::string& symbol, const std::string& group,
                   double occupancy, double b) {
-    const auto& [va, vb, vc] = spheres_.cell->vectors;
+    const Vec3d va = spheres_.cell->vectors[0], vb = spheres_.cell->vectors[1], vc = spheres_.cell->vectors[2];
     std::vector<Vec3d> images;
     for (std::size_t i = 0; i < operations_.size(); ++i) {
       Vec3d image = operations_[i].of(fraction);

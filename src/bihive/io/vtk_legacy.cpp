@@ -130,6 +130,7 @@ class VtkReader {
     rest_of_line();
     rest_of_line();
     const std::string_view kind = rest_of_line();
+    if (kind != "ASCII" && kind != "BINARY") --line_;
     if (kind != "ASCII" && kind != "BINARY") return error("expected ASCII or BINARY but found " + quote(kind));
     binary_ = kind == "BINARY";
     for (std::string_view keyword = word(); !keyword.empty(); keyword = word())
