@@ -112,6 +112,9 @@ TEST(LammpsData, TellsAStyleByItsColumns) {
   EXPECT_TRUE(has_rule(grains, "atom style: sphere"));
   EXPECT_EQ(grains.spheres.radius(0), 0.25);
   EXPECT_NE(error_of(atoms("1 2 0.5 3.0 4 5 0.1 0.2 0.3"), "a").find("Atoms # full"), std::string::npos);
+  std::string shapes = atoms("1 2 1 0.5 3.0 4 5");
+  shapes.replace(shapes.find("3 atom types"), 12, "3 atom types\n1 ellipsoids");
+  EXPECT_TRUE(has_rule(read_text(shapes, "a"), "atom style: ellipsoid, by the header (id type ellipsoidflag density x y z)"));
   // Stated styles of every width.
   const auto stated = [&](const std::string& style, const std::string& line) {
     std::string text = atoms(line);
@@ -122,6 +125,10 @@ TEST(LammpsData, TellsAStyleByItsColumns) {
   EXPECT_EQ(hybrid.spheres.radius(0), 0.25);
   EXPECT_EQ(numbers_of(hybrid, "q")[0], 0.1);
   EXPECT_EQ(hybrid.spheres.centre(0), (Vec3d{3, 4, 5}));
+  // What every hybrid style has, where its parts are unknown.
+  const SphereFile open = read_text(stated("hybrid oxdna", "1 2 3 4 5 0.5 7"), "a");
+  EXPECT_EQ(open.spheres.centre(0), (Vec3d{3, 4, 5}));
+  EXPECT_TRUE(has_rule(open, "(id type x y z, others are left out)"));
 }
 
 TEST(LammpsData, TakesTypeLabels) {

@@ -173,7 +173,12 @@ class LammpsDataReader {
     }
     if (keyword == "xy xz yz") return take(tilts_);
     if (keyword == "abc origin") return take(origin_);
-    return Done{};  // other counts
+    // Counts of other things. Atoms with shapes have styles of their own.
+    constexpr std::pair<std::string_view, std::string_view> shapes[] = {
+        {"ellipsoids", "ellipsoid"}, {"lines", "line"}, {"triangles", "tri"}, {"bodies", "body"}};
+    for (const auto& [name, style] : shapes)
+      if (keyword == name && numbers[0] > 0) style_of_shapes_ = style;
+    return Done{};
   }
 
   Status read_mass() {
@@ -209,7 +214,7 @@ class LammpsDataReader {
     if (!scanner_.next_filled_line()) return cut(0);
     const bool stated = columns.has_value();
     if (!columns) {
-      style = guess_lammps_style(scanner_.line(), types_.value_or(0));
+      style = style_of_shapes_.empty() ? guess_lammps_style(scanner_.line(), types_.value_or(0)) : style_of_shapes_;
       columns = lammps_columns(style);
     }
     const auto fields = static_cast<std::size_t>(scanner_.count_fields());
@@ -217,12 +222,14 @@ class LammpsDataReader {
       return scanner_.line_error("no atom style is stated behind 'Atoms' (line " + std::to_string(heading_line) +
                                      "), and several or none have " + std::to_string(fields) + " columns",
                                  "write the style there, as in 'Atoms # full'");
-    if (fields == columns->size() + 3)
+    if (fields == columns->size() + 3 && (style.rfind("hybrid", 0) != 0 || ends_in_image_flags(scanner_.line())))
       for (const char* const flag : {"ix", "iy", "iz"}) columns->push_back({flag, ColumnRole::number});
+    const bool is_open = style.rfind("hybrid", 0) == 0 && fields > columns->size();
     SphereTable table(*columns);
+    if (is_open) table.allow_more_fields();
     if (const std::string fault = table.columns_fault(); !fault.empty()) return scanner_.line_error(fault);
-    spheres_.rules.push_back("atom style: " + style + (stated ? "" : ", by the number of columns") + " (" +
-                             table.column_names() + ")");
+    spheres_.rules.push_back("atom style: " + style + (stated ? "" : style_of_shapes_.empty() ? ", by the number of columns" : ", by the header") + " (" +
+                             table.column_names() + (is_open ? ", others are left out)" : ")"));
 
     // Read one line for each atom.
     table.reserve(*count_, scanner_.bytes_left());
@@ -287,7 +294,7 @@ class LammpsDataReader {
 
   TextScanner scanner_;
   RawSpheres spheres_;
-  std::string units_;
+  std::string units_, style_of_shapes_;
   std::optional<std::int64_t> count_, types_;
   // What LAMMPS takes where the file says nothing.
   std::array<std::array<double, 2>, 3> bounds_{{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}};

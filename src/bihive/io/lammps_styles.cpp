@@ -63,13 +63,19 @@ std::optional<std::vector<TableColumn>> lammps_columns(std::string_view style) {
   if (words.empty()) return std::nullopt;
   const bool hybrid = words[0] == "hybrid";
   if (!hybrid && words.size() > 1) return std::nullopt;
-  // A hybrid style has what all styles share, then the columns of each that are not there yet.
+  // A hybrid style has what all styles share, then the columns of each that are not there yet. Where one is unknown,
+  // what all share is known.
   std::vector<TableColumn> columns;
   if (hybrid) add_columns("id type x y z", columns);
   for (std::size_t i = hybrid ? 1 : 0; i < words.size(); ++i) {
     const auto found = std::find_if(std::begin(kStyles), std::end(kStyles),
                                     [&](const LammpsStyle& one) { return one.name == words[i]; });
-    if (found == std::end(kStyles)) return std::nullopt;
+    if (found == std::end(kStyles)) {
+      if (!hybrid) return std::nullopt;
+      columns.clear();
+      add_columns("id type x y z", columns);
+      break;
+    }
     add_columns(found->columns, columns);
   }
   return columns;
