@@ -114,7 +114,8 @@ TEST(LammpsData, TellsAStyleByItsColumns) {
   EXPECT_NE(error_of(atoms("1 2 0.5 3.0 4 5 0.1 0.2 0.3"), "a").find("Atoms # full"), std::string::npos);
   std::string shapes = atoms("1 2 1 0.5 3.0 4 5");
   shapes.replace(shapes.find("3 atom types"), 12, "3 atom types\n1 ellipsoids");
-  EXPECT_TRUE(has_rule(read_text(shapes, "a"), "atom style: ellipsoid, by the header (id type ellipsoidflag density x y z)"));
+  EXPECT_TRUE(
+      has_rule(read_text(shapes, "a"), "atom style: ellipsoid, by the header (id type ellipsoidflag density x y z)"));
   // Stated styles of every width.
   const auto stated = [&](const std::string& style, const std::string& line) {
     std::string text = atoms(line);

@@ -228,8 +228,11 @@ class LammpsDataReader {
     SphereTable table(*columns);
     if (is_open) table.allow_more_fields();
     if (const std::string fault = table.columns_fault(); !fault.empty()) return scanner_.line_error(fault);
-    spheres_.rules.push_back("atom style: " + style + (stated ? "" : style_of_shapes_.empty() ? ", by the number of columns" : ", by the header") + " (" +
-                             table.column_names() + (is_open ? ", others are left out)" : ")"));
+    spheres_.rules.push_back("atom style: " + style +
+                             (stated                     ? ""
+                              : style_of_shapes_.empty() ? ", by the number of columns"
+                                                         : ", by the header") +
+                             " (" + table.column_names() + (is_open ? ", others are left out)" : ")"));
 
     // Read one line for each atom.
     table.reserve(*count_, scanner_.bytes_left());
