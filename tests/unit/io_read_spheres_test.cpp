@@ -27,6 +27,7 @@ TEST(Detect, GoesByContentFirst) {
       {"# comment\n\nDATA_x\n", Format::mmcif},
       {"12\ncomment\n", Format::xyz},
       {"100000000000\n", Format::xyz},
+      {"3\n3 atoms\nO 0 0 0\n", Format::xyz},
       {"1 2 3\n", Format::csv},
       {"# comment\n1,2,3,4\n", Format::csv},
       {"\xEF\xBB\xBFid;X;Y;Z\n", Format::csv},

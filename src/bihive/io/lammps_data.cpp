@@ -312,7 +312,8 @@ class LammpsDataReader {
 
 bool is_lammps_data(std::string_view head) {
   TextScanner scanner(head, "");
-  scanner.next_line();
+  // XYZ begins with a count, and its comment may be "3 atoms" too.
+  if (!scanner.next_line() || parse_int(trim(scanner.line()))) return false;
   scanner.set_comment('#');
   for (int line = 0; line < 30 && scanner.next_filled_line(); ++line) {
     std::string_view count, name, more;
