@@ -83,7 +83,8 @@ void add_generator_options(CLI::App& app, InputOptions& input) {
 // `alone`: no other word without an option follows INPUT.
 void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
   app.add_option("INPUT", input.input,
-                 "A file (PDB, PQR, mmCIF, XYZ, GRO, LAMMPS dump, GSD, CSV, NPY, scene JSON) or a built-in name:\n"
+                 "A file (PDB, PQR, mmCIF, CIF, XYZ, GRO, LAMMPS dump and data, POSCAR, XDATCAR, SDF,\n"
+                 "MOL2, GSD, CSV, NPY, NPZ, PLY, PCD, VTK, scene JSON) or a built-in name:\n"
                  "scenario1, scenario2, scenario3, four-spheres, demo; - is the standard input")
       ->type_name("")
       ->required();

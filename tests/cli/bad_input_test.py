@@ -111,11 +111,11 @@ class BadFiles(ProgramTest):
 
     def test_formats_that_are_not_read_are_named(self):
         files = {
-            "a.vtk": (b"# vtk DataFile Version 3.0\npoints\nASCII\n", "a VTK file"),
+            "a.stl": (b"solid cube\n", "a mesh (STL)"),
             "a": (b"CDF\x02" + bytes(100), "a NetCDF file"),
             "a.json": (b'{"1": {"numbers": [1, 8]}}', "a database of ASE in JSON"),
             "a.xyz.bz2": (b"BZh91AY&SY", "a file packed with bzip2"),
-            "a.npz": (b"PK\x03\x04" + bytes(100), "a zip archive"),
+            "a.cube": (b"a\nb\n 1 0 0 0\n 2 1 0 0\n 2 0 1 0\n 2 0 0 1\n", "a cube of Gaussian"),
         }
         for name, (content, what) in files.items():
             self.write(name, content)

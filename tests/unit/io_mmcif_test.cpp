@@ -129,7 +129,7 @@ TEST(Mmcif, NamesTheKindOfCifWithoutAtomsOfIts) {
             none +
                 ": this CIF describes a monomer (_chem_comp_atom); convert it with 'gemmi convert FILE.cif OUT.pdb' or "
                 "'obabel FILE.cif -O OUT.xyz'");
-  EXPECT_EQ(error_of("data_T\nloop_\n_atom_site_label\n_atom_site_fract_x\nC 1\n", "a.cif"),
+  EXPECT_EQ(error_of("data_T\nloop_\n_atom_site.label\n_atom_site.fract_x\nC 1\n", "a.cif"),
             none +
                 ": this CIF is of a small molecule or crystal (fractional coordinates); convert it with 'ase convert "
                 "FILE.cif OUT.xyz' or 'obabel FILE.cif --fillUC strict -O OUT.xyz'");

@@ -27,12 +27,25 @@ TEST(Detect, GoesByContentFirst) {
       {"# comment\n\nDATA_x\n", Format::mmcif},
       {"12\ncomment\n", Format::xyz},
       {"100000000000\n", Format::xyz},
+      {"3\n3 atoms\nO 0 0 0\n", Format::xyz},
       {"1 2 3\n", Format::csv},
       {"# comment\n1,2,3,4\n", Format::csv},
       {"\xEF\xBB\xBFid;X;Y;Z\n", Format::csv},
       {"\"x\",\"y\",\"z\"\n", Format::csv},
       {"x\ty\tz\tcolumn 4\n", Format::csv},
       {"\x93NUMPY", Format::npy},
+      {"ply\nformat ascii 1.0\n", Format::ply},
+      {"# .PCD v0.7\nVERSION 0.7\n", Format::pcd},
+      {"VERSION 0.7\nFIELDS x y z\n", Format::pcd},
+      {"# vtk DataFile Version 3.0\npoints\nASCII\n", Format::vtk_legacy},
+      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", Format::vtk_xml},
+      {"data_x\n_cell_length_a 1\n_atom_site_fract_x 0\n", Format::small_cif},
+      {"SITE\n\n4 atoms\n1 atom types\n", Format::lammps_data},
+      {"diamond\n3.7\n0.5 0.5 0.0\n0.0 0.5 0.5\n0.5 0.0 0.5\nC\n2\nDirect\n0 0 0\n", Format::poscar},
+      {"12\n3.7\n0.5 0.5 0.0\n0.0 0.5 0.5\n0.5 0.0 0.5\n2\nselective\nDirect\n0 0 0\n", Format::poscar},
+      {"run\n1\n5 0 0\n0 5 0\n0 0 5\nC\n2\nDirect configuration=     1\n0 0 0\n", Format::xdatcar},
+      {"\n  program\n\n  6  6  0  0  0  0  0  0  0  0999 V2000\n", Format::sdf},
+      {"# name\n\n@<TRIPOS>MOLECULE\nbenzene\n", Format::mol2},
   };
   for (const auto& [text, format] : cases)
     for (const char* name : {"a", "a.pdb", "a.npy", "a.xyz.gz"})
@@ -41,13 +54,19 @@ TEST(Detect, GoesByContentFirst) {
 
 TEST(Detect, GoesByNameWhereContentSaysNothing) {
   const std::pair<const char*, Format> cases[] = {
-      {"a.pdb", Format::pdb},          {"a.ENT", Format::pdb},
-      {"b/a.cif.gz", Format::mmcif},   {"a.mmcif", Format::mmcif},
-      {"a.xyz", Format::xyz},          {"a.extxyz", Format::xyz},
-      {"a.dump", Format::lammps_dump}, {"a.lammpstrj", Format::lammps_dump},
-      {"a.csv", Format::csv},          {"a.tsv", Format::csv},
-      {"a.txt.GZ", Format::csv},       {"a.dat", Format::csv},
-      {"a.npy", Format::npy},          {"a.pqr", Format::pqr},
+      {"a.pdb", Format::pdb},           {"a.ENT", Format::pdb},
+      {"b/a.cif.gz", Format::mmcif},    {"a.mmcif", Format::mmcif},
+      {"a.xyz", Format::xyz},           {"a.extxyz", Format::xyz},
+      {"a.dump", Format::lammps_dump},  {"a.lammpstrj", Format::lammps_dump},
+      {"a.csv", Format::csv},           {"a.tsv", Format::csv},
+      {"a.txt.GZ", Format::csv},        {"a.dat", Format::csv},
+      {"a.npy", Format::npy},           {"a.pqr", Format::pqr},
+      {"a.lmp", Format::lammps_data},   {"a.sdf", Format::sdf},
+      {"a.MOL.gz", Format::sdf},        {"a.mol2", Format::mol2},
+      {"a.ply", Format::ply},           {"a.pcd", Format::pcd},
+      {"a.vtk.gz", Format::vtk_legacy}, {"a.vtp", Format::vtk_xml},
+      {"a.vasp", Format::poscar},       {"b/CONTCAR.gz", Format::poscar},
+      {"XDATCAR", Format::xdatcar},
   };
   for (const auto& [name, format] : cases) EXPECT_EQ(format_by_name(name), format) << name;
   for (const char* name : {"a", "pdb", "a.", "a.zip", "a.pdb.zip", ".gz"})
@@ -148,9 +167,11 @@ TEST(ReadSpheres, WarnsOfVanishingRadii) {
 
 TEST(ReadSpheres, NamesWhatItCannotRead) {
   const std::string known =
-      "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), "
-      "LAMMPS "
-      "dump (.dump .lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+      "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD "
+      "(.gsd), "
+      "LAMMPS dump (.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf "
+      ".mol), MOL2 (.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt "
+      ".dat), NPY and NPZ (.npy .npz), each also as .gz";
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;

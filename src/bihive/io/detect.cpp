@@ -88,27 +88,54 @@ bool is_pqr(TextScanner scanner, const std::string& name) {
 
 std::optional<Format> format_by_name(const std::string& name) {
   static constexpr std::pair<std::string_view, Format> endings[] = {
-      {".pdb", Format::pdb},    {".ent", Format::pdb},          {".pqr", Format::pqr},
-      {".pdbx", Format::mmcif}, {".cif", Format::mmcif},        {".mmcif", Format::mmcif},
-      {".xyz", Format::xyz},    {".extxyz", Format::xyz},       {".gro", Format::gro},
-      {".gsd", Format::gsd},    {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
-      {".csv", Format::csv},    {".tsv", Format::csv},          {".txt", Format::csv},
-      {".dat", Format::csv},    {".npy", Format::npy},
+      {".pdb", Format::pdb},          {".ent", Format::pdb},
+      {".pqr", Format::pqr},          {".pdbx", Format::mmcif},
+      {".cif", Format::mmcif},        {".mmcif", Format::mmcif},
+      {".xyz", Format::xyz},          {".extxyz", Format::xyz},
+      {".gro", Format::gro},          {".gsd", Format::gsd},
+      {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
+      {".lmp", Format::lammps_data},  {".lammps", Format::lammps_data},
+      {".poscar", Format::poscar},    {".vasp", Format::poscar},
+      {".sdf", Format::sdf},          {".sd", Format::sdf},
+      {".mol", Format::sdf},          {".mol2", Format::mol2},
+      {".ply", Format::ply},          {".pcd", Format::pcd},
+      {".vtk", Format::vtk_legacy},   {".vtp", Format::vtk_xml},
+      {".vtu", Format::vtk_xml},      {".vts", Format::vtk_xml},
+      {".csv", Format::csv},          {".tsv", Format::csv},
+      {".txt", Format::csv},          {".dat", Format::csv},
+      {".npy", Format::npy},          {".npz", Format::npz},
   };
   for (const auto& [ending, format] : endings)
     if (name_ends(name, ending)) return format;
+  // VASP's files have names of their own.
+  const std::string own = lower_case(name.substr(name.find_last_of('/') + 1));
+  if (own.rfind("poscar", 0) == 0 || own.rfind("contcar", 0) == 0) return Format::poscar;
+  if (own.rfind("xdatcar", 0) == 0) return Format::xdatcar;
   return std::nullopt;
 }
 
 std::optional<Format> format_by_content(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, 6) == "\x93NUMPY") return Format::npy;
+  if (bytes.substr(0, 4) == "PK\x03\x04") return Format::npz;
   if (GsdFile::looks_like(bytes)) return Format::gsd;
   const std::string_view head = bytes.substr(0, kLook);
+  // Their headers are text, and what follows may be binary.
+  if (head.substr(0, 4) == "ply\n" || head.substr(0, 5) == "ply\r\n") return Format::ply;
+  if (head.substr(0, 15) == "# vtk DataFile ") return Format::vtk_legacy;
+  if (is_pcd(head)) return Format::pcd;
+  if (is_vtk_xml(head)) return Format::vtk_xml;
   if (head.find('\0') != std::string_view::npos) return std::nullopt;
 
   TextScanner scanner(head, "");
   if (!scanner.next_filled_line()) return std::nullopt;
   if (trim(scanner.line()).substr(0, 5) == "ITEM:") return Format::lammps_dump;
+  // Formats whose first lines no other has. Their titles may be anything, also a word of PDB.
+  static constexpr std::pair<bool (*)(std::string_view), Format> recognisers[] = {
+      {is_sdf, Format::sdf},   {is_poscar, Format::poscar},           {is_xdatcar, Format::xdatcar},
+      {is_mol2, Format::mol2}, {is_lammps_data, Format::lammps_data},
+  };
+  for (const auto& [is_format, format] : recognisers)
+    if (is_format(head)) return format;
   if (is_pdb_record(scanner.line())) return is_pqr(scanner, name) ? Format::pqr : Format::pdb;
   if (is_gro(head)) return Format::gro;
   if (is_xyz(scanner)) return Format::xyz;
@@ -117,13 +144,18 @@ std::optional<Format> format_by_content(std::string_view bytes, const std::strin
   // CIF may begin with comments.
   while (trim(scanner.line()).substr(0, 1) == "#")
     if (!scanner.next_filled_line()) return std::nullopt;
-  if (lower_case(trim(scanner.line()).substr(0, 5)) == "data_") return Format::mmcif;
+  if (lower_case(trim(scanner.line()).substr(0, 5)) == "data_")
+    return is_small_cif(bytes) ? Format::small_cif : Format::mmcif;
   return std::nullopt;
 }
 
 std::string known_formats() {
-  return "PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS dump "
-         "(.dump .lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+  return "PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS "
+         "dump "
+         "(.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf .mol), "
+         "MOL2 "
+         "(.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt .dat), "
+         "NPY and NPZ (.npy .npz), each also as .gz";
 }
 
 }  // namespace bihive

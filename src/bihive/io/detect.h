@@ -7,7 +7,28 @@
 
 namespace bihive {
 
-enum class Format { pdb, pqr, mmcif, xyz, gro, lammps_dump, gsd, csv, npy };
+enum class Format {
+  pdb,
+  pqr,
+  mmcif,
+  xyz,
+  gro,
+  lammps_dump,
+  lammps_data,
+  poscar,
+  xdatcar,
+  sdf,
+  mol2,
+  small_cif,
+  ply,
+  pcd,
+  vtk_legacy,
+  vtk_xml,
+  gsd,
+  csv,
+  npy,
+  npz
+};
 
 /// The format of unpacked bytes by their content; nothing if it fits none, or several. Where PDB and PQR both fit, the
 /// ending of the name decides.

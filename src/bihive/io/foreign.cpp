@@ -21,7 +21,6 @@ constexpr std::string_view kMdanalysis =
 constexpr std::string_view kBabel = "convert it with 'obabel FILE -O OUT.pdb' (Open Babel)";
 constexpr std::string_view kAse = "convert it with 'ase convert FILE OUT.xyz' (ASE)";
 constexpr std::string_view kPoints = "write the points as CSV with a header, for example with meshio or CloudCompare";
-constexpr std::string_view kMetrics = "write its arrays with numpy.save: n x 3 or n x 4 numbers in one .npy file";
 constexpr Known kKnown[] = {
     {"dcd", "a DCD trajectory of CHARMM, NAMD or LAMMPS", ".dcd", kTopologyFirst},
     {"xtc", "an XTC trajectory of GROMACS", ".xtc", kTopologyFirst},
@@ -30,7 +29,6 @@ constexpr Known kKnown[] = {
     {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
     {"netcdf", "a NetCDF file", ".nc .ncdf .netcdf", kMdanalysis},
     {"hdf5", "an HDF5 file", ".h5 .hdf5 .h5md .hdf", "write its data set with h5py and numpy.save as .npy"},
-    {"npz", "a zip archive, as numpy.savez writes it (NPZ)", ".npz .zip", kMetrics},
     {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'"},
     {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'"},
     {"zstd", "a file packed with zstd", ".zst", "unpack it first: 'unzstd FILE'"},
@@ -40,16 +38,8 @@ constexpr Known kKnown[] = {
     {"cml", "a CML file (XML)", ".cml", kBabel},
     {"ase-json", "a database of ASE in JSON", "", kAse},
     {"json", "JSON, but no scene of bihive", "", "scene files have the key \"bihive_scene\": docs/scene_format.md"},
-    {"mol2", "a molecule of Tripos (MOL2)", ".mol2", kBabel},
-    {"sdf", "a molecule in MDL's format (MOL, SDF)", ".sdf .mol .sd", kBabel},
-    {"ply", "a PLY file of points or a mesh", ".ply", kPoints},
-    {"pcd", "a point cloud (PCD)", ".pcd", kPoints},
-    {"vtk", "a VTK file", ".vtk .vtp .vtu", kPoints},
+    {"vtk", "a VTK file without points of its own", ".vti .vtr .pvtp .pvtu .vtm .pvd", kPoints},
     {"stl", "a mesh (STL)", ".stl", kPoints},
-    {"poscar", "a structure of VASP (POSCAR)", ".poscar .vasp", kAse},
-    {"xdatcar", "a trajectory of VASP (XDATCAR)", "", "convert it with 'ase convert FILE OUT.xyz' (ASE)"},
-    {"lammps-data", "a data file of LAMMPS", ".lammps .lmp",
-     "convert it with 'ase convert -i lammps-data FILE OUT.xyz' (ASE)"},
     {"psf", "a topology of CHARMM or NAMD (PSF), without coordinates", ".psf", kMdanalysis},
     {"prmtop", "a topology of Amber (PRMTOP), without coordinates", ".prmtop .parm7",
      "convert it with 'cpptraj' or 'ambpdb'"},
@@ -93,7 +83,6 @@ std::string_view by_mark(std::string_view bytes) {
       {"CDF\x02"sv, "netcdf"},
       {"CDF\x05"sv, "netcdf"},
       {"\x89HDF\r\n\x1a\n"sv, "hdf5"},
-      {"PK\x03\x04"sv, "npz"},
       {"BZh"sv, "bzip2"},
       {"\xfd"
        "7zXZ\0"sv,
@@ -106,11 +95,6 @@ std::string_view by_mark(std::string_view bytes) {
       {"SQLite format 3\0"sv, "ase-db"},
       {"%PDF-"sv, "pdf"},
       {"%VERSION"sv, "prmtop"},
-      {"@<TRIPOS>"sv, "mol2"},
-      {"ply\n"sv, "ply"},
-      {"ply\r\n"sv, "ply"},
-      {"# .PCD"sv, "pcd"},
-      {"# vtk DataFile"sv, "vtk"},
       {"solid "sv, "stl"},
       {"PSF "sv, "psf"},
       {"PSF\n"sv, "psf"},
@@ -131,9 +115,8 @@ std::string_view by_element(std::string_view text) {
   const std::string head = lower_case(text.substr(0, 2000));
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || head[first] != '<') return "";
-  const std::pair<std::string_view, std::string_view> elements[] = {{"<vtkfile", "vtk"}, {"<pdbx:", "pdbml"},
-                                                                    {"<html", "html"},   {"<!doctype html", "html"},
-                                                                    {"<cml", "cml"},     {"<molecule", "cml"}};
+  const std::pair<std::string_view, std::string_view> elements[] = {
+      {"<pdbx:", "pdbml"}, {"<html", "html"}, {"<!doctype html", "html"}, {"<cml", "cml"}, {"<molecule", "cml"}};
   for (const auto& [element, key] : elements)
     if (head.find(element) != std::string::npos) return key;
   return "";
@@ -161,28 +144,8 @@ std::string_view by_lines(std::string_view text) {
   const auto line = [&lines](std::size_t i) { return i < lines.size() ? lines[i] : std::string_view(); };
 
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (begins(lines[i], "@<TRIPOS>")) return "mol2";
-    if (begins(lines[i], "VERSION") && begins(line(i + 1), "FIELDS")) return "pcd";
     const std::string_view bare = trim(lines[i]);
     if (bare == "PRIMCOORD" || bare == "PRIMVEC" || begins(bare, "ANIMSTEPS")) return "xsf";
-  }
-  if (line(3).find("V2000") != std::string_view::npos || line(3).find("V3000") != std::string_view::npos) return "sdf";
-
-  // POSCAR: a comment, a factor, three vectors, names or counts. XDATCAR says "Direct configuration=".
-  const std::vector<std::string_view> second = fields_of_line(line(1));
-  if (second.size() == 1 && parse_double(second[0])) {
-    bool vectors = true;
-    for (std::size_t i = 2; i < 5; ++i)
-      vectors = vectors && fields_of_line(line(i)).size() == 3 && all_numbers(fields_of_line(line(i)), 3);
-    for (std::size_t i = 5; vectors && i < 9; ++i)
-      if (begins(lower_case(trim(line(i))), "direct configuration")) return "xdatcar";
-    if (vectors && !fields_of_line(line(5)).empty()) return "poscar";
-  }
-
-  // LAMMPS data: a comment, then "N atoms".
-  for (std::size_t i = 1; i < std::min<std::size_t>(lines.size(), 12); ++i) {
-    const std::vector<std::string_view> fields = fields_of_line(lines[i]);
-    if (fields.size() == 2 && parse_int(fields[0]) && fields[1] == "atoms") return "lammps-data";
   }
 
   // CHARMM: titles behind asterisks, then the count.
@@ -200,6 +163,7 @@ std::string_view by_lines(std::string_view text) {
   };
   if (counted_vector(2) && counted_vector(3) && counted_vector(4) && counted_vector(5)) return "cube";
 
+  const std::vector<std::string_view> second = fields_of_line(line(1));
   // Amber: a title, a count (with a time), then six numbers on a line.
   if ((second.size() == 1 || second.size() == 2) && parse_int(second[0]) && fields_of_line(line(2)).size() == 6 &&
       all_numbers(fields_of_line(line(2)), 6))

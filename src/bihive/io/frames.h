@@ -1,7 +1,7 @@
 // A file of spheres with any number of frames, opened once.
 //
-// Opening finds where each frame begins; a frame is read when it is asked for, so that memory holds the frames in use and
-// never the file.
+// Opening finds where each frame begins; a frame is read when it is asked for, so that memory holds the frames in use
+// and never the file.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ class Frames {
   virtual ~Frames() = default;
 
   virtual std::int64_t count() const = 0;
-  /// The same, bit for bit, as read_spheres() of the same file and options with this frame, 0 to count() - 1. Errors: as
-  /// there; no such frame; the file changed meanwhile.
+  /// The same, bit for bit, as read_spheres() of the same file and options with this frame, 0 to count() - 1. Errors:
+  /// as there; no such frame; the file changed meanwhile.
   virtual Result<SphereFile> read(std::int64_t frame) const = 0;
 };
 

@@ -2,11 +2,11 @@
 // descr, fortran_order and shape, then the numbers.
 #include "bihive/io/npy.h"
 
-#include <cstring>
 #include <limits>
 #include <optional>
 
 #include "bihive/base/memory.h"
+#include "bihive/io/binary_number.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/text_scanner.h"
 
@@ -133,13 +133,6 @@ Result<Header> parse_header(std::string_view bytes, const std::string& name) {
   return header;
 }
 
-// One number type of a file.
-struct NumberType {
-  char kind;  // f, i, u
-  std::size_t size;
-  bool big_endian;
-};
-
 std::optional<NumberType> number_type(std::string_view dtype) {
   if (dtype.size() != 3) return std::nullopt;
   const char order = dtype[0], kind = dtype[1], digit = dtype[2];
@@ -148,29 +141,6 @@ std::optional<NumberType> number_type(std::string_view dtype) {
   const bool has_order = order == '<' || order == '>' || order == '=' || (order == '|' && digit == '1');
   if (!(floating || whole) || !has_order) return std::nullopt;
   return NumberType{kind, static_cast<std::size_t>(digit - '0'), order == '>'};
-}
-
-// std::bit_cast, which libc++ 13 lacks.
-template <class To, class From>
-To same_bits(const From& from) {
-  static_assert(sizeof(To) == sizeof(From));
-  To to;
-  std::memcpy(&to, &from, sizeof(to));
-  return to;
-}
-
-double number_at(const char* bytes, const NumberType& type) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < type.size; ++i)
-    bits = bits << 8 | static_cast<unsigned char>(bytes[type.big_endian ? i : type.size - 1 - i]);
-  if (type.kind == 'f') {
-    if (type.size == 8) return same_bits<double>(bits);
-    return double(same_bits<float>(static_cast<std::uint32_t>(bits)));
-  }
-  if (type.kind == 'u') return static_cast<double>(bits);
-  // Extend the sign.
-  const int unused_bits = static_cast<int>(64 - 8 * type.size);
-  return static_cast<double>(static_cast<std::int64_t>(bits << unused_bits) >> unused_bits);
 }
 
 template <class T>

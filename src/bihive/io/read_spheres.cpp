@@ -30,14 +30,52 @@ Result<RawSpheres> read_format(Format format, std::string_view bytes, const std:
       return read_gro(bytes, name, frame);
     case Format::lammps_dump:
       return read_lammps_dump(bytes, name, frame);
+    case Format::lammps_data:
+      return read_lammps_data(bytes, name, frame);
+    case Format::poscar:
+      return read_poscar(bytes, name, frame);
+    case Format::xdatcar:
+      return read_xdatcar(bytes, name, frame);
+    case Format::sdf:
+      return read_sdf(bytes, name, frame);
+    case Format::mol2:
+      return read_mol2(bytes, name, frame);
+    case Format::small_cif:
+      return read_small_cif(bytes, name, frame);
+    case Format::ply:
+      return read_ply(bytes, name, frame);
+    case Format::pcd:
+      return read_pcd(bytes, name, frame);
+    case Format::vtk_legacy:
+      return read_vtk_legacy(bytes, name, frame);
+    case Format::vtk_xml:
+      return read_vtk_xml(bytes, name, frame);
     case Format::gsd:
       return read_gsd(bytes, name, frame);
     case Format::csv:
       return read_csv(bytes, name, frame);
     case Format::npy:
       return read_npy(bytes, name, frame);
+    case Format::npz:
+      return read_npz(bytes, name, frame);
   }
   return Error{"unknown format", name, 0, 0, ""};
+}
+
+// Whether the last line of every whole file has an end.
+bool ends_in_a_line(Format format) {
+  switch (format) {
+    case Format::npy:
+    case Format::npz:
+    case Format::gsd:
+    case Format::ply:
+    case Format::pcd:
+    case Format::vtk_legacy:
+    case Format::vtk_xml:
+      return false;
+    default:
+      return true;
+  }
 }
 
 // The content tells, then the name. A format that is known and not read, or not without another file, is named.
@@ -91,7 +129,7 @@ Result<SphereFile> read_unpacked(std::string_view bytes, const std::string& name
   if (is_moved && !options.radius && lacks_radii(*raw)) raw->unknown_radius = radius_from_neighbours(*raw);
   if (is_moved)
     if (Status status = take_frame_of(options.trajectory, options.frame, *raw); !status) return status.error();
-  if (*format != Format::npy && *format != Format::gsd && bytes.back() != '\n')
+  if (ends_in_a_line(*format) && bytes.back() != '\n')
     raw->warnings.push_back("the last line of " + name + " has no end: the file may be cut");
   if (!options.assembly.empty())
     if (Status status = expand_assembly(*raw, options.assembly, name); !status) return status.error();

@@ -33,6 +33,49 @@ Result<RawSpheres> read_gro(std::string_view text, const std::string& file, std:
 /// Whether the line is one of GRO's atoms.
 bool is_gro_atom(std::string_view line);
 
+/// LAMMPS data file: a box and atoms in one of LAMMPS' styles. One frame.
+Result<RawSpheres> read_lammps_data(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// Structure of VASP (POSCAR, CONTCAR). One frame.
+Result<RawSpheres> read_poscar(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// Trajectory of VASP (XDATCAR); any number of frames.
+Result<RawSpheres> read_xdatcar(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// MOL and SDF of MDL, V2000 and V3000; each record is a frame.
+Result<RawSpheres> read_sdf(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// MOL2 of Tripos; each molecule is a frame.
+Result<RawSpheres> read_mol2(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// CIF of small molecules and crystals: the whole cell, by its symmetry; each data block with atoms is a frame.
+Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file, std::int64_t frame);
+
+/// The points of PLY, in text or binary. One frame.
+Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// Point clouds of PCL (PCD), in text, binary or packed. One frame.
+Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// The points of VTK's old format, in text or binary. One frame.
+Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// The points of VTK's XML format (.vtp .vtu .vts). One frame.
+Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// NPZ of NumPy: columns x, y, z, or one array of places, and other arrays of as many rows. One frame.
+Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std::int64_t frame);
+
+/// Whether the first lines of a text are those of the format. is_small_cif: whether a CIF has fractional coordinates.
+bool is_small_cif(std::string_view text);
+bool is_pcd(std::string_view head);
+bool is_vtk_xml(std::string_view head);
+bool is_lammps_data(std::string_view head);
+bool is_poscar(std::string_view head);
+bool is_xdatcar(std::string_view head);
+bool is_sdf(std::string_view head);
+bool is_mol2(std::string_view head);
+
 /// GSD of HOOMD-blue, binary; any number of frames.
 Result<RawSpheres> read_gsd(std::string_view bytes, const std::string& file, std::int64_t frame);
 

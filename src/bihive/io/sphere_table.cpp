@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/readable.h"
 #include "bihive/io/parse_number.h"
 
 namespace bihive {
@@ -141,13 +142,34 @@ Status SphereTable::add_row(TextScanner& scanner) {
     return scanner.field_error("expected " + std::to_string(columns_.size()) + " columns (" + column_names() +
                                ") but found one more: " + quote(field));
   if (++rows_ % kRowsBetweenChecks != 0) return Done{};
-  // Each number is kept once here, and once more while the set is made.
-  const double bytes = 2 * sizeof(double) * static_cast<double>(columns_.size()) * static_cast<double>(rows_);
-  if (Status status =
-          check_memory(bytes, std::to_string(rows_) + " rows of " + std::to_string(columns_.size()) + " columns");
-      !status)
-    return scanner.line_error(status.error().message);
+  if (const std::string fault = memory_fault(); !fault.empty()) return scanner.line_error(fault);
   return Done{};
+}
+
+std::string SphereTable::add_numbers(const double* row) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    Column& column = columns_[i];
+    const double value = row[i];
+    if (column.role == ColumnRole::ignored) continue;
+    if (holds_labels(column.role) || column.is_text) {
+      const bool whole = value == std::floor(value) && std::abs(value) < 0x1p53;
+      column.labels.add(whole ? std::to_string(static_cast<std::int64_t>(value)) : std::to_string(value));
+      continue;
+    }
+    if (const char* fault = number_fault(column.role, value))
+      return column.name + " " + fault + ": " + readable_number(value);
+    column.has_number = true;
+    column.values.push_back(value);
+  }
+  return ++rows_ % kRowsBetweenChecks == 0 ? memory_fault() : "";
+}
+
+// Each number is kept once here, and once more while the set is made.
+std::string SphereTable::memory_fault() const {
+  const double bytes = 2 * sizeof(double) * static_cast<double>(columns_.size()) * static_cast<double>(rows_);
+  const Status status =
+      check_memory(bytes, std::to_string(rows_) + " rows of " + std::to_string(columns_.size()) + " columns");
+  return status ? "" : status.error().message;
 }
 
 Status SphereTable::read_number(Column& column, std::string_view field, const TextScanner& scanner) {

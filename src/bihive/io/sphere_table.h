@@ -61,6 +61,11 @@ class SphereTable {
   /// Reads the scanner's line. Errors: too few fields or too many; a field that should be a number and is not; a
   /// coordinate, radius, colour or opacity out of range.
   Status add_row(TextScanner& scanner);
+  /// A row of a file that is not text: one number for each column, those of ignored ones too. Returns why it is refused
+  /// ("x is not finite"), or an empty text.
+  std::string add_numbers(const double* row);
+  /// Colours are sRGB bytes, 0 to 255, even if none is above 1.
+  void colours_are_bytes() { colours_are_bytes_ = true; }
   /// Checks the number of fields of a line that is otherwise skipped.
   Status check_width(const TextScanner& scanner) const;
 
@@ -82,6 +87,7 @@ class SphereTable {
   static Status read_number(Column& column, std::string_view field, const TextScanner& scanner);
   static void begin_text(Column& column);
   static void take_types(Column& column, RawSpheres& spheres);
+  std::string memory_fault() const;
   Status width_error(const TextScanner& scanner, std::int64_t found) const;
   const Column* find(ColumnRole role) const;
   Column* find(ColumnRole role);
@@ -94,6 +100,7 @@ class SphereTable {
   std::vector<Column> columns_;
   std::int64_t rows_ = 0;
   bool more_fields_allowed_ = false;
+  bool colours_are_bytes_ = false;
 };
 
 }  // namespace bihive

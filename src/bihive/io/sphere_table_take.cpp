@@ -125,7 +125,7 @@ void SphereTable::take_colours(RawSpheres& spheres) {
   double largest = 0;
   for (const auto* part : {&red, &green, &blue})
     largest = std::max(largest, *std::max_element(part->begin(), part->end()));
-  const bool bytes = largest > 1;
+  const bool bytes = colours_are_bytes_ || largest > 1;
   spheres.rules.push_back(bytes ? "colours: sRGB, 0 to 255" : "colours: linear, 0 to 1");
 
   // Make them linear.
