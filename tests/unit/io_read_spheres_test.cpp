@@ -150,7 +150,7 @@ TEST(ReadSpheres, NamesWhatItCannotRead) {
   const std::string known =
       "; known are PDB (.pdb .ent), PQR (.pqr), mmCIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), "
       "LAMMPS "
-      "dump (.dump .lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz";
+      "dump (.dump .lammpstrj), CSV or plain 'x y z r' (.csv .tsv .txt .dat), NPY (.npy), each also as .gz or .zst";
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;
