@@ -6,8 +6,9 @@
 
 namespace bihive {
 
-Result<std::shared_ptr<const Frames>> open_frames(const std::string& path, const ReadOptions& options) {
-  auto frames = std::make_shared<SphereFrames>(path, options);
+Result<std::shared_ptr<const Frames>> open_frames(const std::string& path, const ReadOptions& options,
+                                                  const FramesOptions& of_frames) {
+  auto frames = std::make_shared<SphereFrames>(path, options, of_frames);
   if (const Result<SphereFile> first = frames->open(0); !first) return first.error();
   return std::shared_ptr<const Frames>(std::move(frames));
 }

@@ -18,13 +18,15 @@ namespace bihive {
 
 class SphereFrames : public Frames {
  public:
-  SphereFrames(std::string name, ReadOptions options) : name_(std::move(name)), options_(std::move(options)) {}
+  SphereFrames(std::string name, ReadOptions options, FramesOptions of_frames = {})
+      : name_(std::move(name)), options_(std::move(options)), of_frames_(of_frames) {}
 
   /// Opens the file, or the bytes, which must outlive it, and the trajectory if there is one. Reads a frame on the way.
   Result<SphereFile> open(std::int64_t frame);
   Result<SphereFile> open(std::string_view bytes, std::int64_t frame);
 
   std::int64_t count() const override { return count_; }
+  std::vector<std::string> warnings() const override { return frames_->warnings(); }
   Result<SphereFile> read(std::int64_t frame) const override;
 
  private:
@@ -36,6 +38,7 @@ class SphereFrames : public Frames {
 
   std::string name_;
   ReadOptions options_;
+  FramesOptions of_frames_;
   std::int64_t count_ = 0;
   std::shared_ptr<const RawFrames> frames_;
   // With a trajectory: the atoms, and the places.

@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-std::int64_t written_ns(const struct stat& facts) {
+std::int64_t time_written_ns(const struct stat& facts) {
   return std::int64_t{facts.st_mtim.tv_sec} * 1000000000 + facts.st_mtim.tv_nsec;
 }
 
@@ -28,7 +28,8 @@ Result<RandomFile> RandomFile::open(const std::string& path) {
   if (!S_ISREG(facts.st_mode))
     return Error{"this is no file whose frames can be read in any order", path, 0, 0, "write it to a file first"};
   file.size_ = facts.st_size;
-  file.written_ns_ = written_ns(facts);
+  file.written_ns_ = time_written_ns(facts);
+  file.has_path_ = true;
   return file;
 }
 
@@ -47,7 +48,7 @@ RandomFile RandomFile::of_descriptor(int file, const std::string& name) {
   struct stat facts = {};
   if (fstat(file, &facts) == 0) {
     made.size_ = facts.st_size;
-    made.written_ns_ = written_ns(facts);
+    made.written_ns_ = time_written_ns(facts);
   }
   return made;
 }
@@ -69,12 +70,13 @@ RandomFile::RandomFile(RandomFile&& other) noexcept
       owned_(std::move(other.owned_)),
       bytes_(other.bytes_),
       size_(other.size_),
-      written_ns_(other.written_ns_) {}
+      written_ns_(other.written_ns_),
+      has_path_(other.has_path_) {}
 
 bool RandomFile::changed() const {
   struct stat facts = {};
   if (file_ < 0 || fstat(file_, &facts) != 0) return false;
-  return facts.st_size < size_ || (facts.st_size == size_ && written_ns(facts) != written_ns_);
+  return facts.st_size < size_ || (facts.st_size == size_ && time_written_ns(facts) != written_ns_);
 }
 
 Result<std::string> RandomFile::read(std::int64_t place, std::int64_t count) const {

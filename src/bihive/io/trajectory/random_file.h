@@ -29,6 +29,8 @@ class RandomFile {
   const std::string& path() const { return path_; }
   /// Bytes when it was opened.
   std::int64_t size() const { return size_; }
+  /// When it was written last, in nanoseconds; 0 if it is no file on the disk with its own path.
+  std::int64_t written_ns() const { return has_path_ ? written_ns_ : 0; }
   /// Whether it is a file on the disk that became shorter or was written to since it was opened. One that only grew
   /// has the bytes that it had, as far as can be told from outside.
   bool changed() const;
@@ -48,6 +50,7 @@ class RandomFile {
   std::string_view bytes_;
   std::int64_t size_ = 0;
   std::int64_t written_ns_ = 0;  // when it was written last
+  bool has_path_ = false;
 };
 
 }  // namespace bihive
