@@ -385,6 +385,8 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
                                          "Read all frames: how many spheres, ranges of places, cell, time, step and\n"
                                          "numbers");
   frames->excludes(attributes);
+  command.add_flag("--keep-index", options.keep_index, "Text: keep the places of the frames in FILE.bihive-index")
+      ->needs(frames);
   add_tree_options(command, options.tree);
   add_input_options(command, options.input);
   frames->excludes(command.get_option("--frame"));

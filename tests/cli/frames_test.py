@@ -51,6 +51,17 @@ class Frames(ProgramTest):
         self.write("a.xyz", "1\n\nC 0 0 0\n" * 3 + "1\n\nC 0 zero 0\n" + "1\n\nC 0 0 0\n")
         self.assertIn("a.xyz:12:5:", self.fail_input("info", "a.xyz", "--frames"))
 
+    def test_a_kept_index(self):
+        self.write("a.dump", dump(20, 5))
+        first = self.succeed("info", "a.dump", "--frames", "--keep-index")
+        self.assertTrue(os.path.isfile(self.path("a.dump.bihive-index")))
+        self.assertEqual(self.succeed("info", "a.dump", "--frames", "--keep-index"), first)
+        self.write("a.dump.bihive-index", "no index")
+        done = self.run_bihive("info", "a.dump", "--frames", "--keep-index")
+        self.assertEqual((done.returncode, done.stdout), (0, first))
+        self.assertIn("made anew", done.stderr)
+        self.fail_usage("info", "a.dump", "--keep-index")
+
     def test_usage(self):
         self.write("a.xyz", "1\n\nC 0 0 0\n")
         for words in [("demo",), ("scenario1",), ("-",), ("a.xyz", "--frame", "0"), ("a.xyz", "--attributes")]:

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -247,6 +247,45 @@ TEST_F(FramesTest, of_a_file_that_changes) {
     EXPECT_EQ(outcome((*frames)->read(frame)), "error: " + path +
                                                    ": the file changed while it was read; begin again when it is "
                                                    "complete");
+}
+
+TEST_F(FramesTest, are_the_same_with_a_kept_index) {
+  const FramesOptions keep{true};
+  for (const Film& film : make_films(9, 20, 29)) {
+    SCOPED_TRACE(film.name);
+    const std::string path = write(film), kept = path + ".bihive-index";
+    const bool is_indexed = film.name != "a.cif";
+    const auto expect_frames = [&](const std::string& warning) {
+      const Result<FramesPointer> frames = open_frames(path, {}, keep);
+      ASSERT_TRUE(frames.ok()) << frames.error().to_string();
+      EXPECT_EQ((*frames)->warnings(), warning.empty() ? std::vector<std::string>{} : std::vector{warning});
+      for (const std::int64_t frame : shuffled(9, 2))
+        EXPECT_TRUE(outcome((*frames)->read(frame)) == expected(film.bytes, path, frame)) << frame;
+      EXPECT_EQ(outcome((*frames)->read(9)), expected(film.bytes, path, 9));
+    };
+    expect_frames("");
+    EXPECT_EQ(std::filesystem::exists(kept), is_indexed);
+    if (!is_indexed) continue;
+    const std::string index = read_file(kept).value();
+    expect_frames("");
+
+    // Damaged in any byte, cut, of another file: it is made anew.
+    const std::string of_no_use = kept + ": is damaged, or belongs to another version of the file; it is made anew";
+    for (std::size_t at = 0; at < index.size(); at += 61) {
+      std::string damaged = index;
+      damaged[at] = static_cast<char>(damaged[at] ^ 4);
+      ASSERT_TRUE(write_file(kept, damaged).ok());
+      const Result<FramesPointer> frames = open_frames(path, {}, keep);
+      ASSERT_TRUE(frames.ok());
+      EXPECT_EQ((*frames)->warnings(), std::vector{of_no_use}) << at;
+      EXPECT_EQ(read_file(kept).value(), index);
+    }
+    ASSERT_TRUE(write_file(kept, index.substr(0, index.size() / 2)).ok());
+    expect_frames(of_no_use);
+    std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) + std::chrono::seconds(5));
+    expect_frames(of_no_use);
+    expect_frames("");
+  }
 }
 
 TEST_F(FramesTest, need_a_file) {

@@ -137,6 +137,7 @@ struct InfoOptions {
   TreeParameters tree;
   bool attributes = false;  ///< only what is known of each sphere
   bool frames = false;      ///< what all frames hold
+  bool keep_index = false;  ///< of the frames, beside the file
   bool json = false;
 };
 /// `bihive info --frames`.

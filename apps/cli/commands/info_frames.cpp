@@ -201,8 +201,10 @@ void run_info_of_frames(const InfoOptions& options) {
   const std::string& path = options.input.input;
   if (file_of(options.input).empty()) fail_usage("--frames is for files, not for " + path);
   check_input_options(options.input);
-  const Result<std::shared_ptr<const Frames>> frames = open_frames(path, read_options(options.input));
+  const Result<std::shared_ptr<const Frames>> frames =
+      open_frames(path, read_options(options.input), FramesOptions{options.keep_index});
   if (!frames) value_or_fail(Status(frames.error()));
+  warn((*frames)->warnings());
   const Summary all = summary_of(**frames);
   for (std::size_t i = 0; i < std::min(kMostWarnings, all.warnings.size()); ++i) warn(all.warnings[i]);
   if (all.warnings.size() > kMostWarnings)

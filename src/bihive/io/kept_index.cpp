@@ -12,7 +12,7 @@ constexpr std::string_view kIndexMark = "bihive frames 1\n";
 constexpr std::size_t kSumBytes = 8;
 constexpr std::size_t kPlaceBytes = 24;
 
-// FNV-1a [FNV].
+// FNV-1a.
 std::uint64_t sum_of(std::string_view bytes) {
   std::uint64_t sum = 0xcbf29ce484222325;
   for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;

@@ -1,13 +1,17 @@
 #include "bihive/io/raw_frames.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/write_file.h"
 #include "bihive/io/detect.h"
 #include "bihive/io/foreign.h"
 #include "bihive/io/frame_index.h"
+#include "bihive/io/kept_index.h"
 #include "bihive/io/readers.h"
 #include "bihive/io/trajectory/gsd.h"
 #include "bihive/io/unpacked_file.h"
@@ -129,7 +133,33 @@ class GsdFrames : public RawFrames {
 // A text with many frames on the disk.
 class IndexedText : public RawFrames {
  public:
-  IndexedText(RandomFile file, PassReader reader) : file_(std::move(file)), reader_(reader) {}
+  IndexedText(RandomFile file, Format format) : file_(std::move(file)), format_(format), reader_(pass_reader(format)) {}
+
+  // From the index beside the file, or by a pass that writes it.
+  Result<RawSpheres> open_with_index(std::int64_t wanted) {
+    if (file_.written_ns() == 0) {
+      warnings_.push_back(file_.path() + ": there is no index of a packed file or a pipe");
+      return open(wanted);
+    }
+    const std::string path = kept_index_path(file_.path());
+    const IndexedFile of{format_, file_.size(), file_.written_ns()};
+    if (access(path.c_str(), F_OK) == 0) {
+      const Result<std::string> bytes = read_file(path);
+      std::optional<FrameIndex> index = bytes ? decode_index(*bytes, of) : std::nullopt;
+      const Result<std::string> last = file_.read(file_.size() - 1, 1);
+      if (index && last) {
+        index_ = std::move(*index);
+        may_be_cut_ = last->front() != '\n';
+        return read(wanted);
+      }
+      warnings_.push_back(path + ": is damaged, or belongs to another version of the file; it is made anew");
+    }
+    Result<RawSpheres> read = open(wanted);
+    if (!read) return read;
+    if (const Status status = write_file(path, encode_index(index_, of)); !status)
+      warnings_.push_back("the index is not kept: " + status.error().to_string());
+    return read;
+  }
 
   // Passes over the whole file once.
   Result<RawSpheres> open(std::int64_t wanted) {
@@ -176,6 +206,7 @@ class IndexedText : public RawFrames {
   }
 
   RandomFile file_;
+  Format format_;
   PassReader reader_;
   FrameIndex index_;
 };
@@ -201,7 +232,7 @@ Result<OpenedFrames> open_raw_frames(std::string_view bytes, const std::string& 
   return opened(std::move(frames), std::move(read));
 }
 
-Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wanted) {
+Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wanted, bool keep_index) {
   Result<RandomFile> file = open_unpacked(path);
   if (!file) return file.error();
   if (file->size() == 0) return empty_file(path);
@@ -210,9 +241,9 @@ Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wante
   const Result<Format> format = find_format(*head, path);
   if (!format) return format.error();
 
-  if (const PassReader reader = pass_reader(*format)) {
-    auto frames = std::make_shared<IndexedText>(std::move(*file), reader);
-    Result<RawSpheres> read = frames->open(wanted);
+  if (pass_reader(*format) != nullptr) {
+    auto frames = std::make_shared<IndexedText>(std::move(*file), *format);
+    Result<RawSpheres> read = keep_index ? frames->open_with_index(wanted) : frames->open(wanted);
     return opened<IndexedText>(std::move(frames), std::move(read));
   }
   if (*format == Format::gsd) {
