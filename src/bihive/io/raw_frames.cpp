@@ -211,8 +211,8 @@ class IndexedText : public RawFrames {
   FrameIndex index_;
 };
 
-template <class Frames>
-Result<OpenedFrames> opened(std::shared_ptr<const Frames> frames, Result<RawSpheres> wanted) {
+template <class Kind>
+Result<OpenedFrames> opened(std::shared_ptr<const Kind> frames, Result<RawSpheres> wanted) {
   if (!wanted) return wanted.error();
   return OpenedFrames{std::move(frames), std::move(*wanted)};
 }
