@@ -75,6 +75,10 @@ class Frames(ProgramTest):
         if shutil.which("zstd"):
             subprocess.run(["zstd", "-q", "a.dump"], cwd=self.folder, check=True)
             names.append("a.dump.zst")
+            self.write("cut.dump.zst", self.read("a.dump.zst")[:-20])
+            self.assertIn("the zstd data is cut", self.fail_input("info", "cut.dump.zst"))
+            self.write("damaged.dump.zst", self.read("a.dump.zst")[:40] + bytes(40) + self.read("a.dump.zst")[80:])
+            self.assertIn("the zstd data is damaged", self.fail_input("info", "damaged.dump.zst"))
         told = [self.succeed_json("info", name, "--frame", "3") for name in names]
         for one in told:
             self.assertEqual(one["spheres"], 53)
