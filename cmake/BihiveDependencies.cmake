@@ -75,6 +75,21 @@ if(NOT BIHIVE_OPENEXR STREQUAL "OFF")
   endif()
 endif()
 
+# Files that are packed with zstd are read where libzstd is installed; nothing else needs it.
+set(BIHIVE_ZSTD AUTO CACHE STRING "Read files packed with zstd: ON, OFF, or AUTO: where libzstd is installed")
+if(NOT BIHIVE_ZSTD STREQUAL "OFF")
+  find_path(BIHIVE_ZSTD_FOLDER zstd.h)
+  find_library(BIHIVE_ZSTD_LIBRARY zstd)
+  mark_as_advanced(BIHIVE_ZSTD_FOLDER BIHIVE_ZSTD_LIBRARY)
+  if(BIHIVE_ZSTD_FOLDER AND BIHIVE_ZSTD_LIBRARY)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/bihive/io/unpack.cpp PROPERTIES COMPILE_DEFINITIONS
+                                                                                          BIHIVE_HAS_ZSTD=1)
+    list(APPEND BIHIVE_LIBRARY_DEPENDENCIES zstd)
+  elseif(NOT BIHIVE_ZSTD STREQUAL "AUTO")
+    bihive_missing("libzstd" libzstd-dev)
+  endif()
+endif()
+
 if(BIHIVE_BUILD_CLI)
   bihive_require(CLI11 libcli11-dev)
   bihive_require_header(boost/beast/http.hpp libboost-dev)

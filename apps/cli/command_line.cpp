@@ -459,9 +459,17 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   CLI::App& command = add_command(app, "info", "Show what an input holds and how it was read", "bihive info demo",
                                   "bihive info scenario1 --count 1000000 --radius 0.1 --json", options, request);
   add_input(command, options.input);
-  command.add_flag("--attributes", options.attributes, "List what is known of each sphere: ranges and distinct texts");
+  CLI::Option* attributes = command.add_flag("--attributes", options.attributes,
+                                             "List what is known of each sphere: ranges and distinct texts");
+  CLI::Option* frames = command.add_flag("--frames", options.frames,
+                                         "Read all frames: how many spheres, ranges of places, cell, time, step and\n"
+                                         "numbers");
+  frames->excludes(attributes);
+  command.add_flag("--keep-index", options.keep_index, "Text: keep the places of the frames in FILE.bihive-index")
+      ->needs(frames);
   add_tree_options(command, options.tree);
   add_input_options(command, options.input);
+  frames->excludes(command.get_option("--frame"));
   add_json_flag(command, options.json);
 }
 

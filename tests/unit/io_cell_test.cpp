@@ -144,6 +144,24 @@ TEST(Unwrap, KeepsMoleculesTogether) {
     EXPECT_EQ(file.spheres.centre(static_cast<std::int64_t>(i)), expected[i]) << i;
 }
 
+TEST(Cell, OfEachPdbModelIsItsOwn) {
+  const auto cell = [](const std::string& length) {
+    return "CRYST1   " + length + "   40.000   80.000  90.00  90.00  90.00 P 1           1\n";
+  };
+  const std::string model = "MODEL        1\n" + kAtom + "ENDMDL\n";
+  const auto length_in = [](const std::string& text, std::int64_t frame) {
+    return cell_of(read_text(text, "a.pdb", test::at_frame(frame))).vectors[0].x;
+  };
+  const std::string each = cell("50.000") + model + cell("60.000") + model + model + cell("70.000") + model;
+  EXPECT_EQ(length_in(each, 0), 50);
+  EXPECT_EQ(length_in(each, 1), 60);
+  EXPECT_EQ(length_in(each, 2), 60);
+  EXPECT_EQ(length_in(each, 3), 70);
+  // Where none stands before the model's end, the first behind it counts.
+  EXPECT_EQ(length_in(model + cell("50.000") + model + cell("60.000"), 0), 50);
+  EXPECT_EQ(length_in(kAtom + cell("50.000") + kAtom, 0), 50);
+}
+
 TEST(Replicate, CountsTheMiddleOfAllCopies) {
   ReadOptions options;
   options.replicate = {3, 1, 1};

@@ -181,8 +181,12 @@ struct InfoOptions {
   InputOptions input;
   TreeParameters tree;
   bool attributes = false;  ///< only what is known of each sphere
+  bool frames = false;      ///< what all frames hold
+  bool keep_index = false;  ///< of the frames, beside the file
   bool json = false;
 };
+/// `bihive info --frames`.
+void run_info_of_frames(const InfoOptions& options);
 void run_info(const InfoOptions& options);
 /// The part of `bihive info --attributes`.
 void print_attributes(const Input& input, bool as_json);

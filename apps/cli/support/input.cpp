@@ -2,11 +2,16 @@
 
 #include <unistd.h>
 
+#include <filesystem>
+
 #include "bihive/base/write_file.h"
+#include "bihive/io/packed.h"
 #include "bihive/io/read_spheres.h"
+#include "bihive/scene/load_spheres.h"
 #include "support/failure.h"
 #include "support/messages.h"
 #include "support/outputs.h"
+#include "support/read_options.h"
 
 namespace bihive::cli {
 namespace {
@@ -33,10 +38,48 @@ void refuse_file_options(const InputOptions& options) {
   only_for(options.wrapping == Wrapping::unwrap, "--unwrap", "files", options.input);
 }
 
+void warn_of_growth(const std::string& path) {
+  warn(path + ": grew while it was read; what it held when it was opened counts");
+}
+
+// The size of a file when the object was made; 0 if it states none.
+class FileSize {
+ public:
+  explicit FileSize(const std::string& path) : path_(path), size_(now()) {}
+  bool grew() const { return now() > size_; }
+
+ private:
+  std::uintmax_t now() const {
+    std::error_code none;
+    const std::uintmax_t size = std::filesystem::file_size(path_, none);
+    return none ? 0 : size;
+  }
+
+  std::string path_;
+  std::uintmax_t size_;
+};
+
+// Whether the file must be in memory as a whole: a scene, or no plain file, which can be read only once.
+bool is_scene_file(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return true;
+  const Result<std::string> head = read_head(path);
+  return head && looks_like_scene(*head);
+}
+
 }  // namespace
 
 bool is_generated(const std::string& name) {
   return is_built_in_scene(name) && name != "demo";
+}
+
+std::string read_input(const std::string& path) {
+  bool grew = false;
+  const std::string name = input_name(path);
+  std::string bytes =
+      value_or_fail(path == kStandardStream ? read_descriptor(STDIN_FILENO, name, &grew) : read_file(path, &grew));
+  if (grew) warn_of_growth(name);
+  return bytes;
 }
 
 ReadOptions read_options(const InputOptions& options) {
@@ -52,15 +95,6 @@ ReadOptions read_options(const InputOptions& options) {
   reading.cell_origin = options.cell_origin;
   reading.wrapping = options.wrapping;
   return reading;
-}
-
-std::string read_input(const std::string& path) {
-  bool grew = false;
-  const std::string name = input_name(path);
-  std::string bytes =
-      value_or_fail(path == kStandardStream ? read_descriptor(STDIN_FILENO, name, &grew) : read_file(path, &grew));
-  if (grew) warn(name + ": grew while it was read; what it held when it was opened counts");
-  return bytes;
 }
 
 std::string input_name(const std::string& path) {
@@ -109,6 +143,12 @@ Input load_input(const InputOptions& options, LooksOfFile looks, const Style* st
   const ReadOptions reading = read_options(options);
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
+    if (options.input != kStandardStream && !is_scene_file(options.input)) {
+      const FileSize size(options.input);
+      Result<Input> loaded = load_spheres(options.input, reading, style);
+      if (size.grew()) warn_of_growth(options.input);
+      return loaded;
+    }
     const std::string name = input_name(options.input);
     const std::string bytes = value_or_fail(unpack_gzip(read_input(options.input), name));
     return load_scene(bytes, name, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);

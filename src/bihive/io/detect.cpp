@@ -62,10 +62,11 @@ bool is_table(TextScanner scanner) {
   return (numbers >= 3 && others == 0) || (!begins_with_number && has[0] && has[1] && has[2]);
 }
 
-// The name without .gz ends so.
+// The name without .gz or .zst ends so.
 bool name_ends(const std::string& name, std::string_view ending) {
   std::string lower = lower_case(name);
-  if (lower.size() > 3 && lower.compare(lower.size() - 3, 3, ".gz") == 0) lower.resize(lower.size() - 3);
+  for (const std::string_view packing : {".gz", ".zst"})
+    if (lower.size() > packing.size() && lower.ends_with(packing)) lower.resize(lower.size() - packing.size());
   return lower.size() >= ending.size() && lower.compare(lower.size() - ending.size(), ending.size(), ending) == 0;
 }
 
@@ -151,11 +152,11 @@ std::optional<Format> format_by_content(std::string_view bytes, const std::strin
 
 std::string known_formats() {
   return "PDB (.pdb .ent), PQR (.pqr), mmCIF and CIF (.cif .mmcif), XYZ (.xyz .extxyz), GRO (.gro), GSD (.gsd), LAMMPS "
-         "dump "
-         "(.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf .mol), "
-         "MOL2 "
-         "(.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt .dat), "
-         "NPY and NPZ (.npy .npz), each also as .gz";
+         "dump (.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf "
+         ".mol), "
+         "MOL2 (.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt "
+         ".dat), "
+         "NPY and NPZ (.npy .npz), each also as .gz or .zst";
 }
 
 }  // namespace bihive

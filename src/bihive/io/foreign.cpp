@@ -31,7 +31,6 @@ constexpr Known kKnown[] = {
     {"hdf5", "an HDF5 file", ".h5 .hdf5 .h5md .hdf", "write its data set with h5py and numpy.save as .npy"},
     {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'"},
     {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'"},
-    {"zstd", "a file packed with zstd", ".zst", "unpack it first: 'unzstd FILE'"},
     {"bcif", "a BinaryCIF file", ".bcif", "take the entry's mmCIF file"},
     {"mmtf", "an MMTF file", ".mmtf", "take the entry's mmCIF file"},
     {"pdbml", "a PDBML file (XML)", "", "take the entry's mmCIF file"},
@@ -87,7 +86,6 @@ std::string_view by_mark(std::string_view bytes) {
       {"\xfd"
        "7zXZ\0"sv,
        "xz"},
-      {"\x28\xb5\x2f\xfd"sv, "zstd"},
       {"\x89PNG\r\n\x1a\n"sv, "picture"},
       {"\xff\xd8\xff"sv, "picture"},
       {"\x76\x2f\x31\x01"sv, "picture"},
@@ -201,7 +199,8 @@ std::optional<ForeignFormat> foreign_by_content(std::string_view bytes) {
 
 std::optional<ForeignFormat> foreign_by_name(const std::string& name) {
   std::string lower = lower_case(name);
-  if (lower.size() > 3 && lower.compare(lower.size() - 3, 3, ".gz") == 0) lower.resize(lower.size() - 3);
+  for (const std::string_view packing : {".gz", ".zst"})
+    if (lower.size() > packing.size() && lower.ends_with(packing)) lower.resize(lower.size() - packing.size());
   const std::size_t dot = lower.find_last_of("./");
   if (dot == std::string::npos || lower[dot] != '.') return std::nullopt;
   const std::string ending = lower.substr(dot);

@@ -2,37 +2,15 @@
 
 #include <utility>
 
+#include "bihive/io/sphere_frames.h"
+
 namespace bihive {
-namespace {
 
-// Reads the whole file for each frame.
-class WholeFile : public Frames {
- public:
-  WholeFile(std::string path, ReadOptions options, std::int64_t count)
-      : path_(std::move(path)), options_(std::move(options)), count_(count) {}
-
-  std::int64_t count() const override { return count_; }
-
-  Result<SphereFile> read(std::int64_t frame) const override {
-    ReadOptions options = options_;
-    options.frame = frame;
-    return read_spheres(path_, options);
-  }
-
- private:
-  std::string path_;
-  ReadOptions options_;
-  std::int64_t count_;
-};
-
-}  // namespace
-
-Result<std::shared_ptr<const Frames>> open_frames(const std::string& path, const ReadOptions& options) {
-  ReadOptions first = options;
-  first.frame = 0;
-  const Result<SphereFile> read = read_spheres(path, first);
-  if (!read) return read.error();
-  return std::shared_ptr<const Frames>(std::make_shared<WholeFile>(path, options, read->frames));
+Result<std::shared_ptr<const Frames>> open_frames(const std::string& path, const ReadOptions& options,
+                                                  const FramesOptions& of_frames) {
+  auto frames = std::make_shared<SphereFrames>(path, options, of_frames);
+  if (const Result<SphereFile> first = frames->open(0); !first) return first.error();
+  return std::shared_ptr<const Frames>(std::move(frames));
 }
 
 }  // namespace bihive

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/io/read_spheres.h"
@@ -19,13 +20,22 @@ class Frames {
   virtual ~Frames() = default;
 
   virtual std::int64_t count() const = 0;
+  /// What went wrong while it was opened and does not matter for the frames, one line each.
+  virtual std::vector<std::string> warnings() const { return {}; }
   /// The same, bit for bit, as read_spheres() of the same file and options with this frame, 0 to count() - 1. Errors:
   /// as there; no such frame; the file changed meanwhile.
   virtual Result<SphereFile> read(std::int64_t frame) const = 0;
 };
 
+struct FramesOptions {
+  /// Text on the disk: the places of its frames are kept in FILE.bihive-index, and taken from there as long as the file
+  /// has the same length and time. An index of no use is replaced, with a warning; so is one that cannot be written.
+  bool keep_index = false;
+};
+
 /// Opens the file of any format that read_spheres() reads, or its trajectory (`options.trajectory`). `options.frame` is
 /// not looked at. Errors: as read_spheres() with frame 0.
-Result<std::shared_ptr<const Frames>> open_frames(const std::string& path, const ReadOptions& options);
+Result<std::shared_ptr<const Frames>> open_frames(const std::string& path, const ReadOptions& options,
+                                                  const FramesOptions& frames = {});
 
 }  // namespace bihive

@@ -28,17 +28,18 @@ std::optional<std::size_t> width_of(std::string_view line) {
 
 class GroReader {
  public:
-  GroReader(std::string_view text, const std::string& file, std::int64_t wanted)
-      : scanner_(text, file), wanted_(wanted) {
+  GroReader(const TextScanner& scanner, const FramePass& pass) : scanner_(scanner), pass_(pass), wanted_(pass.wanted) {
     spheres_.format = "GRO";
   }
 
   Result<RawSpheres> read() {
-    std::int64_t frames = 0;
-    for (; next_frame(); ++frames)
+    FrameNotes notes(pass_.made, scanner_);
+    std::int64_t frames = pass_.first;
+    for (; next_frame(); ++frames, notes.end_frame(scanner_))
       if (Status status = read_frame(frames); !status) return status.error();
+    if (pass_.reads_none()) return std::move(spheres_);
     if (wanted_ < 0 || wanted_ >= frames) return no_such_frame(scanner_.file(), wanted_, frames);
-    finish(frames);
+    finish(pass_.index != nullptr ? pass_.index->count() : frames);
     return std::move(spheres_);
   }
 
@@ -158,6 +159,7 @@ class GroReader {
   }
 
   TextScanner scanner_;
+  FramePass pass_;
   std::int64_t wanted_;
   RawSpheres spheres_;
   AtomColumns columns_;
@@ -178,7 +180,11 @@ bool is_gro_atom(std::string_view line) {
 }
 
 Result<RawSpheres> read_gro(std::string_view text, const std::string& file, std::int64_t frame) {
-  return GroReader(text, file, frame).read();
+  return read_gro(TextScanner(text, file), FramePass{frame});
+}
+
+Result<RawSpheres> read_gro(const TextScanner& scanner, const FramePass& pass) {
+  return GroReader(scanner, pass).read();
 }
 
 }  // namespace bihive

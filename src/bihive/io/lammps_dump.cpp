@@ -27,16 +27,17 @@ constexpr Naming kNamings[] = {
 
 class LammpsReader {
  public:
-  LammpsReader(std::string_view text, const std::string& file, std::int64_t wanted)
-      : scanner_(text, file), wanted_(wanted) {}
+  LammpsReader(const TextScanner& scanner, const FramePass& pass)
+      : scanner_(scanner), pass_(pass), wanted_(pass.wanted), frames_(pass.first), notes_(pass.made, scanner_) {}
 
   Result<RawSpheres> read() {
     while (scanner_.next_filled_line())
       if (Status section = read_section(); !section) return section.error();
     if (in_frame_) return cut("ITEM: ATOMS and one line an atom");
+    if (pass_.reads_none()) return std::move(spheres_);
     if (wanted_ < 0 || wanted_ >= frames_) return no_such_frame(scanner_.file(), wanted_, frames_);
     spheres_.format = "LAMMPS dump";
-    spheres_.frames = frames_;
+    spheres_.frames = pass_.index != nullptr ? pass_.index->count() : frames_;
     return std::move(spheres_);
   }
 
@@ -72,6 +73,7 @@ class LammpsReader {
     std::string_view field;
     if (!scanner_.next_field(field) || !parse_double(field))
       return scanner_.field_error("expected the time step but found " + quote(field));
+    step_ = parse_int(field);
     return Done{};
   }
 
@@ -152,11 +154,14 @@ class LammpsReader {
       spheres_.rules.insert(spheres_.rules.begin(), naming->rule);
       if (naming->scaled) unscale();
       spheres_.cell = box_;
+      spheres_.step = step_;
     }
 
     // The frame is complete.
+    notes_.end_frame(scanner_);
     in_frame_ = false;
     ++frames_;
+    step_.reset();
     count_.reset();
     box_.reset();
     return Done{};
@@ -195,10 +200,12 @@ class LammpsReader {
   }
 
   TextScanner scanner_;
+  FramePass pass_;
   std::int64_t wanted_;
-  std::int64_t frames_ = 0;
+  std::int64_t frames_;
+  FrameNotes notes_;
   bool in_frame_ = false;
-  std::optional<std::int64_t> count_;
+  std::optional<std::int64_t> step_, count_;
   std::int64_t count_line_ = 0;
   std::optional<Box> box_;
   RawSpheres spheres_;
@@ -207,7 +214,11 @@ class LammpsReader {
 }  // namespace
 
 Result<RawSpheres> read_lammps_dump(std::string_view text, const std::string& file, std::int64_t frame) {
-  return LammpsReader(text, file, frame).read();
+  return read_lammps_dump(TextScanner(text, file), FramePass{frame});
+}
+
+Result<RawSpheres> read_lammps_dump(const TextScanner& scanner, const FramePass& pass) {
+  return LammpsReader(scanner, pass).read();
 }
 
 }  // namespace bihive

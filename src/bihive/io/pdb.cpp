@@ -1,6 +1,7 @@
 // PDB, fixed columns [wwPDB-3.3]. This reader does not use gemmi's PDB reader. That one sorts atoms into chains and
 // residues (file order is lost), reads a coordinate that is no number as 0, and stops at the line numbers of the older
 // format.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -24,15 +25,16 @@ std::string_view columns(std::string_view line, std::size_t first, std::size_t l
 
 class PdbReader {
  public:
-  PdbReader(std::string_view text, const std::string& file, std::int64_t frame) : scanner_(text, file), frame_(frame) {
+  PdbReader(const TextScanner& scanner, const FramePass& pass) : scanner_(scanner), pass_(pass), frame_(pass.wanted) {
     spheres_.format = "PDB";
   }
 
   Result<RawSpheres> read() {
     // Models lie between MODEL and ENDMDL. Simulations separate models by ENDMDL or END alone.
-    bool in_model = false;
-    std::int64_t models = 0;
-    while (scanner_.next_line()) {
+    FrameNotes notes(pass_.made, scanner_);
+    bool in_model = false, any_cell = false;
+    std::int64_t models = pass_.first;
+    for (std::int64_t begin = scanner_.place(); scanner_.next_line(); begin = scanner_.place()) {
       const std::string_view record = scanner_.line().substr(0, 6);
       if (record.substr(0, 4) == "ATOM" || record == "HETATM") {
         if (!in_model) ++models;
@@ -40,28 +42,66 @@ class PdbReader {
         if (models - 1 != frame_) continue;
         if (Status atom = read_atom(); !atom) return atom.error();
       } else if (record == "REMARK" && columns(scanner_.line(), 8, 10) == "350") {
+        if (pass_.index != nullptr) continue;
         assemblies_.add_line(scanner_.line());
+        note_assembly_line(begin);
       } else if (record == "CRYST1") {
-        read_cell();
+        if (pass_.index != nullptr) continue;
+        // The last cell before the model's end counts. Where there is none, the first behind it does.
+        const bool is_behind = models - 1 > frame_ || (models - 1 == frame_ && !in_model);
+        if (!is_behind || !any_cell) read_cell(scanner_.line());
+        any_cell = true;
+        if (pass_.made != nullptr)
+          pass_.made->cell_lines.push_back({begin, scanner_.place(), scanner_.line_number() - 1});
       } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
+        if (in_model) notes.end_frame(scanner_);
         in_model = false;
       }
     }
+    if (in_model) notes.end_frame(scanner_);
     if (models == 0) return Error{"there is no ATOM or HETATM record in it", scanner_.file(), 0, 0, ""};
+    if (pass_.reads_none()) return std::move(spheres_);
     if (frame_ < 0 || frame_ >= models) return no_such_frame(scanner_.file(), frame_, models);
-    finish(models);
+    if (pass_.index != nullptr) take_lines_of_index();
+    finish(pass_.index != nullptr ? pass_.index->count() : models);
     return std::move(spheres_);
   }
 
  private:
   // A record that is no cell counts as none: programs write many forms of it.
-  void read_cell() {
+  void read_cell(std::string_view line) {
     std::array<double, 6> six{};
     constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
         {{7, 15}, {16, 24}, {25, 33}, {34, 40}, {41, 47}, {48, 54}}};
     for (std::size_t i = 0; i < 6; ++i)
-      six[i] = parse_double(trim(columns(scanner_.line(), kColumns[i][0], kColumns[i][1]))).value_or(0);
+      six[i] = parse_double(trim(columns(line, kColumns[i][0], kColumns[i][1]))).value_or(0);
     spheres_.cell = unit_cell(six);
+  }
+
+  // Runs of lines become one place.
+  void note_assembly_line(std::int64_t begin) {
+    if (pass_.made == nullptr) return;
+    std::vector<TextPlace>& places = pass_.made->assembly_lines;
+    if (places.empty() || places.back().end != begin) places.push_back({begin, begin, scanner_.line_number() - 1});
+    places.back().end = scanner_.place();
+  }
+
+  // What stands elsewhere in the file and is true of this model too.
+  void take_lines_of_index() {
+    const FrameIndex& index = *pass_.index;
+    const auto for_lines = [&](const TextPlace& place, const auto& take) {
+      FileText part{*pass_.file, place.begin, place.end, place.lines_before, {}};
+      TextScanner lines(part);
+      while (lines.next_line()) take(lines.line());
+    };
+    for (const TextPlace& place : index.assembly_lines)
+      for_lines(place, [this](std::string_view line) { assemblies_.add_line(line); });
+    if (index.cell_lines.empty()) return;
+    const std::int64_t end = index.frames[static_cast<std::size_t>(frame_)].end;
+    auto behind = std::lower_bound(index.cell_lines.begin(), index.cell_lines.end(), end,
+                                   [](const TextPlace& place, std::int64_t at) { return place.begin < at; });
+    if (behind != index.cell_lines.begin()) --behind;
+    for_lines(*behind, [this](std::string_view line) { read_cell(line); });
   }
 
   Status read_atom() {
@@ -138,6 +178,7 @@ class PdbReader {
   }
 
   TextScanner scanner_;
+  FramePass pass_;
   std::int64_t frame_;
   RawSpheres spheres_;
   AtomColumns columns_;
@@ -151,7 +192,11 @@ class PdbReader {
 }  // namespace
 
 Result<RawSpheres> read_pdb(std::string_view text, const std::string& file, std::int64_t frame) {
-  return PdbReader(text, file, frame).read();
+  return read_pdb(TextScanner(text, file), FramePass{frame});
+}
+
+Result<RawSpheres> read_pdb(const TextScanner& scanner, const FramePass& pass) {
+  return PdbReader(scanner, pass).read();
 }
 
 }  // namespace bihive

@@ -30,7 +30,7 @@ class PdbElements {
   /// `names_in_columns`: false where a name's place on the line means nothing (PQR, GRO).
   explicit PdbElements(bool names_in_columns) : names_in_columns_(names_in_columns) {}
 
-  /// The next atom. Its texts must live until the call of `take`, because `place` is compared with the next one's.
+  /// The next atom.
   void add(const ElementClues& clues);
 
   /// Gives all atoms their elements (0: unknown). A warning with a count says where the file contradicts itself.
@@ -55,7 +55,7 @@ class PdbElements {
   std::vector<std::uint8_t> elements_;
   std::vector<Undecided> undecided_;
   std::vector<std::size_t> residue_sizes_;  // of residues with undecided atoms
-  std::string_view place_, residue_;        // of the present residue
+  std::string place_, residue_;             // of the present residue
   Class class_ = Class::unknown;
   std::size_t residue_size_ = 0;
   bool residue_undecided_ = false;

@@ -15,14 +15,15 @@ namespace {
 
 class PqrReader {
  public:
-  PqrReader(std::string_view text, const std::string& file, std::int64_t frame) : scanner_(text, file), frame_(frame) {
+  PqrReader(const TextScanner& scanner, const FramePass& pass) : scanner_(scanner), pass_(pass), frame_(pass.wanted) {
     spheres_.format = "PQR";
   }
 
   Result<RawSpheres> read() {
     // Models as in PDB.
+    FrameNotes notes(pass_.made, scanner_);
     bool in_model = false;
-    std::int64_t models = 0;
+    std::int64_t models = pass_.first;
     while (scanner_.next_line()) {
       const std::string_view record = scanner_.line().substr(0, 6);
       if (is_atom_record(scanner_.line())) {
@@ -31,12 +32,15 @@ class PqrReader {
         if (models - 1 != frame_) continue;
         if (Status atom = read_atom(); !atom) return atom.error();
       } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
+        if (in_model) notes.end_frame(scanner_);
         in_model = false;
       }
     }
+    if (in_model) notes.end_frame(scanner_);
     if (models == 0) return Error{"there is no ATOM or HETATM record in it", scanner_.file(), 0, 0, ""};
+    if (pass_.reads_none()) return std::move(spheres_);
     if (frame_ < 0 || frame_ >= models) return no_such_frame(scanner_.file(), frame_, models);
-    finish(models);
+    finish(pass_.index != nullptr ? pass_.index->count() : models);
     return std::move(spheres_);
   }
 
@@ -93,6 +97,7 @@ class PqrReader {
   }
 
   TextScanner scanner_;
+  FramePass pass_;
   std::int64_t frame_;
   RawSpheres spheres_;
   NamedNumbers charge_{"charge", {}};
@@ -103,7 +108,11 @@ class PqrReader {
 }  // namespace
 
 Result<RawSpheres> read_pqr(std::string_view text, const std::string& file, std::int64_t frame) {
-  return PqrReader(text, file, frame).read();
+  return read_pqr(TextScanner(text, file), FramePass{frame});
+}
+
+Result<RawSpheres> read_pqr(const TextScanner& scanner, const FramePass& pass) {
+  return PqrReader(scanner, pass).read();
 }
 
 }  // namespace bihive

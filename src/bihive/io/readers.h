@@ -9,9 +9,18 @@
 #include <string_view>
 
 #include "bihive/base/result.h"
+#include "bihive/io/frame_index.h"
 #include "bihive/io/raw_spheres.h"
 
 namespace bihive {
+
+/// Formats of text with many frames, one behind the other: as the functions below, but from a scanner, which may be
+/// that of a part of a file.
+Result<RawSpheres> read_pdb(const TextScanner& scanner, const FramePass& pass);
+Result<RawSpheres> read_pqr(const TextScanner& scanner, const FramePass& pass);
+Result<RawSpheres> read_xyz(TextScanner scanner, const FramePass& pass);
+Result<RawSpheres> read_gro(const TextScanner& scanner, const FramePass& pass);
+Result<RawSpheres> read_lammps_dump(const TextScanner& scanner, const FramePass& pass);
 
 /// Protein Data Bank, fixed columns: ATOM and HETATM records.
 Result<RawSpheres> read_pdb(std::string_view text, const std::string& file, std::int64_t frame);

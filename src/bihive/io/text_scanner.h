@@ -2,12 +2,24 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "bihive/base/result.h"
 
 namespace bihive {
+
+class RandomFile;
+
+/// A part of a file that is scanned without being in memory as a whole.
+struct FileText {
+  const RandomFile& file;
+  std::int64_t begin = 0, end = 0;  ///< bytes
+  std::int64_t lines_before = 0;
+  std::optional<Error> fault;  ///< why the file could not be read; the text then ends there
+};
 
 /// Lines end in "\n" or "\r\n"; the last line may have no end. The text must outlive the scanner.
 class TextScanner {
@@ -16,6 +28,9 @@ class TextScanner {
   static constexpr char kBlanks = ' ';
 
   TextScanner(std::string_view text, std::string file);
+  /// A window of the part lies in memory at a time: a view into a line lives until the next line. The part must outlive
+  /// the scanner and its copies. Look at its fault at the end.
+  explicit TextScanner(FileText& part);
 
   /// kBlanks, or the one character between fields; then a field may be empty or "quoted" (with "" for a quote inside).
   /// Begins the current line again.
@@ -34,12 +49,14 @@ class TextScanner {
 
   std::string_view line() const { return line_; }
   std::int64_t line_number() const { return line_number_; }
-  bool at_end() const { return next_ == text_.size(); }
+  bool at_end() const { return next_ == text_.size() && !more_in_file(); }
+  /// Bytes of the file before the next line.
+  std::int64_t place() const;
   /// The rest behind the current line: lines, counted in one fast pass, and bytes.
   std::int64_t lines_left() const;
-  std::int64_t bytes_left() const { return static_cast<std::int64_t>(text_.size() - next_); }
+  std::int64_t bytes_left() const;
   /// False if the text's last line has no line end.
-  bool ends_in_newline() const { return text_.empty() || text_.back() == '\n'; }
+  bool ends_in_newline() const { return ends_in_newline_; }
 
   /// Takes the next field of the line, without blanks around it; false if there is none. The view lives until the next
   /// call. A quote that is not closed on its line gives the rest of the line with the quote.
@@ -57,8 +74,14 @@ class TextScanner {
 
  private:
   bool next_quoted_field(std::string_view& field);
+  bool more_in_file() const;
+  void take_more();
 
-  std::string_view text_;
+  std::string_view text_;  // all of it, or the window
+  FileText* part_ = nullptr;
+  std::shared_ptr<std::string> window_;  // of the part
+  std::int64_t text_end_ = 0;            // byte of the file behind text_
+  bool ends_in_newline_ = true;
   std::string file_;
   char separator_ = kBlanks;
   char comment_ = 0;

@@ -122,18 +122,28 @@ std::string text_behind(const TextScanner& scanner, std::int64_t frames) {
          " read";
 }
 
+// The same from an index.
+std::string text_behind_all(const RandomFile& file, const FrameIndex& index) {
+  FileText rest{file, index.frames.back().end, file.size(), index.lines, {}};
+  TextScanner scanner(rest);
+  scanner.next_filled_line();
+  return text_behind(scanner, index.count());
+}
+
 }  // namespace
 
-Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std::int64_t frame) {
-  TextScanner scanner(text, file);
+Result<RawSpheres> read_xyz(TextScanner scanner, const FramePass& pass) {
+  const std::int64_t frame = pass.wanted;
   RawSpheres spheres;
   std::vector<std::string> warnings;
-  std::int64_t frames = 0;
-  for (; scanner.next_filled_line(); ++frames) {
+  FrameNotes notes(pass.made, scanner);
+  std::int64_t frames = pass.first;
+  for (; scanner.next_filled_line(); ++frames, notes.end_frame(scanner)) {
     // Read the count, and the comment that may name the columns.
     const Result<std::int64_t> count = count_of_frame(scanner, frames);
     if (!count && frames > std::max<std::int64_t>(frame, 0) && !is_sphere(scanner)) {
       warnings.push_back(text_behind(scanner, frames));
+      if (pass.made != nullptr) pass.made->text_behind = true;
       break;
     }
     if (!count) return count.error();
@@ -174,11 +184,20 @@ Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std:
     spheres.cell = cell;
     spheres.rules.insert(spheres.rules.begin(), "columns: " + columns);
   }
-  if (frame < 0 || frame >= frames) return no_such_frame(file, frame, frames);
+  if (pass.reads_none()) return spheres;
+  if (frame < 0 || frame >= frames) return no_such_frame(scanner.file(), frame, frames);
+  if (pass.index != nullptr) {
+    frames = pass.index->count();
+    if (pass.index->text_behind) warnings.push_back(text_behind_all(*pass.file, *pass.index));
+  }
   spheres.format = "XYZ";
   spheres.frames = frames;
   spheres.warnings.insert(spheres.warnings.end(), warnings.begin(), warnings.end());
   return spheres;
+}
+
+Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std::int64_t frame) {
+  return read_xyz(TextScanner(text, file), FramePass{frame});
 }
 
 }  // namespace bihive

@@ -4,13 +4,13 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/io/bundled.h"
+#include "bihive/io/packed.h"
 #include "bihive/scene/creases.h"
 #include "bihive/scene/default_colours.h"
+#include "bihive/scene/load_spheres.h"
 
 namespace bihive {
 namespace {
-
-constexpr std::string_view kGzipMark = "\x1f\x8b";
 
 // Bytes for each sphere of a generated scene: three growing arrays and radii, the set itself, materials.
 constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
@@ -95,13 +95,17 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options,
                                LooksOfFile looks, const Style* style) {
-  if (bytes.substr(0, 2) == kGzipMark) {
+  if (is_packed(bytes)) {
     const Result<std::string> unpacked = unpack_gzip(std::string(bytes), name);
     if (!unpacked) return unpacked.error();
     return load_scene(*unpacked, name, options, looks, style);
   }
   if (looks_like_scene(bytes)) return parse_scene(bytes, name, options, looks, style);
   return from_spheres(read_spheres_from_memory(bytes, name, options), name, style);
+}
+
+Result<LoadedScene> load_spheres(const std::string& path, const ReadOptions& options, const Style* style) {
+  return from_spheres(read_spheres(path, options), path, style);
 }
 
 }  // namespace bihive

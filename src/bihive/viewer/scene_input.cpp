@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bihive/io/packed.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/light_text.h"
@@ -97,8 +98,7 @@ Result<SceneInput> SceneInput::built_in(const std::string& name, const ScenarioP
 
 Result<SceneInput> SceneInput::file(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   // The content counts, not the packing: a packed scene file has a look of its own too.
-  constexpr std::string_view kGzip = "\x1f\x8b";
-  if (bytes.substr(0, kGzip.size()) == kGzip) {
+  if (is_packed(bytes)) {
     const Result<std::string> unpacked = unpack_gzip(std::string(bytes), name);
     if (!unpacked) return unpacked.error();
     return file(*unpacked, name, options);

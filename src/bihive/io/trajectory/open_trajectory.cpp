@@ -4,6 +4,7 @@
 
 #include "bihive/io/trajectory.h"
 #include "bihive/io/trajectory/formats.h"
+#include "bihive/io/unpacked_file.h"
 
 namespace bihive {
 
@@ -13,7 +14,7 @@ bool looks_like_trajectory(std::string_view first_bytes) {
 
 Result<std::shared_ptr<const Trajectory>> open_trajectory(const std::string& path) {
   constexpr std::int64_t kLook = 128;
-  Result<RandomFile> file = RandomFile::open(path);
+  Result<RandomFile> file = open_unpacked(path);
   if (!file) return file.error();
   const Result<std::string> first = file->read(0, std::min(kLook, file->size()));
   if (!first) return first.error();

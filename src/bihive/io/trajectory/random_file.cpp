@@ -10,6 +10,13 @@
 #include <utility>
 
 namespace bihive {
+namespace {
+
+std::int64_t time_written_ns(const struct stat& facts) {
+  return std::int64_t{facts.st_mtim.tv_sec} * 1000000000 + facts.st_mtim.tv_nsec;
+}
+
+}  // namespace
 
 Result<RandomFile> RandomFile::open(const std::string& path) {
   RandomFile file;
@@ -21,6 +28,8 @@ Result<RandomFile> RandomFile::open(const std::string& path) {
   if (!S_ISREG(facts.st_mode))
     return Error{"this is no file whose frames can be read in any order", path, 0, 0, "write it to a file first"};
   file.size_ = facts.st_size;
+  file.written_ns_ = time_written_ns(facts);
+  file.has_path_ = true;
   return file;
 }
 
@@ -32,30 +41,79 @@ RandomFile RandomFile::of_bytes(std::string_view bytes, const std::string& name)
   return file;
 }
 
+RandomFile RandomFile::of_descriptor(int file, const std::string& name) {
+  RandomFile made;
+  made.path_ = name;
+  made.file_ = file;
+  struct stat facts = {};
+  if (fstat(file, &facts) == 0) {
+    made.size_ = facts.st_size;
+    made.written_ns_ = time_written_ns(facts);
+  }
+  return made;
+}
+
+RandomFile RandomFile::of_owned(std::string bytes, const std::string& name) {
+  auto owned = std::make_unique<const std::string>(std::move(bytes));
+  RandomFile file = of_bytes(*owned, name);
+  file.owned_ = std::move(owned);
+  return file;
+}
+
 RandomFile::~RandomFile() {
   if (file_ >= 0) close(file_);
 }
 
 RandomFile::RandomFile(RandomFile&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), bytes_(other.bytes_), size_(other.size_) {}
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      owned_(std::move(other.owned_)),
+      bytes_(other.bytes_),
+      size_(other.size_),
+      written_ns_(other.written_ns_),
+      has_path_(other.has_path_) {}
+
+bool RandomFile::changed() const {
+  struct stat facts = {};
+  if (file_ < 0 || fstat(file_, &facts) != 0) return false;
+  return facts.st_size < size_ || (facts.st_size == size_ && time_written_ns(facts) != written_ns_);
+}
 
 Result<std::string> RandomFile::read(std::int64_t place, std::int64_t count) const {
-  const auto ends = [&] { return Error{"the file ends too early", path_, 0, 0, "it may be cut"}; };
-  if (place < 0 || count < 0 || place > size_ || count > size_ - place) return ends();
+  if (Status status = check_range(place, count); !status) return status.error();
   try {
-    if (file_ < 0) return std::string(bytes_.substr(static_cast<std::size_t>(place), static_cast<std::size_t>(count)));
     std::string bytes(static_cast<std::size_t>(count), '\0');
-    for (std::size_t have = 0; have < bytes.size();) {
-      const ssize_t n = pread(file_, bytes.data() + have, bytes.size() - have, place + static_cast<off_t>(have));
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) return Error{std::string("it cannot be read: ") + std::strerror(errno), path_, 0, 0, ""};
-      if (n == 0) return ends();
-      have += static_cast<std::size_t>(n);
-    }
+    if (Status status = read_into(place, count, bytes.data()); !status) return status.error();
     return bytes;
   } catch (const std::bad_alloc&) {
     return Error{"there is not enough memory to read it", path_, 0, 0, ""};
   }
+}
+
+Status RandomFile::check_range(std::int64_t place, std::int64_t count) const {
+  if (place < 0 || count < 0 || place > size_ || count > size_ - place) return ends_early();
+  return Done{};
+}
+
+Error RandomFile::ends_early() const {
+  return {"the file ends too early", path_, 0, 0, "it may be cut"};
+}
+
+Status RandomFile::read_into(std::int64_t place, std::int64_t count, char* to) const {
+  if (Status status = check_range(place, count); !status) return status;
+  const auto wanted = static_cast<std::size_t>(count);
+  if (file_ < 0) {
+    bytes_.copy(to, wanted, static_cast<std::size_t>(place));
+    return Done{};
+  }
+  for (std::size_t have = 0; have < wanted;) {
+    const ssize_t n = pread(file_, to + have, wanted - have, place + static_cast<off_t>(have));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return Error{std::string("it cannot be read: ") + std::strerror(errno), path_, 0, 0, ""};
+    if (n == 0) return ends_early();
+    have += static_cast<std::size_t>(n);
+  }
+  return Done{};
 }
 
 }  // namespace bihive

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,10 @@ class RandomFile {
   static Result<RandomFile> open(const std::string& path);
   /// Bytes that must outlive it; `name` is for messages.
   static RandomFile of_bytes(std::string_view bytes, const std::string& name);
+  /// An open file, which it closes at the end.
+  static RandomFile of_descriptor(int file, const std::string& name);
+  /// Bytes of its own.
+  static RandomFile of_owned(std::string bytes, const std::string& name);
   ~RandomFile();
   RandomFile(RandomFile&& other) noexcept;
   RandomFile(const RandomFile&) = delete;
@@ -24,16 +29,28 @@ class RandomFile {
   const std::string& path() const { return path_; }
   /// Bytes when it was opened.
   std::int64_t size() const { return size_; }
+  /// When it was written last, in nanoseconds; 0 if it is no file on the disk with its own path.
+  std::int64_t written_ns() const { return has_path_ ? written_ns_ : 0; }
+  /// Whether it is a file on the disk that became shorter or was written to since it was opened. One that only grew
+  /// has the bytes that it had, as far as can be told from outside.
+  bool changed() const;
   /// `count` bytes from `place` on. Errors: the file ends before, it cannot be read, or there is no memory for them.
   Result<std::string> read(std::int64_t place, std::int64_t count) const;
+  /// The same into memory of the caller.
+  Status read_into(std::int64_t place, std::int64_t count, char* to) const;
 
  private:
   RandomFile() = default;
+  Status check_range(std::int64_t place, std::int64_t count) const;
+  Error ends_early() const;
 
   std::string path_;
   int file_ = -1;  // below 0: the bytes
+  std::unique_ptr<const std::string> owned_;
   std::string_view bytes_;
   std::int64_t size_ = 0;
+  std::int64_t written_ns_ = 0;  // when it was written last
+  bool has_path_ = false;
 };
 
 }  // namespace bihive

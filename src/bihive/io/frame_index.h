@@ -1,0 +1,56 @@
+// Where the frames of a text lie in its file, and how a reader passes over them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/io/text_scanner.h"
+#include "bihive/io/trajectory/random_file.h"
+
+namespace bihive {
+
+/// Bytes `begin` to `end` of a file, and the number of lines before them.
+struct TextPlace {
+  std::int64_t begin = 0, end = 0, lines_before = 0;
+};
+
+/// What a reader must know of the whole file to read one frame by its bytes alone. Everything in it is places: the
+/// bytes themselves stay in the file.
+struct FrameIndex {
+  std::vector<TextPlace> frames;          ///< one behind the other, the first from byte 0 on
+  std::vector<TextPlace> assembly_lines;  ///< PDB: runs of REMARK 350
+  std::vector<TextPlace> cell_lines;      ///< PDB: each CRYST1
+  bool text_behind = false;               ///< XYZ: text that is no frame follows the last one
+  std::int64_t lines = 0;                 ///< up to the end of the last frame
+
+  std::int64_t count() const { return static_cast<std::int64_t>(frames.size()); }
+};
+
+/// What a reader shall do with a text: read one frame and pass over the others.
+struct FramePass {
+  static constexpr std::int64_t kNone = INT64_MIN;
+
+  std::int64_t wanted = 0;     ///< from 0; kNone: all frames are passed over
+  std::int64_t first = 0;      ///< the number of the text's first frame
+  FrameIndex* made = nullptr;  ///< not null: gets the places of all frames
+  /// Not null: the text is the wanted frame's bytes in this file, of which the index is known.
+  const FrameIndex* index = nullptr;
+  const RandomFile* file = nullptr;
+
+  bool reads_none() const { return wanted == kNone; }
+};
+
+/// Notes the places of frames while a reader goes from one to the next.
+class FrameNotes {
+ public:
+  /// The next frame begins where the scanner is.
+  FrameNotes(FrameIndex* made, const TextScanner& scanner);
+  /// The frame ends behind the scanner's line; there the next one begins.
+  void end_frame(const TextScanner& scanner);
+
+ private:
+  FrameIndex* made_;
+  std::int64_t begin_, lines_before_;
+};
+
+}  // namespace bihive

@@ -1,0 +1,95 @@
+#include "bihive/io/kept_index.h"
+
+#include <array>
+
+#include "bihive/io/trajectory/byte_reader.h"
+
+namespace bihive {
+namespace {
+
+// The digit at the end is the version.
+constexpr std::string_view kIndexMark = "bihive frames 1\n";
+constexpr std::size_t kSumBytes = 8;
+constexpr std::size_t kPlaceBytes = 24;
+
+// FNV-1a.
+std::uint64_t sum_of(std::string_view bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325;
+  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return sum;
+}
+
+void put(std::string& bytes, std::uint64_t number) {
+  for (int k = 0; k < 8; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xff);
+}
+void put(std::string& bytes, std::int64_t number) {
+  put(bytes, static_cast<std::uint64_t>(number));
+}
+
+void put(std::string& bytes, const std::vector<TextPlace>& places) {
+  put(bytes, static_cast<std::uint64_t>(places.size()));
+  for (const TextPlace& place : places)
+    for (const std::int64_t number : {place.begin, place.end, place.lines_before}) put(bytes, number);
+}
+
+bool take(ByteReader& reader, std::vector<TextPlace>& places, std::int64_t size) {
+  std::uint64_t count = 0;
+  if (!reader.take(count) || count > reader.left() / kPlaceBytes) return false;
+  places.resize(static_cast<std::size_t>(count));
+  TextPlace before;
+  for (TextPlace& place : places) {
+    if (!reader.take(place.begin) || !reader.take(place.end) || !reader.take(place.lines_before)) return false;
+    if (place.begin < before.end || place.end < place.begin || place.end > size) return false;
+    if (place.lines_before < before.lines_before || place.lines_before > place.begin) return false;
+    before = place;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string kept_index_path(const std::string& path) {
+  return path + ".bihive-index";
+}
+
+std::string encode_index(const FrameIndex& index, const IndexedFile& file) {
+  std::string bytes(kIndexMark);
+  for (const std::int64_t number : {static_cast<std::int64_t>(file.format), file.size, file.written_ns, index.lines,
+                                    std::int64_t{index.text_behind}})
+    put(bytes, number);
+  for (const auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines}) put(bytes, *places);
+  put(bytes, sum_of(bytes));
+  return bytes;
+}
+
+std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile& file) {
+  if (bytes.size() < kIndexMark.size() + kSumBytes || bytes.substr(0, kIndexMark.size()) != kIndexMark)
+    return std::nullopt;
+  const std::string_view content = bytes.substr(0, bytes.size() - kSumBytes);
+  std::uint64_t sum = 0;
+  ByteReader(bytes.substr(content.size()), ByteOrder::little).take(sum);
+  if (sum != sum_of(content)) return std::nullopt;
+
+  ByteReader reader(content.substr(kIndexMark.size()), ByteOrder::little);
+  std::array<std::int64_t, 5> head{};
+  for (std::int64_t& number : head)
+    if (!reader.take(number)) return std::nullopt;
+  if (head[0] != static_cast<std::int64_t>(file.format) || head[1] != file.size || head[2] != file.written_ns)
+    return std::nullopt;
+  FrameIndex index;
+  index.lines = head[3];
+  index.text_behind = head[4] != 0;
+  for (auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines})
+    if (!take(reader, *places, file.size)) return std::nullopt;
+  // Frames follow each other without a gap.
+  std::int64_t end = 0;
+  for (const TextPlace& place : index.frames) {
+    if (place.begin != end) return std::nullopt;
+    end = place.end;
+  }
+  const bool lines_fit = !index.frames.empty() && index.lines >= index.frames.back().lines_before && index.lines <= end;
+  if (!lines_fit || reader.left() != 0) return std::nullopt;
+  return index;
+}
+
+}  // namespace bihive

@@ -1,0 +1,30 @@
+// Undoes gzip and zstd piece by piece, so that neither side must be in memory as a whole.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "bihive/base/result.h"
+
+namespace bihive {
+
+enum class Packing { none, gzip, zstd };
+
+/// Four bytes are enough.
+Packing packing_of(std::string_view first_bytes);
+
+/// The next bytes, which live until the next call; none: the end.
+using PieceSource = std::function<Result<std::string_view>()>;
+/// Takes the next unpacked bytes; false: it needs no more.
+using PieceSink = std::function<Result<bool>(std::string_view)>;
+
+/// All members of a gzip file, or frames of a zstd file, in a row; zeros behind the last member of gzip are padding.
+/// Errors: cut or damaged data; those of source and sink; a build without zlib or libzstd. `name` is for messages. A
+/// piece has at most a gigabyte.
+Status unpack_pieces(Packing packing, const PieceSource& source, const std::string& name, const PieceSink& sink);
+
+/// The bytes themselves, or what they hold if they are packed. Errors: more than the memory holds, too.
+Result<std::string> unpack_bytes(std::string_view bytes, const std::string& name);
+
+}  // namespace bihive
