@@ -9,7 +9,11 @@ from program import BIHIVE, PATIENCE_S, ProgramTest, main
 
 def make_group(limit):
     """A control group of its own below this process's, with that many bytes of memory: its folder, or why there is none."""
-    groups = [line.strip().split(":", 2) for line in open("/proc/self/cgroup")]
+    try:
+        with open("/proc/self/cgroup") as file:
+            groups = [line.strip().split(":", 2) for line in file]
+    except OSError as error:
+        return None, f"the system names no control groups: {error}"
     places = [("/sys/fs/cgroup/memory" + group, "memory.limit_in_bytes") for _, names, group in groups
               if "memory" in names.split(",")]
     places += [("/sys/fs/cgroup" + group, "memory.max") for _, names, group in groups if names == ""]
