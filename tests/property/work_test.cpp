@@ -31,7 +31,7 @@ namespace here = HWY_NAMESPACE;
 
 const std::vector<int>& sizes() {
   static const std::vector<int> sizes = [] {
-    if (test::test_share() > 1) return std::vector<int>{500, 4000};
+    if (test::test_share() > 1) return std::vector<int>{1000, 8000};
     if (std::getenv("BIHIVE_LONG") != nullptr) return std::vector<int>{1000, 8000, 64000, 1000000};
     return std::vector<int>{1000, 8000, 64000};
   }();
