@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bihive/render/image_tracer.h"
@@ -232,30 +231,6 @@ TEST(images, of_a_part_answer_as_copies_of_it_do) {
         ASSERT_TRUE(test::same_bits(hits.at(i), best))
             << "ray " << i << ": " << test::text_of(hits.at(i)) << ", not " << test::text_of(best);
       }
-    }
-  }
-}
-
-// A set beyond the 2^32 - 1 spheres of a wide tree, none of which but one takes memory: ids are right on both sides.
-TEST(images, are_numbered_beyond_32_bits) {
-  World world;
-  world.name = "one";
-  world.add(0, 0, 0, 0.25);
-  const Replicated many{world, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}, {65536, 65537, 1}};
-  const SphereSet set = with_images(many);
-  ASSERT_EQ(set.total_size(), std::int64_t{65536} * 65537);
-  for (const Engine engine : {Engine::reference, Engine::wide}) {
-    const Result<Tracer> tracer = Tracer::build(set, engine);
-    ASSERT_TRUE(tracer.ok());
-    for (const auto& [i, j] : {std::pair{0, 0}, {65535, 0}, {1, 65536}, {65535, 65535}, {65535, 65536}}) {
-      Ray ray;
-      ray.origin = {static_cast<float>(i), static_cast<float>(j), 5};
-      ray.direction = {0, 0, -1};
-      const Hit hit = tracer->closest_hit(ray);
-      EXPECT_EQ(hit.sphere_id, std::int64_t{i} * 65537 + j);
-      EXPECT_EQ(hit.t, 4.75);
-      ray.origin.x += 0.5F;
-      EXPECT_FALSE(tracer->closest_hit(ray).found()) << "between two images";
     }
   }
 }

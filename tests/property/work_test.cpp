@@ -38,6 +38,31 @@ const std::vector<int>& sizes() {
   return sizes;
 }
 
+// With two sets more, which are hostile to rays.
+const std::vector<test::GrowingSet>& sets_of_work() {
+  static const std::vector<test::GrowingSet> sets = [] {
+    std::vector<test::GrowingSet> all = test::growing_sets();
+    const std::vector<test::GrowingSet> more{
+        {"radius far above spacing",
+         [](int n) {
+           return test::filled(n, [](test::World& w, SplitMix64& g, int) {
+             w.add(2 * g.next_double(), 2 * g.next_double(), 2 * g.next_double(), 0.5);
+           });
+         }},
+        {"exponential, with radii",
+         [](int n) {
+           return test::filled(n, [n](test::World& w, SplitMix64&, int i) {
+             const double c = std::exp2(-100.0 * i / n);
+             w.add(c, 0.5 * c, 0.25 * c, 0.1 * c);
+           });
+         }},
+    };
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
+  return sets;
+}
+
 double n_log_n(int n) {
   return n * std::log2(double(n));
 }
@@ -134,7 +159,7 @@ std::int64_t wide_splitting(const SphereSet& spheres, int threads) {
 
 TEST(Work, OfTheReferenceBuilder) {
   // A range is halved at most some 450 times until both halves are occupied: binary32 has no more.
-  for (const test::GrowingSet& set : test::growing_sets())
+  for (const test::GrowingSet& set : sets_of_work())
     for (const int n : sizes()) {
       const SphereSet spheres = test::sphere_set(set.make(n));
       std::int64_t spheres_read = 0;
@@ -147,7 +172,7 @@ TEST(Work, OfTheReferenceBuilder) {
 }
 
 TEST(Work, OfTheWideBuilder) {
-  for (const test::GrowingSet& set : test::growing_sets())
+  for (const test::GrowingSet& set : sets_of_work())
     for (const int n : sizes()) {
       const SphereSet spheres = test::sphere_set(set.make(n));
       const std::int64_t spheres_read = wide_splitting(spheres, 1);
@@ -190,7 +215,7 @@ double most_work(Growth growth, bool is_wide, double n) {
 }
 
 TEST(Work, OfPictures) {
-  for (const test::GrowingSet& set : test::growing_sets())
+  for (const test::GrowingSet& set : sets_of_work())
     for (const int n : sizes()) {
       const SphereSet spheres = test::sphere_set(set.make(n));
       const std::vector<Ray> rays = picture_of(spheres, 16);

@@ -83,19 +83,6 @@ inline const std::vector<GrowingSet>& growing_sets() {
                  size * g.next_double() * 0.1);
          });
        }},
-      {"radius far above spacing",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64& g, int) {
-           w.add(2 * g.next_double(), 2 * g.next_double(), 2 * g.next_double(), 0.5);
-         });
-       }},
-      {"exponential, with radii",
-       [](int n) {
-         return filled(n, [n](World& w, SplitMix64&, int i) {
-           const double c = std::exp2(-100.0 * i / n);
-           w.add(c, 0.5 * c, 0.25 * c, 0.1 * c);
-         });
-       }},
   };
   return sets;
 }
