@@ -2,8 +2,36 @@
 
 import os
 import subprocess
+import tempfile
 
 from program import BIHIVE, PATIENCE_S, ProgramTest, main
+
+
+def make_group(limit):
+    """A control group of its own below this process's, with that many bytes of memory: its folder, or why there is none."""
+    try:
+        with open("/proc/self/cgroup") as file:
+            groups = [line.strip().split(":", 2) for line in file]
+    except OSError as error:
+        return None, f"the system names no control groups: {error}"
+    places = [("/sys/fs/cgroup/memory" + group, "memory.limit_in_bytes") for _, names, group in groups
+              if "memory" in names.split(",")]
+    places += [("/sys/fs/cgroup" + group, "memory.max") for _, names, group in groups if names == ""]
+    reason = "no control group holds memory here"
+    for parent, name in places:
+        try:
+            folder = tempfile.mkdtemp(prefix="bihive_", dir=parent)
+        except OSError as error:
+            reason = f"no control group can be made: {error}"
+            continue
+        try:
+            with open(os.path.join(folder, name), "w") as file:
+                file.write(str(limit))
+            return folder, ""
+        except OSError as error:
+            reason = f"a control group cannot be limited: {error}"
+            os.rmdir(folder)
+    return None, reason
 
 
 class Memory(ProgramTest):
@@ -19,6 +47,25 @@ class Memory(ProgramTest):
             self.assertIn("of memory, and BIHIVE_MEMORY allows 20 kB", message)
         self.assertFalse(os.path.exists(self.path("a.png")))
         done = self.run_bihive(*small_picture, env={**os.environ, "BIHIVE_MEMORY": "1000000"})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_control_group(self):
+        """The limit of a container is asked for. What it does not allow is refused, so that nothing is killed."""
+        folder, reason = make_group(120 << 20)
+        if folder is None:
+            self.skipTest(reason)
+        self.addCleanup(os.rmdir, folder)
+
+        def limited(*words):
+            script = 'echo $$ > "$0/cgroup.procs" && exec "$@"'
+            return subprocess.run(["sh", "-c", script, folder, BIHIVE, *words], cwd=self.folder, capture_output=True,
+                                  text=True, timeout=PATIENCE_S)
+
+        done = limited("render", "scenario1", "--count", "3000000", "-o", "a.png", "--size", "10x10")
+        self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
+        self.assertIn("and this control group allows 126 MB", done.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+        done = limited("render", "demo", "-o", "a.png", "--size", "10x10")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_window(self):

@@ -2,8 +2,9 @@
 //
 // BIHIVE_FAULT=KIND:N chooses the call, counted from 1; KIND:N+ lets all later ones fail too. Kinds:
 //   malloc (and all that reserve memory, also operator new), open, read, write, fsync, close, rename, linkat, unlink,
-//   mmap, pthread_create, fchmod, fchown, flock, ftruncate, lseek, access; read-short and write-short move one byte,
-//   read-eintr and write-eintr move none and say EINTR.
+//   mmap, pthread_create, fchmod, fchown, flock, ftruncate, lseek, access; socket, bind, listen, accept, recv, send
+//   (also recvmsg and sendmsg), epoll (its making); read-short and write-short move one byte, read-eintr and
+//   write-eintr move none and say EINTR.
 // BIHIVE_FAULT_ERRNO=number replaces the kind's usual error. BIHIVE_FAULT_NO_TMPFILE=1: no files without names.
 // BIHIVE_FAULT_REPORT=path: the library makes this file, and writes into it "fault" when a call failed, and at the end
 // of the program "open N", where N descriptors beyond the first three are still open.
@@ -19,8 +20,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/epoll.h>
 #include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -54,7 +57,8 @@ thread_local int inside_dlopen = 0;
 // All kinds, and how often each was called.
 const char* const kKinds[] = {"malloc",         "open",   "read",   "read-short", "read-eintr", "write",  "write-short",
                               "write-eintr",    "fsync",  "close",  "rename",     "linkat",     "unlink", "mmap",
-                              "pthread_create", "fchmod", "fchown", "flock",      "ftruncate",  "lseek",  "access"};
+                              "pthread_create", "fchmod", "fchown", "flock",      "ftruncate",  "lseek",  "access",
+                              "socket",         "bind",   "listen", "accept",     "recv",       "send",   "epoll"};
 constexpr int kKindsCount = sizeof(kKinds) / sizeof(kKinds[0]);
 std::atomic<long> calls_of[kKindsCount];
 
@@ -212,6 +216,14 @@ ssize_t read(int file, void* bytes, size_t count) {
   errno = before;
   return syscall(SYS_read, file, bytes, count);
 }
+ssize_t pread(int file, void* bytes, size_t count, off_t place) {
+  if (fails("read", EIO) || fails("read-eintr", EINTR)) return -1;
+  const int before = errno;
+  if (count > 1 && fails("read-short", 0)) count = 1;
+  errno = before;
+  return syscall(SYS_pread64, file, bytes, count, place);
+}
+ssize_t pread64(int file, void* bytes, size_t count, off_t place) __attribute__((alias("pread")));
 ssize_t write(int file, const void* bytes, size_t count) {
   if (fails("write", ENOSPC) || fails("write-eintr", EINTR)) return -1;
   const int before = errno;
@@ -272,6 +284,38 @@ off_t lseek(int file, off_t place, int whence) {
 }
 int access(const char* path, int mode) {
   return fails("access", EACCES) ? -1 : static_cast<int>(syscall(SYS_faccessat, AT_FDCWD, path, mode));
+}
+
+// Sockets.
+int socket(int domain, int type, int protocol) {
+  return fails("socket", EMFILE) ? -1 : static_cast<int>(syscall(SYS_socket, domain, type, protocol));
+}
+int bind(int file, const sockaddr* address, socklen_t bytes) {
+  return fails("bind", EADDRNOTAVAIL) ? -1 : static_cast<int>(syscall(SYS_bind, file, address, bytes));
+}
+int listen(int file, int most) {
+  return fails("listen", EADDRINUSE) ? -1 : static_cast<int>(syscall(SYS_listen, file, most));
+}
+int accept4(int file, sockaddr* address, socklen_t* bytes, int flags) {
+  return fails("accept", EMFILE) ? -1 : static_cast<int>(syscall(SYS_accept4, file, address, bytes, flags));
+}
+int accept(int file, sockaddr* address, socklen_t* bytes) {
+  return accept4(file, address, bytes, 0);
+}
+ssize_t recv(int file, void* bytes, size_t count, int flags) {
+  return fails("recv", ECONNRESET) ? -1 : syscall(SYS_recvfrom, file, bytes, count, flags, nullptr, nullptr);
+}
+ssize_t recvmsg(int file, msghdr* message, int flags) {
+  return fails("recv", ECONNRESET) ? -1 : syscall(SYS_recvmsg, file, message, flags);
+}
+ssize_t send(int file, const void* bytes, size_t count, int flags) {
+  return fails("send", EPIPE) ? -1 : syscall(SYS_sendto, file, bytes, count, flags, nullptr, 0);
+}
+ssize_t sendmsg(int file, const msghdr* message, int flags) {
+  return fails("send", EPIPE) ? -1 : syscall(SYS_sendmsg, file, message, flags);
+}
+int epoll_create1(int flags) {
+  return fails("epoll", EMFILE) ? -1 : static_cast<int>(syscall(SYS_epoll_create1, flags));
 }
 
 }  // extern "C"

@@ -1,26 +1,31 @@
 #!/usr/bin/env python3
 """Lets each call of a program fail in turn, and judges what the program makes of it.
 
-Usage: run_faults.py [--most N] [--jobs J] [--command NAME...] [--kind KIND...] BIHIVE FAULTS_LIBRARY
+Usage: run_faults.py [--most N] [--short] [--jobs J] [--command NAME...] [--kind KIND...] BIHIVE FAULTS_LIBRARY
 
 For each command and each kind of call (faults.cpp) it runs the program again and again: the first call fails, then the second,
 until a run meets no fault. With --most N it takes N of these calls, evenly spread.
 What the program reserves before it looks at the words of its command (some 6,500 allocations) fails in one command alone.
 
 A run is right if
-  - the exit code is 0, 1 or 3, and no signal ended the program;
+  - the exit code is 0, 1 or 3, and no signal ended the program (`web` is asked for two files, then ended by SIGTERM: 0);
   - stderr is empty, or with exit code 1 or 3 one line of error, after warnings at most;
   - with exit code 0 the outputs are the bytes of a run without faults; otherwise all of them are these, or all are the old
     files (absent, or those of a previous run);
-  - no other file has come, gone or changed, and no descriptor is open at the end.
+  - no other file has come, gone or changed, and no descriptor is open at the end. `thesis` goes on where it stopped: its
+    folder may hold what is done, each file whole.
+With --short, commands that resemble others are left out. With --most, commands that write no file have half as many calls fail, at least one of each kind.
 Prints a line for each run that is not, a table, and ends with exit code 1 if there is one.
 """
 
 import argparse
 import concurrent.futures
 import fcntl
+import http.client
+import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -30,6 +35,9 @@ import zlib
 XYZ = "4\nfour\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\nC 1 1 1\n"
 SMALL = ["--size", "16x12", "--samples", "1", "--threads", "3"]
 PATIENCE_S = 120
+ANSWER_S = 10
+SIGNALS, SIGNAL_S = 3, 10
+TRAJECTORIES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../data/io/trajectories")
 GLIBC_ENDS_IT = "Fatal glibc error: failed to register TLS destructor: out of memory"
 
 # Name: words of the command, files that it writes.
@@ -48,6 +56,17 @@ COMMANDS = {
     "info-json": (["info", "in.cif", "--json"], []),
     "info-lammps": (["info", "in.lammpstrj"], []),
     "info-csv": (["info", "in.csv"], []),
+    "info-gro": (["info", "water.gro", "--attributes"], []),
+    "info-gsd": (["info", "water.gsd", "--json"], []),
+    "info-xtc": (["info", "water.gro", "--trajectory", "water.xtc", "--frame", "2"], []),
+    "info-trr": (["info", "water.gro", "--trajectory", "water.trr", "--frame", "1"], []),
+    "render-dcd": (["render", "water.gro", "--trajectory", "water.dcd", "--frame", "1", *SMALL, "-o", "a.png"], ["a.png"]),
+    "convert-csv": (["convert", "in.pdb", "-o", "a.csv", "--select", "element C"], ["a.csv"]),
+    "convert-scene": (["convert", "in.cif", "-o", "a.json"], ["a.json"]),
+    "convert-stream": (["convert", "water.gsd", "-o", "-", "--format", "extxyz"], []),
+    "web": (["web", "in.pdb", "--no-browser", "--json", "--port", "0"], []),
+    "view": (["view", "in.xyz"], []),
+    "thesis": (["thesis", "figure-4.1", "--quick", "--threads", "2", "--out", "out"], []),
     "select": (["select", "in.pdb", "within 3 of (name CA and not chain B) or index 0..1"], []),
     "stats": (["stats", "in.xyz", "--json"], []),
     "styles": (["styles"], []),
@@ -58,13 +77,20 @@ COMMANDS = {
 }
 WHOLE = "styles"  # of this command every allocation fails
 OF_ITS_OWN = 100  # allocations of --version that other commands need not have
-USAGE = {"usage"}  # these end with exit code 2 without a fault, and may end so with one
-MISSING = {"missing"}  # ... with 1
+# These end so without a fault, and may with one. Here is no screen for a window.
+EXPECTED = {"usage": 2, "missing": 1, "view": 3}
+FOLDER = {"thesis": "out/"}  # what it writes there is judged file by file
+# Asio hands a signal on through a pipe of its own. Where every write fails, none arrives, so nothing but SIGKILL ends it.
+# The window program has no handlers like those of bihive for lack of memory; docs/reliability.md says so.
+EXCEPT = {"web": {"write+"}, "view": {"malloc", "malloc+"}}
+# Left out by --short: they go the way of others, or have many calls.
+ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis"}
+MOST = {"thesis": 100}  # of calls of a kind, of which there are too many
 
 # In this order; those with + let all later calls fail too.
 KINDS = ["malloc", "malloc+", "open", "open+", "read", "read-short", "read-eintr", "write", "write+", "write-short",
          "write-eintr", "fsync", "close", "rename", "linkat", "unlink", "mmap", "pthread_create", "pthread_create+", "fchmod",
-         "fchown", "flock", "ftruncate", "lseek", "access"]
+         "fchown", "flock", "ftruncate", "lseek", "access", "socket", "bind", "listen", "accept", "recv", "send", "epoll"]
 
 
 def inputs():
@@ -83,7 +109,13 @@ def inputs():
     head += " " * (63 - (10 + len(head)) % 64) + "\n"
     numbers = [0.1 * i - 2 for i in range(40) for _ in range(3)]
     rows = b"".join(struct.pack("<6f", *numbers[3 * i:3 * i + 3], 1, 0.1 * i, -1) for i in range(40))
+    water = {}
+    for ending in ["gro", "gsd", "dcd", "xtc", "trr"]:
+        with open(os.path.join(TRAJECTORIES, "water." + ending), "rb") as file:
+            water["water." + ending] = file.read()
     return {
+        **water,
+        "page/index.html": b"<!doctype html><title>page</title>",
         "in.xyz": XYZ.encode(),
         "in.xyz.gz": gzip.compress(XYZ.encode(), mtime=0),
         "in.pdb": pdb.encode(),
@@ -96,6 +128,68 @@ def inputs():
     }
 
 
+def is_whole(name, data):
+    """Whether a file of the thesis's report is no part of one."""
+    ending = os.path.splitext(name)[1]
+    if ending == ".json":
+        try:
+            json.loads(data)
+            return True
+        except ValueError:
+            return False
+    ends = {".html": b"</html>", ".svg": b"</svg>", ".png": b"IEND\xaeB`\x82"}
+    return ending in ends and data.rstrip(b"\n").endswith(ends[ending])
+
+
+def files_below(folder):
+    """Path from there: bytes."""
+    found = {}
+    for place, _, names in os.walk(folder):
+        for name in names:
+            path = os.path.join(place, name)
+            with open(path, "rb") as file:
+                found[os.path.relpath(path, folder)] = file.read()
+    return found
+
+
+def ask(process):
+    """What a browser does: two files. Then the server is ended. A fault may take any of that, also the first signal, which
+    Asio reads from a pipe of its own."""
+    try:
+        port = json.loads(process.stdout.readline())["port"]
+    except ValueError:
+        return  # it ends by itself, or has no end
+    for target in ["/", "/file/in.pdb"]:
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=ANSWER_S)
+        try:
+            connection.request("GET", target)
+            connection.getresponse().read()
+        except (OSError, http.client.HTTPException):
+            pass
+        finally:
+            connection.close()
+    for _ in range(SIGNALS):
+        process.send_signal(signal.SIGTERM)
+        try:
+            return process.wait(SIGNAL_S)
+        except subprocess.TimeoutExpired:
+            pass
+
+
+def run_program(name, words, folder, environment):
+    """Exit code, or "no end"; both outputs."""
+    with subprocess.Popen(words, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE) as process:
+        try:
+            if name == "web":
+                ask(process)
+            out, err = process.communicate(timeout=PATIENCE_S)
+            return process.returncode, out, err.decode(errors="replace")
+        except subprocess.TimeoutExpired:
+            process.kill()
+            return "no end", b"", ""
+
+
 class Case:
     """One command in folders of its own."""
 
@@ -103,11 +197,12 @@ class Case:
         self.program, self.library = os.path.abspath(options.bihive), os.path.abspath(options.library)
         self.name, self.nameless = name, nameless
         self.words, self.outputs = COMMANDS[name]
-        self.files = inputs()
+        self.files = {file: data for file, data in inputs().items()
+                      if file == "in.xyz" or file in self.words or (name == "web" and file.startswith("page/"))}
         self.prepared = lambda folder: None
         self.top = tempfile.mkdtemp(prefix="bihive_faults_")
         clean = self.run("", 0)
-        expected = 2 if name in USAGE else 1 if name in MISSING else 0
+        expected = EXPECTED.get(name, 0)
         if clean["code"] != expected:
             raise SystemExit(f"{name} ends with {clean['code']} without a fault: {clean['err']}")
         self.code = expected
@@ -125,25 +220,19 @@ class Case:
         if kind and at % 2:
             files.update(self.old)
         for name, data in files.items():
+            os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
             with open(os.path.join(folder, name), "wb") as file:
                 file.write(data)
         self.prepared(folder)
         report = folder + ".report"
-        environment = {"PATH": "/usr/bin:/bin", "LD_PRELOAD": self.library, "BIHIVE_FAULT_REPORT": report}
+        environment = {"PATH": "/usr/bin:/bin", "LD_PRELOAD": self.library, "BIHIVE_FAULT_REPORT": report,
+                       "BIHIVE_PAGE": os.path.join(folder, "page")}
         if kind:
             environment["BIHIVE_FAULT"] = f"{kind.rstrip('+')}:{at}{'+' if kind.endswith('+') else ''}"
         if not self.nameless:
             environment["BIHIVE_FAULT_NO_TMPFILE"] = "1"
-        try:
-            done = subprocess.run([self.program, *self.words], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                                  capture_output=True, timeout=PATIENCE_S)
-            code, out, err = done.returncode, done.stdout, done.stderr.decode(errors="replace")
-        except subprocess.TimeoutExpired:
-            code, out, err = "no end", b"", ""
-        found = {}
-        for name in sorted(os.listdir(folder)):
-            with open(os.path.join(folder, name), "rb") as file:
-                found[name] = file.read()
+        code, out, err = run_program(self.name, [self.program, *self.words], folder, environment)
+        found = files_below(folder)
         notes = []
         if os.path.exists(report):
             with open(report) as file:
@@ -163,8 +252,8 @@ class Case:
         code, lines = result["code"], result["err"].splitlines()
         if code not in {0, 1, 3, self.code}:
             wrong.append(f"exit code {code}")
-        # Where the picture goes to stdout, "-: 16 x 12 ..." is the report.
-        errors = [line for line in lines if not line.startswith(("bihive: warning: ", "-: 16 x 12"))]
+        # Where the picture goes to stdout, "-: ..." is the report.
+        errors = [line for line in lines if not line.startswith(("bihive: warning: ", "-: "))]
         if code == 0 and errors:
             wrong.append("success, and lines on stderr")
         if code in (1, 2, 3) and (len(errors) != 1 or not errors[0].startswith("bihive: error: ")):
@@ -177,6 +266,9 @@ class Case:
         if not all(is_new) and not all(is_old):
             wrong.append("outputs are neither whole nor as before")
         others = {name: data for name, data in files.items() if name not in self.outputs}
+        for name in [name for name in others if name.startswith(FOLDER.get(self.name, "//"))]:
+            if not is_whole(name, others.pop(name)):
+                wrong.append(f"a part of {name}")
         # Where removing is what fails, something stays.
         if others != self.files and not (kind == "unlink" and set(self.files) < set(others)):
             wrong.append("other files: " + ", ".join(sorted(set(others) ^ set(self.files))))
@@ -213,6 +305,9 @@ def step(case, kind, most, pool, jobs):
     """Lets calls of a kind fail: each until a run meets no fault, or so many of them. (runs, texts of wrong ones)"""
     # What all commands do before they look at their words is tried once, by one of them.
     before = case.shared if kind.startswith("malloc") and case.name != WHOLE else 0
+    if most and not case.outputs:
+        most = max(1, most // 2)
+    most = min(most, MOST[case.name]) if most and case.name in MOST else most or MOST.get(case.name, 0)
     runs, wrong, at = 0, [], before + 1
     calls = case.calls.get(kind.rstrip("+"), 0) - before
     if most and calls > most:
@@ -237,6 +332,7 @@ def step(case, kind, most, pool, jobs):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--most", type=int, default=0, help="runs for each command and kind; 0: all")
+    parser.add_argument("--short", action="store_true", help="without commands that resemble others")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--command", nargs="*", default=list(COMMANDS))
     parser.add_argument("--kind", nargs="*", default=KINDS)
@@ -252,10 +348,18 @@ def main():
         print("WRONG", text)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for name in options.command:
+            if options.short and name in ALIKE:
+                continue
+            beside = os.path.dirname(os.path.abspath(options.bihive))
+            if name == "view" and not os.path.exists(os.path.join(beside, "bihive-view")):
+                print("view: left out, bihive-view was not built")
+                continue
             for nameless in [True, False] if COMMANDS[name][1] else [True]:
                 case = Case(options, name, nameless, shared)
                 runs_of_case = {}
                 for kind in options.kind:
+                    if kind in EXCEPT.get(name, ()):
+                        continue
                     if not nameless and kind in ("malloc", "malloc+", "read", "read-short", "read-eintr"):
                         continue
                     runs, wrong = step(case, kind, options.most, pool, options.jobs)

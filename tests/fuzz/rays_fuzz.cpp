@@ -44,5 +44,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Tracer& tracer : tracers)
     for (const RayOrder order : {RayOrder::any, RayOrder::blocks})
       fuzz::demand(fuzz::answers_of(tracer, rays, order) == expected);
+
+  // What trace writes is read again.
+  const auto count = static_cast<std::int64_t>(expected.t.size());
+  const Result<NpyArray> t = parse_npy(npy_bytes(expected.t, {count}), "fuzz");
+  fuzz::demand(t.ok() && t->dtype == "<f8" && fuzz::same_bytes(t->values, expected.t));
+  const Result<NpyArray> id = parse_npy(npy_bytes(expected.id, {count}), "fuzz");
+  fuzz::demand(id.ok() && id->dtype == "<i8" &&
+               std::equal(id->values.begin(), id->values.end(), expected.id.begin(), expected.id.end(),
+                          [](double a, std::int64_t b) { return a == static_cast<double>(b); }));
   return 0;
 }

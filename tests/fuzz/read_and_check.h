@@ -1,6 +1,9 @@
 // The checks of every fuzz target of a reader: an answer that agrees with itself, or an error in one line.
 #pragma once
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +11,6 @@
 #include <cstring>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "bihive/io/read_spheres.h"
@@ -73,31 +75,79 @@ void read_raw(Reader reader, const std::uint8_t* data, std::size_t size) {
   }
 }
 
-/// Every number is read again with the same bits.
-inline void check_written(const SphereSet& spheres) {
+/// Every number is read again with the same bits. `choice`: one of the formats, 0 to 2; writing and reading all of them
+/// took more time than what is tested.
+inline void check_written(const SphereSet& spheres, std::size_t choice) {
   constexpr std::int64_t kMost = 500;
   if (spheres.size() > kMost) return;
-  const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
-  for (const auto& [format, name] :
-       {std::pair{SphereFileFormat::csv, "a.csv"}, std::pair{SphereFileFormat::extended_xyz, "a.extxyz"}}) {
-    const Result<SphereFile> again = read_spheres_from_memory(write_spheres(spheres, format).bytes, name, {});
-    require(again.ok() && again->spheres.size() == spheres.size());
-    for (std::int64_t id = 0; id < spheres.size(); ++id) {
-      const Vec3d a = spheres.centre(id), b = again->spheres.centre(id);
-      require(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z));
-      require(same(spheres.radius(id), again->spheres.radius(id)));
-    }
-    if (format == SphereFileFormat::npy) continue;
-    const auto element_of = [](const SphereSet& set, std::size_t i) {
-      return set.attributes().element.empty() ? 0 : set.attributes().element[i];
-    };
-    for (std::size_t i = 0; i < static_cast<std::size_t>(spheres.size()); ++i)
-      require(element_of(spheres, i) == element_of(again->spheres, i));
-    require(again->spheres.attributes().opacity == spheres.attributes().opacity);
+  // NPY has binary32 or binary64, as the set's range needs.
+  if (choice == 2) {
+    const Result<SphereFile> again =
+        read_spheres_from_memory(write_spheres(spheres, SphereFileFormat::npy).bytes, "a.npy", {});
+    return require(again.ok() && again->spheres.size() == spheres.size());
   }
+  const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+  const SphereFileFormat format = choice == 0 ? SphereFileFormat::csv : SphereFileFormat::extended_xyz;
+  const Result<SphereFile> again =
+      read_spheres_from_memory(write_spheres(spheres, format).bytes, choice == 0 ? "a.csv" : "a.extxyz", {});
+  require(again.ok() && again->spheres.size() == spheres.size());
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const Vec3d a = spheres.centre(id), b = again->spheres.centre(id);
+    require(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z));
+    require(same(spheres.radius(id), again->spheres.radius(id)));
+  }
+  const auto element_of = [](const SphereSet& set, std::size_t i) {
+    return set.attributes().element.empty() ? 0 : set.attributes().element[i];
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(spheres.size()); ++i)
+    require(element_of(spheres, i) == element_of(again->spheres, i));
+  require(again->spheres.attributes().opacity == spheres.attributes().opacity);
 }
 
-/// The whole way from bytes to a sphere set. The first byte chooses the options.
+/// A file without a name that holds these bytes. It stays open as long as this lives.
+class FileInMemory {
+ public:
+  explicit FileInMemory(std::string_view bytes) : file_(memfd_create("fuzz", MFD_CLOEXEC)) {
+    require(file_ >= 0 && write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+  }
+  ~FileInMemory() { close(file_); }
+  FileInMemory(const FileInMemory&) = delete;
+  FileInMemory& operator=(const FileInMemory&) = delete;
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+
+ private:
+  int file_;
+};
+
+/// Two frames of one atom, as XTC holds so few: not packed.
+inline std::string small_trajectory() {
+  std::string bytes;
+  const auto put = [&](std::uint32_t word) {
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(word >> shift & 0xff);
+  };
+  for (const std::uint32_t frame : {0U, 1U}) {
+    for (const std::uint32_t word : {1995U, 1U, frame, 0U}) put(word);
+    for (int i = 0; i < 9; ++i) put(i % 4 == 0 ? 0x40000000U : 0U);  // a cell of 2 x 2 x 2 nm
+    put(1);
+    for (const std::uint32_t word : {0x3F800000U, 0x3F000000U, 0x40400000U}) put(word);
+  }
+  return bytes;
+}
+
+/// The options of periodic cells, and of files on the disk.
+inline void choose_more(int choice, ReadOptions& options) {
+  static const FileInMemory trajectory(small_trajectory());
+  if (choice == 0) options.wrapping = Wrapping::wrap;
+  if (choice == 0 || choice == 2) options.replicate = {2, 1, 3};
+  if (choice == 1) options.wrapping = Wrapping::unwrap;
+  if (choice == 2) options.cell_vectors = {Vec3d{2, 0, 0}, Vec3d{0.5, 3, 0}, Vec3d{0, 0, 1e3}};
+  if (choice <= 2) options.cell_origin = Vec3d{0.25, -1, 0};
+  if (choice == 3) options.trajectory = trajectory.path();
+}
+
+/// The whole way from bytes to a sphere set. The first byte chooses the options; from kMore on those of cells and
+/// files.
 inline void read_whole(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return;
   ReadOptions options;
@@ -111,13 +161,18 @@ inline void read_whole(const std::uint8_t* data, std::size_t size) {
   const char* const names[] = {"fuzz",     "fuzz.pdb.gz", "fuzz.cif", "fuzz.xyz", "fuzz.dump",
                                "fuzz.csv", "fuzz.npy",    "fuzz.pqr", "fuzz.gro"};
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const Result<SphereFile> file = read_spheres_from_memory(bytes, names[data[0] / 8 % 9], options);
+  constexpr int kMore = 216;
+  const int more = data[0] >= kMore ? (data[0] - kMore) / 8 : -1;
+  if (more >= 0) choose_more(more, options);
+  const Result<SphereFile> file = more >= 3 ? read_spheres(FileInMemory(bytes).path(), options)
+                                            : read_spheres_from_memory(bytes, names[data[0] / 8 % 9], options);
   if (!file) return check_error(file.error());
   require(file->spheres.size() > 0 && file->frames > options.frame);
   for (std::int64_t id = 0; id < file->spheres.size(); ++id)
     require(is_finite(file->spheres.centre(id)) && file->spheres.radius(id) >= 0);
   check_attributes(file->spheres.attributes(), static_cast<std::size_t>(file->spheres.size()));
-  check_written(file->spheres);
+  // Copies along a cell would be written as spheres of their own, whose rounding is another.
+  if (file->spheres.total_size() == file->spheres.size()) check_written(file->spheres, size % 3);
 }
 
 }  // namespace bihive::fuzz

@@ -1,29 +1,160 @@
-// Stands in for libFuzzer where a fuzz target only has to take the inputs of a folder: replay FOLDER. Prints the name
-// of each before it is tried, so that the last one is the one that failed.
+// Stands in for libFuzzer where a fuzz target only has to take the inputs of a folder, by the library as users get it.
+//
+//   replay FOLDER
+//     Each input once. Prints the name of each before it is tried, so that the last one is the one that failed.
+//   replay FOLDER --random COUNT SEED
+//     So many inputs more: one of these or parts of several, changed at random. It knows nothing of the code that they
+//     reach, but is many times faster than a fuzzer with sanitizers. An input that fails is left in the file
+//     failed-SEED-PROCESS.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+#include "bihive/math/rng.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t kMostBytes = 2048;
+constexpr unsigned kPatienceS = 60;  // for a thousand inputs
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : numbers_(seed) {}
+  std::uint64_t next() { return numbers_.next(); }
+  /// 0 to count - 1; 0 for none.
+  std::size_t below(std::size_t count) { return count == 0 ? 0 : static_cast<std::size_t>(numbers_.next_below(count)); }
+
+ private:
+  bihive::SplitMix64 numbers_;
+};
+
+constexpr std::string_view kWords[] = {"0",     "-1", "1e39", "-0", "nan", "inf", "4294967296", "9223372036854775807",
+                                       "1e-46", "\n", "\r\n", " ",  ",",   "\"",  "{",          "}",
+                                       "[",     "(",  "'",    "\t"};
+
+// One small change.
+void change(Bytes& bytes, const std::vector<Bytes>& seeds, Random& random) {
+  const std::size_t at = random.below(bytes.size() + 1);
+  const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  const std::size_t count = std::min(bytes.size() - at, 1 + random.below(random.below(4) == 0 ? 64 : 4));
+  const auto end = place + static_cast<std::ptrdiff_t>(count);
+  switch (random.below(9)) {
+    case 0:
+      if (at < bytes.size()) bytes[at] ^= static_cast<std::uint8_t>(1U << random.below(8));
+      return;
+    case 1:
+      if (at < bytes.size()) bytes[at] = static_cast<std::uint8_t>(random.next());
+      return;
+    case 2:
+      for (auto i = place; i != end; ++i) *i = random.below(2) == 0 ? 0 : 0xFF;
+      return;
+    case 3:
+      bytes.erase(place, end);
+      return;
+    case 4: {  // once more, elsewhere
+      const Bytes part(place, end);
+      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(random.below(bytes.size() + 1)), part.begin(),
+                   part.end());
+      return;
+    }
+    case 5: {
+      const std::string_view word = kWords[random.below(std::size(kWords))];
+      bytes.insert(random.below(2) == 0 ? place : bytes.erase(place, end), word.begin(), word.end());
+      return;
+    }
+    case 6: {  // a part of another input
+      const Bytes& other = seeds[random.below(seeds.size())];
+      const std::size_t first = random.below(other.size() + 1), length = random.below(other.size() - first + 1);
+      bytes.insert(place, other.begin() + static_cast<std::ptrdiff_t>(first),
+                   other.begin() + static_cast<std::ptrdiff_t>(first + length));
+      return;
+    }
+    case 7:  // a digit is another
+      for (std::size_t i = at; i < bytes.size(); ++i)
+        if (bytes[i] >= '0' && bytes[i] <= '9') {
+          bytes[i] = static_cast<std::uint8_t>('0' + random.below(10));
+          return;
+        }
+      return;
+    default:
+      if (random.below(8) == 0) bytes.resize(at);
+  }
+}
+
+// What the handler of signals needs: the input on trial.
+const Bytes* on_trial = nullptr;
+char name_of_failed[64];
+
+void keep_input(int number) {
+  const int file = open(name_of_failed, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file >= 0 && on_trial != nullptr) {
+    const ssize_t ignored = write(file, on_trial->data(), on_trial->size());
+    static_cast<void>(ignored);
+    close(file);
+  }
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+void run_random(const std::vector<Bytes>& seeds, std::uint64_t count, std::uint64_t seed) {
+  std::snprintf(name_of_failed, sizeof name_of_failed, "failed-%llu-%d", static_cast<unsigned long long>(seed),
+                static_cast<int>(getpid()));
+  for (const int number : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM}) std::signal(number, keep_input);
+  Random random(seed);
+  const auto begin = std::chrono::steady_clock::now();
+  Bytes bytes;
+  on_trial = &bytes;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (i % 1000 == 0) alarm(kPatienceS);
+    bytes = seeds[random.below(seeds.size())];
+    for (std::size_t changes = 1 + random.below(6); changes > 0; --changes) change(bytes, seeds, random);
+    if (bytes.size() > kMostBytes) bytes.resize(kMostBytes);
+    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+  }
+  alarm(0);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  std::printf("%llu executions in %.1f s\n", static_cast<unsigned long long>(count), seconds.count());
+}
+
+}  // namespace
+
 int main(int count, char** words) {
+  const bool is_random = count == 5 && std::string_view(words[2]) == "--random";
   std::vector<std::filesystem::path> files;
-  if (count == 2)
+  if (count == 2 || is_random)
     for (const auto& entry : std::filesystem::directory_iterator(words[1])) files.push_back(entry.path());
   if (files.empty()) {
-    std::fprintf(stderr, "usage: replay FOLDER, with inputs in it\n");
+    std::fprintf(stderr, "usage: replay FOLDER [--random COUNT SEED], with inputs in it\n");
     return 2;
   }
   std::sort(files.begin(), files.end());
+  std::vector<Bytes> seeds;
   for (const std::filesystem::path& file : files) {
-    std::printf("%s\n", file.c_str());
-    std::fflush(stdout);
     std::ifstream in(file, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+    if (!is_random) {
+      std::printf("%s\n", file.c_str());
+      std::fflush(stdout);
+      LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+    }
+    seeds.push_back(std::move(bytes));
   }
+  if (is_random) run_random(seeds, std::strtoull(words[3], nullptr, 10), std::strtoull(words[4], nullptr, 10));
 }

@@ -4,11 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +16,7 @@
 #endif
 
 #include "bihive/wide/wide_validate.h"
+#include "support/growing_sets.h"
 #include "support/hostile_sets.h"
 #include "support/thread_time.h"
 
@@ -26,83 +24,6 @@ namespace bihive {
 namespace {
 
 using TreePointer = std::shared_ptr<const WideTree>;
-
-struct HostileSet {
-  const char* name;
-  std::function<test::World(int)> make;
-};
-
-test::World filled(int n, const std::function<void(test::World&, SplitMix64&, int)>& add) {
-  test::World world;
-  SplitMix64 rng(77);
-  for (int i = 0; i < n; ++i) add(world, rng, i);
-  return world;
-}
-
-const std::vector<HostileSet>& hostile_sets() {
-  using test::World;
-  static const std::vector<HostileSet> sets{
-      {"coincident", [](int n) { return test::pile("", n, 0.1, 0.2, 0.3, 1); }},
-      {"nested",
-       [](int n) { return filled(n, [](World& w, SplitMix64& g, int) { w.add(1, 2, 3, g.next_double() + 0.1); }); }},
-      {"exponential",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64& g, int) {
-           w.add(std::exp2(-140 * g.next_double()), std::exp2(-140 * g.next_double()),
-                 std::exp2(-140 * g.next_double()), 0);
-         });
-       }},
-      {"piles at powers of two",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64&, int i) {
-           const double c = std::ldexp(1, -(i % 140));
-           w.add(c, c, c, 1e-3);
-         });
-       }},
-      {"clusters with exponential distances",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64&, int i) {
-           const double c = 0.5 + 0.4 * std::ldexp(1, -(i % 20));
-           w.add(c + i / 20 % 31, c + i / 620 % 37, c + i / 22940, 1e-5);
-         });
-       }},
-      {"flat",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64& g, int) { w.add(g.next_double(), 7, g.next_double(), 1e-3); });
-       }},
-      {"on a line",
-       [](int n) { return filled(n, [](World& w, SplitMix64& g, int) { w.add(3, g.next_double(), 4, 1e-3); }); }},
-      {"needle",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64& g, int) {
-           w.add(g.next_double(), 1e-5 * g.next_double(), 1e-5 * g.next_double(), 1e-6);
-         });
-       }},
-      {"one huge sphere over tiny ones",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64& g, int i) {
-           w.add(1e-3 * g.next_double(), 1e-3 * g.next_double(), 1e-3 * g.next_double(), i == 0 ? 1e3 : 1e-6);
-         });
-       }},
-      {"on few planes",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64& g, int) {
-           w.add(std::floor(3 * g.next_double()), std::floor(1e3 * g.next_double()), std::floor(5 * g.next_double()),
-                 0.1);
-         });
-       }},
-      {"smallest and largest numbers",
-       [](int n) {
-         return filled(n, [](World& w, SplitMix64& g, int i) {
-           constexpr double kLargest = std::numeric_limits<float>::max() / 4, kSmallest = 1.5e-45;
-           const double size = i % 3 == 0 ? kLargest : i % 3 == 1 ? kSmallest : 1;
-           w.add(size * (g.next_double() - 0.5), size * (g.next_double() - 0.5), size * (g.next_double() - 0.5),
-                 size * g.next_double() * 0.1);
-         });
-       }},
-  };
-  return sets;
-}
 
 TreePointer built(WideBuilder& builder, const SphereSet& spheres, const WideParameters& parameters = {}) {
   Result<TreePointer> tree = builder.build(spheres, parameters);
@@ -124,7 +45,7 @@ double build_ms(const SphereSet& spheres) {
 }
 
 TEST(WideBuilderHostile, RightTreesInTimeThatGrowsAsNLogN) {
-  for (const HostileSet& set : hostile_sets()) {
+  for (const test::GrowingSet& set : test::growing_sets()) {
     const SphereSet few = test::sphere_set(set.make(10000)), many = test::sphere_set(set.make(160000));
     WideBuilder builder;
     for (const SphereSet* spheres : {&few, &many}) {
@@ -139,7 +60,7 @@ TEST(WideBuilderHostile, RightTreesInTimeThatGrowsAsNLogN) {
 }
 
 TEST(WideBuilderHostile, PeakMemoryIsBounded) {
-  for (const HostileSet& set : hostile_sets())
+  for (const test::GrowingSet& set : test::growing_sets())
     for (const int n : {1, 100, 10000, 160000})
       for (const WideParameters parameters : {WideParameters{}, {1, 0}, {100, 0}, {0, 1}, {0, 3}}) {
         WideBuilder builder;

@@ -51,6 +51,8 @@ class Fuzz(unittest.TestCase):
             file.write("2000-01-01T00:00:00Z\tabc\tcsv\t60\t5000\t120\t3\t0\n")
         done = self.run_fuzz("0", "csv")
         self.assertIn("all runs so far: 5000 executions, 0 finds", done.stdout)
+        done = self.run_fuzz("--fast", "0", "csv")
+        self.assertIn("all runs so far: 5000 executions, 0 finds", done.stdout)
 
     def test_it_goes_on_after_a_find_and_fails(self):
         # A minute of a target that ends at once would take a minute: the false one stops it by ten finds.
@@ -66,6 +68,8 @@ class Fuzz(unittest.TestCase):
         self.assertEqual(self.run_fuzz().returncode, 2)
         self.assertEqual(self.run_fuzz("soon").returncode, 2)
         self.assertEqual(self.run_fuzz("--fast").returncode, 2)
+        self.assertEqual(self.run_fuzz("--fast", "soon").returncode, 2)
+        self.assertEqual(self.run_fuzz("--quick").returncode, 2)
         self.assertIn("no target nothing", self.run_fuzz("1", "nothing").stderr)
 
 

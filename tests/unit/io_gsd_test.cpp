@@ -56,5 +56,20 @@ TEST(Gsd, CutAndDamagedFilesAreRefusedOrRead) {
   EXPECT_NE(error_of(whole.substr(0, 100), "p.gsd").find("p.gsd"), std::string::npos);
 }
 
+TEST(Gsd, NamesInMessagesAreReadable) {
+  // The first name begins with an escape character, and the first array lies outside of the file.
+  std::string bytes = particles();
+  const auto place_at = [&](std::size_t at) {
+    return std::size_t{static_cast<unsigned char>(bytes[at])} +
+           256 * std::size_t{static_cast<unsigned char>(bytes[at + 1])};
+  };
+  bytes[place_at(24)] = '\x1b';
+  bytes[place_at(8) + 13] = 1;
+  const std::string message = error_of(bytes, "p.gsd");
+  EXPECT_NE(message.find("the array ?"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\x1b'), std::string::npos);
+  EXPECT_NE(message.find("lies outside of it"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace bihive

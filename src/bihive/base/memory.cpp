@@ -9,10 +9,9 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
+#include "bihive/base/memory_groups.h"
 #include "bihive/base/readable.h"
 
 namespace bihive {
@@ -25,53 +24,9 @@ void lower(MemoryLimit& limit, double bytes, const char* whose) {
 
 #ifndef __EMSCRIPTEN__
 
-// The beginning of a short file of the system; an empty text if there is none.
-std::string beginning_of(const std::string& path) {
-  std::FILE* const file = std::fopen(path.c_str(), "re");
-  if (file == nullptr) return "";
-  char bytes[4096];
-  const std::size_t count = std::fread(bytes, 1, sizeof(bytes), file);
-  std::fclose(file);
-  return {bytes, count};
-}
-
-// The lowest limit on the way from a control group up to the root of its tree. The word "max" is none.
-void lower_by_groups(MemoryLimit& limit, const std::string& root, std::string group, const char* name) {
-  while (true) {
-    const std::string text = beginning_of(root + (group == "/" ? "" : group) + "/" + name);
-    char* end = nullptr;
-    const double bytes = std::strtod(text.c_str(), &end);
-    if (end != text.c_str() && bytes > 0) lower(limit, bytes, "this control group allows");
-    if (group.empty() || group == "/") return;
-    group.resize(group.rfind('/'));
-  }
-}
-
-// Each line of /proc/self/cgroup is "number:controllers:group". Inside a container the group may be named as it is seen
-// from outside; then the root of the tree is the container's own.
-MemoryLimit limit_of_groups() {
-  MemoryLimit limit{HUGE_VAL, ""};
-  std::string lines = beginning_of("/proc/self/cgroup");
-  while (!lines.empty()) {
-    const std::size_t end = std::min(lines.find('\n'), lines.size());
-    const std::string line = lines.substr(0, end);
-    lines.erase(0, end + 1);
-    const std::size_t first = line.find(':');
-    const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
-    if (second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
-    const std::string group = line.substr(second + 1);
-    if (group.rfind('/', 0) != 0) continue;
-    if (controllers == ",,") lower_by_groups(limit, "/sys/fs/cgroup", group, "memory.max");
-    if (controllers.find(",memory,") != std::string::npos)
-      lower_by_groups(limit, "/sys/fs/cgroup/memory", group, "memory.limit_in_bytes");
-  }
-  return limit;
-}
-
 // Bytes of address space in use.
 double mapped_bytes() {
-  const std::string text = beginning_of("/proc/self/statm");
+  const std::string text = beginning_of_file("/proc/self/statm");
   return std::strtod(text.c_str(), nullptr) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
@@ -95,7 +50,7 @@ MemoryLimit memory_limit() {
   MemoryLimit limit{static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)),
                     "this machine has"};
   // Groups seldom change, and asking for them opens files.
-  static const MemoryLimit groups = limit_of_groups();
+  static const MemoryLimit groups = memory_limit_of_groups("/proc/self/cgroup", "/sys/fs/cgroup");
   if (groups.bytes < limit.bytes) limit = groups;
   lower_by_process(limit);
 #endif

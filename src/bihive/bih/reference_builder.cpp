@@ -53,6 +53,7 @@ class Builder {
   Tree build() {
     // Start with all spheres in one range and their common box.
     const std::int64_t count = spheres_.size();
+    spheres_read_ = count;
     tree_.sphere_ids.resize(static_cast<std::size_t>(count));
     for (std::int64_t id = 0; id < count; ++id) {
       tree_.sphere_ids[static_cast<std::size_t>(id)] = id;
@@ -70,6 +71,8 @@ class Builder {
     tree_.nodes.shrink_to_fit();
     return std::move(tree_);
   }
+
+  std::int64_t spheres_read() const { return spheres_read_; }
 
  private:
   void build_subtree(const Job& job) {
@@ -123,6 +126,7 @@ class Builder {
 
   // Sends a sphere left if the middle of its box is at or below the split. Works in place.
   Partition partition(const Job& job, int axis, float split) {
+    spheres_read_ += job.last - job.first;
     Partition part;
     std::int64_t left = job.first;
     std::int64_t right = job.last;
@@ -215,14 +219,18 @@ class Builder {
   const SphereSet& spheres_;
   Tree tree_;
   std::vector<Job> jobs_;
+  std::int64_t spheres_read_ = 0;
 };
 
 }  // namespace
 
-Tree build_reference_tree(const SphereSet& spheres, const BuildParameters& parameters) {
+Tree build_reference_tree(const SphereSet& spheres, const BuildParameters& parameters, std::int64_t* spheres_read) {
   BIHIVE_CHECK_GE(parameters.max_prims, 1);
   BIHIVE_CHECK_GE(parameters.max_depth, 1);
-  return Builder(spheres, parameters).build();
+  Builder builder(spheres, parameters);
+  Tree tree = builder.build();
+  if (spheres_read != nullptr) *spheres_read = builder.spheres_read();
+  return tree;
 }
 
 }  // namespace bihive

@@ -14,8 +14,8 @@
 namespace bihive {
 namespace {
 
-constexpr std::int64_t kMark = 4;        // bytes of a record's length
-constexpr std::int32_t kHeadBytes = 84;  // of the first record: a word and 20 numbers
+constexpr std::int64_t kMark = 4;           // bytes of a record's length
+constexpr std::int32_t kDcdHeadBytes = 84;  // of the first record: a word and 20 numbers
 constexpr std::int32_t kMostTitles = 1000;
 constexpr double kPicosecondsOfAkma = 4.888821e-2;  // CHARMM's unit of time
 
@@ -203,7 +203,7 @@ Result<TrajectoryFrame> DcdTrajectory::read(std::int64_t frame) const {
 std::optional<ByteOrder> byte_order_of(std::string_view first_bytes) {
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     std::int32_t length = 0;
-    if (ByteReader(first_bytes, order).take(length) && length == kHeadBytes) return order;
+    if (ByteReader(first_bytes, order).take(length) && length == kDcdHeadBytes) return order;
   }
   return std::nullopt;
 }

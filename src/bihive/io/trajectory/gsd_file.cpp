@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "bihive/io/text_scanner.h"
 #include "bihive/io/trajectory/byte_reader.h"
 
 namespace bihive {
@@ -134,7 +135,8 @@ Status GsdFile::read_head() {
     if (frame > size || place < 0 || std::uint64_t(place) > size || columns > kMostColumnsOfChunk || type < 1 ||
         type > kLastType || rows > size ||
         rows * columns * std::uint64_t(kTypeBytes[type]) > size - std::uint64_t(place))
-      return damaged("the array " + names[name] + " of frame " + std::to_string(frame) + " lies outside of it");
+      return damaged("the array " + printable(names[name]) + " of frame " + std::to_string(frame) +
+                     " lies outside of it");
     chunks_[{names[name], static_cast<std::int64_t>(frame)}] = {static_cast<std::int64_t>(rows), place, columns, type};
     frames_ = std::max(frames_, static_cast<std::int64_t>(frame) + 1);
   }

@@ -16,7 +16,7 @@ constexpr double kAngstromOfNm = 10;
 constexpr std::int32_t kMagic = 1995;
 constexpr std::int32_t kMagicOfLarge = 2023;  // the packed bytes are counted in 64 bits
 // Magic, atoms, step, time, nine numbers of the cell, atoms again.
-constexpr std::int64_t kHeadBytes = 56;
+constexpr std::int64_t kXtcHeadBytes = 56;
 // Precision, lowest, highest, small size; then the number of packed bytes.
 constexpr std::int64_t kPackedHeadBytes = 32;
 
@@ -69,8 +69,8 @@ Status XtcTrajectory::find_frames() {
       warn("the file ends inside frame " + std::to_string(frame) + ", which is left out: it may be cut");
     };
     const std::int64_t left = file_.size() - place;
-    if (left < kHeadBytes) return cut(), Done{};
-    const Result<std::string> bytes = file_.read(place, std::min(left, kHeadBytes + kPackedHeadBytes + 8));
+    if (left < kXtcHeadBytes) return cut(), Done{};
+    const Result<std::string> bytes = file_.read(place, std::min(left, kXtcHeadBytes + kPackedHeadBytes + 8));
     if (!bytes) return bytes.error();
     ByteReader reader(*bytes, ByteOrder::big);
     FrameHead head;
@@ -81,7 +81,7 @@ Status XtcTrajectory::find_frames() {
     if (head.atoms != atoms_)
       return damaged(frame,
                      "it has " + std::to_string(head.atoms) + " atoms, and the first has " + std::to_string(atoms_));
-    std::int64_t length = kHeadBytes + 12 * std::int64_t{head.atoms};
+    std::int64_t length = kXtcHeadBytes + 12 * std::int64_t{head.atoms};
     if (head.is_packed()) {
       std::int64_t packed = 0;
       std::int32_t short_count = 0;
@@ -90,7 +90,7 @@ Status XtcTrajectory::find_frames() {
       if (!known) return cut(), Done{};
       if (head.count_bytes() == 4) packed = short_count;
       if (packed < 0 || packed > file_.size()) return damaged(frame, "its length is no number of bytes");
-      length = kHeadBytes + kPackedHeadBytes + head.count_bytes() + (packed + 3) / 4 * 4;
+      length = kXtcHeadBytes + kPackedHeadBytes + head.count_bytes() + (packed + 3) / 4 * 4;
     }
     if (length > left) return cut(), Done{};
     place += length;

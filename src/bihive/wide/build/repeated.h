@@ -9,6 +9,13 @@
 
 namespace bihive {
 
+/// As many as the count has bits.
+inline std::int64_t passes_of_sorting(std::int64_t count) {
+  std::int64_t bits = 0;
+  for (; count > 0; count >>= 1) ++bits;
+  return bits;
+}
+
 /// Adds those of the spheres first to first + count - 1 that have an equal there, in no order. Takes n log n.
 void find_repeated(const SphereArrays& spheres, const float* palette, std::int64_t first, std::int64_t count,
                    std::vector<RepeatedSphere>& repeated);

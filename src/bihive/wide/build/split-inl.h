@@ -81,6 +81,7 @@ class Splitter {
     try {
       Splitter splitter(context, list);
       splitter.split(range);
+      context.spheres_read += splitter.spheres_read_;
       if (splitter.repeated_.empty()) return;
       const std::lock_guard lock(context.mutex);
       context.repeated.insert(context.repeated.end(), splitter.repeated_.begin(), splitter.repeated_.end());
@@ -113,6 +114,7 @@ class Splitter {
       return plane_by_count(from, range.first, range.count, wanted, axis, range.centres);
     };
     bool boxes_known = false;
+    std::int64_t passes = 0;
     SplitPlane plane;
     if (range.depth < kDeepestMidpoint) {
       // Halve the box. Where no number is between its sides, hi itself is the plane.
@@ -121,6 +123,7 @@ class Splitter {
       plane.at[0] = lo + (hi - lo) * 0.5F;
       if (!(plane.at[0] > lo)) plane.at[0] = hi;
       plane.below = count_below(from, range.first, range.count, plane);
+      ++passes;
       const std::int64_t above = range.count - plane.below;
       const bool two_leaves = plane.below <= full && above <= full;
       if (range.count <= kChoosingSpheres && plane.below != wanted && !two_leaves) {
@@ -130,6 +133,7 @@ class Splitter {
         split_boxes(from, range.first, range.count, plane, left.centres, right.centres);
         split_boxes(from, range.first, range.count, other, other_left, other_right);
         boxes_known = true;
+        passes += other.passes + 2;
         if (cost(left.centres, plane.below, right.centres, above) >
             (range.count <= kLowestSpheres ? kLowestBias : kMidpointBias) *
                 cost(other_left, other.below, other_right, range.count - other.below)) {
@@ -140,7 +144,11 @@ class Splitter {
       }
     } else {
       plane = by_count();
+      passes = plane.passes;
     }
+    // The spheres are moved, and their boxes found.
+    passes += boxes_known ? 1 : 2;
+    spheres_read_ += passes * range.count;
     const SphereArrays& to = arrays(!range.in_final);
     partition<kPlainRadii>(from, to, range.first, range.count, plane);
     left.count = plane.below;
@@ -165,6 +173,7 @@ class Splitter {
     const SphereArrays& to = context_.final;
     HWY_ALIGN std::uint32_t hashes[kWidth];
     const bool is_small = range.count <= kWidth;
+    spheres_read_ += range.count;
     GrowingBox box;
     for_lanes(range.count, [&](std::int64_t i, FloatMask valid, auto whole) HWY_ATTR {
       const std::int64_t at = range.first + i;
@@ -211,6 +220,7 @@ class Splitter {
   }
 
   void note_repeated(const SplitRange& range) {
+    spheres_read_ += passes_of_sorting(range.count) * range.count;
     find_repeated(arrays(range.in_final), context_.palette, range.first, range.count, repeated_);
   }
 
@@ -218,6 +228,7 @@ class Splitter {
   TaskList& list_;
   SplitSource source_;
   std::vector<RepeatedSphere> repeated_;
+  std::int64_t spheres_read_ = 0;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -64,6 +64,7 @@ struct SplitContext {
   NodeArena* arena = nullptr;
 
   std::atomic<bool> out_of_memory{false};
+  std::atomic<std::int64_t> spheres_read{0};  ///< the work, counted: each sphere once for every pass over it
   std::mutex mutex;
   std::vector<RepeatedSphere> repeated;  ///< in no order
 };

@@ -28,6 +28,7 @@ struct SplitPlane {
   float at[3] = {};
   bool ties = false;
   std::int64_t below = 0;  ///< how many centres are below
+  int passes = 0;          ///< over all centres, to find it
 };
 
 /// The lanes below a plane; `centre(axis)` loads a coordinate.
@@ -192,10 +193,14 @@ HWY_INLINE SplitPlane plane_by_count(const SphereArrays& spheres, std::int64_t f
       }
       plane.at[k] = from_ordered_bits(static_cast<std::int32_t>(middle));
       plane.below = count_below(spheres, first, count, plane);
+      ++plane.passes;
       if (plane.below == wanted) return plane;
       // Nothing lies between a plane and its neighbours: go on from those where guesses are not soon right.
       float before = plane.at[k], after = plane.at[k];
-      if (round + 1 >= kInterpolations) neighbours(spheres, first, count, plane, k, before, after);
+      if (round + 1 >= kInterpolations) {
+        neighbours(spheres, first, count, plane, k, before, after);
+        ++plane.passes;
+      }
       if (plane.below < wanted) {
         low = ordered_bits(after);
         low_below = plane.below;

@@ -1,0 +1,7 @@
+// The GRO reader on any bytes.
+#include "read_and_check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  bihive::fuzz::read_raw(bihive::read_gro, data, size);
+  return 0;
+}

@@ -1,0 +1,57 @@
+// DCD, XTC and TRR from any bytes: a trajectory whose frames agree with it, or an error in one line. The bytes are a
+// whole file, so that real trajectories are seeds.
+#include <algorithm>
+#include <memory>
+
+#include "bihive/io/trajectory/formats.h"
+#include "read_and_check.h"
+
+namespace {
+
+using namespace bihive;
+using fuzz::check_error;
+using fuzz::require;
+
+// Frames that are read from the front; the last one is read as well.
+constexpr std::int64_t kFrames = 6;
+
+void check_frame(const Trajectory& trajectory, std::int64_t number) {
+  const Result<TrajectoryFrame> frame = trajectory.read(number);
+  if (!frame) return check_error(frame.error());
+  const auto atoms = static_cast<std::size_t>(trajectory.sphere_count());
+  for (const auto* axis : {&frame->x, &frame->y, &frame->z}) {
+    require(axis->size() == atoms);
+    for (const double value : *axis) require(std::isfinite(value));
+  }
+  // The same again: nothing is kept from one frame to the next.
+  const Result<TrajectoryFrame> again = trajectory.read(number);
+  require(again.ok() && again->x == frame->x && again->y == frame->y && again->z == frame->z);
+}
+
+void check(const Result<std::shared_ptr<const Trajectory>>& opened) {
+  if (!opened) return check_error(opened.error());
+  const Trajectory& trajectory = **opened;
+  const std::int64_t count = trajectory.frame_count();
+  require(count >= 0 && trajectory.sphere_count() >= 0);
+  for (const std::string& warning : trajectory.warnings()) require(printable(warning) == warning);
+  for (std::int64_t frame = 0; frame < std::min(count, kFrames); ++frame) check_frame(trajectory, frame);
+  if (count > kFrames) check_frame(trajectory, count - 1);
+  require(!trajectory.read(count).ok() && !trajectory.read(-1).ok());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const auto file = [&] { return RandomFile::of_bytes(bytes, "fuzz"); };
+  // What no format claims still goes to one of them: each takes any bytes.
+  if (looks_like_xtc(bytes)) {
+    check(open_xtc(file()));
+  } else if (looks_like_trr(bytes)) {
+    check(open_trr(file()));
+  } else {
+    check(open_dcd(file()));
+    if (size % 2 == 0) check(open_xtc(file()));
+  }
+  return 0;
+}
