@@ -1,6 +1,7 @@
 #include "bihive/scene/load_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bihive/base/memory.h"
 #include "bihive/io/bundled.h"
@@ -17,23 +18,7 @@ constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
 
 Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& name, const Style* style) {
   if (!file) return file.error();
-  LoadedScene loaded;
-  loaded.scene.spheres = std::move(file->spheres);
-  loaded.scene.name = name;
-  loaded.format = file->format;
-  loaded.frames = file->frames;
-  loaded.time_ps = file->time_ps;
-  loaded.step = file->step;
-  loaded.assemblies = std::move(file->assemblies);
-  loaded.rules = std::move(file->rules);
-  loaded.warnings = std::move(file->warnings);
-  loaded.recentred_by = file->recentred_by;
-  loaded.has_scheme_colours = loaded.scene.spheres.attributes().colour.empty();
-  if (style != nullptr)
-    restyle(loaded, *style);
-  else
-    take_default_colours(loaded.scene, loaded.format, nullptr);
-  return loaded;
+  return scene_of_spheres(std::move(*file), name, style);
 }
 
 LoadedScene generated(Scene scene) {
@@ -46,6 +31,26 @@ LoadedScene generated(Scene scene) {
 }
 
 }  // namespace
+
+LoadedScene scene_of_spheres(SphereFile file, const std::string& name, const Style* style) {
+  LoadedScene loaded;
+  loaded.scene.spheres = std::move(file.spheres);
+  loaded.scene.name = name;
+  loaded.format = file.format;
+  loaded.frames = file.frames;
+  loaded.time_ps = file.time_ps;
+  loaded.step = file.step;
+  loaded.assemblies = std::move(file.assemblies);
+  loaded.rules = std::move(file.rules);
+  loaded.warnings = std::move(file.warnings);
+  loaded.recentred_by = file.recentred_by;
+  loaded.has_scheme_colours = loaded.scene.spheres.attributes().colour.empty();
+  if (style != nullptr)
+    restyle(loaded, *style);
+  else
+    take_default_colours(loaded.scene, loaded.format, nullptr);
+  return loaded;
+}
 
 void restyle(LoadedScene& loaded, const Style& style) {
   apply_style(style, loaded.scene);

@@ -31,6 +31,9 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {},
                                LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr);
 
+/// As load_scene() of a file of these spheres.
+LoadedScene scene_of_spheres(SphereFile file, const std::string& name, const Style* style = nullptr);
+
 /// Gives spheres of a file (not of a scene file) another style than that with which they were loaded: the scene becomes
 /// what load_scene() makes with it. No look must have been done yet.
 void restyle(LoadedScene& loaded, const Style& style);
