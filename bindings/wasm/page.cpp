@@ -3,6 +3,7 @@
 #include <emscripten/bind.h>
 #include <emscripten/html5_webgl.h>
 
+#include <cmath>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -57,6 +58,9 @@ std::string done_or(const Status& status) {
   return status ? "{}" : failure(status.error());
 }
 
+// JavaScript's largest whole number; memory allows fewer spheres.
+constexpr double kMostSpheres = 9007199254740991;
+
 // A radius below 0: the file's own.
 ReadOptions reading_of(double radius, double radius_scale) {
   ReadOptions reading;
@@ -107,6 +111,8 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
                    {"takes_style", facts->takes_style},
                    {"is_file_of_spheres", facts->is_file_of_spheres},
                    {"has_elements", facts->has_elements},
+                   {"has_cell", facts->has_cell},
+                   {"copies", facts->copies},
                    {"attributes", facts->attributes}};
   json["settings"] = ordered_json::parse(settings());
   json["look"] = ordered_json::parse(look());
@@ -124,8 +130,12 @@ std::string Page::load(const std::string& name, double radius, double radius_sca
 std::string Page::load_built_in(const std::string& name, double count, double radius, double radius_scale) {
   return with_memory([&] {
     ScenarioParameters parameters;
-    if (count >= 1) parameters.count = static_cast<std::int64_t>(count);
-    if (radius >= 0) parameters.radius = static_cast<float>(radius);
+    if (count != 0) {
+      if (!(count >= 1 && count <= kMostSpheres && count == std::floor(count)))
+        return failure({"the number of spheres must be a whole number from 1", name, 0, 0, ""});
+      parameters.count = static_cast<std::int64_t>(count);
+    }
+    if (radius >= 0) parameters.radius = scenario_radius(radius);
     return loaded(viewer_.load_built_in(name, parameters, reading_of(radius, radius_scale)));
   });
 }

@@ -34,10 +34,11 @@ let serial = 0;
 let look_serial = 0;
 let loading = 0; // id of the load that is awaited
 let first_frame = false; // of the scene that has just been loaded: it is awaited
-let chosen_file: File | null = null; // that is on show, or being loaded
+let chosen_file: File | null = null; // that is on show
 let asked: Ask | null = null; // a file of the user's own that a link was made for
 let address_reading: Reading | undefined;
 let framed = true; // nobody has moved the camera since it showed the whole scene, or was the scene's own
+const awaited = new Map<number, { file: File | null; framed: boolean }>(); // loads by their ids: what holds once they are done
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -56,9 +57,14 @@ const engine = new Engine(
       }
       clear_notes();
       source = answer.source;
+      const now = awaited.get(answer.id);
+      awaited.delete(answer.id);
+      chosen_file = now?.file ?? null;
+      framed = now?.framed ?? true;
       show_facts(answer.facts);
       show_source(source);
       show_settings(answer.settings);
+      controls.show_facts(answer.facts);
       controls.show(answer.settings);
       look = answer.look;
       looks.show_facts(answer.facts);
@@ -69,6 +75,7 @@ const engine = new Engine(
       busy(null);
       first_frame = false;
       saving.failed(id);
+      if (id !== null) awaited.delete(id);
       if (id === loading) show_source(source);
       fail(message);
     },
@@ -192,8 +199,15 @@ function show_frame(report: FrameReport, width: number, height: number): void {
 
 // Actions of the user.
 
-async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'source'> | null = null): Promise<void> {
+// `file`: of the user's own, so that it can be read again.
+async function open(
+  what: Promise<Wanted>,
+  name: string,
+  wanted: Omit<State, 'source'> | null = null,
+  file: File | null = null,
+): Promise<void> {
   const id = (loading = engine.new_id());
+  first_frame = false;
   clear_notes();
   clear_errors();
   picture.dataset['settled'] = 'false';
@@ -202,7 +216,7 @@ async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'so
     const { source: from, bytes, name: called } = await what;
     if (id !== loading) return; // another one was asked for meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
-    framed = !state.settings?.camera?.eye;
+    awaited.set(id, { file, framed: !state.settings?.camera?.eye });
     engine.send({ type: 'load', id, source: from, bytes, name: called, ...state }, bytes ? [bytes] : []);
   } catch (error) {
     busy(null);
@@ -214,7 +228,6 @@ async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'so
 const name_of = (from: Source) => ('built_in' in from ? from.built_in : 'url' in from ? from.url : from.file);
 
 function open_source(from: Source, wanted: Omit<State, 'source'> | null = null): Promise<void> {
-  chosen_file = null;
   return open(wanted_source(from.reading ? from : with_reading(from, address_reading)), name_of(from), wanted);
 }
 
@@ -227,9 +240,8 @@ function forget_asked(): void {
 async function open_file(file: File): Promise<void> {
   const waiting = asked;
   const fits = waiting?.file === file.name;
-  chosen_file = file;
   if (fits) forget_asked();
-  await open(wanted_file(file, (fits && waiting?.state.source.reading) || address_reading), file.name, fits ? waiting!.state : null);
+  await open(wanted_file(file, (fits && waiting?.state.source.reading) || address_reading), file.name, fits ? waiting!.state : null, file);
   if (waiting && !fits) waiting.say_other(file.name);
 }
 
@@ -239,7 +251,7 @@ function read_again(reading: Reading | undefined): void {
   const { fov_deg, projection, aperture, focus } = settings.camera;
   const camera = framed ? { fov_deg, projection, aperture, focus } : settings.camera;
   const state = { settings: { ...settings, camera }, look };
-  if (chosen_file) void open(wanted_file(chosen_file, reading), chosen_file.name, state);
+  if (chosen_file) void open(wanted_file(chosen_file, reading), chosen_file.name, state, chosen_file);
   else void open(wanted_source(with_reading(source, reading)), name_of(source), state);
 }
 

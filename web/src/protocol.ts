@@ -41,6 +41,8 @@ export interface Settings {
   title: string;
   length_unit: string | null; // null: the input's
   focus_on: string;
+  cell: boolean;
+  replicate: [number, number, number] | null; // null: the input's copies
   camera: Camera;
 }
 
@@ -97,6 +99,8 @@ export interface Facts {
   takes_style: boolean;
   is_file_of_spheres: boolean;
   has_elements: boolean;
+  has_cell: boolean;
+  copies: [number, number, number]; // along the cell's vectors, as the input asks for
   attributes: string[];
 }
 

@@ -216,8 +216,8 @@ interface Loaded {
   coloured_by: ColouredBy[];
 }
 
-// The look and the settings of a link, or of the scene. The engine is the user's choice, at first the one that draws
-// every style. Returns what colours the spheres then, null where no look was wanted, and the messages of what failed.
+// The look and the settings of a link, or of the scene. The engine is the user's choice: without one it stays.
+// Returns what colours the spheres then, null where no look was wanted, and the messages of what failed.
 function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   const notes: string[] = [];
   let coloured_by: ColouredBy[] | null = null;
