@@ -404,7 +404,7 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
   expect_kept("range", [&] { return set([](ViewerSettings& s) { s.recursion = 99; }); });
   expect_kept("wish", [&] { return set([](ViewerSettings& s) { s.effects.labels.scale_bar = true; }); });
   expect_kept("engine", [&] { return set([](ViewerSettings& s) { s.engine = ViewerEngine::gpu; }); });
-  expect_kept("copies", [&] { return set([](ViewerSettings& s) { s.replicate = {2, 1, 1}; }); });
+  expect_kept("focus", [&] { return set([](ViewerSettings& s) { s.focus_on = "resname NOT"; }); });
   expect_kept("look", [&] {
     ViewerLook look = viewer.look();
     look.rows = {{"all", "hide", ""}};

@@ -130,7 +130,9 @@ test('samples on edges', async () => {
 
 test('the cell: edges and copies; only where there is one, and as the scene file says', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
-  assert.ok(await page.isHidden('#cell_group'), 'the molecule has none');
+  assert.ok(await page.isVisible('#cell_group'), 'the molecule is a crystal');
+  await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
+  assert.ok(await page.isHidden('#cell_group'));
   const text = 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 4\n0 5\n0 6\n' +
     'ITEM: ATOMS id type x y z\n1 1 1 1 1\n2 2 2 3 4\n';
   const path = join(scratch, 'cell.lammpstrj');

@@ -306,7 +306,6 @@ test('a file that cannot be read leaves the one before: its radii are changed, a
   const before = (await link_state(page)).settings.camera;
   await ways_in.picker(page, { name: 'broken.csv', bytes: Buffer.from('x,y,z\n1,2,what\n') });
   await shown_error(page);
-  await settled(page);
   await page.fill('#radius', '0.25');
   await and_settle(page, () => page.press('#radius', 'Enter'));
   const state = await link_state(page);
