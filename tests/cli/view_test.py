@@ -27,7 +27,7 @@ ITEM: ATOMS id type x y z
 2 2 2 3 4
 """
 # Two spheres stay, so that each of the six frames is framed alike.
-RUN = "".join(f"3\nframe {i}\nC 0 0 0\nO 6 3 0\nN {i} {3 - i / 2} 1\n" for i in range(6))
+RUN = "".join(f"3\nframe {i}\nC 0 0 0\nO 6 3 0\nN {1 + i / 2} {1 + i / 4} 0\n" for i in range(6))
 
 
 def share_off(a, b, tolerance):
