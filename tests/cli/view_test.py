@@ -155,7 +155,7 @@ class Window(ProgramTest):
             ["demo", *rows, "--no-ao"],
             ["demo", *labels],
             ["demo", *lens],
-            ["box.lammpstrj", "--cell", "--replicate", "2x1x1", "--view-from", "iso"],
+            ["box.lammpstrj", "--radius", "1", "--cell", "--replicate", "2x1x1", "--view-from", "iso"],
         ]:
             picture, _ = self.screenshot(*given, "--size", "620x220")
             self.assertTrue(picture == self.rendered("272x220", *given), given)

@@ -73,7 +73,7 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
 });
 
 test('more samples on edges are the CPU engine’s: the GPU engine takes their number', async () => {
-  const { page, context } = await open_page(browser, server.url, { viewport: { width: 500, height: 200 } });
+  const { page, context } = await open_page(browser, server.url, { viewport: { width: 800, height: 240 } });
   await and_settle(page, () => page.click('#samples_auto'));
   assert.ok(await page.isDisabled('#samples'));
   await choose_gpu(page);
