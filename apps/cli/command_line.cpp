@@ -158,7 +158,10 @@ void add_style_options(CLI::App& app, StyleOptions& look) {
                  "The lights (the style's or the scene's): " + list_of(light_presets()) +
                      ",\nfrom:RIGHT,UP,TOWARDS[:COLOUR[:STRENGTH[:DEG]]] around the camera, or\n"
                      "at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]] in the world; repeatable",
-                 [&look](const std::string& text) { return add_light(text, look.lights); });
+                 [&look](const std::string& text) {
+                   look.light_words.push_back(text);
+                   return add_light(text, look.lights);
+                 });
   add_ambient_occlusion(app, look.ambient);
   add_integer(app, "--light-points", look.light_points, 1, kMostLightPoints,
               "Soft shadows: points of each light, a sample (the style's)");
@@ -189,7 +192,7 @@ void add_labels(CLI::App& app, LabelOptions& labels) {
 }
 
 // Options whose order matters: each is taken when the command line reaches it, and may occur again.
-void add_looks(CLI::App& app, LookOptions& looks, RenderOptions& render) {
+void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input, StyleOptions& style) {
   const auto add = [&app](const std::string& name, const std::string& type, const std::string& help, auto take) {
     add_repeatable(app, name, type, help, take);
   };
@@ -213,7 +216,7 @@ void add_looks(CLI::App& app, LookOptions& looks, RenderOptions& render) {
   add("--material", list_of(named_materials()), "Their material (the style's)",
       [&looks](const std::string& text) { return looks.act("material", text); });
   add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
-      [&looks, &input = render.input](const std::string& text) -> Status {
+      [&looks, &input](const std::string& text) -> Status {
         if (looks.selected) return looks.act("radius-scale", text);
         if (input.radius_scale) return Error{"is given more than once before a --select", "", 0, 0, ""};
         const Result<double> factor = number_from(text, 0, kLargestFloat);
@@ -222,7 +225,7 @@ void add_looks(CLI::App& app, LookOptions& looks, RenderOptions& render) {
         return Done{};
       });
   add("--outline", "PX", "Behind a --select: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)",
-      [&looks, &look = render.style](const std::string& text) -> Status {
+      [&looks, &look = style](const std::string& text) -> Status {
         const Result<LookAction> action = look_action_from_text("outline", text);
         if (!action) return action.error();
         if (looks.selected) return looks.act("outline", text);
@@ -240,6 +243,33 @@ void add_looks(CLI::App& app, LookOptions& looks, RenderOptions& render) {
       ->type_name("soft|jmol|cpk|FILE");
   add_flag("--no-hydrogens", "Hide hydrogen", [&looks] { looks.hide_word("--no-hydrogens", "hydrogen"); });
   add_flag("--no-water", "Hide water", [&looks] { looks.hide_word("--no-water", "water"); });
+}
+
+void add_background(CLI::App& app, std::optional<std::string>& background) {
+  add_value(app, "--background", background, "COLOUR",
+            "A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)",
+            [](const std::string& text) -> Result<std::string> {
+              if (text == kNoBackground) return text;
+              const Result<Vec3d> colour = colour_from(text, Transfer::none);
+              if (!colour) return colour.error();
+              return text;
+            });
+}
+
+void add_projection(CLI::App& app, std::optional<double>& fov_deg, std::optional<Projection>& projection) {
+  add_value(app, "--fov", fov_deg, "DEG", "Angle along the shorter side (30)",
+            [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
+  add_choice(app, "--projection", projection, kProjections,
+             "orthographic: equal spheres look equally large at any distance (perspective)");
+}
+
+void add_lens(CLI::App& app, std::optional<double>& aperture, std::optional<Focus>& focus) {
+  add_number(app, "--aperture", aperture, kLargestFloat, "R",
+             "Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)");
+  add_value(app, "--focus", focus, "D|auto|EXPR",
+            "With an aperture: the distance that is sharp, in world units, or the spheres that are,\n"
+            "such as 'resname LIG' or 'index 12' (auto: where the camera looks at)",
+            focus_from);
 }
 
 void add_json_flag(CLI::App& app, bool& json) {
@@ -270,14 +300,7 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   add_shadows(command, options.shadows);
   add_style_options(command, options.style);
   add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
-  add_value(command, "--background", options.background, "COLOUR",
-            "A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)",
-            [](const std::string& text) -> Result<std::string> {
-              if (text == kNoBackground) return text;
-              const Result<Vec3d> colour = colour_from(text, Transfer::none);
-              if (!colour) return colour.error();
-              return text;
-            });
+  add_background(command, options.background);
   add_value(command, "--bits", options.bits, "8|16", "Bits of each number in the picture (8)", bits_from);
   add_value(command, "--dpi", options.dots_per_inch, "N", "Pixels an inch in print, as a note in the picture",
             [](const std::string& text) { return number_from(text, 0, kMostDotsPerInch, /*open=*/true); });
@@ -285,27 +308,19 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--eye", options.eye, "X,Y,Z", "Where the camera is", vector_from);
   add_value(command, "--look-at", options.look_at, "X,Y,Z", "The middle of the picture", vector_from);
   add_value(command, "--up", options.up, "X,Y,Z", "What is up in the picture", vector_from);
-  add_value(command, "--fov", options.fov_deg, "DEG", "Angle along the shorter side (30)",
-            [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
-  add_choice(command, "--projection", options.projection, kProjections,
-             "orthographic: equal spheres look equally large at any distance (perspective)");
+  add_projection(command, options.fov_deg, options.projection);
   add_value(command, "--turn", options.turn, "AZ,EL[,ROLL]",
             "Degrees: the camera goes AZ to the right and EL up around what it\n"
             "looks at; the picture turns ROLL counter-clockwise",
             turn_from);
   add_value(command, "--zoom", options.zoom, "F", "Draw everything F times as large (1)",
             [](const std::string& text) { return number_from(text, 0, kMostZoom, /*open=*/true); });
-  add_number(command, "--aperture", options.aperture, kLargestFloat, "R",
-             "Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)");
-  add_value(command, "--focus", options.focus, "D|auto|EXPR",
-            "With an aperture: the distance that is sharp, in world units, or the spheres that are,\n"
-            "such as 'resname LIG' or 'index 12' (auto: where the camera looks at)",
-            focus_from);
+  add_lens(command, options.aperture, options.focus);
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);
   add_input_options(command, options.input, /*with_radius_scale=*/false);
-  add_looks(command, options.looks, options);
+  add_looks(command, options.looks, options.input, options.style);
   command.add_flag("--cell", options.cell, "Draw the edges of the periodic cell, and of its copies");
   add_labels(command, options.labels);
   add_json_flag(command, options.json);
@@ -396,14 +411,25 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
   add_input(command, options.input);
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
   add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (cpu)");
-  command.add_option("--style", options.style, "A look of bihive styles (files: default)")->type_name("NAME");
+  add_style_options(command, options.style);
+  add_background(command, options.background);
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
-  add_integer(command, "--samples", options.samples, 1, kMostSamples, "Samples a pixel (files: 4, thesis's scenes: 1)");
+  add_value(command, "--samples", options.samples, "N|auto",
+            "Samples a pixel, 1 to 64 (files: 4, thesis's scenes: 1, with --aperture 64);\nauto: 4, and 16 on edges",
+            [](const std::string& text) -> Result<std::int64_t> {
+              const Result<std::int64_t> samples = samples_from(text);
+              return samples && *samples == kAutomaticSamples ? samples : integer_from(text, 1, kMostSamples);
+            });
   add_integer(command, "--recursion", options.recursion, 1, kMostRecursion, "Generations of rays (5)");
   add_shadows(command, options.shadows);
   add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
+  add_projection(command, options.fov_deg, options.projection);
+  add_lens(command, options.aperture, options.focus);
   add_tree_options(command, options.tree);
-  add_input_options(command, options.input);
+  add_input_options(command, options.input, /*with_radius_scale=*/false);
+  add_looks(command, options.looks, options.input, options.style);
+  command.add_flag("--cell", options.cell, "Draw the edges of the periodic cell, and of its copies");
+  add_labels(command, options.labels);
   command.add_option("--screenshot", options.screenshot, "Write the settled window into a PNG, and end")
       ->type_name("FILE");
 }

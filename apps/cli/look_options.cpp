@@ -42,6 +42,10 @@ void LookOptions::add(LookAction action, const std::string& option) {
   looks[current_].actions.push_back(std::move(action));
 }
 
+void LookOptions::add_row(const std::string& action, const std::string& value) {
+  rows.push_back({looks[current_].select, action, value});
+}
+
 void LookOptions::select(const std::string& text) {
   if (const Status status = check_selection(text); !status) fail_selection("--select", text, status.error());
   selected = true;
@@ -55,6 +59,7 @@ void LookOptions::select(const std::string& text) {
 void LookOptions::show(bool shown) {
   const std::string option = shown ? "--show" : "--hide";
   add(SetShown{shown}, option);
+  add_row(shown ? "show" : "hide", "");
   words.push_back(option);
 }
 
@@ -62,6 +67,7 @@ Status LookOptions::act(const std::string& name, const std::string& text) {
   Result<LookAction> action = look_action_from_text(name, text);
   if (!action) return action.error();
   add(std::move(*action), "--" + name);
+  add_row(name, text);
   words.push_back("--" + name + " " + text);
   return Done{};
 }
@@ -76,6 +82,7 @@ Status LookOptions::set_nan_colour(const std::string& text) {
 void LookOptions::hide_word(const std::string& option, const std::string& word) {
   looks.push_back({word, {SetShown{false}}});
   of_look.push_back(option);
+  rows.push_back({word, "hide", ""});
   words.push_back(option);
   if (!has_current_) return;
   // Later actions are for the selection from before, but come after this one.

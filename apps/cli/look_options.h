@@ -9,6 +9,7 @@
 #include "bihive/base/result.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/looks.h"
+#include "bihive/viewer/viewer_look.h"
 
 namespace bihive::cli {
 
@@ -18,6 +19,7 @@ struct LookOptions {
   std::vector<Look> looks;
   std::vector<std::string> of_look;  ///< for messages: the option that begins each look
   std::vector<std::string> words;    ///< the options as they were given, one each
+  std::vector<LookRow> rows;         ///< the same for the window: an action each, as text
   std::string nan_colour;            ///< empty: the default
   std::string element_colours;       ///< "cpk", "jmol" or a file; empty: the usual ones
   bool selected = false;             ///< a --select was there
@@ -33,6 +35,7 @@ struct LookOptions {
 
  private:
   void add(LookAction action, const std::string& option);
+  void add_row(const std::string& action, const std::string& value);
   std::size_t current_ = 0;  // the look that takes actions, if there is any
   bool has_current_ = false;
 };

@@ -13,6 +13,7 @@
 #include "bihive/image/png.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/names.h"
+#include "bihive/viewer/load_file.h"
 #include "bihive/viewer/viewer_json.h"
 #include "theme.h"
 
@@ -21,11 +22,16 @@ namespace {
 
 constexpr double kBudgetMs = 16;
 constexpr double kIdleSeconds = 0.5;
+constexpr double kShortestWait = 1e-4;
 constexpr double kZoomOfNotch = 1.15;
 constexpr double kTurnOfKeyPx = 24;  // the turn or shift of an arrow key
 
 App& app_of(GLFWwindow* window) {
   return *static_cast<App*>(glfwGetWindowUserPointer(window));
+}
+
+double now_ms() {
+  return 1000 * glfwGetTime();
 }
 
 // "demo.png", or "demo-2.png" if that exists.
@@ -57,18 +63,15 @@ Status App::open() {
   const Status attached = functions ? viewer_.attach_gl(*functions) : Status(functions.error());
   const ImVec2 size = picture_size();
   viewer_.resize(static_cast<int>(size.x), static_cast<int>(size.y));
-  if (!request_.style.empty()) {
-    ViewerLook look;
-    look.style = request_.style;
-    if (const auto shown = viewer_.set_look(look); !shown) return shown.error();
-  }
-  if (request_.side) viewer_.look_from(*request_.side);
   const Result<ViewerSettings> asked = settings_from_json(request_.settings, viewer_.settings());
   if (!asked) return asked.error();
   if (asked->engine == ViewerEngine::gpu && !attached) return attached.error();
-  if (Status status = viewer_.set(*asked); !status) return status;
+  ViewerSettings settings = viewer_.settings();
+  settings.engine = asked->engine;
+  if (Status status = viewer_.set(settings); !status) return status;
   panel_.reading = request_.reading;
   opened(viewer_.facts());
+  take_frames(std::move(first_frames_), request_.reading.frame);
   return Done{};
 }
 
@@ -141,15 +144,18 @@ void App::on_key(int key, int action, int mods) {
     default:
       break;
   }
+  // Letters by the layout of the user's keyboard.
+  const char* const name = glfwGetKeyName(key, 0);
+  const char letter = key == GLFW_KEY_HOME ? 'r' : name == nullptr ? '\0' : name[0];
+  if (letter == ',') return step_frames(-1);
+  if (letter == '.') return step_frames(1);
   if (again) return;
+  if (key == GLFW_KEY_SPACE) return toggle_play();
   ViewerSettings settings = viewer_.settings();
   if (key >= GLFW_KEY_1 && key < GLFW_KEY_1 + static_cast<int>(kViews.size())) {
     settings.view = kViews[static_cast<std::size_t>(key - GLFW_KEY_1)].second;
     return apply(settings);
   }
-  // Letters by the layout of the user's keyboard.
-  const char* const name = glfwGetKeyName(key, 0);
-  const char letter = key == GLFW_KEY_HOME ? 'r' : name == nullptr ? '\0' : name[0];
   switch (letter) {
     case '+':
       return zoom(kZoomOfNotch);
@@ -216,7 +222,9 @@ void App::on_character(unsigned character) {
 // The pointer's place at this event: ImGui knows the place at the last frame only, and GLFW the place now.
 bool App::over_picture() const {
   const bool over_message = (asked_file_ || !message_.empty()) && ImGui::GetIO().WantCaptureMouse;
-  return x_ * window_->pixels_per_unit() < picture_size().x && !over_message;
+  const float bar = reader_ ? player_bar_height(window_->text_scale()) : 0;
+  const bool over_bar = y_ >= ImGui::GetIO().DisplaySize.y - bar;
+  return x_ * window_->pixels_per_unit() < picture_size().x && !over_bar && !over_message;
 }
 
 void App::on_button(int button, int action, int mods) {
@@ -255,12 +263,12 @@ void App::on_drop(std::vector<std::string> paths) {
 // --- Actions on events ------------------------------------------------------------------------------------------
 
 void App::open_file(const std::string& path) {
-  const Result<std::string> bytes = read_file(path);
-  if (!bytes) return say(bytes.error().to_string(), true);
-  const Result<SceneFacts> facts = viewer_.load(*bytes, path);
-  if (facts) input_ = path;
-  if (facts) panel_.reading = {};
-  opened(facts);
+  Result<LoadedFile> file = load_file(viewer_, path, {});
+  if (!file) return say(file.error().to_string(), true);
+  input_ = path;
+  panel_.reading = {};
+  opened(file->facts);
+  take_frames(std::move(file->frames), 0);
 }
 
 void App::open_built_in(const std::string& name) {
@@ -269,21 +277,27 @@ void App::open_built_in(const std::string& name) {
   if (facts) panel_.reading = {};
   if (facts) request_.scenario = {};
   opened(facts);
+  if (facts) take_frames(nullptr, 0);
 }
 
 // The same input with other radii, in the same look and with the same settings. A camera that nobody has moved is
 // placed anew.
-void App::read_again(const ReadOptions& reading) {
+void App::read_again(const ReadOptions& wanted) {
+  ReadOptions reading = wanted;
+  reading.frame = reader_ ? frame_in_viewer_ : reading.frame;
   const ViewerLook look = viewer_.look();
   ViewerSettings settings = viewer_.settings();
   ScenarioParameters scenario = request_.scenario;
-  scenario.radius = reading.radius ? static_cast<float>(*reading.radius) : ScenarioParameters{}.radius;
-  const bool is_file = !is_built_in_scene(input_);
-  const Result<std::string> bytes = is_file ? read_file(input_) : Result<std::string>(std::string());
-  if (!bytes) return say(bytes.error().to_string(), true);
-  const Result<SceneFacts> facts =
-      is_file ? viewer_.load(*bytes, input_, reading) : viewer_.load_built_in(input_, scenario, reading);
-  if (!facts) return say(facts.error().to_string(), true);
+  scenario.radius = reading.radius ? scenario_radius(*reading.radius) : ScenarioParameters{}.radius;
+  std::shared_ptr<const Frames> frames;
+  if (is_built_in_scene(input_)) {
+    const Result<SceneFacts> loaded = viewer_.load_built_in(input_, scenario, reading);
+    if (!loaded) return say(loaded.error().to_string(), true);
+  } else {
+    Result<LoadedFile> loaded = load_file(viewer_, input_, reading);
+    if (!loaded) return say(loaded.error().to_string(), true);
+    frames = std::move(loaded->frames);
+  }
   panel_.reading = reading;
   const std::string file_name = panel_.file_name;
   const bool framed = framed_;
@@ -299,7 +313,8 @@ void App::read_again(const ReadOptions& reading) {
     settings.camera.focus = lens.focus;
   }
   if (Status status = viewer_.set(settings); !status) words = status.error().to_string();
-  opened(*facts);
+  opened(viewer_.facts());
+  take_frames(std::move(frames), reading.frame);
   panel_.file_name = file_name;
   framed_ = framed;
   if (!words.empty()) say(words, true);
@@ -311,6 +326,7 @@ void App::opened(const Result<SceneFacts>& facts) {
   texture_->forget();
   panel_.table.forget();
   panel_.look.start_anew(viewer_.look());
+  panel_.effects.start_anew();
   panel_.can_scale_radii = input_ == "demo" || !is_built_in_scene(input_);
   framed_ = true;
   const std::filesystem::path name(facts->name);
@@ -355,10 +371,11 @@ void App::save() {
   const Result<PngPixels> picture = picture_to_save();
   if (!picture) return say(picture.error().to_string(), true);
   const std::string path = free_name(panel_.file_name);
-  const PngText text{{"Software", "bihive " + std::string(version())},
-                     {"Scene", viewer_.facts().name},
-                     {"Settings", settings_to_json(viewer_.settings())},
-                     {"Look", viewer_look_to_json(viewer_.look())}};
+  PngText text{{"Software", "bihive " + std::string(version())},
+               {"Scene", viewer_.facts().name},
+               {"Settings", settings_to_json(viewer_.settings())},
+               {"Look", viewer_look_to_json(viewer_.look())}};
+  if (reader_) text.emplace_back("Frame", std::to_string(frame_in_viewer_));
   const Result<std::string> png = encode_png(*picture, text);
   if (!png) return say(png.error().to_string(), true);
   if (Status status = write_file(path, *png); !status) return say(status.error().to_string(), true);
@@ -371,6 +388,68 @@ void App::save() {
 void App::say(const std::string& text, bool bad) {
   message_ = text;
   message_is_bad_ = bad;
+  wake();
+}
+
+// --- The player -------------------------------------------------------------------------------------------------
+
+void App::take_frames(std::shared_ptr<const Frames> frames, std::int64_t frame) {
+  reader_.reset();
+  frame_in_viewer_ = frame;
+  frame_is_drawn_ = true;
+  player_.start_anew(frames ? frames->count() : 1, frames ? frame : 0);
+  if (frames) reader_ = std::make_unique<FrameReader>(std::move(frames), [] { glfwPostEmptyEvent(); });
+}
+
+void App::toggle_play() {
+  if (player_.playing())
+    player_.pause();
+  else
+    player_.play(now_ms());
+  wake();
+}
+
+void App::step_frames(int by) {
+  player_.step(by);
+  wake();
+}
+
+void App::go_to(std::int64_t frame) {
+  player_.go_to(frame);
+  wake();
+}
+
+void App::follow(const PlayerWishes& wishes) {
+  if (wishes.toggles) toggle_play();
+  if (wishes.step != 0) step_frames(wishes.step);
+  if (wishes.frame) go_to(*wishes.frame);
+  if (wishes.frames_per_second) player_.set_frames_per_second(*wishes.frames_per_second);
+  if (wishes.loops) player_.set_loops(*wishes.loops);
+}
+
+// Shows the frame that is wanted once the reader has it, and lets the reader go ahead.
+void App::continue_playing() {
+  if (!reader_) return;
+  if (player_.advance(now_ms())) wake();
+  const std::int64_t frame = player_.frame();
+  const std::shared_ptr<const FrameMaker> maker = viewer_.frame_maker();
+  if (frame == frame_in_viewer_) {
+    if (frame_is_drawn_) player_.shown(now_ms());
+    if (player_.next()) reader_->want(*player_.next(), std::nullopt, maker);
+    return;
+  }
+  reader_->want(frame, player_.next(), maker);
+  const std::optional<Result<std::shared_ptr<PreparedFrame>>> came = reader_->take(frame);
+  if (!came) return;
+  const Result<bool> shown = *came ? viewer_.show_frame(***came) : Result<bool>(came->error());
+  if (!shown) {
+    player_.start_anew(player_.frames(), frame_in_viewer_);
+    return say(shown.error().to_string(), true);
+  }
+  if (!*shown) return;
+  frame_in_viewer_ = frame;
+  frame_is_drawn_ = false;
+  panel_.table.forget();
   wake();
 }
 
@@ -389,7 +468,9 @@ Status App::run() {
     if (frames_to_draw_ > 0 || !report.settled)
       glfwPollEvents();
     else
-      glfwWaitEventsTimeout(kIdleSeconds);
+      glfwWaitEventsTimeout(
+          std::max(kShortestWait, std::min(kIdleSeconds, player_.wait_ms(now_ms()).value_or(1e9) / 1000)));
+    continue_playing();
     const PixelSize pixels = window_->framebuffer();
     if (pixels.width == 0 || pixels.height == 0) {
       // Minimized.
@@ -406,7 +487,8 @@ Status App::run() {
     else
       say(next.error().to_string(), true);
     if (report.drawn && viewer_.settings().engine == ViewerEngine::cpu) texture_->take(viewer_.image());
-    if (panel_shown_) panel_.table.update(viewer_, report.settled);
+    if (report.drawn) frame_is_drawn_ = true;
+    if (panel_shown_ && !player_.playing()) panel_.table.update(viewer_, report.settled);
 
     // Draw the window if something in it is new.
     if (frames_to_draw_ == 0 && report.settled && !report.drawn) continue;
@@ -446,12 +528,15 @@ void App::draw(const FrameReport& report, Image* screenshot) {
     texture_->draw({size.x * unit, size.y * unit});
   PanelWishes wishes;
   if (panel_shown_) wishes = panel_.draw(viewer_, report, ImGui::GetIO().DisplaySize, window_->text_scale());
+  PlayerWishes played;
+  if (reader_) played = draw_player_bar(player_, viewer_.facts(), size.x * unit, window_->text_scale());
   if (asked_file_)
     draw_prompt();
   else
     draw_message();
   window_->end_frame(screenshot);
   follow(wishes);
+  follow(played);
 }
 
 // A small window at the lower border of the picture; returns its width.
@@ -460,7 +545,8 @@ float App::begin_overlay(const char* name) const {
   const float margin = 14 * scale;
   const float across = picture_size().x / static_cast<float>(window_->pixels_per_unit()) - 2 * margin;
   const float width = std::max(across, 100 * scale);
-  ImGui::SetNextWindowPos({margin, ImGui::GetIO().DisplaySize.y - margin}, ImGuiCond_Always, {0, 1});
+  const float bar = reader_ ? player_bar_height(window_->text_scale()) : 0;
+  ImGui::SetNextWindowPos({margin, ImGui::GetIO().DisplaySize.y - bar - margin}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {width, ImGui::GetIO().DisplaySize.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * scale);
   ImGui::SetNextWindowBgAlpha(0.94F);

@@ -1,14 +1,19 @@
 // The window's program: it connects the viewer and the user.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bihive/io/frames.h"
+#include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
+#include "frame_reader.h"
 #include "panel.h"
 #include "picture_texture.h"
+#include "player_bar.h"
 #include "request.h"
 #include "window.h"
 
@@ -18,8 +23,10 @@ namespace bihive::window {
 
 class App {
  public:
-  /// The viewer has the scene of the request.
-  App(Viewer& viewer, const Request& request) : viewer_(viewer), request_(request), input_(request.input) {}
+  /// The viewer has the scene of the request, in its look and with its settings but the engine.
+  /// `frames`: of the request's file; null: there is one alone.
+  App(Viewer& viewer, const Request& request, std::shared_ptr<const Frames> frames)
+      : viewer_(viewer), request_(request), input_(request.input), first_frames_(std::move(frames)) {}
   ~App();
   App(const App&) = delete;
   App& operator=(const App&) = delete;
@@ -45,12 +52,20 @@ class App {
   // Actions on events.
   void open_file(const std::string& path);
   void open_built_in(const std::string& name);
-  void read_again(const ReadOptions& reading);
+  void read_again(const ReadOptions& wanted);
   void opened(const Result<SceneFacts>& facts);
   void apply(const ViewerSettings& settings);
   void apply(const ViewerLook& look);
   void follow(const PanelWishes& wishes);
   void save();
+
+  // The player.
+  void take_frames(std::shared_ptr<const Frames> frames, std::int64_t frame);
+  void toggle_play();
+  void step_frames(int by);
+  void go_to(std::int64_t frame);
+  void continue_playing();
+  void follow(const PlayerWishes& wishes);
   Result<PngPixels> picture_to_save();
   void say(const std::string& text, bool bad);
 
@@ -68,6 +83,11 @@ class App {
   std::unique_ptr<Window> window_;
   std::unique_ptr<PictureTexture> texture_;
   Panel panel_;
+  std::shared_ptr<const Frames> first_frames_;
+  Player player_;
+  std::unique_ptr<FrameReader> reader_;  // null: the scene has one frame
+  std::int64_t frame_in_viewer_ = 0;
+  bool frame_is_drawn_ = true;  // that one
   bool panel_shown_ = true;
   std::string message_;
   bool message_is_bad_ = false;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <sstream>
 
+#include "bihive/io/cell_options.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/names.h"
 #include "theme.h"
@@ -258,6 +259,33 @@ void EffectsPanel::draw_labels(ViewerSettings& settings) {
   ImGui::EndDisabled();
 }
 
+void EffectsPanel::draw_cell(const SceneFacts& facts, ViewerSettings& settings) {
+  const bool gpu = settings.engine == ViewerEngine::gpu;
+  const auto words = [](const std::array<std::int32_t, 3>& counts) {
+    return fmt::format("{}x{}x{}", counts[0], counts[1], counts[2]);
+  };
+  ImGui::BeginDisabled(gpu);
+  check("edges", settings.cell);
+  const std::string own = words(facts.copies);
+  std::string copies = settings.replicate ? words(*settings.replicate) : "";
+  if (text("copies", own.c_str(), copies)) {
+    const Result<std::array<std::int32_t, 3>> counts = copies_from_text(copies);
+    if (counts) settings.replicate = *counts;
+    if (copies.empty()) settings.replicate.reset();
+  }
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip(
+        "%s", gpu ? "the CPU engine alone draws cells and copies" : "AxBxC: so many along the vectors of the cell");
+}
+
+void EffectsPanel::start_anew() {
+  edited_field_.clear();
+  edited_text_.clear();
+  own_lights_ = false;
+  focus_kind_ = -1;
+}
+
 void EffectsPanel::draw(const Viewer& viewer, ViewerSettings& settings, ViewerLook& look, bool& look_changed) {
   const SceneFacts& facts = viewer.facts();
   ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y * 0.4F});
@@ -267,6 +295,7 @@ void EffectsPanel::draw(const Viewer& viewer, ViewerSettings& settings, ViewerLo
   if (group("lines")) look_changed = draw_lines(facts, settings.effects, look) || look_changed;
   if (group("lens")) draw_lens(settings);
   if (group("labels")) draw_labels(settings);
+  if (facts.has_cell && group("cell")) draw_cell(facts, settings);
 }
 
 }  // namespace bihive::window

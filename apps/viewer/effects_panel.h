@@ -1,5 +1,5 @@
-// The panel's groups for what a picture gets beyond plain rays: colours, light, lines, lens and labels. Each is closed
-// until somebody opens it.
+// The panel's groups for what a picture gets beyond plain rays: colours, light, lines, lens, labels and cell. Each is
+// closed until somebody opens it.
 #pragma once
 
 #include <string>
@@ -14,6 +14,9 @@ class EffectsPanel {
   /// Draws the groups and changes what the user changes. `look_changed`: the look is another one.
   void draw(const Viewer& viewer, ViewerSettings& settings, ViewerLook& look, bool& look_changed);
 
+  /// Another scene is on show: forgets what is being written and chosen.
+  void start_anew();
+
   /// A field of text, also for other parts of the panel. True when the user has finished another text; until then
   /// `value` stays.
   bool text(const char* name, const char* hint, std::string& value);
@@ -26,6 +29,7 @@ class EffectsPanel {
   bool draw_lines(const SceneFacts& facts, ViewerEffects& effects, ViewerLook& look);
   void draw_lens(ViewerSettings& settings);
   void draw_labels(ViewerSettings& settings);
+  void draw_cell(const SceneFacts& facts, ViewerSettings& settings);
 
   std::string edited_field_, edited_text_;  // what is being written, and where
   bool own_lights_ = false;                 // chosen, although there are none yet

@@ -3,10 +3,13 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "app.h"
 #include "bihive/base/write_file.h"
 #include "bihive/scene/load_scene.h"
+#include "bihive/viewer/load_file.h"
+#include "bihive/viewer/viewer_json.h"
 
 namespace bihive::window {
 namespace {
@@ -18,11 +21,24 @@ int fail(const Error& error, ExitCode code) {
   return code;
 }
 
-Result<SceneFacts> load(Viewer& viewer, const Request& request) {
-  if (is_built_in_scene(request.input)) return viewer.load_built_in(request.input, request.scenario, request.reading);
-  const Result<std::string> bytes = read_file(request.input);
-  if (!bytes) return bytes.error();
-  return viewer.load(*bytes, request.input, request.reading);
+Result<LoadedFile> load(Viewer& viewer, const Request& request) {
+  if (!is_built_in_scene(request.input)) return load_file(viewer, request.input, request.reading);
+  Result<SceneFacts> facts = viewer.load_built_in(request.input, request.scenario, request.reading);
+  if (!facts) return facts.error();
+  return LoadedFile{std::move(*facts), nullptr};
+}
+
+// The look and the settings that were asked for; the engine comes with the window.
+Status choose(Viewer& viewer, const Request& request) {
+  const Result<ViewerLook> look = viewer_look_from_json(request.look, viewer.look());
+  if (!look) return look.error();
+  if (*look != viewer.look())
+    if (const auto shown = viewer.set_look(*look); !shown) return shown.error();
+  if (request.side) viewer.look_from(*request.side);
+  Result<ViewerSettings> settings = settings_from_json(request.settings, viewer.settings());
+  if (!settings) return settings.error();
+  settings->engine = ViewerEngine::cpu;
+  return viewer.set(*settings);
 }
 
 int run(int argc, char** argv) {
@@ -32,10 +48,12 @@ int run(int argc, char** argv) {
   if (!request->screenshot.empty())
     if (const Status status = check_writable(request->screenshot); !status) return fail(status.error(), kBadInput);
   Viewer viewer;
-  const Result<SceneFacts> facts = load(viewer, *request);
-  if (!facts) return fail(facts.error(), kBadInput);
-  for (const std::string& warning : facts->warnings) std::fprintf(stderr, "bihive: warning: %s\n", warning.c_str());
-  App app(viewer, *request);
+  Result<LoadedFile> file = load(viewer, *request);
+  if (!file) return fail(file.error(), kBadInput);
+  for (const std::string& warning : file->facts.warnings)
+    std::fprintf(stderr, "bihive: warning: %s\n", warning.c_str());
+  if (const Status status = choose(viewer, *request); !status) return fail(status.error(), kBadUsage);
+  App app(viewer, *request, std::move(file->frames));
   if (const Status status = app.open(); !status) return fail(status.error(), kEnvironment);
   if (const Status status = app.run(); !status) return fail(status.error(), kBadInput);
   return kSuccess;

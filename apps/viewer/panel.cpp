@@ -126,12 +126,17 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
     ImGui::EndCombo();
   }
   slider("recursion", settings.recursion, kMostRecursion);
-  ImGui::BeginDisabled(settings.effects.adaptive_samples);
+  ImGui::BeginDisabled(draws_adaptive_samples(settings));
   slider("samples", settings.samples_per_pixel, kMostSamples, ImGuiSliderFlags_Logarithmic);
   ImGui::EndDisabled();
   label("more on edges");
+  const bool gpu = settings.engine == ViewerEngine::gpu;
+  ImGui::BeginDisabled(gpu);
   ImGui::Checkbox("##adaptive", &settings.effects.adaptive_samples);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("4 samples a pixel, and 16 on edges");
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s",
+                      gpu ? "the CPU engine alone draws more samples on edges" : "4 samples a pixel, and 16 on edges");
 }
 
 void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {
@@ -200,7 +205,8 @@ void Panel::draw_keys() const {
   ImGui::PushTextWrapPos(0);
   ImGui::TextColored(kDim,
                      "drag to turn, with shift or another button to shift, wheel to zoom; arrows, + and - likewise\n"
-                     "1-7 view   E engine   R home   O open   S save   H panel   Q quit");
+                     "1-7 view   E engine   R home   O open   S save   H panel   Q quit\n"
+                     "of several frames: space plays, comma and full stop step");
   ImGui::PopTextWrapPos();
 }
 

@@ -16,7 +16,7 @@ Request take(const json& document) {
   request.scenario.seed = document.value("seed", request.scenario.seed);
   if (document.contains("radius")) {
     const double radius = document.at("radius").get<double>();
-    request.scenario.radius = static_cast<float>(radius);
+    request.scenario.radius = scenario_radius(radius);
     request.reading.radius = radius;
   }
   request.reading.radius_scale = document.value("radius_scale", request.reading.radius_scale);
@@ -43,7 +43,7 @@ Request take(const json& document) {
   for (const auto& [name, side] : kSides)
     if (document.value("view_from", "") == name) request.side = side;
   if (document.contains("settings")) request.settings = document.at("settings").dump();
-  request.style = document.value("style", "");
+  if (document.contains("look")) request.look = document.at("look").dump();
   request.screenshot = document.value("screenshot", "");
   return request;
 }

@@ -6,7 +6,7 @@
 //    "radius_scale": 1, "recenter": false, "frame": 0, "assembly": "1",
 //    "replicate": [1, 1, 1], "cell_vectors": [[x, y, z], ...], "cell_origin": [x, y, z], "wrapping": "wrap",
 //    "size": [1280, 800], "view_from": "left",
-//    "settings": {...},                      as in viewer/viewer_json.h; missing ones are the scene's
+//    "settings": {...}, "look": {...},       as in viewer/viewer_json.h; missing ones are the scene's
 //    "screenshot": "window.png"}
 #pragma once
 
@@ -28,7 +28,7 @@ struct Request {
   int width = 1280, height = 800;  ///< of the window, in the screen's units
   std::optional<ViewFrom> side;
   std::string settings = "{}";
-  std::string style;       ///< empty: what `bihive render` takes without --style
+  std::string look = "{}";
   std::string screenshot;  ///< not empty: a PNG of the settled window is written there, and the program ends
 };
 

@@ -3,8 +3,10 @@
 #include <emscripten/bind.h>
 #include <emscripten/html5_webgl.h>
 
+#include <cmath>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "bihive/base/parallel.h"
@@ -18,6 +20,7 @@
 #include "bihive/thesis/builtin_values.h"
 #include "bihive/thesis/frame_rates_report.h"
 #include "bihive/thesis/stated_values.h"
+#include "bihive/viewer/load_file.h"
 #include "bihive/viewer/viewer_json.h"
 
 namespace bihive::page {
@@ -25,8 +28,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::string_view kFolder = "/files-of-the-user/";
+
+// Nobody knows the folder but this module and its worker.
 std::string text_of(const ordered_json& json) {
-  return json.dump(-1, ' ', /*ensure_ascii=*/false, ordered_json::error_handler_t::replace);
+  std::string text = json.dump(-1, ' ', /*ensure_ascii=*/false, ordered_json::error_handler_t::replace);
+  for (std::size_t at = text.find(kFolder); at != std::string::npos; at = text.find(kFolder, at))
+    text.erase(at, kFolder.size());
+  return text;
 }
 
 ordered_json failure_json(const Error& error) {
@@ -56,6 +65,9 @@ Result<StatedValues> stated_values() {
 std::string done_or(const Status& status) {
   return status ? "{}" : failure(status.error());
 }
+
+// JavaScript's largest whole number; memory allows fewer spheres.
+constexpr double kMostSpheres = 9007199254740991;
 
 // A radius below 0: the file's own.
 ReadOptions reading_of(double radius, double radius_scale) {
@@ -89,10 +101,8 @@ std::string with_memory(const Work& work) {
 
 }  // namespace
 
-emscripten::val Page::room(double bytes) {
-  input_.assign(static_cast<std::size_t>(bytes), '\0');
-  return emscripten::val(
-      emscripten::typed_memory_view(input_.size(), reinterpret_cast<const std::uint8_t*>(input_.data())));
+std::string Page::folder() {
+  return std::string(kFolder);
 }
 
 std::string Page::loaded(const Result<SceneFacts>& facts) const {
@@ -107,6 +117,8 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
                    {"takes_style", facts->takes_style},
                    {"is_file_of_spheres", facts->is_file_of_spheres},
                    {"has_elements", facts->has_elements},
+                   {"has_cell", facts->has_cell},
+                   {"copies", facts->copies},
                    {"attributes", facts->attributes}};
   json["settings"] = ordered_json::parse(settings());
   json["look"] = ordered_json::parse(look());
@@ -114,19 +126,88 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
   return text_of(json);
 }
 
-std::string Page::load(const std::string& name, double radius, double radius_scale) {
+std::string Page::load(const std::string& name, const std::string& trajectory, double radius, double radius_scale) {
   return with_memory([&] {
-    const std::string bytes = std::exchange(input_, {});
-    return loaded(viewer_.load(bytes, name, reading_of(radius, radius_scale)));
+    ReadOptions reading = reading_of(radius, radius_scale);
+    if (!trajectory.empty()) reading.trajectory = folder() + trajectory;
+    Result<LoadedFile> file = load_file(viewer_, folder() + name, reading);
+    if (!file) return failure(file.error());
+    frames_ = std::move(file->frames);
+    start_player();
+    return loaded(file->facts);
   });
+}
+
+// --- The player -------------------------------------------------------------------------------------------------
+
+void Page::start_player() {
+  player_.start_anew(frames_ ? frames_->count() : 1);
+  frame_in_viewer_ = 0;
+  frame_is_drawn_ = true;
+}
+
+std::string Page::player() const {
+  const std::optional<double> time_ps = viewer_.facts().time_ps;
+  return text_of({{"frames", player_.frames()},
+                  {"frame", player_.frame()},
+                  {"shown", player_.is_shown()},
+                  {"playing", player_.playing()},
+                  {"loops", player_.loops()},
+                  {"frames_per_second", player_.frames_per_second()},
+                  {"time_ps", time_ps ? ordered_json(*time_ps) : ordered_json()}});
+}
+
+void Page::toggle_play(double now_ms) {
+  if (player_.playing())
+    player_.pause();
+  else
+    player_.play(now_ms);
+}
+
+void Page::go_to_frame(double frame) {
+  if (frame >= 0 && frame < double(player_.frames())) player_.go_to(static_cast<std::int64_t>(frame));
+}
+
+std::string Page::continue_playing(double now_ms) {
+  return with_memory([&] {
+    if (!frames_) return std::string("{}");
+    player_.advance(now_ms);
+    const std::int64_t frame = player_.frame();
+    if (frame == frame_in_viewer_) {
+      if (frame_is_drawn_) player_.shown(now_ms);
+      return std::string("{}");
+    }
+    const Status shown = show_frame(frame);
+    if (shown) return std::string("{}");
+    player_.start_anew(player_.frames(), frame_in_viewer_);
+    return failure(shown.error());
+  });
+}
+
+Status Page::show_frame(std::int64_t frame) {
+  Result<SphereFile> read = frames_->read(frame);
+  if (!read) return read.error();
+  Result<std::shared_ptr<PreparedFrame>> made = viewer_.frame_maker()->make(std::move(*read));
+  if (!made) return made.error();
+  if (const Result<bool> shown = viewer_.show_frame(**made); !shown) return shown.error();
+  frame_in_viewer_ = frame;
+  frame_is_drawn_ = false;
+  return Done{};
 }
 
 std::string Page::load_built_in(const std::string& name, double count, double radius, double radius_scale) {
   return with_memory([&] {
     ScenarioParameters parameters;
-    if (count >= 1) parameters.count = static_cast<std::int64_t>(count);
-    if (radius >= 0) parameters.radius = static_cast<float>(radius);
-    return loaded(viewer_.load_built_in(name, parameters, reading_of(radius, radius_scale)));
+    if (count != 0) {
+      if (!(count >= 1 && count <= kMostSpheres && count == std::floor(count)))
+        return failure({"the number of spheres must be a whole number from 1", name, 0, 0, ""});
+      parameters.count = static_cast<std::int64_t>(count);
+    }
+    if (radius >= 0) parameters.radius = scenario_radius(radius);
+    const Result<SceneFacts> facts = viewer_.load_built_in(name, parameters, reading_of(radius, radius_scale));
+    if (facts) frames_.reset();
+    if (facts) start_player();
+    return loaded(facts);
   });
 }
 
@@ -191,6 +272,7 @@ std::string Page::frame(double budget_ms) {
   return with_memory([&] {
     const Result<FrameReport> report = viewer_.frame(budget_ms);
     if (!report) return failure(report.error());
+    if (report->drawn) frame_is_drawn_ = true;
     return text_of({{"drawn", report->drawn},
                     {"settled", report->settled},
                     {"done", report->done},
@@ -306,7 +388,14 @@ EMSCRIPTEN_BINDINGS(page) {
   emscripten::function("threads", &bihive::hardware_threads);
   emscripten::class_<Page>("Page")
       .constructor<>()
-      .function("room", &Page::room)
+      .class_function("folder", &Page::folder)
+      .function("player", &Page::player)
+      .function("toggle_play", &Page::toggle_play)
+      .function("step_frames", &Page::step_frames)
+      .function("go_to_frame", &Page::go_to_frame)
+      .function("set_frames_per_second", &Page::set_frames_per_second)
+      .function("set_loops", &Page::set_loops)
+      .function("continue_playing", &Page::continue_playing)
       .function("load", &Page::load)
       .function("load_built_in", &Page::load_built_in)
       .function("settings", &Page::settings)

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "bihive/thesis/frame_rates.h"
+#include "bihive/io/frames.h"
+#include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
 
 namespace bihive::page {
@@ -22,11 +24,25 @@ class Page {
   // The scene. Answers: {"facts": {...}, "settings": {...}, "look": {...}, "coloured_by": [...]}. `radius` below 0: the
   // file's own; `radius_scale` multiplies every radius of a file.
 
-  /// Room for the bytes of a file, as a view of memory. load() takes the bytes written there.
-  emscripten::val room(double bytes);
-  std::string load(const std::string& name, double radius, double radius_scale);
+  /// Where the caller puts the user's files (Emscripten's WORKERFS), with a slash at its end. Answers leave it out.
+  static std::string folder();
+  /// A file there, and its trajectory, or an empty text. Both must stay until the next scene is loaded: frames are read
+  /// when they are wanted.
+  std::string load(const std::string& name, const std::string& trajectory, double radius, double radius_scale);
   /// `count` 0: the scenario's own number of spheres.
   std::string load_built_in(const std::string& name, double count, double radius, double radius_scale);
+
+  // The player of a file with several frames. Times are of any steady clock, in milliseconds.
+
+  /// {"frames", "frame", "shown", "playing", "loops", "frames_per_second", "time_ps" or null}
+  std::string player() const;
+  void toggle_play(double now_ms);
+  void step_frames(int by) { player_.step(by); }
+  void go_to_frame(double frame);
+  void set_frames_per_second(double speed) { player_.set_frames_per_second(speed); }
+  void set_loops(bool loops) { player_.set_loops(loops); }
+  /// Moves on where it is time for it, and reads and shows the frame that is wanted.
+  std::string continue_playing(double now_ms);
 
   // The settings, as JSON texts (viewer/viewer_json.h). set() leaves settings unchanged that its text does not name.
 
@@ -82,10 +98,15 @@ class Page {
   std::string end_thesis(const std::string& device);
 
  private:
+  void start_player();
+  Status show_frame(std::int64_t frame);
   std::string loaded(const Result<SceneFacts>& facts) const;
 
   Viewer viewer_;
-  std::string input_;
+  std::shared_ptr<const Frames> frames_;  // null: there is one
+  Player player_;
+  std::int64_t frame_in_viewer_ = 0;
+  bool frame_is_drawn_ = true;  // that one
   std::vector<std::uint8_t> pixels_;
   std::optional<GlRenderer> thesis_gl_;
   std::optional<FrameRateRun> thesis_;

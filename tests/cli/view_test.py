@@ -14,6 +14,20 @@ from screen import Screen
 HAS_WINDOW = "BIHIVE_VIEW" in os.environ
 PANEL_PX = 348
 PANEL_COLOUR = (27, 29, 33)
+BOX = """ITEM: TIMESTEP
+0
+ITEM: NUMBER OF ATOMS
+2
+ITEM: BOX BOUNDS pp pp pp
+0 4
+0 5
+0 6
+ITEM: ATOMS id type x y z
+1 1 1 1 1
+2 2 2 3 4
+"""
+# Two spheres stay, so that each of the six frames is framed alike.
+RUN = "".join(f"3\nframe {i}\nC 0 0 0\nO 6 3 0\nN {1 + i / 2} {1 + i / 4} 0\n" for i in range(6))
 
 
 def share_off(a, b, tolerance):
@@ -127,6 +141,38 @@ class Window(ProgramTest):
             shown, _ = self.screenshot("two.json", "--size", "620x240")
             self.assertTrue(shown == self.rendered("272x240", "two.json"), (own_camera, own))
 
+    def test_looks_and_effects_are_those_of_render(self):
+        self.write("box.lammpstrj", BOX)
+        effects = ["--fog", "0.6", "--exposure", "0.5", "--tone", "filmic", "--ao-distance", "4", "--outline", "3"]
+        light = ["--light", "headlight", "--light", "from:-1,1,1:orange:0.5:20", "--light-points", "3", "--no-shadows"]
+        rows = ["--colour", "grey", "--select", "chain A", "--colour-by", "b_factor:magma", "--select", "resid 1..20"]
+        rows += ["--radius-scale", "1.2", "--outline", "2", "--no-water", "--element-colours", "cpk"]
+        labels = ["--title", "Two words", "--axes", "--scale-bar", "--projection", "orthographic"]
+        lens = ["--aperture", "2", "--focus", "resname 478", "--fov", "40", "--samples", "8"]
+        for given in [
+            ["demo", "--style", "studio", *effects],
+            ["demo", *light, "--background", "black", "--samples", "auto"],
+            ["demo", *rows, "--no-ao"],
+            ["demo", *labels],
+            ["demo", *lens],
+            ["box.lammpstrj", "--radius", "1", "--cell", "--replicate", "2x1x1", "--view-from", "iso"],
+        ]:
+            picture, _ = self.screenshot(*given, "--size", "620x220")
+            self.assertTrue(picture == self.rendered("272x220", *given), given)
+
+    def test_looks_that_do_not_fit(self):
+        env = self.screen.environment()
+        for words, given in [
+            ("nothing is called", ["demo", "--select", "charge > 0", "--hide"]),
+            ("hidden", ["demo", "--hide"]),
+            ("scale bar", ["demo", "--scale-bar"]),
+            ("focus", ["demo", "--aperture", "1", "--focus", "resname NOT"]),
+        ]:
+            done = self.run_bihive("view", *given, env=env)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), given)
+            self.assert_one_error_line(done.stderr)
+            self.assertRegex(done.stderr, words if given[1] != "--select" else "charge")
+
     def test_bad_input(self):
         for name, content in [("broken.pdb", "ATOM what"), ("missing.xyz", None)]:
             if content is not None:
@@ -192,7 +238,7 @@ class Window(ProgramTest):
             if new:
                 data = self.read(new[0])
                 text = png_text(data)
-                picture = {"name": new[0], "size": png_size(data), "scene": text["Scene"]}
+                picture = {"name": new[0], "size": png_size(data), "scene": text["Scene"], "frame": int(text.get("Frame", 0))}
                 return {**picture, "look": json.loads(text["Look"]), **json.loads(text["Settings"])}
             time.sleep(0.05)
         self.fail("nothing was saved")
@@ -261,6 +307,50 @@ class Window(ProgramTest):
         self.press("q")
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
+
+    def test_frames_are_played(self):
+        self.write("run.xyz", RUN)
+        self.open_window("run.xyz", "--size", "700x400", "--samples", "1", "--frame", "1")
+        self.assertEqual(self.frame()["frame"], 1)
+        camera = self.frame()["camera"]
+        for key, frame in [("period", 2), ("period", 3), ("comma", 2), ("comma", 1), ("comma", 0), ("comma", 5)]:
+            self.press(key)
+            self.wait_for_frame(frame)
+        shown = self.frame()
+        self.assertEqual(shown["camera"], camera, "the camera stays")
+        size = f"{700 - PANEL_PX}x400"
+        native = self.rendered(size, "run.xyz", "--samples", "1", "--frame", "5")
+        self.assertTrue(png_pixels(self.read(shown["name"])) == native, "the pixels differ")
+
+        # It plays on and on, and stops where the key is pressed.
+        self.press("space")
+        seen = {self.frame()["frame"] for _ in range(12)}
+        self.assertGreater(len(seen), 2)
+        self.press("space")
+        time.sleep(0.5)
+        self.assertEqual(self.frame()["frame"], self.frame()["frame"])
+
+        # The time line: its right end is the last frame, and the camera turns as ever.
+        line = 700 - PANEL_PX - 160
+        self.tool("mousemove", "--window", self.window, str(line), "380")
+        time.sleep(0.3)
+        self.tool("click", "1")
+        time.sleep(1)
+        self.press("Left")
+        self.assertNotEqual(self.frame()["camera"], camera)
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
+
+    def frame(self):
+        return self.saved()
+
+    def wait_for_frame(self, frame):
+        deadline = time.monotonic() + PATIENCE_S
+        while time.monotonic() < deadline:
+            if self.frame()["frame"] == frame:
+                return
+            time.sleep(0.1)
+        self.fail(f"frame {frame} does not come")
 
     def test_a_look_of_a_selection(self):
         """A row of the panel by pointer and keys: the button is below six lines of the panel. Nothing but the picture

@@ -87,6 +87,51 @@ TEST(ViewerCopies, AreSettings) {
     EXPECT_NE(settings_from_json(bad).error().to_string().find("/replicate"), std::string::npos) << bad;
 }
 
+TEST(ViewerCell, IsTheScenesUntilTheUserChanges) {
+  Viewer viewer;
+  viewer.resize(90, 60);
+  ASSERT_TRUE(viewer.load(kDocument, "a.json").ok());
+  EXPECT_TRUE(viewer.facts().has_cell);
+  EXPECT_EQ(viewer.facts().copies, (std::array<std::int32_t, 3>{3, 1, 2}));
+  ViewerSettings settings = viewer.settings();
+  EXPECT_TRUE(settings.cell);
+  const PictureDefaults& own = viewer.scene().picture;
+  EXPECT_EQ(render_settings(settings, own, 90, 60, 1).cell_lines->width_px, 3.5);
+  const std::uint64_t with = picture_hash(viewer.picture(90, 60, 1).value());
+  settings.cell = false;
+  ASSERT_TRUE(viewer.set(settings).ok());
+  EXPECT_FALSE(render_settings(viewer.settings(), own, 90, 60, 1).cell_lines.has_value());
+  EXPECT_NE(picture_hash(viewer.picture(90, 60, 1).value()), with);
+
+  // The next scene brings its own.
+  ASSERT_TRUE(viewer.load("x,y,z,r\n0,0,0,1\n", "a.csv").ok());
+  EXPECT_FALSE(viewer.settings().cell);
+  EXPECT_FALSE(viewer.facts().has_cell);
+}
+
+TEST(ViewerCell, StaysInThePictureWhileItTurns) {
+  Viewer viewer;
+  viewer.resize(160, 90);
+  ReadOptions options;
+  options.cell_vectors = {Vec3d{9, 0, 0}, Vec3d{0, 9, 0}, Vec3d{0, 0, 30}};
+  ASSERT_TRUE(viewer.load("x,y,z,r\n0,0,0,1\n", "a.csv", options).ok());
+  ViewerSettings settings = viewer.settings();
+  settings.cell = true;
+  ASSERT_TRUE(viewer.set(settings).ok());
+  for (int i = 0; i < 8; ++i) {
+    const PixelPlaces places(viewer.settings().camera, 160, 90);
+    for (const Vec3d corner : cell_corners(viewer.scene().spheres)) {
+      const Vec3d seen = places.from_eye(corner);
+      EXPECT_GT(seen.z, 0) << i;
+      EXPECT_GT(places.x_px(seen), 0) << i;
+      EXPECT_LT(places.x_px(seen), 160) << i;
+      EXPECT_GT(places.y_px(seen), 0) << i;
+      EXPECT_LT(places.y_px(seen), 90) << i;
+    }
+    viewer.orbit(15, 4);
+  }
+}
+
 TEST(ViewerCopies, AreDrawnAndTakenBack) {
   Viewer viewer;
   ASSERT_TRUE(viewer.load(kDocument, "a.json").ok());

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "bihive/math/rng.h"
 
@@ -80,6 +81,15 @@ TEST(Scenarios, refuse_what_does_not_fit) {
   EXPECT_FALSE(scenario_spheres(Scenario::mixed, {8, 4, 1}));
   EXPECT_FALSE(scenario_spheres(Scenario::mixed, {8, 0, 1}));
   EXPECT_FALSE(scenario_spheres(Scenario::mixed, {8, std::nanf(""), 1}));
+}
+
+TEST(Scenarios, a_radius_beyond_binary32_is_refused) {
+  EXPECT_EQ(scenario_radius(0.1), 0.1F);
+  for (const double radius : {1e39, -1e39, 1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    ScenarioParameters parameters;
+    parameters.radius = scenario_radius(radius);
+    EXPECT_FALSE(scenario_spheres(Scenario::grid, parameters)) << radius;
+  }
 }
 
 TEST(Scenarios, come_with_the_scene_of_the_thesis) {

@@ -383,6 +383,34 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
     settings.max_prims = 2;
     ASSERT_TRUE(viewer.set(settings));
   });
+  expect_dropped("set_look", [&] {
+    ViewerLook look = viewer.look();
+    look.style = "flat";
+    ASSERT_TRUE(viewer.set_look(look));
+  });
+
+  // What is refused changes nothing.
+  const auto expect_kept = [&](const char* in_spite_of, const auto& refused) {
+    ASSERT_TRUE(viewer.begin_picture(300, 200, 1)) << in_spite_of;
+    ASSERT_TRUE(viewer.advance_picture(1e-3)) << in_spite_of;
+    EXPECT_FALSE(refused()) << in_spite_of;
+    EXPECT_TRUE(viewer.advance_picture(1)) << in_spite_of;
+  };
+  const auto set = [&](const auto& change) {
+    ViewerSettings settings = viewer.settings();
+    change(settings);
+    return static_cast<bool>(viewer.set(settings));
+  };
+  expect_kept("range", [&] { return set([](ViewerSettings& s) { s.recursion = 99; }); });
+  expect_kept("wish", [&] { return set([](ViewerSettings& s) { s.effects.labels.scale_bar = true; }); });
+  expect_kept("engine", [&] { return set([](ViewerSettings& s) { s.engine = ViewerEngine::gpu; }); });
+  expect_kept("focus", [&] { return set([](ViewerSettings& s) { s.focus_on = "resname NOT"; }); });
+  expect_kept("look", [&] {
+    ViewerLook look = viewer.look();
+    look.rows = {{"all", "hide", ""}};
+    return static_cast<bool>(viewer.set_look(look));
+  });
+  expect_kept("load", [&] { return static_cast<bool>(viewer.load("ATOM nonsense", "broken.pdb")); });
   expect_dropped("load", [&] { ASSERT_TRUE(viewer.load_built_in("four-spheres")); });
   settle(viewer);
   EXPECT_EQ(picture_hash(viewer.image()), picture_hash(rendered(viewer, Engine::wide, settings_of(viewer, 64, 36))));
@@ -461,7 +489,7 @@ double least_border_px(const Viewer& viewer, int width, int height) {
                                   : std::min(width, height) / (2 * std::tan(camera.fov_deg * std::acos(-1.0) / 360));
   double least = width;
   const SphereSet& spheres = viewer.scene().spheres;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+  for (std::int64_t id = 0; id < spheres.total_size(); ++id) {
     const Vec3d seen = places.from_eye(spheres.centre(id));
     const double radius = spheres.radius(id) * (parallel ? px_at_1 : px_at_1 / seen.z);
     EXPECT_GT(seen.z, spheres.radius(id)) << "in front of the eye";
@@ -502,6 +530,38 @@ TEST(Viewer, a_long_set_stays_in_the_picture_while_it_turns) {
                 length(near.eye - near.look_at), 1e-9);
     EXPECT_EQ(viewer.settings().camera.shorter_side, near.shorter_side);
   }
+}
+
+TEST(Viewer, copies_stay_in_the_picture_while_they_turn) {
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    Viewer viewer;
+    viewer.resize(160, 90);
+    ReadOptions options;
+    options.cell_vectors = {Vec3d{2, 0, 0}, Vec3d{0.5, 2, 0}, Vec3d{0, 0, 5}};
+    options.replicate = {2, 1, 12};
+    ASSERT_TRUE(viewer.load("x,y,z,r\n0,0,0,1\n1,1,1,0.5\n", "pair.csv", options));
+    ViewerSettings settings = viewer.settings();
+    settings.camera = with_projection(settings.camera, projection);
+    ASSERT_TRUE(viewer.set(settings));
+    for (int i = 0; i < 12; ++i) {
+      viewer.orbit(12, 5);
+      EXPECT_GT(least_border_px(viewer, 160, 90), 0) << i;
+    }
+  }
+}
+
+TEST(Viewer, home_brings_the_scenes_own_angle_back) {
+  Viewer viewer;
+  viewer.resize(96, 64);
+  ASSERT_TRUE(viewer.load_built_in("four-spheres"));
+  const double own = viewer.settings().camera.fov_deg;
+  ViewerSettings settings = viewer.settings();
+  settings.camera.fov_deg = own + 20;
+  ASSERT_TRUE(viewer.set(settings));
+  viewer.home();
+  EXPECT_EQ(viewer.settings().camera.fov_deg, own);
+  viewer.look_from(ViewFrom::left);
+  EXPECT_EQ(viewer.settings().camera.fov_deg, own);
 }
 
 TEST(Viewer, another_angle_still_shows_the_whole_set) {

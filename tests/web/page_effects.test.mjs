@@ -3,28 +3,14 @@
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ways_in } from './page_files.mjs';
 import {
-  and_settle, assert_same_picture, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
-  scratch, set_value, shown_error, shown_picture,
+  and_settle, assert_same_picture, height, link_state, native_picture, no_complaints, open_page, saved_picture,
+  scratch, set_value, shown_error, shown_picture, size, small, width, with_page,
 } from './page_kit.mjs';
-import { serve } from './page_server.mjs';
 
-// The picture is what the panel leaves of the window.
-const small = { viewport: { width: 800, height: 240 } };
-const [width, height] = [468, 240];
-const size = ['--size', `${width}x${height}`];
-
-let browser, server;
-before(async () => {
-  browser = await launch();
-  server = await serve(folder);
-});
-after(async () => {
-  await browser?.close();
-  server?.close();
-});
+const kit = with_page();
 
 // Opens a group by the keyboard.
 async function open_group(page, id) {
@@ -103,7 +89,7 @@ function without(options, gone) {
 
 for (const [group, steps] of Object.entries(groups))
   test(`${group}: each control is an option of the program`, async () => {
-    const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 800, height: 900 } });
+    const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 800, height: 900 } });
     await and_settle(page, () => set_value(page, '#samples', 2));
     await open_group(page, group);
     await and_settle(page, () => page.setViewportSize(small.viewport));
@@ -121,7 +107,7 @@ for (const [group, steps] of Object.entries(groups))
 
     // A link brings it back, into the controls as well.
     const state = await link_state(page);
-    const other = await open_page(browser, page.url(), { viewport: { width: 780, height: 200 } });
+    const other = await open_page(kit.browser, page.url(), { viewport: { width: 780, height: 200 } });
     assert.deepEqual(await link_state(other.page), state);
     assert_same_picture(await saved_picture(other.page, 448, 200), native, 'by the link');
     const values = (one) =>
@@ -134,10 +120,49 @@ for (const [group, steps] of Object.entries(groups))
   });
 
 test('samples on edges', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   await and_settle(page, () => page.click('#samples_auto'));
   assert.ok(await page.isDisabled('#samples'));
   assert_same_picture(await saved_picture(page, width, height), native_picture('demo', 'auto', ...size, '--samples', 'auto'), 'auto');
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('the cell: edges and copies; only where there is one, and as the scene file says', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  assert.ok(await page.isVisible('#cell_group'), 'the molecule is a crystal');
+  await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
+  assert.ok(await page.isHidden('#cell_group'));
+  const text = 'ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 4\n0 5\n0 6\n' +
+    'ITEM: ATOMS id type x y z\n1 1 1 1 1\n2 2 2 3 4\n';
+  const path = join(scratch, 'cell.lammpstrj');
+  writeFileSync(path, text);
+  await and_settle(page, () => ways_in.picker(page, { name: 'cell.lammpstrj', bytes: Buffer.from(text) }));
+  await open_group(page, 'cell_group');
+  const same = async (what, ...options) =>
+    assert_same_picture(await saved_picture(page, width, height), native_picture(path, 'cell', ...size, ...options), what);
+  await same('as it came');
+  await and_settle(page, () => page.click('#cell'));
+  await same('edges', '--cell');
+  await page.fill('#copies_a', '2');
+  await and_settle(page, () => page.press('#copies_a', 'Enter'));
+  assert.deepEqual(await Promise.all(['a', 'b', 'c'].map((axis) => page.getAttribute(`#copies_${axis}`, 'placeholder'))), ['1', '1', '1']);
+  await same('copies', '--cell', '--replicate', '2x1x1');
+  await and_settle(page, () => page.click('#cell'));
+  await same('copies alone', '--replicate', '2x1x1');
+  const state = await link_state(page);
+  assert.deepEqual([state.settings.cell, state.settings.replicate], [false, [2, 1, 1]]);
+
+  // The edges of a scene file can be switched off.
+  const document = { bihive_scene: 2, cell: { vectors: [[4, 0, 0], [0, 4, 0], [0, 0, 4]] },
+    picture: { cell_lines: { width_px: 3 } }, spheres: [[1, 1, 1, 1]] };
+  await and_settle(page, () => ways_in.picker(page, { name: 'own.json', bytes: Buffer.from(JSON.stringify(document)) }));
+  assert.ok(await page.isChecked('#cell'));
+  await and_settle(page, () => page.click('#cell'));
+  delete document.picture;
+  const plain = join(scratch, 'plain.json');
+  writeFileSync(plain, JSON.stringify(document));
+  assert_same_picture(await saved_picture(page, width, height), native_picture(plain, 'plain', ...size), 'switched off');
   no_complaints(complaints);
   await context.close();
 });
@@ -152,7 +177,7 @@ test('what a scene file says is shown and kept by the controls', async () => {
     },
     spheres: [[0, 0, 0, 1], [1, 0.5, -3, 1]],
   };
-  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   const file = { name: 'own.json', bytes: Buffer.from(JSON.stringify(document)) };
   await and_settle(page, () => ways_in.picker(page, file));
   const value = (id) => page.inputValue(`#${id}`);
@@ -168,7 +193,7 @@ test('what a scene file says is shown and kept by the controls', async () => {
 });
 
 test('what a picture cannot have is said, and the control goes back', async () => {
-  const { page, context } = await open_page(browser, server.url, small);
+  const { page, context } = await open_page(kit.browser, kit.server.url, small);
   assert.ok(await page.isDisabled('#scale_bar'), 'in perspective');
   await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
   await page.evaluate(() => (document.getElementById('labels_group').open = true));

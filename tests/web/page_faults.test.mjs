@@ -280,3 +280,36 @@ test('a radius is a field and an address, and messages name the field', async ()
   assert.match(await shown_error(wrong.page), /radius=wide in the address: expected a number from 0/);
   await wrong.context.close();
 });
+
+test('numbers of a link that no radius and no count can be are refused', async () => {
+  const link = (source) => `${server.url}#state=${Buffer.from(source).toString('base64url')}`;
+  for (const source of [
+    '{"source": {"built_in": "scenario1", "reading": {"radius": 1e39}}}',
+    '{"source": {"built_in": "scenario1", "reading": {"radius": 1e999}}}',
+    '{"source": {"built_in": "scenario1", "count": 1e300}}',
+    '{"source": {"built_in": "scenario1", "count": -5}}',
+    '{"source": {"built_in": "scenario1", "count": 2.5}}',
+  ]) {
+    const { page, context } = await open_page(browser, link(source), small);
+    assert.match(await shown_error(page), /The link is damaged/, source);
+    await context.close();
+  }
+  const asked = await open_page(browser, `${server.url}?radius=1e39`, small);
+  assert.match(await shown_error(asked.page), /radius=1e39 in the address: expected a number from 0 to 3\.4/);
+  await asked.context.close();
+});
+
+test('a file that cannot be read leaves the one before: its radii are changed, and its camera stays', async () => {
+  const { page, context } = await open_page(browser, server.url, small);
+  await and_settle(page, () => ways_in.picker(page, points));
+  await and_settle(page, () => page.press('#picture', 'ArrowUp'));
+  const before = (await link_state(page)).settings.camera;
+  await ways_in.picker(page, { name: 'broken.csv', bytes: Buffer.from('x,y,z\n1,2,what\n') });
+  await shown_error(page);
+  await page.fill('#radius', '0.25');
+  await and_settle(page, () => page.press('#radius', 'Enter'));
+  const state = await link_state(page);
+  assert.deepEqual(state.source, { file: 'points.csv', reading: { radius: 0.25 } });
+  assert.deepEqual(state.settings.camera, before, 'the user has moved it');
+  await context.close();
+});

@@ -72,6 +72,19 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
   await context.close();
 });
 
+test('more samples on edges are the CPU engine’s: the GPU engine takes their number', async () => {
+  const { page, context } = await open_page(browser, server.url, { viewport: { width: 800, height: 240 } });
+  await and_settle(page, () => page.click('#samples_auto'));
+  assert.ok(await page.isDisabled('#samples'));
+  await choose_gpu(page);
+  assert.ok(await page.isEnabled('#samples'));
+  assert.ok(await page.isDisabled('#samples_auto'));
+  assert.ok(await page.isVisible('#samples_auto_note'));
+  await and_settle(page, () => set_value(page, '#samples', 2));
+  assert.equal((await link_state(page)).settings.samples_per_pixel, 2);
+  await context.close();
+});
+
 test('the GPU engine draws styles, and a transparent background', async () => {
   const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
   await choose_gpu(page);

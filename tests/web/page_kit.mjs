@@ -5,8 +5,10 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { after, before } from 'node:test';
 import { inflateSync } from 'node:zlib';
 import { chromium } from 'playwright-core';
+import { serve } from './page_server.mjs';
 
 export const folder = process.env.PAGE;
 export const source = process.env.SOURCE;
@@ -22,6 +24,25 @@ const flags = [
 ];
 
 export const launch = (...more) => chromium.launch({ executablePath: process.env.CHROMIUM, args: [...flags, ...more], timeout: patience });
+
+/** A small window, the picture that the panel leaves of it, and the option for one of this size. */
+export const small = { viewport: { width: 800, height: 240 } };
+export const [width, height] = [468, 240];
+export const size = ['--size', `${width}x${height}`];
+
+/** A browser and a server of the page for all tests of a file: {browser, server} once they run. */
+export function with_page() {
+  const kit = { browser: null, server: null };
+  before(async () => {
+    kit.browser = await launch();
+    kit.server = await serve(folder);
+  });
+  after(async () => {
+    await kit.browser?.close();
+    kit.server?.close();
+  });
+  return kit;
+}
 
 /** How long a test waits for what must come: long, for other work may keep the machine busy. */
 const patience = 300_000;

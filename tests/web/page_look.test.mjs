@@ -4,28 +4,14 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ways_in } from './page_files.mjs';
 import {
-  and_settle, assert_same_picture, decoded, folder, launch, link_state, native_picture, no_complaints, open_page,
-  saved_picture, scratch, set_value, shown_picture,
+  and_settle, assert_same_picture, decoded, height, link_state, native_picture, no_complaints, open_page,
+  saved_picture, scratch, set_value, shown_picture, size, small, width, with_page,
 } from './page_kit.mjs';
-import { serve } from './page_server.mjs';
 
-// The picture is what the panel leaves of the window.
-const small = { viewport: { width: 800, height: 240 } };
-const [width, height] = [468, 240];
-const size = ['--size', `${width}x${height}`];
-
-let browser, server;
-before(async () => {
-  browser = await launch();
-  server = await serve(folder);
-});
-after(async () => {
-  await browser?.close();
-  server?.close();
-});
+const kit = with_page();
 
 const choose_style = (page, style) => and_settle(page, () => page.check(`#style input[value="${style}"]`, { force: true }));
 
@@ -45,7 +31,7 @@ async function add_row(page, { select, action, value }) {
 const words_of = async (page, row) => page.textContent(`.look_row:nth-child(${row}) .words`);
 
 test('each style is the one of the program, with its name and picture', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   const { styles } = JSON.parse(execFileSync(process.env.BIHIVE, ['styles', '--json']));
   const names = styles.map(({ name }) => name);
   assert.deepEqual(await page.$$eval('#style input', (all) => all.map(({ value }) => value).filter(Boolean)), names);
@@ -69,7 +55,7 @@ test('each style is the one of the program, with its name and picture', async ()
 });
 
 test('looks of selections, colours of elements and a background, by keys; and their link', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 800, height: 900 } });
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 800, height: 900 } });
   await and_settle(page, () => set_value(page, '#samples', 1));
   await and_settle(page, () => page.selectOption('#element_colours', 'cpk'));
   await page.selectOption('#background', 'colour');
@@ -96,7 +82,7 @@ test('looks of selections, colours of elements and a background, by keys; and th
   // A link brings all of it back.
   const state = await link_state(page);
   assert.deepEqual(state.look.rows.map(({ select }) => select), rows.map(({ select }) => select));
-  const other = await open_page(browser, page.url(), { viewport: { width: 800, height: 900 } });
+  const other = await open_page(kit.browser, page.url(), { viewport: { width: 800, height: 900 } });
   assert.deepEqual(await link_state(other.page), state);
   assert.equal(await other.page.inputValue('.look_row:nth-child(2) .value'), 'orange');
   assert.equal(await other.page.inputValue('#element_colours'), 'cpk');
@@ -114,7 +100,7 @@ test('looks of selections, colours of elements and a background, by keys; and th
 });
 
 test('a wrong row says why and where below it, and the picture stays', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   await and_settle(page, () => set_value(page, '#samples', 1));
   const picture = await saved_picture(page, 96, 64);
   await add_row(page, { select: 'chain A and wter', action: 'hide' });
@@ -147,7 +133,7 @@ test('a wrong row says why and where below it, and the picture stays', async () 
 });
 
 test('a scene file keeps its own look until a style is chosen', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   const name = 'own.json';
   const text = JSON.stringify({ bihive_scene: 2, background: 'black', spheres: [[0, 0, 0, 1], [2, 0, 0, 1]],
     picture: { ambient_occlusion: {} } });
@@ -165,7 +151,7 @@ test('a scene file keeps its own look until a style is chosen', async () => {
 });
 
 test('a transparent picture of any size is the program’s, with its opacity', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   await and_settle(page, () => page.selectOption('#background', 'none'));
   const saved = await saved_picture(page, width, height);
   assert.equal(decoded(saved).channels, 4);
@@ -180,8 +166,8 @@ test('a transparent picture of any size is the program’s, with its opacity', a
 
 test('a link with a look that does not fit says so and shows the scene', async () => {
   const state = { source: { built_in: 'demo' }, settings: null, look: { style: 'studio', rows: [{ select: 'charge > 0', action: 'hide' }] } };
-  const link = `${server.url}#state=${Buffer.from(JSON.stringify(state)).toString('base64url')}`;
-  const { page, context, complaints } = await open_page(browser, link, small);
+  const link = `${kit.server.url}#state=${Buffer.from(JSON.stringify(state)).toString('base64url')}`;
+  const { page, context, complaints } = await open_page(kit.browser, link, small);
   assert.match(await page.textContent('#messages'), /look does not fit this scene and was left out.*charge/);
   assert.equal((await link_state(page)).look.style, '');
   no_complaints(complaints);
@@ -189,7 +175,7 @@ test('a link with a look that does not fit says so and shows the scene', async (
 });
 
 test('320 pixels are wide enough', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 320, height: 640 } });
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 320, height: 640 } });
   await page.click('#panel_toggle');
   await page.waitForTimeout(350); // until the sheet is up
   await add_row(page, { select: 'chain A', action: 'colour-by', value: 'resid' });

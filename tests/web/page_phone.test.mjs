@@ -1,20 +1,11 @@
 // The page on a phone: 360 pixels wide, by fingers.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { devices } from 'playwright-core';
-import { and_settle, folder, launch, link_state, no_complaints, open_page, scratch, sheet_still } from './page_kit.mjs';
-import { serve } from './page_server.mjs';
+import { and_settle, link_state, no_complaints, open_page, scratch, sheet_still, with_page } from './page_kit.mjs';
 
-let browser, server;
-before(async () => {
-  browser = await launch();
-  server = await serve(folder);
-});
-after(async () => {
-  await browser?.close();
-  server?.close();
-});
+const kit = with_page();
 
 // Fingers on the picture, each moving along a line, as events of the browser.
 async function touch(page, lines) {
@@ -29,7 +20,7 @@ async function touch(page, lines) {
 
 for (const scheme of ['light', 'dark'])
   test(`a phone of 360 pixels, ${scheme}`, async () => {
-    const { page, context, complaints } = await open_page(browser, server.url, {
+    const { page, context, complaints } = await open_page(kit.browser, kit.server.url, {
       ...devices['Pixel 7'],
       viewport: { width: 360, height: 740 },
       colorScheme: scheme,
@@ -90,7 +81,7 @@ for (const scheme of ['light', 'dark'])
 
 for (const scheme of ['light', 'dark'])
   test(`a desktop, ${scheme}`, async () => {
-    const { page, context, complaints } = await open_page(browser, server.url, {
+    const { page, context, complaints } = await open_page(kit.browser, kit.server.url, {
       viewport: { width: 1280, height: 800 },
       colorScheme: scheme,
     });

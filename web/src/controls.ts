@@ -1,7 +1,8 @@
 // The panel's controls for settings. They show the settings, and report the user's changes.
+import { CellControls } from './cell';
 import { element, RadioGroup } from './dom';
 import { EffectControls } from './effects';
-import type { Camera, Changes, EngineName, Move, Settings, SideName, ViewName } from './protocol';
+import type { Camera, Changes, EngineName, Facts, Move, Settings, SideName, ViewName } from './protocol';
 import { Slider } from './slider';
 
 export interface ControlActions {
@@ -17,6 +18,7 @@ export class Controls {
   private readonly engine: RadioGroup;
   private readonly view = element<HTMLSelectElement>('view');
   private readonly effects: EffectControls;
+  private readonly cell: CellControls;
   private readonly projection = element<HTMLSelectElement>('projection');
   private readonly recursion: Slider;
   private readonly samples: Slider;
@@ -31,6 +33,7 @@ export class Controls {
     this.recursion = new Slider('recursion', String, (recursion) => change({ recursion }));
     this.samples = new Slider('samples', String, (samples_per_pixel) => change({ samples_per_pixel }));
     this.effects = new EffectControls(change);
+    this.cell = new CellControls(change);
     this.max_prims = new Slider('max_prims', limit_words, (value) => change({ max_prims: value || null }));
     this.max_depth = new Slider('max_depth', limit_words, (value) => change({ max_depth: value || null }));
     // Only a perspective camera has a lens.
@@ -62,16 +65,23 @@ export class Controls {
     this.actions.change(view === 'tree' ? { view, engine: 'cpu' } : { view });
   }
 
+  /** What the scene has. */
+  show_facts(facts: Facts): void {
+    this.cell.show_facts(facts);
+  }
+
   /** Shows settings that come from the worker; a slider that is being dragged is left alone. */
   show(settings: Settings): void {
     this.shown = settings;
     this.engine.value = settings.engine;
     this.view.value = settings.view;
     this.effects.show(settings);
+    this.cell.show(settings);
     this.projection.value = settings.camera.projection;
     this.recursion.value = settings.recursion;
     this.samples.value = settings.samples_per_pixel;
-    this.samples.disabled = settings.samples_auto;
+    // The GPU engine draws the number of samples everywhere.
+    this.samples.disabled = settings.samples_auto && settings.engine === 'cpu';
     this.max_prims.value = limit_of(settings.max_prims);
     this.max_depth.value = limit_of(settings.max_depth);
   }

@@ -103,6 +103,9 @@ export class EffectControls {
   show(settings: Settings): void {
     this.shown = settings;
     for (const id of boxes) element<HTMLInputElement>(id).checked = settings[id];
+    const gpu = settings.engine === 'gpu';
+    element<HTMLInputElement>('samples_auto').disabled = gpu;
+    element('samples_auto_note').hidden = !gpu;
     this.light_points.value = settings.light_points;
     this.light_points.disabled = !settings.shadows;
     this.ao_distance.value = settings.ao_distance;

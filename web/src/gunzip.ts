@@ -1,18 +1,21 @@
 // Unpacks files packed with gzip by the browser, before the module sees them.
 import { BadInput } from './module';
 
-export function is_packed(bytes: Uint8Array): boolean {
-  return bytes[0] === 0x1f && bytes[1] === 0x8b;
+async function is_packed(content: Blob): Promise<boolean> {
+  const start = new Uint8Array(await content.slice(0, 2).arrayBuffer());
+  return start[0] === 0x1f && start[1] === 0x8b;
 }
 
-/** The bytes themselves where they are not packed. Throws BadInput where they are, and broken. */
-export async function unpacked(bytes: Uint8Array<ArrayBuffer>, name: string): Promise<Uint8Array> {
-  if (!is_packed(bytes)) return bytes;
+/** The content itself where it is not packed. Throws BadInput where it is, and broken, and where it cannot be read. */
+export async function unpacked(content: Blob, name: string): Promise<Blob> {
+  const packed = await is_packed(content).catch(() => {
+    throw new BadInput(`${name} cannot be read: it may have been changed or moved since it was chosen`);
+  });
+  if (!packed) return content;
   if (typeof DecompressionStream === 'undefined')
     throw new BadInput(`${name}: this browser cannot undo gzip; unpack the file first`);
   try {
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
+    return await new Response(content.stream().pipeThrough(new DecompressionStream('gzip'))).blob();
   } catch {
     throw new BadInput(`${name}: the gzip data is broken or cut`);
   }

@@ -18,6 +18,8 @@ export interface KeyActions {
   view(view: ViewName): void;
   engine(): EngineName;
   set_engine(engine: EngineName): void;
+  /** A key of the player; false where there is nothing to play. */
+  play(key: string): boolean;
 }
 
 // Fields take letters and digits; sliders, radio buttons and the scrolled panel take arrows and Home.
@@ -26,7 +28,12 @@ function takes(target: EventTarget | null, key: string): boolean {
   if (target.closest('dialog, select, textarea')) return true;
   const scrolls = key in arrows || key === 'Home';
   if (target instanceof HTMLInputElement)
-    return !['checkbox', 'radio', 'range', 'file'].includes(target.type) || (scrolls && target.type !== 'checkbox');
+    return (
+      !['checkbox', 'radio', 'range', 'file'].includes(target.type) ||
+      (scrolls && target.type !== 'checkbox') ||
+      (key === ' ' && target.type !== 'range')
+    );
+  if (key === ' ') return target.closest('button, summary, label') !== null;
   return scrolls && target.closest('#panel') !== null && target.closest('button, summary, label') === null;
 }
 
@@ -46,7 +53,7 @@ export function listen_for_keys(actions: KeyActions): void {
     } else if (event.key === 'Home') actions.move({ kind: 'home' });
     else if (view) actions.view(view);
     else if (event.key === 'e' || event.key === 'E') actions.set_engine(actions.engine() === 'gpu' ? 'cpu' : 'gpu');
-    else return;
+    else if (!actions.play(event.key)) return;
     event.preventDefault();
   });
 }

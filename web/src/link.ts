@@ -17,10 +17,15 @@ export function link_of(state: State): string {
   return new URL(prefix + text, location.href).href;
 }
 
+// The largest number that the library keeps a radius in; a factor needs no more.
+const largest_radius = 3.4028234663852886e38;
+
+const is_radius = (number: unknown): number is number => typeof number === 'number' && number >= 0 && number <= largest_radius;
+
 function is_reading(value: unknown): value is Reading {
   if (typeof value !== 'object' || value === null) return false;
   return Object.entries(value).every(
-    ([key, number]) => ['radius', 'radius_scale'].includes(key) && typeof number === 'number' && number >= 0,
+    ([key, number]) => ['radius', 'radius_scale'].includes(key) && is_radius(number),
   );
 }
 
@@ -29,7 +34,10 @@ function is_source(value: unknown): value is Source {
   const source = value as Record<string, unknown>;
   if (source['reading'] !== undefined && !is_reading(source['reading'])) return false;
   if (typeof source['file'] === 'string') return true;
-  if (typeof source['built_in'] === 'string') return ['undefined', 'number'].includes(typeof source['count']);
+  if (typeof source['built_in'] === 'string') {
+    const { count } = source;
+    return count === undefined || (Number.isSafeInteger(count) && (count as number) >= 1);
+  }
   return typeof source['url'] === 'string';
 }
 
@@ -68,8 +76,8 @@ export function reading_of(search: string): Reading | undefined {
     const text = asked.get(key);
     if (text === null) continue;
     const number = Number(text);
-    if (text.trim() === '' || !(number >= 0 && number < Infinity))
-      throw new Error(`${key}=${text} in the address: expected a number from 0`);
+    if (text.trim() === '' || !is_radius(number))
+      throw new Error(`${key}=${text} in the address: expected a number from 0 to ${largest_radius}`);
     reading[key] = number;
   }
   return Object.keys(reading).length > 0 ? reading : undefined;

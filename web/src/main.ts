@@ -8,11 +8,13 @@ import { ask_for, type Ask } from './ask';
 import { link_of, reading_of, state_from, state_of, type State } from './link';
 import { busy, clear_errors, clear_notes, fail, note } from './messages';
 import { start_panel } from './panel';
+import { PlayerBar } from './player';
 import { listen_for_pointers } from './pointer';
 import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Move, Reading, Settings, Source } from './protocol';
 import { Saving } from './saving';
 import {
-  listen_for_reading, listen_for_sources, show_source, wanted_file, wanted_source, with_reading, type Wanted,
+  is_trajectory, listen_for_reading, listen_for_sources, show_source, wanted_files, wanted_source, with_reading,
+  type OwnFiles, type Wanted,
 } from './sources';
 import { show_statistics } from './statistics';
 import { start_theme } from './theme';
@@ -34,10 +36,11 @@ let serial = 0;
 let look_serial = 0;
 let loading = 0; // id of the load that is awaited
 let first_frame = false; // of the scene that has just been loaded: it is awaited
-let chosen_file: File | null = null; // that is on show, or being loaded
+let chosen: OwnFiles | null = null; // the user's files that are on show
 let asked: Ask | null = null; // a file of the user's own that a link was made for
 let address_reading: Reading | undefined;
 let framed = true; // nobody has moved the camera since it showed the whole scene, or was the scene's own
+const awaited = new Map<number, { own: OwnFiles | null; framed: boolean }>(); // loads by their ids: what holds once they are done
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -56,9 +59,14 @@ const engine = new Engine(
       }
       clear_notes();
       source = answer.source;
+      const now = awaited.get(answer.id);
+      awaited.delete(answer.id);
+      chosen = now?.own ?? null;
+      framed = now?.framed ?? true;
       show_facts(answer.facts);
       show_source(source);
       show_settings(answer.settings);
+      controls.show_facts(answer.facts);
       controls.show(answer.settings);
       look = answer.look;
       looks.show_facts(answer.facts);
@@ -69,6 +77,7 @@ const engine = new Engine(
       busy(null);
       first_frame = false;
       saving.failed(id);
+      if (id !== null) awaited.delete(id);
       if (id === loading) show_source(source);
       fail(message);
     },
@@ -93,6 +102,7 @@ const engine = new Engine(
       if (first_frame && answer.report.drawn) busy(null);
       if (answer.report.drawn) first_frame = false;
     },
+    player: ({ player: state }) => player.show(state),
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
     picture: ({ picture: file }) => saving.done(file, facts?.name ?? 'picture'),
@@ -128,6 +138,7 @@ const saving = new Saving({
   },
   cancel: () => engine.send({ type: 'picture_cancel' }),
 });
+const player = new PlayerBar((action) => engine.send({ type: 'play', action }));
 const thesis = new ThesisDialog({
   run: (quick) => engine.send({ type: 'thesis', quick, device: device_words() }),
   cancel: () => engine.send({ type: 'thesis_cancel' }),
@@ -168,7 +179,7 @@ function show_facts(now: Facts): void {
   const spheres = `${grouped(now.spheres)} ${now.spheres === 1 ? 'sphere' : 'spheres'}`;
   element('facts').textContent =
     `${name}: ${spheres}, ${now.format}` +
-    (now.frames > 1 ? `, the first of ${grouped(now.frames)} frames` : '');
+    (now.frames > 1 ? `, ${grouped(now.frames)} frames` : '');
   picture.setAttribute('aria-label', `${name}, ${spheres}`);
   element('rules_box').hidden = now.rules.length === 0;
   element('rules').replaceChildren(
@@ -192,18 +203,25 @@ function show_frame(report: FrameReport, width: number, height: number): void {
 
 // Actions of the user.
 
-async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'source'> | null = null): Promise<void> {
+// `own`: files of the user's, so that they can be read again.
+async function open(
+  what: Promise<Wanted>,
+  name: string,
+  wanted: Omit<State, 'source'> | null = null,
+  own: OwnFiles | null = null,
+): Promise<void> {
   const id = (loading = engine.new_id());
+  first_frame = false;
   clear_notes();
   clear_errors();
   picture.dataset['settled'] = 'false';
   busy(`Loading ${name}`);
   try {
-    const { source: from, bytes, name: called } = await what;
+    const { source: from, files } = await what;
     if (id !== loading) return; // another one was asked for meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
-    framed = !state.settings?.camera?.eye;
-    engine.send({ type: 'load', id, source: from, bytes, name: called, ...state }, bytes ? [bytes] : []);
+    awaited.set(id, { own, framed: !state.settings?.camera?.eye });
+    engine.send({ type: 'load', id, source: from, files, ...state });
   } catch (error) {
     busy(null);
     show_source(source);
@@ -214,7 +232,6 @@ async function open(what: Promise<Wanted>, name: string, wanted: Omit<State, 'so
 const name_of = (from: Source) => ('built_in' in from ? from.built_in : 'url' in from ? from.url : from.file);
 
 function open_source(from: Source, wanted: Omit<State, 'source'> | null = null): Promise<void> {
-  chosen_file = null;
   return open(wanted_source(from.reading ? from : with_reading(from, address_reading)), name_of(from), wanted);
 }
 
@@ -224,13 +241,28 @@ function forget_asked(): void {
 }
 
 // The state of a link goes to the file that it was made for.
-async function open_file(file: File): Promise<void> {
+async function open_file(file: File, trajectory: File | null = null): Promise<void> {
+  const own = { file, trajectory };
   const waiting = asked;
   const fits = waiting?.file === file.name;
-  chosen_file = file;
   if (fits) forget_asked();
-  await open(wanted_file(file, (fits && waiting?.state.source.reading) || address_reading), file.name, fits ? waiting!.state : null);
+  const reading = (fits && waiting?.state.source.reading) || address_reading;
+  await open(wanted_files(own, reading), file.name, fits ? waiting!.state : null, own);
   if (waiting && !fits) waiting.say_other(file.name);
+}
+
+// A trajectory goes with the other file that was chosen, or with the one on show, whose state stays.
+async function open_files(files: File[]): Promise<void> {
+  const moves = files.find(is_trajectory) ?? null;
+  const file = files.find((one) => !is_trajectory(one));
+  if (file) {
+    await open_file(file, moves);
+    if (files.length > (moves ? 2 : 1)) note(`Several files were chosen; this is ${file.name}.`);
+  } else if (!chosen) fail(`${moves!.name} holds places alone: open the file of its spheres first, or both at once`);
+  else {
+    const own = { file: chosen.file, trajectory: moves };
+    await open(wanted_files(own, source.reading), moves!.name, settings && { settings, look }, own);
+  }
 }
 
 // The same file with other radii. A camera that nobody has moved is placed anew.
@@ -239,7 +271,7 @@ function read_again(reading: Reading | undefined): void {
   const { fov_deg, projection, aperture, focus } = settings.camera;
   const camera = framed ? { fov_deg, projection, aperture, focus } : settings.camera;
   const state = { settings: { ...settings, camera }, look };
-  if (chosen_file) void open(wanted_file(chosen_file, reading), chosen_file.name, state);
+  if (chosen) void open(wanted_files(chosen, reading), chosen.file.name, state, chosen);
   else void open(wanted_source(with_reading(source, reading)), name_of(source), state);
 }
 
@@ -317,11 +349,12 @@ async function start(): Promise<void> {
     view: (view) => controls.set_view(view),
     engine: () => settings?.engine ?? 'cpu',
     set_engine: (name) => controls.set_engine(name),
+    play: (key) => player.key(key),
   });
   listen_for_sources((from) => {
     forget_asked();
     void open_source(from);
-  }, (file) => void open_file(file));
+  }, (files) => void open_files(files));
   listen_for_reading(read_again);
   element('copy_link').addEventListener('click', () => void copy_link());
 

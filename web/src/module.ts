@@ -2,9 +2,15 @@
 import { in_words_of_the_page } from './words';
 
 export interface Page {
-  room(bytes: number): Uint8Array;
-  load(name: string, radius: number, radius_scale: number): string;
+  load(name: string, trajectory: string, radius: number, radius_scale: number): string;
   load_built_in(name: string, count: number, radius: number, radius_scale: number): string;
+  player(): string;
+  toggle_play(now_ms: number): void;
+  step_frames(by: number): void;
+  go_to_frame(frame: number): void;
+  set_frames_per_second(speed: number): void;
+  set_loops(loops: boolean): void;
+  continue_playing(now_ms: number): string;
   settings(): string;
   set(changes: string): string;
   look(): string;
@@ -37,8 +43,17 @@ export interface GlContexts {
   makeContextCurrent(handle: number): boolean;
 }
 
+/** Emscripten's files, as far as the worker uses them. */
+export interface FileSystem {
+  filesystems: { WORKERFS: unknown };
+  mkdir(path: string): void;
+  mount(type: unknown, options: { blobs: { name: string; data: Blob }[] }, path: string): void;
+  unmount(path: string): void;
+}
+
 export interface Module {
-  Page: new () => Page;
+  Page: { new (): Page; folder(): string };
+  FS: FileSystem;
   GL: GlContexts;
   version(): string;
   threads(): number;

@@ -41,6 +41,8 @@ export interface Settings {
   title: string;
   length_unit: string | null; // null: the input's
   focus_on: string;
+  cell: boolean;
+  replicate: [number, number, number] | null; // null: the input's copies
   camera: Camera;
 }
 
@@ -79,7 +81,7 @@ export interface Reading {
 }
 
 /** Where a scene comes from. A dropped file has no address: a link names it, and the page asks for it. */
-export type Source = ({ built_in: string; count?: number } | { url: string } | { file: string }) & { reading?: Reading };
+export type Source = ({ built_in: string; count?: number } | { url: string } | { file: string; trajectory?: string }) & { reading?: Reading };
 
 /** What colours the spheres; categories have no range. */
 export interface ColouredBy {
@@ -97,6 +99,8 @@ export interface Facts {
   takes_style: boolean;
   is_file_of_spheres: boolean;
   has_elements: boolean;
+  has_cell: boolean;
+  copies: [number, number, number]; // along the cell's vectors, as the input asks for
   attributes: string[];
 }
 
@@ -120,6 +124,26 @@ export interface ThesisProgress {
   spheres: number;
 }
 
+/** A file of the user's, and its trajectory where it has one of its own. They are read in pieces where they lie. */
+export interface Files {
+  name: string;
+  content: Blob;
+  trajectory: { name: string; content: Blob } | null;
+}
+
+/** The frame that is wanted, and how they follow each other. */
+export interface PlayerState {
+  frames: number;
+  frame: number;
+  shown: boolean; // it is on show
+  playing: boolean;
+  loops: boolean;
+  frames_per_second: number;
+  time_ps: number | null;
+}
+
+export type PlayAction = { toggle: true } | { step: number } | { frame: number } | { frames_per_second: number } | { loops: boolean };
+
 /** One step of the pointer or a key, in pixels of the picture. */
 export type Move =
   | { kind: 'orbit' | 'pan'; dx: number; dy: number }
@@ -130,13 +154,14 @@ export type Move =
 /** To the worker. `id` comes back with the answer. */
 export type Request =
   | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
-  | { type: 'load'; id: number; source: Source; bytes: ArrayBuffer | null; name: string; settings: Changes | null; look: Partial<Look> | null }
+  | { type: 'load'; id: number; source: Source; files: Files | null; settings: Changes | null; look: Partial<Look> | null }
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
   | { type: 'move'; move: Move }
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | { type: 'picture_cancel' }
+  | { type: 'play'; action: PlayAction }
   | { type: 'thesis'; quick: boolean; device: string }
   | { type: 'thesis_cancel' };
 
@@ -150,6 +175,7 @@ export type Answer =
   | { type: 'settings'; serial: number; settings: Settings }
   | { type: 'look'; serial: number; look: Look; counts: number[]; coloured_by: ColouredBy[] | null; fault: LookFault | null }
   | { type: 'frame'; report: FrameReport; serial: number; settings: Settings; width_px: number; height_px: number }
+  | { type: 'player'; player: PlayerState }
   | { type: 'statistics'; json: string }
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled

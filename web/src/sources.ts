@@ -1,13 +1,12 @@
 // The sources of scenes: built-in names, files that are picked or dropped, addresses on this server.
 import { element } from './dom';
 import { busy } from './messages';
-import type { Reading, Source } from './protocol';
+import type { Files, Reading, Source } from './protocol';
 
-/** A scene to be loaded, and its bytes where it is not built in. */
+/** A scene to be loaded, and its files where it is not built in. */
 export interface Wanted {
   source: Source;
-  bytes: ArrayBuffer | null;
-  name: string;
+  files: Files | null;
 }
 
 /** Fetches an address of this origin. Throws with words for the user. */
@@ -26,7 +25,7 @@ async function fetched(source: Source & { url: string }): Promise<Wanted> {
     throw new Error(`${address.href} could not be fetched`);
   });
   if (!response.ok) throw new Error(`${address.href}: the server answered ${response.status} ${response.statusText}`);
-  return { source, bytes: await with_progress(response, name), name };
+  return { source, files: { name, content: new Blob([await with_progress(response, name)]), trajectory: null } };
 }
 
 async function with_progress(response: Response, name: string): Promise<ArrayBuffer> {
@@ -53,14 +52,25 @@ export function with_reading(source: Source, reading: Reading | undefined): Sour
 }
 
 export async function wanted_source(source: Source): Promise<Wanted> {
-  if ('built_in' in source) return { source, bytes: null, name: source.built_in };
+  if ('built_in' in source) return { source, files: null };
   if ('url' in source) return fetched(source);
   throw new Error(`The file ${source.file} must be opened`);
 }
 
-export async function wanted_file(file: File, reading?: Reading): Promise<Wanted> {
-  return { source: with_reading({ file: file.name }, reading), bytes: await file.arrayBuffer(), name: file.name };
+/** A file of the user's own, and the places of its spheres at other times. */
+export interface OwnFiles {
+  file: File;
+  trajectory: File | null;
 }
+
+export async function wanted_files({ file, trajectory }: OwnFiles, reading?: Reading): Promise<Wanted> {
+  const place = trajectory ? { file: file.name, trajectory: trajectory.name } : { file: file.name };
+  const moves = trajectory && { name: trajectory.name, content: trajectory };
+  return { source: with_reading(place, reading), files: { name: file.name, content: file, trajectory: moves } };
+}
+
+/** By the ending: what holds places alone, and needs the file of the spheres. */
+export const is_trajectory = ({ name }: File): boolean => /\.(dcd|xtc|trr)$/i.test(name);
 
 const reading_inputs = () => [element<HTMLInputElement>('radius'), element<HTMLInputElement>('radius_scale')] as const;
 
@@ -78,7 +88,7 @@ export function listen_for_reading(read: (reading: Reading | undefined) => void)
 }
 
 /** Calls `open` with files that are picked or dropped anywhere, and with sources that are chosen in the panel. */
-export function listen_for_sources(open_source: (source: Source) => void, open_file: (file: File) => void): void {
+export function listen_for_sources(open_source: (source: Source) => void, open_files: (files: File[]) => void): void {
   const built_in = element<HTMLSelectElement>('built_in');
   const count = element<HTMLInputElement>('count');
   const choose = () => {
@@ -92,8 +102,9 @@ export function listen_for_sources(open_source: (source: Source) => void, open_f
 
   const file = element<HTMLInputElement>('file');
   file.addEventListener('change', () => {
-    if (file.files?.[0]) open_file(file.files[0]);
+    const picked = [...(file.files ?? [])];
     file.value = ''; // so that the same file may be picked again
+    if (picked.length > 0) open_files(picked);
   });
 
   element<HTMLFormElement>('url_form').addEventListener('submit', (event) => {
@@ -113,8 +124,8 @@ export function listen_for_sources(open_source: (source: Source) => void, open_f
   addEventListener('drop', (event) => {
     event.preventDefault();
     hint.hidden = true;
-    const dropped = event.dataTransfer?.files[0];
-    if (dropped) open_file(dropped);
+    const dropped = [...(event.dataTransfer?.files ?? [])];
+    if (dropped.length > 0) open_files(dropped);
   });
 }
 

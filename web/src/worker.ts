@@ -1,16 +1,19 @@
 // The worker: the C++ module, the loop of frames, and the answers to the page.
 import { BadInput, load_module, value_of, type Module, type Page } from './module';
 import { GlCanvas } from './gl_canvas';
-import { unpacked } from './gunzip';
 import { PictureRun } from './picture_run';
+import type {
+  Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ThesisProgress,
+} from './protocol';
+import { UserFiles } from './user_files';
 import { in_words_of_the_page } from './words';
-import type { Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, Request, Settings, ThesisProgress } from './protocol';
 
 const frame_budget_ms = 25;
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
 
 let module: Module;
 let page: Page;
+let user_files: UserFiles;
 let gl: GlCanvas;
 let cpu_canvas: OffscreenCanvas;
 let cpu_context: OffscreenCanvasRenderingContext2D;
@@ -23,6 +26,7 @@ let wanted_look: Partial<Look> | null = null;
 let look_serial = 0; // of the last request in wanted_look
 let moves: Move[] = [];
 let statistics_wanted = false;
+let player_words = ''; // the last state of the player that was sent, as JSON
 let frame_pending = false;
 let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
@@ -153,6 +157,31 @@ function apply_look(): void {
   statistics_wanted = true;
 }
 
+// Frames of a file: the next one is read here, between two pictures.
+
+function play(action: PlayAction): void {
+  if ('toggle' in action) page.toggle_play(performance.now());
+  else if ('step' in action) page.step_frames(action.step);
+  else if ('frame' in action) page.go_to_frame(action.frame);
+  else if ('loops' in action) page.set_loops(action.loops);
+  else page.set_frames_per_second(action.frames_per_second);
+}
+
+function continue_playing(): void {
+  try {
+    value_of(page.continue_playing(performance.now()));
+  } finally {
+    send_player();
+  }
+}
+
+function send_player(): void {
+  const json = page.player();
+  if (json === player_words) return;
+  player_words = json;
+  send({ type: 'player', player: JSON.parse(json) as PlayerState });
+}
+
 function show_cpu_image(): void {
   const { width, height } = value_of<{ width: number; height: number }>(page.take_image());
   if (width === 0 || height === 0) return;
@@ -188,7 +217,7 @@ async function next_frame(): Promise<void> {
   frame_pending = false;
   if (thesis || saving) return;
   // A fault of one does not keep the others from being applied.
-  for (const apply of [apply_moves, apply_look, apply_changes]) await attempt(null, apply);
+  for (const apply of [apply_moves, apply_look, apply_changes, continue_playing]) await attempt(null, apply);
   await attempt(null, () => {
     const now = settings();
     if (on_lost_gpu(now)) return;
@@ -200,7 +229,8 @@ async function next_frame(): Promise<void> {
     }
     if (report.drawn || report.settled)
       send({ type: 'frame', report, serial, settings: now, width_px: size_px.width, height_px: size_px.height });
-    if (!report.settled) ask_for_frame();
+    const { playing, shown } = JSON.parse(player_words) as PlayerState;
+    if (!report.settled || playing || !shown) ask_for_frame();
   });
   if (statistics_wanted) {
     statistics_wanted = false;
@@ -216,8 +246,8 @@ interface Loaded {
   coloured_by: ColouredBy[];
 }
 
-// The look and the settings of a link, or of the scene. The engine is the user's choice, at first the one that draws
-// every style. Returns what colours the spheres then, null where no look was wanted, and the messages of what failed.
+// The look and the settings of a link, or of the scene. The engine is the user's choice: without one it stays.
+// Returns what colours the spheres then, null where no look was wanted, and the messages of what failed.
 function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   const notes: string[] = [];
   let coloured_by: ColouredBy[] | null = null;
@@ -251,10 +281,16 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   const { radius = -1, radius_scale = 1 } = request.source.reading ?? {};
   if ('built_in' in request.source) {
     loaded = value_of(page.load_built_in(request.source.built_in, request.source.count ?? 0, radius, radius_scale));
+    user_files.forget();
   } else {
-    const bytes = await unpacked(new Uint8Array(request.bytes!), request.name);
-    page.room(bytes.byteLength).set(bytes);
-    loaded = value_of(page.load(request.name, radius, radius_scale));
+    const { name, trajectory } = await user_files.show(request.files!);
+    try {
+      loaded = value_of(page.load(name, trajectory, radius, radius_scale));
+    } catch (error) {
+      user_files.keep(false);
+      throw error;
+    }
+    user_files.keep(true);
   }
   saving?.cancel();
   moves = [];
@@ -265,6 +301,7 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   const coloured_by = chosen.coloured_by ?? loaded.coloured_by;
   const notes = [...loaded.facts.warnings.map(in_words_of_the_page), ...chosen.notes];
   send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), coloured_by, notes });
+  send_player();
   statistics_wanted = true;
   ask_for_frame();
 }
@@ -323,6 +360,7 @@ function step_thesis(): void {
 async function start(request: Request & { type: 'start' }): Promise<void> {
   module = await load_module(request.base, request.threads);
   page = new module.Page();
+  user_files = new UserFiles(module);
   cpu_canvas = request.cpu_canvas;
   cpu_context = cpu_canvas.getContext('2d', { alpha: false })!;
   gl = new GlCanvas(module, request.gpu_canvas, { lost: on_lost, restored: on_restored });
@@ -356,6 +394,9 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return ask_for_frame();
     case 'move':
       moves.push(request.move);
+      return ask_for_frame();
+    case 'play':
+      play(request.action);
       return ask_for_frame();
     case 'picture':
       return attempt(request.id, () => picture(request));

@@ -36,8 +36,9 @@ struct AmbientOptions {
 
 /// Unset: the style's or the scene's value.
 struct StyleOptions {
-  std::string name;    ///< a name or a path; empty: the default one
-  LightChoice lights;  ///< empty: the style's
+  std::string name;                        ///< a name or a path; empty: the default one
+  LightChoice lights;                      ///< empty: the style's
+  std::vector<std::string> light_words{};  ///< the same as they were given
   AmbientOptions ambient;
   std::optional<OpacityRule> opacity_rule;
   std::optional<std::int64_t> light_points;
@@ -143,11 +144,18 @@ struct ViewOptions {
   std::optional<PictureSize> size;  ///< of the window
   std::optional<ViewerEngine> engine;
   View view = View::shaded;
-  std::optional<std::int64_t> recursion, samples;
+  std::optional<std::int64_t> recursion, samples;  ///< samples: or kAutomaticSamples
   std::optional<bool> shadows;
   TreeParameters tree;
   std::optional<ViewFrom> view_from;
-  std::string style;       ///< a name; empty: as `bihive render`
+  StyleOptions style;
+  LookOptions looks;
+  LabelOptions labels;
+  bool cell = false;
+  std::optional<std::string> background;
+  std::optional<double> fov_deg, aperture;
+  std::optional<Projection> projection;
+  std::optional<Focus> focus;
   std::string screenshot;  ///< empty: none
 };
 /// Becomes bihive-view, the program with the window; returns only by a Failure.

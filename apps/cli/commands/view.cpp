@@ -6,8 +6,14 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <variant>
 
+#include "bihive/scene/element_colours.h"
+#include "bihive/scene/names.h"
 #include "bihive/scene/style.h"
+#include "bihive/viewer/viewer_json.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "commands/commands.h"
 #include "commands/names.h"
@@ -23,12 +29,75 @@ using nlohmann::ordered_json;
 
 constexpr const char* kProgram = "bihive-view";
 
+template <class T>
+void put(ordered_json& object, const char* key, const std::optional<T>& value) {
+  if (value) object[key] = *value;
+}
+
+ViewerLook look_of(const ViewOptions& options) {
+  ViewerLook look;
+  look.style = options.style.name;
+  look.element_colours = options.looks.element_colours;
+  look.background = options.background.value_or("");
+  look.lights = options.style.light_words;
+  look.nan_colour = options.looks.nan_colour;
+  look.rows = options.looks.rows;
+  return look;
+}
+
+// An aperture needs many samples everywhere.
+void put_samples(const ViewOptions& options, ordered_json& settings) {
+  const bool automatic = options.samples == kAutomaticSamples;
+  if (automatic) settings["samples_auto"] = true;
+  if (options.samples && !automatic) settings["samples_auto"] = false;
+  if (options.samples && !automatic) settings["samples_per_pixel"] = *options.samples;
+  if (options.samples || options.aperture.value_or(0) == 0) return;
+  settings["samples_auto"] = false;
+  settings["samples_per_pixel"] = kMostSamples;
+}
+
+void put_effects(const StyleOptions& style, ordered_json& settings) {
+  const bool implied = style.ambient.distance || style.ambient.directions;
+  if (style.ambient.on || implied) settings["ao"] = style.ambient.on.value_or(true);
+  put(settings, "ao_distance", style.ambient.distance);
+  put(settings, "ao_directions", style.ambient.directions);
+  put(settings, "light_points", style.light_points);
+  if (style.opacity_rule) settings["opacity_rule"] = name_of(kOpacityRules, *style.opacity_rule);
+  put(settings, "fog", style.fog);
+  put(settings, "outline_px", style.outline_px);
+  put(settings, "exposure", style.exposure_stops);
+  if (style.tone) settings["tone"] = name_of(kToneCurves, *style.tone);
+}
+
+void put_labels(const LabelOptions& labels, ordered_json& settings) {
+  for (const auto& [key, asked_for] :
+       {std::pair("legend", labels.legend), std::pair("scale_bar", labels.scale_bar), std::pair("axes", labels.axes)})
+    if (asked_for || labels.none) settings[key] = asked_for;
+  if (labels.title || labels.none) settings["title"] = labels.title.value_or("");
+  put(settings, "length_unit", labels.length_unit);
+  if (labels.length_unit && !labels.scale_bar)
+    fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
+}
+
+void put_camera(const ViewOptions& options, ordered_json& settings) {
+  ordered_json camera = ordered_json::object();
+  put(camera, "fov_deg", options.fov_deg);
+  if (options.projection) camera["projection"] = name_of(kProjections, *options.projection);
+  put(camera, "aperture", options.aperture);
+  if (options.focus) {
+    if (options.aperture.value_or(0) == 0)
+      fail_usage("--focus changes nothing without an aperture", "give the radius of the lens by --aperture");
+    if (const double* const distance = std::get_if<double>(&*options.focus))
+      camera["focus"] = *distance;
+    else
+      settings["focus_on"] = std::get<std::string>(*options.focus);
+  }
+  if (!camera.empty()) settings["camera"] = camera;
+}
+
 // The JSON object of apps/viewer/request.h.
 ordered_json request_of(const ViewOptions& options) {
   ordered_json request = ordered_json::object();
-  const auto put = [](ordered_json& object, const char* key, const auto& value) {
-    if (value) object[key] = *value;
-  };
   const InputOptions& input = options.input;
   request["input"] = input.input == kStandardStream ? "/dev/stdin" : input.input;
   put(request, "count", input.count);
@@ -46,7 +115,7 @@ ordered_json request_of(const ViewOptions& options) {
   if (input.wrapping != Wrapping::none) request["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
   if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
-  if (!options.style.empty()) request["style"] = options.style;
+  request["look"] = ordered_json::parse(viewer_look_to_json(look_of(options)));
   if (!options.screenshot.empty()) request["screenshot"] = options.screenshot;
 
   const auto limit = [](std::int64_t value) {
@@ -56,8 +125,12 @@ ordered_json request_of(const ViewOptions& options) {
   settings["view"] = name_of(kViews, options.view);
   if (options.engine) settings["engine"] = name_of(kViewerEngines, *options.engine);
   put(settings, "recursion", options.recursion);
-  put(settings, "samples_per_pixel", options.samples);
+  put_samples(options, settings);
   put(settings, "shadows", options.shadows);
+  put_effects(options.style, settings);
+  put_labels(options.labels, settings);
+  put_camera(options, settings);
+  if (options.cell) settings["cell"] = true;
   if (options.tree.max_prims) settings["max_prims"] = limit(*options.tree.max_prims);
   if (options.tree.max_depth) settings["max_depth"] = limit(*options.tree.max_depth);
   request["settings"] = settings;
@@ -65,8 +138,9 @@ ordered_json request_of(const ViewOptions& options) {
 }
 
 void check_style(const ViewOptions& options) {
-  if (options.style.empty()) return;
-  if (const Result<Style> style = style_named(options.style); !style)
+  const std::string& name = options.style.name;
+  if (name.empty()) return;
+  if (const Result<Style> style = style_named(name); !style)
     fail_usage("--style: " + style.error().message, "see bihive styles");
   const std::string& input = options.input.input;
   if (is_built_in_scene(input) && input != "demo") fail_usage("--style is for files, not for " + input);
@@ -80,6 +154,10 @@ void run_view(const ViewOptions& options) {
                "leave --engine out, or choose --engine cpu");
   check_input_options(options.input);
   check_style(options);
+  const std::string& colours = options.looks.element_colours;
+  if (!colours.empty() && !element_colours_called(colours))
+    fail_usage("--element-colours: there are no element colours \"" + colours + "\"",
+               "there are soft, jmol and cpk; files of colours are for bihive render");
   if (!options.screenshot.empty()) {
     check_picture_name(options.screenshot);
     if (options.screenshot == kStandardStream || is_exr(options.screenshot))

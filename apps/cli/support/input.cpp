@@ -120,7 +120,7 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
   ScenarioParameters parameters;
   if (name != "four-spheres") {
     parameters.count = options.count.value_or(parameters.count);
-    if (options.radius) parameters.radius = static_cast<float>(*options.radius);
+    if (options.radius) parameters.radius = scenario_radius(*options.radius);
     parameters.seed = options.seed.value_or(parameters.seed);
     value_or_fail(check_scenario_memory(parameters));
   }

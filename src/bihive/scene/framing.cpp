@@ -12,9 +12,6 @@
 namespace bihive {
 namespace {
 
-// Free border, as a share of the picture's side.
-constexpr double kMargin = 0.04;
-
 // The two opposite planes through the eye that bound the picture to the left and right, or below and above. With the
 // eye at (shift, distance) along (the span's axis, back), a sphere is inside a plane when its centre is at least a
 // radius away from it:
@@ -76,7 +73,7 @@ void frame_parallel(const SphereSet& spheres, const std::vector<Vec3d>& points, 
   const double shorter = std::min(width_px, height_px);
   const double side_length = std::max(across.size() * shorter / width_px, along.size() * shorter / height_px);
   camera.projection = Projection::orthographic;
-  camera.shorter_side = side_length > 0 ? side_length / (1 - 2 * kMargin) : 1;
+  camera.shorter_side = side_length > 0 ? side_length / (1 - 2 * kFreeBorder) : 1;
 
   // Origins are rounded to binary32, and must not come to lie in a sphere.
   distance = std::max(distance, front + 0.5 * camera.shorter_side);
@@ -121,7 +118,7 @@ Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const S
 
   // The tangents of the angles that the picture without its margin spans to either side.
   const double shorter = std::min(width_px, height_px);
-  const double tangent = tan_deg(lens.fov_deg / 2) * (1 - 2 * kMargin);
+  const double tangent = tan_deg(lens.fov_deg / 2) * (1 - 2 * kFreeBorder);
   Span across{tangent * width_px / shorter};
   Span along{tangent * height_px / shorter};
   double distance = 0;
@@ -152,7 +149,7 @@ Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& len
   return frame(spheres, {}, side, lens, width_px, height_px);
 }
 
-Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
+std::vector<Vec3d> cell_corners(const SphereSet& spheres) {
   std::vector<Vec3d> corners;
   const auto [a, b, c] = spheres.images().counts;
   if (const std::optional<Cell>& cell = spheres.cell())
@@ -160,7 +157,11 @@ Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& l
       for (const double j : {0.0, double(b)})
         for (const double k : {0.0, double(c)})
           corners.push_back(cell->origin + i * cell->vectors[0] + j * cell->vectors[1] + k * cell->vectors[2]);
-  return frame(spheres, corners, side, lens, width_px, height_px);
+  return corners;
+}
+
+Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
+  return frame(spheres, cell_corners(spheres), side, lens, width_px, height_px);
 }
 
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {

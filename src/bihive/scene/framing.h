@@ -26,6 +26,9 @@ struct Lens {
   Projection projection = Projection::perspective;
 };
 
+/// The margin on each side of the picture, as a share of that side.
+constexpr double kFreeBorder = 0.04;
+
 /// Every sphere lies wholly inside the picture (width x height pixels) less a margin of 4 % on each side, and the set
 /// is as large as that allows. perspective: the eye is as near as possible, and shifted sideways. orthographic: the eye
 /// is where that of the perspective is or farther away, in front of all spheres, and the shorter side is as short as

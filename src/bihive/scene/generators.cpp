@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,11 @@ void alternate_materials(Scene& scene) {
 }
 
 }  // namespace
+
+float scenario_radius(double radius) {
+  const bool fits = std::abs(radius) <= double(std::numeric_limits<float>::max());
+  return fits ? static_cast<float>(radius) : std::numeric_limits<float>::infinity();
+}
 
 Result<SphereSet> scenario_spheres(Scenario scenario, const ScenarioParameters& parameters) {
   // Check the ranges: spheres must fit the cubes in which they are placed.

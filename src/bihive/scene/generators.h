@@ -16,6 +16,10 @@ struct ScenarioParameters {
   std::uint64_t seed = 1;
 };
 
+/// The radius of ScenarioParameters for a number from a user. A number beyond binary32 becomes infinite, which no
+/// scenario takes.
+float scenario_radius(double radius);
+
 /// The spheres alone. Scenario 1: a regular grid. 2: eight random clusters, one a corner. 3: half and half, clusters
 /// first. All arithmetic is binary32 in the order that the reference gives, because ties of one ulp decide the tree.
 Result<SphereSet> scenario_spheres(Scenario scenario, const ScenarioParameters& parameters);

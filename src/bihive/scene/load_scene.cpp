@@ -1,6 +1,7 @@
 #include "bihive/scene/load_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bihive/base/memory.h"
 #include "bihive/io/bundled.h"

@@ -79,6 +79,15 @@ Status set_nan_colour(const std::string& text, std::vector<Look>& looks, std::si
   return Done{};
 }
 
+// A range that was left open is the one that the same colours had in another frame.
+void keep_range(const std::vector<ColourBy>& ranges, ColourBy& how) {
+  if (how.range) return;
+  for (const ColourBy& one : ranges)
+    if (one.range && one.attribute == how.attribute && one.logarithmic == how.logarithmic &&
+        (!how.map || how.map == one.map))
+      how.range = one.range;
+}
+
 }  // namespace
 
 SceneInput::SceneInput(Kind kind, LoadedScene loaded) : kind_(kind), loaded_(std::move(loaded)) {
@@ -86,6 +95,9 @@ SceneInput::SceneInput(Kind kind, LoadedScene loaded) : kind_(kind), loaded_(std
   facts_.takes_style = kind != Kind::own;
   facts_.is_file_of_spheres = kind == Kind::spheres;
   facts_.attributes = attribute_names(loaded_.scene.spheres);
+  facts_.time_ps = loaded_.time_ps;
+  facts_.has_cell = loaded_.scene.spheres.cell().has_value();
+  facts_.copies = loaded_.scene.spheres.images().counts;
   facts_.has_elements = !loaded_.scene.spheres.attributes().element.empty();
 }
 
@@ -113,6 +125,12 @@ Result<SceneInput> SceneInput::file(std::string_view bytes, const std::string& n
   return input;
 }
 
+SceneInput SceneInput::spheres(SphereFile file, const std::string& name) {
+  SceneInput input(Kind::spheres, scene_of_spheres(std::move(file), name));
+  input.name_ = name;
+  return input;
+}
+
 SceneInput SceneInput::made(Scene scene, SceneFacts facts, bool has_camera, bool has_lights) {
   LoadedScene loaded;
   loaded.scene = std::move(scene);
@@ -135,7 +153,8 @@ Status SceneInput::replicate(Scene& scene, const Copies& copies) {
   return spheres.replicate(spheres.cell()->vectors, *copies);
 }
 
-Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies& copies) const {
+Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies& copies,
+                                         const std::vector<ColourBy>* ranges) const {
   // A scene file keeps its own look unless a style is asked for.
   if (kind_ == Kind::own || (kind_ == Kind::document && style.empty())) {
     if (kind_ == Kind::own && !style.empty())
@@ -144,7 +163,7 @@ Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies&
     if (Status status = replicate(loaded.scene, copies); !status) return status.error();
     return loaded;
   }
-  const Result<Style> named = style_named(style.empty() ? style_names().front() : style);
+  Result<Style> named = style_named(style.empty() ? style_names().front() : style);
   if (!named) return named.error();
   if (kind_ == Kind::document) {
     Result<LoadedScene> loaded = load_scene(bytes_, name_, options_, LooksOfFile::keep, &*named);
@@ -155,6 +174,7 @@ Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies&
   // Colours by place depend on the copies.
   LoadedScene loaded = loaded_;
   if (Status status = replicate(loaded.scene, copies); !status) return status.error();
+  if (ranges != nullptr && named->colour_by) keep_range(*ranges, *named->colour_by);
   restyle(loaded, *named);
   return loaded;
 }
@@ -162,7 +182,8 @@ Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies&
 // The scene file's own looks, then what is for all spheres, then the rows. All selections see the spheres as they were
 // read.
 Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, const ViewerLook& look,
-                                                       std::size_t* failed_row) const {
+                                                       std::size_t* failed_row,
+                                                       const std::vector<ColourBy>* ranges) const {
   std::vector<Look> looks = loaded.looks;
   const std::size_t own = looks.size();
   Result<std::vector<Look>> of_all = looks_of_all(look);
@@ -178,6 +199,10 @@ Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, cons
     looks.push_back(std::move(*next));
   }
   if (Status status = set_nan_colour(look.nan_colour, looks, own); !status) return status.error();
+  for (Look& one : looks)
+    for (LookAction& action : one.actions)
+      if (auto* const how = std::get_if<ColourBy>(&action); how != nullptr && ranges != nullptr)
+        keep_range(*ranges, *how);
   std::size_t failed = 0;
   Result<std::vector<std::int64_t>> counts = apply_looks(loaded.scene, looks, &failed);
   if (counts) return std::vector<std::int64_t>(counts->begin() + static_cast<std::ptrdiff_t>(first_row), counts->end());
@@ -191,12 +216,12 @@ Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, cons
   return Error{"/looks/" + std::to_string(failed) + place + ": " + error.message, name_, 0, 0, error.hint};
 }
 
-Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const Copies& copies,
-                                                 std::size_t* failed_row) const {
+Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row,
+                                                 const std::vector<ColourBy>* ranges) const {
   if (failed_row != nullptr) *failed_row = look.rows.size();
   if (!look.style.empty())
     if (const Result<Style> known = style_named(look.style); !known) return known.error();
-  Result<LoadedScene> loaded = in_style(look.style, copies);
+  Result<LoadedScene> loaded = in_style(look.style, copies, ranges);
   if (!loaded) return loaded.error();
   Looked looked{std::move(*loaded), {}};
   Scene& scene = looked.loaded.scene;
@@ -205,7 +230,7 @@ Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const C
   if (Status status = light_up(looked.loaded, look.lights); !status) return status.error();
   if (!look.element_colours.empty())
     if (Status status = recolour(scene, look.element_colours); !status) return status.error();
-  Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row);
+  Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row, ranges);
   if (!counts) return counts.error();
   looked.counts = std::move(*counts);
   return looked;

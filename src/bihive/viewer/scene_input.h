@@ -24,6 +24,8 @@ class SceneInput {
   static Result<SceneInput> built_in(const std::string& name, const ScenarioParameters& parameters,
                                      const ReadOptions& options);
   static Result<SceneInput> file(std::string_view bytes, const std::string& name, const ReadOptions& options);
+  /// Spheres that were read already.
+  static SceneInput spheres(SphereFile file, const std::string& name);
   /// A scene from elsewhere: it has a look of its own and takes no style.
   static SceneInput made(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
 
@@ -38,17 +40,20 @@ class SceneInput {
   /// takes none, a selection's (column as in select_spheres()), or that every sphere is hidden. `failed_row` (if given)
   /// is then the row to blame; look.rows.size() if none is.
   /// `copies`: along the vectors of the cell; unset: those of the input. Error too if there is no cell.
-  Result<Looked> looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row = nullptr) const;
+  /// `ranges`: as Scene::coloured_by of another frame, whose ranges colours by the same numbers keep.
+  Result<Looked> looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row = nullptr,
+                           const std::vector<ColourBy>* ranges = nullptr) const;
 
  private:
   // spheres: a style makes all of the look. document: a scene file, read again for each style. own: takes no style.
   enum class Kind { spheres, document, own };
 
   SceneInput(Kind kind, LoadedScene loaded);
-  Result<LoadedScene> in_style(const std::string& style, const Copies& copies) const;
+  Result<LoadedScene> in_style(const std::string& style, const Copies& copies,
+                               const std::vector<ColourBy>* ranges) const;
   static Status replicate(Scene& scene, const Copies& copies);
-  Result<std::vector<std::int64_t>> do_looks(LoadedScene& loaded, const ViewerLook& look,
-                                             std::size_t* failed_row) const;
+  Result<std::vector<std::int64_t>> do_looks(LoadedScene& loaded, const ViewerLook& look, std::size_t* failed_row,
+                                             const std::vector<ColourBy>* ranges) const;
 
   Kind kind_;
   LoadedScene loaded_;  // its own looks are not done yet

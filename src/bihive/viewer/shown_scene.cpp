@@ -5,6 +5,7 @@
 #include "bihive/render/tree_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
+#include "bihive/scene/framing_cell.h"
 #include "bihive/viewer/whole_in_view.h"
 
 namespace bihive {
@@ -23,18 +24,23 @@ ShownScene::ShownScene(LoadedScene loaded)
   diagonal = length(bounds.hi - bounds.lo);
 }
 
-Camera ShownScene::framed(ViewFrom side, const Camera& like, View view, PictureSizePx size) const {
+Camera ShownScene::framed(ViewFrom side, const Camera& like, View view, bool cell, PictureSizePx size) const {
   const Lens lens{like.fov_deg, like.projection};
-  Camera camera = view == View::tree
-                      ? frame_tree(scene.spheres, side_of(side), lens, size.width, size.height)
-                      : frame_spheres(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
+  Camera camera;
+  if (view == View::tree)
+    camera = frame_tree(scene.spheres, side_of(side), lens, size.width, size.height);
+  else if (cell)
+    camera = frame_with_cell(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
+  else
+    camera = frame_spheres(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
   camera.aperture = like.aperture;
   camera.focus = like.focus;
   return camera;
 }
 
-Camera ShownScene::far_enough(const Camera& camera, PictureSizePx size) const {
-  return with_all_in_view(RemainingSpheres(scene).set(), camera, size);
+Camera ShownScene::far_enough(const Camera& camera, bool cell, PictureSizePx size) const {
+  const std::vector<Vec3d> corners = cell ? cell_corners(scene.spheres) : std::vector<Vec3d>();
+  return with_all_in_view(RemainingSpheres(scene).set(), corners, camera, size);
 }
 
 bool ShownScene::same_spheres(const ShownScene& other) const {

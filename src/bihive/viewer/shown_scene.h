@@ -1,8 +1,10 @@
 // A scene on show, with its description for the user and the trees that its pictures need.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,10 @@ struct SceneFacts {
   bool takes_style = false;                  ///< false: the scene has a look of its own
   bool is_file_of_spheres = false;           ///< a style makes all of its look
   bool has_elements = false;
-  std::vector<std::string> attributes{};  ///< names for selections and colours
+  std::optional<double> time_ps{};                ///< of the frame, picoseconds, where the file states it
+  bool has_cell = false;                          ///< a periodic cell
+  std::array<std::int32_t, 3> copies{{1, 1, 1}};  ///< along the cell's vectors, as the input asks for
+  std::vector<std::string> attributes{};          ///< names for selections and colours
 };
 SceneFacts facts_of(const LoadedScene& loaded);
 
@@ -43,10 +48,10 @@ struct ShownScene {
   ShownScene& operator=(const ShownScene&) = delete;
 
   /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree. Angle,
-  /// projection and lens are those of `like`.
-  Camera framed(ViewFrom side, const Camera& like, View view, PictureSizePx size) const;
-  /// with_all_in_view() of the spheres that clips leave.
-  Camera far_enough(const Camera& camera, PictureSizePx size) const;
+  /// projection and lens are those of `like`. `cell`: the cell's edges are drawn, and are in view too.
+  Camera framed(ViewFrom side, const Camera& like, View view, bool cell, PictureSizePx size) const;
+  /// with_all_in_view() of the spheres that clips leave, and of the cell's edges.
+  Camera far_enough(const Camera& camera, bool cell, PictureSizePx size) const;
   /// Whether the other scene has the same spheres and clips, whatever the spheres' other attributes: then these trees
   /// are right for both.
   bool same_spheres(const ShownScene& other) const;

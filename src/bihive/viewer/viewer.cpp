@@ -13,6 +13,7 @@
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/picture_steps.h"
 #include "bihive/viewer/picture_to_save.h"
+#include "bihive/viewer/prepared_frame.h"
 #include "bihive/viewer/scene_input.h"
 
 namespace bihive {
@@ -44,7 +45,8 @@ class Viewer::Implementation {
     settings.replicate.reset();
     take_defaults(next->scene.picture, settings);
     const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
-    settings.camera = side ? next->framed(*side, next->own_camera, settings.view, size_) : next->own_camera;
+    settings.camera =
+        side ? next->framed(*side, next->own_camera, settings.view, settings.cell, size_) : next->own_camera;
     settings.focus_on.clear();
     if (settings.camera.aperture > 0) settings.effects.adaptive_samples = false;
     if (Status status = check_settings(settings); !status) return status.error();
@@ -55,6 +57,7 @@ class Viewer::Implementation {
     steps_.drop_step();
     shown_ = std::move(next);
     input_ = std::move(*input);
+    ++version_;
     look_ = look;
     settings_ = settings;
     framed_from_ = side;
@@ -85,7 +88,6 @@ class Viewer::Implementation {
     Result<SceneInput::Looked> looked = input_->looked_at(look, settings_.replicate, failed_row);
     if (!looked) return looked.error();
     if (failed_row != nullptr) *failed_row = look.rows.size();
-    drop_picture();
     ViewerSettings settings = settings_;
     auto next = std::make_unique<ShownScene>(std::move(looked->loaded));
     if (Status status = show(std::move(next), settings, framed_from_.has_value()); !status) return status.error();
@@ -93,6 +95,30 @@ class Viewer::Implementation {
     settings_ = settings;
     steps_.start_anew();
     return std::move(looked->counts);
+  }
+
+  // --- Frames -------------------------------------------------------------------------------------------------
+
+  std::shared_ptr<const FrameMaker> frame_maker() {
+    if (!input_ || !input_->facts().is_file_of_spheres) return nullptr;
+    if (maker_ && maker_version_ == version_) return maker_;
+    FrameMaker::Choices choices{input_->facts().name, look_, settings_, shown_->scene.coloured_by, version_};
+    maker_ = std::make_shared<const FrameMaker>(std::make_shared<const FrameMaker::Choices>(std::move(choices)));
+    maker_version_ = version_;
+    return maker_;
+  }
+
+  Result<bool> show_frame(PreparedFrame& frame) {
+    BIHIVE_CHECK(frame.shown != nullptr);
+    if (frame.version != version_) return false;
+    if (Status status = make_ready(*frame.shown, *frame.shown->trees, settings_, /*upload=*/true); !status)
+      return status.error();
+    drop_picture();
+    steps_.drop_step();
+    shown_ = std::move(frame.shown);
+    input_ = std::move(frame.input);
+    steps_.start_anew();
+    return true;
   }
 
   // --- The graphics processor ---------------------------------------------------------------------------------
@@ -124,7 +150,6 @@ class Viewer::Implementation {
 
   Status set(ViewerSettings settings) {
     if (Status status = check_settings(settings); !status) return status;
-    drop_picture();
     if (Status status = check_wishes(settings); !status) return status;
     // Only another projection, angle or lens: the camera still shows the whole set.
     const bool keeps_side = framed_from_ && same_place(settings.camera, settings_.camera);
@@ -161,7 +186,7 @@ class Viewer::Implementation {
     if (framed_from_)
       look_from(*framed_from_);
     else if (turned_from_)
-      settings_.camera = shown_->far_enough(settings_.camera, size_);
+      settings_.camera = shown_->far_enough(settings_.camera, settings_.cell, size_);
     steps_.start_anew();
   }
 
@@ -176,7 +201,7 @@ class Viewer::Implementation {
       const Vec3d back = normalized(camera.eye - camera.look_at);
       camera.eye = camera.look_at + length(first->eye - first->look_at) * back;
       camera.shorter_side = first->shorter_side;
-      camera = shown_->far_enough(camera, size_);
+      camera = shown_->far_enough(camera, settings_.cell, size_);
     }
     move_to(camera);
     turned_from_ = first;
@@ -195,7 +220,7 @@ class Viewer::Implementation {
     turned_from_.reset();
     Camera like = settings_.camera;
     like.fov_deg = chosen_fov_deg_;
-    settings_.camera = shown_->framed(side, like, settings_.view, size_);
+    settings_.camera = shown_->framed(side, like, settings_.view, settings_.cell, size_);
     steps_.moved();
   }
 
@@ -209,6 +234,7 @@ class Viewer::Implementation {
     camera.aperture = now.aperture;
     camera.focus = now.focus;
     move_to(camera);
+    chosen_fov_deg_ = shown_->own_camera.fov_deg;
   }
 
   // --- Pictures -----------------------------------------------------------------------------------------------
@@ -314,11 +340,12 @@ class Viewer::Implementation {
     return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.shorter_side == shorter_side;
   }
 
-  // The samples, recursion, shadows and effects of a scene's own picture.
+  // The samples, recursion, shadows, cell's edges and effects of a scene's own picture.
   static void take_defaults(const PictureDefaults& picture, ViewerSettings& settings) {
     settings.recursion = std::clamp(picture.recursion, 1, kMostRecursion);
     settings.samples_per_pixel = std::clamp(picture.samples_per_pixel, 1, kMostSamples);
     settings.shadows = picture.shadows;
+    settings.cell = picture.cell_lines.has_value();
     settings.effects = effects_of(picture);
   }
 
@@ -330,6 +357,7 @@ class Viewer::Implementation {
     if (settings.recursion == old.recursion) settings.recursion = next.recursion;
     if (settings.samples_per_pixel == old.samples_per_pixel) settings.samples_per_pixel = next.samples_per_pixel;
     if (settings.shadows == old.shadows) settings.shadows = next.shadows;
+    if (settings.cell == old.cell) settings.cell = next.cell;
     follow_effects(before, now, settings.effects);
     if (settings.camera.aperture > 0) settings.effects.adaptive_samples = false;
   }
@@ -341,7 +369,7 @@ class Viewer::Implementation {
     const ShownScene& scene = next ? *next : *shown_;
     const bool same_spheres = !next || shown_->same_spheres(*next);
     if (next) follow_defaults(shown_->scene.picture, next->scene.picture, settings);
-    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera, settings.view, size_);
+    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera, settings.view, settings.cell, size_);
 
     // The trees refer to the spheres that stay.
     std::unique_ptr<SceneTrees> other_trees;
@@ -352,6 +380,8 @@ class Viewer::Implementation {
     const bool upload = next || other_trees || settings_.engine != ViewerEngine::gpu;
     if (Status status = make_ready(scene, trees, settings, upload); !status) return status;
 
+    if (next || other_trees) ++version_;
+    drop_picture();
     steps_.drop_step();
     if (next && same_spheres) shown_->take_look_of(std::move(*next));
     if (!same_spheres) shown_ = std::move(next);
@@ -371,6 +401,7 @@ class Viewer::Implementation {
     const Result<const Tracer*> tracer = trees.needed_by(settings);
     if (!tracer) return tracer.error();
     if (settings.engine != ViewerEngine::gpu || !upload) return Done{};
+    drop_picture();  // it may be the graphics processor's
     return gpu_->renderer().set_scene(shown.scene, (*tracer)->tree());
   }
 
@@ -412,6 +443,9 @@ class Viewer::Implementation {
   std::optional<ViewFrom> framed_from_;       // the camera shows the whole set from there, as look_from() placed it
   std::optional<Camera> turned_from_;         // it has only turned since: the camera before
   double chosen_fov_deg_ = Camera{}.fov_deg;  // by the scene or the user, not by a change of the projection
+  std::shared_ptr<const FrameMaker> maker_;
+  std::uint64_t maker_version_ = 0;
+  std::uint64_t version_ = 0;  // of all that goes into a frame: look, copies, trees
   PictureSteps steps_;
   std::optional<PictureToSave> to_save_;
 };
@@ -425,6 +459,9 @@ Result<SceneFacts> Viewer::load_built_in(const std::string& name, const Scenario
 }
 Result<SceneFacts> Viewer::load(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   return implementation_->load(SceneInput::file(bytes, name, options));
+}
+Result<SceneFacts> Viewer::load(SphereFile spheres, const std::string& name) {
+  return implementation_->load(SceneInput::spheres(std::move(spheres), name));
 }
 Result<SceneFacts> Viewer::load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights) {
   return implementation_->load(SceneInput::made(std::move(scene), std::move(facts), has_camera, has_lights));
@@ -441,6 +478,13 @@ const ViewerLook& Viewer::look() const {
 }
 Result<std::vector<std::int64_t>> Viewer::set_look(const ViewerLook& look, std::size_t* failed_row) {
   return implementation_->set_look(look, failed_row);
+}
+
+std::shared_ptr<const FrameMaker> Viewer::frame_maker() const {
+  return implementation_->frame_maker();
+}
+Result<bool> Viewer::show_frame(PreparedFrame& frame) {
+  return implementation_->show_frame(frame);
 }
 
 Status Viewer::attach_gl(const GlFunctions& functions) {

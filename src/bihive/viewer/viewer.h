@@ -22,6 +22,7 @@
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/scene.h"
+#include "bihive/viewer/frame_maker.h"
 #include "bihive/viewer/frame_report.h"
 #include "bihive/viewer/shown_scene.h"
 #include "bihive/viewer/viewer_look.h"
@@ -37,9 +38,9 @@ class Viewer {
   Viewer& operator=(const Viewer&) = delete;
 
   // The scene. After an Error the scene before stays, with everything else. A new scene brings its own camera and
-  // picture defaults (samples, recursion, shadows, effects); engine, view and parameters of the tree stay. Of the look
-  // the style stays from one file of spheres to the next; everything else of it begins anew. The lights of a scene
-  // without its own turn with the camera, as in `bihive render`.
+  // picture defaults (samples, recursion, shadows, edges of the cell, effects); engine, view and parameters of the tree
+  // stay. Of the look the style stays from one file of spheres to the next; everything else of it begins anew. The
+  // lights of a scene without its own turn with the camera, as in `bihive render`.
 
   /// "demo", "scenario1", "scenario2", "scenario3", "four-spheres". The parameters are the scenarios', the options the
   /// demo's.
@@ -47,6 +48,8 @@ class Viewer {
                                    const ReadOptions& options = {});
   /// The bytes of a file of spheres or of a scene file, compressed or not.
   Result<SceneFacts> load(std::string_view bytes, const std::string& name, const ReadOptions& options = {});
+  /// Spheres that were read already; `name` is their file's.
+  Result<SceneFacts> load(SphereFile spheres, const std::string& name);
   /// A scene from elsewhere, at least one sphere; without `has_camera` the whole set comes into view.
   Result<SceneFacts> load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
   const SceneFacts& facts() const;  ///< empty before the first scene
@@ -61,6 +64,16 @@ class Viewer {
   /// has a look of its own, a selection's (with its column), an attribute that the scene lacks, or that every sphere is
   /// hidden; the look before stays. `failed_row` (if given) is then the row to blame; rows.size() if none is.
   Result<std::vector<std::int64_t>> set_look(const ViewerLook& look, std::size_t* failed_row = nullptr);
+
+  // The frames of the file on show. viewer/player.h says which one is wanted when.
+
+  /// Makes frames that look like the one on show. Null if the scene is no file of spheres. The same one until the look,
+  /// the copies or the parameters of the tree change: so colours keep their ranges from frame to frame.
+  std::shared_ptr<const FrameMaker> frame_maker() const;
+  /// Shows a frame, once; camera, settings and look stay, and the facts are the frame's. False: the look, the copies or
+  /// the parameters of the tree have changed since its maker was made, and the frame must be made anew. Error: as
+  /// set(); the frame before stays.
+  Result<bool> show_frame(PreparedFrame& frame);
 
   // The graphics processor. Its context must be current in every call while one is attached.
 
@@ -100,15 +113,15 @@ class Viewer {
   /// graphics processor.
   Result<FrameReport> frame(double budget_ms);
   /// The last picture of the CPU engine, `divisor` times smaller than the requested size, or with labels of that size;
-  /// display values. A transparent
-  /// background is shown as grey checks.
+  /// display values. A transparent background is shown as grey checks.
   const Image& image() const;
   /// The last picture of the GPU engine, stretched to the viewport. Draws nothing if there is none. The framebuffer
   /// must have one sample a pixel (no antialiasing).
   void show(std::uint32_t framebuffer, const GlViewport& viewport);
 
   // A picture to be saved, of any size, by the engine of the settings. It is made in steps. The pointer may move
-  // between two steps, but frame(), set(), load() and the loss of its graphics processor drop the picture.
+  // between two steps, but frame() drops the picture, and so do set(), set_look() and load() where they succeed, and
+  // the loss of its graphics processor.
 
   Status begin_picture(int width_px, int height_px, int samples_per_pixel);
   /// Draws for about `budget_ms`; returns the finished share, 1 at the end. Error: no picture is in the making (any

@@ -40,9 +40,12 @@ bool needs_reference_tree(const ViewerSettings& settings) {
   return settings.engine == ViewerEngine::gpu || settings.view == View::traversal || settings.view == View::tree;
 }
 
+bool draws_adaptive_samples(const ViewerSettings& settings) {
+  return settings.effects.adaptive_samples && settings.engine == ViewerEngine::cpu;
+}
+
 int samples_at_rest(const ViewerSettings& settings) {
-  const bool adaptive = settings.effects.adaptive_samples && settings.engine == ViewerEngine::cpu;
-  return adaptive ? kFewSamples : settings.samples_per_pixel;
+  return draws_adaptive_samples(settings) ? kFewSamples : settings.samples_per_pixel;
 }
 
 RenderSettings render_settings(const ViewerSettings& settings, const PictureDefaults& defaults, int width_px,
@@ -51,7 +54,7 @@ RenderSettings render_settings(const ViewerSettings& settings, const PictureDefa
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   RenderSettings picture = settings_from(defaults);
   put_effects(settings.effects, picture);
-  if (gpu) picture.adaptive_samples = false;
+  picture.adaptive_samples = draws_adaptive_samples(settings);
   if (of_tree) picture.transparent = false;
   picture.width_px = width_px;
   picture.height_px = height_px;
@@ -59,7 +62,7 @@ RenderSettings render_settings(const ViewerSettings& settings, const PictureDefa
   picture.recursion = settings.recursion;
   picture.shadows = settings.shadows;
   picture.view = settings.view;
-  if (gpu) picture.cell_lines.reset();
+  if (!settings.cell || gpu) picture.cell_lines.reset();
   if (settings.cell && !gpu && !picture.cell_lines) picture.cell_lines.emplace();
   return picture;
 }

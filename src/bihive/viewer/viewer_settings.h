@@ -33,7 +33,7 @@ struct ViewerSettings {
   bool shadows = true;
   std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
   ViewerEffects effects;
-  bool cell = false;  ///< draw the edges of the periodic cell, if there is one; on the CPU
+  bool cell = false;  ///< draw the edges of the periodic cell, if there is one, and keep them in view; on the CPU
   /// Copies along the vectors of the cell, each 1 to 1000000; unset: those of the input. Without a cell, or with the
   /// GPU engine, no more than 1 x 1 x 1.
   std::optional<std::array<std::int32_t, 3>> replicate;
@@ -49,6 +49,8 @@ bool same_tree(const ViewerSettings& a, const ViewerSettings& b);
 TreeParameters tree_parameters(const ViewerSettings& settings);
 /// The engine or the view walks the reference tree, not the wide one.
 bool needs_reference_tree(const ViewerSettings& settings);
+/// The engine draws adaptive samples, and the settings ask for them: samples_per_pixel does not count.
+bool draws_adaptive_samples(const ViewerSettings& settings);
 /// The samples of a picture at rest: their number, or with adaptive samples that of every pixel.
 int samples_at_rest(const ViewerSettings& settings);
 /// For a picture of that size with the effects of the settings; the GPU engine draws no adaptive samples.

@@ -1,14 +1,15 @@
 #include "bihive/viewer/whole_in_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "bihive/math/elementary.h"
+#include "bihive/scene/framing.h"
 
 namespace bihive {
 namespace {
-
-constexpr double kFreeBorder = 0.04;  // as a share of the picture's side, as framing.cpp has it
 
 // The tangent of the angle to one side of the picture, and the length of (1, tangent).
 struct Slope {
@@ -21,9 +22,28 @@ struct Slope {
   }
 };
 
+// The copies at the corners of the block of images. The distance that a sphere needs is the largest of a few linear
+// functions of its place, so no other copy needs more than these.
+std::vector<std::int64_t> outermost_copies(const Images& images) {
+  std::vector<std::int64_t> copies;
+  copies.reserve(8);
+  for (int corner = 0; corner < 8; ++corner) {
+    std::array<std::int32_t, 3> at{};
+    bool is_new = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if ((corner >> axis & 1) == 0) continue;
+      at[axis] = images.counts[axis] - 1;
+      is_new = is_new && at[axis] > 0;
+    }
+    if (is_new) copies.push_back(images.number(at));
+  }
+  return copies;
+}
+
 }  // namespace
 
-Camera with_all_in_view(const SphereSet& spheres, const Camera& camera, PictureSizePx size) {
+Camera with_all_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points, const Camera& camera,
+                        PictureSizePx size) {
   const Vec3d offset = camera.eye - camera.look_at;
   const Vec3d back = normalized(offset);
   const Vec3d right = normalized(cross(camera.up, back));
@@ -33,15 +53,18 @@ Camera with_all_in_view(const SphereSet& spheres, const Camera& camera, PictureS
   const Slope across{tangent * size.width / shorter}, along{tangent * size.height / shorter};
 
   double distance = 0, side_length = 0, front = 0;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    const Vec3d centre = spheres.centre(id) - camera.look_at;
-    const double radius = spheres.radius(id);
+  const auto add = [&](Vec3d place, double radius) {
+    const Vec3d centre = place - camera.look_at;
     const double x = dot(centre, right), y = dot(centre, up), z = dot(centre, back);
     front = std::max(front, z + radius);
     distance = std::max({distance, across.distance(x, z, radius), along.distance(y, z, radius)});
     side_length = std::max({side_length, 2 * (std::abs(x) + radius) * shorter / size.width,
                             2 * (std::abs(y) + radius) * shorter / size.height});
-  }
+  };
+  for (const std::int64_t copy : outermost_copies(spheres.images()))
+    for (std::int64_t id = 0; id < spheres.size(); ++id)
+      add(spheres.centre(copy * spheres.size() + id), spheres.radius(id));
+  for (const Vec3d point : points) add(point, 0);
 
   Camera moved = camera;
   if (camera.projection == Projection::orthographic) {

@@ -1,0 +1,53 @@
+// Reads frames in a thread of its own and makes them ready, so that the window never waits for a file or a tree.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/io/frames.h"
+#include "bihive/viewer/frame_maker.h"
+
+namespace bihive::window {
+
+class FrameReader {
+ public:
+  /// `on_ready` is called in the reader's thread when a frame has come.
+  FrameReader(std::shared_ptr<const Frames> frames, std::function<void()> on_ready);
+  /// Waits for the frame that is being read.
+  ~FrameReader();
+  FrameReader(const FrameReader&) = delete;
+  FrameReader& operator=(const FrameReader&) = delete;
+
+  /// From now on this frame is wanted, and `ahead` after it. What came for other frames or another maker is dropped.
+  void want(std::int64_t frame, std::optional<std::int64_t> ahead, std::shared_ptr<const FrameMaker> maker);
+  /// The frame, once, if it has come.
+  std::optional<Result<std::shared_ptr<PreparedFrame>>> take(std::int64_t frame);
+
+ private:
+  struct Came {
+    std::int64_t frame;
+    Result<std::shared_ptr<PreparedFrame>> result;
+  };
+
+  void run();
+  std::optional<std::int64_t> missing() const;
+
+  std::shared_ptr<const Frames> frames_;
+  std::function<void()> on_ready_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool ends_ = false;
+  std::vector<std::int64_t> wanted_;  // that have not been taken yet, the first one first
+  std::shared_ptr<const FrameMaker> maker_;
+  std::vector<Came> came_;
+  std::thread thread_;  // the last member: it uses the others
+};
+
+}  // namespace bihive::window

@@ -1,0 +1,29 @@
+// The bar below the picture of a file with frames: time line, play, step, speed and loop.
+#pragma once
+
+#include <imgui.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "bihive/viewer/player.h"
+#include "bihive/viewer/viewer.h"
+
+namespace bihive::window {
+
+/// Clicks of one frame of the window.
+struct PlayerWishes {
+  bool toggles = false;  ///< play or pause
+  int step = 0;
+  std::optional<std::int64_t> frame;
+  std::optional<double> frames_per_second;
+  std::optional<bool> loops;
+};
+
+/// In ImGui's units.
+float player_bar_height(double text_scale);
+
+/// Draws it at the lower border of the picture, which is so wide.
+PlayerWishes draw_player_bar(const Player& player, const SceneFacts& facts, float width, double text_scale);
+
+}  // namespace bihive::window

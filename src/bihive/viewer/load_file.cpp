@@ -1,0 +1,58 @@
+#include "bihive/viewer/load_file.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "bihive/base/write_file.h"
+#include "bihive/io/packed.h"
+#include "bihive/scene/scene_file.h"
+
+namespace bihive {
+namespace {
+
+// A scene file, and what is packed, is read whole.
+bool must_be_read_whole(const std::string& path) {
+  std::array<char, 4096> start{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), start.size());
+  const std::string_view bytes(start.data(), static_cast<std::size_t>(file.gcount()));
+  return bytes.empty() || is_packed(bytes) || looks_like_scene(bytes);
+}
+
+}  // namespace
+
+Result<LoadedFile> load_file(Viewer& viewer, const std::string& path, const ReadOptions& options,
+                             std::int64_t whole_bytes) {
+  std::error_code unknown;
+  const bool again = std::filesystem::is_regular_file(path, unknown);
+  const auto size = again ? static_cast<std::int64_t>(std::filesystem::file_size(path, unknown)) : 0;
+  if (again && !unknown && (!options.trajectory.empty() || size > whole_bytes) && !must_be_read_whole(path)) {
+    Result<std::shared_ptr<const Frames>> frames = open_frames(path, options);
+    if (!frames) return frames.error();
+    Result<SphereFile> first = (*frames)->read(options.frame);
+    if (!first) return first.error();
+    Result<SceneFacts> facts = viewer.load(std::move(*first), path);
+    if (!facts) return facts.error();
+    LoadedFile loaded{std::move(*facts), std::move(*frames)};
+    if (loaded.frames->count() == 1) loaded.frames.reset();
+    return loaded;
+  }
+
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  Result<SceneFacts> facts = viewer.load(*bytes, path, options);
+  if (!facts) return facts.error();
+  bytes->clear();
+  bytes->shrink_to_fit();
+  LoadedFile loaded{std::move(*facts), nullptr};
+  if (!again || loaded.facts.frames == 1 || !loaded.facts.is_file_of_spheres) return loaded;
+  Result<std::shared_ptr<const Frames>> frames = open_frames(path, options);
+  if (!frames) return frames.error();
+  loaded.frames = std::move(*frames);
+  return loaded;
+}
+
+}  // namespace bihive
