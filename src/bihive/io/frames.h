@@ -1,7 +1,7 @@
 // A file of spheres with any number of frames, opened once.
 //
-// Opening finds where each frame begins; a frame is read when it is asked for, so that memory holds the frames in use and
-// never the file.
+// Opening finds where each frame begins; a frame is read when it is asked for, so that memory holds the frames in use
+// and never the file.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class Frames {
   virtual std::int64_t count() const = 0;
   /// What went wrong while it was opened and does not matter for the frames, one line each.
   virtual std::vector<std::string> warnings() const { return {}; }
-  /// The same, bit for bit, as read_spheres() of the same file and options with this frame, 0 to count() - 1. Errors: as
-  /// there; no such frame; the file changed meanwhile.
+  /// The same, bit for bit, as read_spheres() of the same file and options with this frame, 0 to count() - 1. Errors:
+  /// as there; no such frame; the file changed meanwhile.
   virtual Result<SphereFile> read(std::int64_t frame) const = 0;
 };
 

@@ -26,7 +26,8 @@ Result<SphereFile> without_throwing(const std::string& name, const Body& body) {
 }  // namespace
 
 Result<SphereFile> SphereFrames::open(std::int64_t frame) {
-  return without_throwing(name_, [&] { return begin(open_raw_frames(name_, is_moved() ? 0 : frame, of_frames_.keep_index), frame); });
+  return without_throwing(
+      name_, [&] { return begin(open_raw_frames(name_, is_moved() ? 0 : frame, of_frames_.keep_index), frame); });
 }
 
 Result<SphereFile> SphereFrames::open(std::string_view bytes, std::int64_t frame) {
