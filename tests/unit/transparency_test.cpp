@@ -181,7 +181,7 @@ TEST(Transparency, shadows_and_occlusion_are_as_weak_as_the_sphere) {
     // The share that half of the directions lose.
     const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
     const Transparency parts = parts_of(scene);
-    Surface surface;
+    Surface surface{};
     surface.origin = {0, 0, 0};
     surface.normal = {0, 1, 0};
     surface.id = kPlane;

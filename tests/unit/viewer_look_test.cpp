@@ -463,7 +463,7 @@ TEST(ViewerLook, effects_follow_the_style_unless_they_were_changed) {
   ViewerLook look;
   look.style = "illustrative";
   ASSERT_TRUE(viewer.set_look(look));
-  const PictureDefaults& style = style_named("illustrative")->picture;
+  const PictureDefaults style = style_named("illustrative")->picture;
   EXPECT_EQ(viewer.settings().effects.ambient_occlusion, style.ambient_occlusion.has_value());
   EXPECT_EQ(viewer.settings().effects.outline_px, style.outline->width_px);
   EXPECT_EQ(viewer.settings().effects.fog, 0.25) << "the user's";

@@ -136,12 +136,17 @@ class EngineBlock {
   void add_curves() {
     Series::Spread range{std::numeric_limits<double>::infinity(), 0};
     std::vector<std::int64_t> all = max_prims_;
-    for (const auto& [key, times] : times_)
+    const auto reach = [&range](const std::vector<double>& ms) {
+      range.low = std::min(range.low, fps_quartiles(ms).lower);
+      range.high = std::max(range.high, fps_quartiles(ms).upper);
+    };
+    for (const auto& [key, times] : times_) {
+      if (!engine_.gpu) reach(times.brute);
       for (const auto& [prims, ms] : times.trees) {
-        range.low = std::min(range.low, fps_quartiles(ms).lower);
-        range.high = std::max(range.high, fps_quartiles(ms).upper);
+        reach(ms);
         if (prims != key.second && prims > all.back()) all.push_back(prims);
       }
+    }
     for (const std::int64_t scenario : scenarios_) {
       ChartData curves{fmt::format("Scenario {}: over MAX_PRIMS, engine {}", scenario, engine_.name),
                        "MAX_PRIMS",
