@@ -47,8 +47,8 @@ inline void check_attributes(const SphereAttributes& attributes, std::size_t siz
 }
 
 /// One reader's answer. The first byte of the input chooses the frame.
-template <class Reader>
-void read_raw(Reader reader, const std::uint8_t* data, std::size_t size) {
+inline void read_raw(Result<RawSpheres> (*reader)(std::string_view, const std::string&, std::int64_t),
+                     const std::uint8_t* data, std::size_t size) {
   if (size == 0) return;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   const Result<RawSpheres> raw = reader(text, "fuzz", data[0] % 4);
