@@ -221,7 +221,9 @@ TEST(Trajectory, places_of_a_frame_replace_those_of_the_file) {
   // A trajectory alone has no names and sizes.
   const Result<SphereFile> alone = read_spheres(data("water.xtc"), {});
   ASSERT_FALSE(alone.ok());
-  EXPECT_NE(alone.error().hint.find("file of its atoms first"), std::string::npos) << alone.error().to_string();
+  EXPECT_NE(alone.error().message.find("only together with a file of its atoms"), std::string::npos)
+      << alone.error().to_string();
+  EXPECT_NE(alone.error().hint.find("give that file first"), std::string::npos) << alone.error().to_string();
 }
 
 }  // namespace

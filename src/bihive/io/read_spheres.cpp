@@ -3,15 +3,18 @@
 #include "bihive/io/packed.h"
 #include "bihive/io/sphere_frames.h"
 #include "bihive/io/unpack.h"
+#include "bihive/io/without_throwing.h"
 
 namespace bihive {
 
 Result<SphereFile> read_spheres_from_memory(std::string_view bytes, const std::string& name,
                                             const ReadOptions& options) {
-  if (!is_packed(bytes)) return SphereFrames(name, options).open(bytes, options.frame);
-  const Result<std::string> unpacked = unpack_bytes(bytes, name);
-  if (!unpacked) return unpacked.error();
-  return SphereFrames(name, options).open(*unpacked, options.frame);
+  return without_throwing(name, [&]() -> Result<SphereFile> {
+    if (!is_packed(bytes)) return SphereFrames(name, options).open(bytes, options.frame);
+    const Result<std::string> unpacked = unpack_bytes(bytes, name);
+    if (!unpacked) return unpacked.error();
+    return SphereFrames(name, options).open(*unpacked, options.frame);
+  });
 }
 
 Result<std::string> unpack_gzip(std::string bytes, const std::string& name) {
@@ -20,7 +23,7 @@ Result<std::string> unpack_gzip(std::string bytes, const std::string& name) {
 }
 
 Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options) {
-  return SphereFrames(path, options).open(options.frame);
+  return without_throwing(path, [&] { return SphereFrames(path, options).open(options.frame); });
 }
 
 }  // namespace bihive

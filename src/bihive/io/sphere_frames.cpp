@@ -1,30 +1,13 @@
 #include "bihive/io/sphere_frames.h"
 
 #include <algorithm>
-#include <exception>
-#include <new>
 
 #include "bihive/io/finish.h"
 #include "bihive/io/text_scanner.h"
 #include "bihive/io/unknown_radii.h"
+#include "bihive/io/without_throwing.h"
 
 namespace bihive {
-namespace {
-
-// The readers return every error but one: lack of memory throws.
-template <class Body>
-Result<SphereFile> without_throwing(const std::string& name, const Body& body) {
-  try {
-    return body();
-  } catch (const std::bad_alloc&) {
-    return Error{"there is not enough memory to read it", name, 0, 0, ""};
-  } catch (const std::exception& e) {
-    return Error{"reading failed: " + std::string(e.what()), name, 0, 0, ""};
-  }
-}
-
-}  // namespace
-
 Result<SphereFile> SphereFrames::open(std::int64_t frame) {
   return without_throwing(
       name_, [&] { return begin(open_raw_frames(name_, is_moved() ? 0 : frame, of_frames_.keep_index), frame); });

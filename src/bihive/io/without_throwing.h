@@ -1,0 +1,24 @@
+// For functions that promise not to throw: lack of memory becomes an error.
+#pragma once
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "bihive/base/result.h"
+
+namespace bihive {
+
+/// The answer of `body`, a Result; an error if it throws. `name` is the file's, for messages.
+template <class Body>
+auto without_throwing(const std::string& name, const Body& body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return Error{"there is not enough memory to read it", name, 0, 0, ""};
+  } catch (const std::exception& e) {
+    return Error{"reading failed: " + std::string(e.what()), name, 0, 0, ""};
+  }
+}
+
+}  // namespace bihive
