@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,10 @@ class Scratch {
  public:
   explicit Scratch(const std::string& bytes)
       : path_(::testing::TempDir() + "bihive_trajectory_test." + std::to_string(getpid())) {
-    EXPECT_TRUE(write_file(path_, bytes).ok());
+    // Not write_file(): it waits for the disk, and thousands of files are made.
+    std::ofstream file(path_, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+    EXPECT_TRUE(file.good());
   }
   ~Scratch() { std::remove(path_.c_str()); }
   const std::string& path() const { return path_; }
