@@ -250,6 +250,7 @@ class Judge {
       const std::set<Shape> shapes = shapes_of(curve);
       const Shape stated = only_rises ? Shape::rises : Shape::peaks;
       std::vector<std::string> names;
+      names.reserve(shapes.size());
       for (const Shape shape : shapes) names.emplace_back(text_of(shape));
       const std::string ours = names.empty() ? "up and down" : fmt::format("{}", fmt::join(names, " or "));
       add(kCurves, fmt::format("curve.scenario{}.spheres{}", key.first, key.second),
