@@ -125,7 +125,7 @@ class BytesInMemory : public RawFrames {
  public:
   BytesInMemory(std::string_view bytes, std::string name, Format format)
       : bytes_(bytes), name_(std::move(name)), format_(format) {
-    may_be_cut_ = ends_in_a_line(format) && bytes.back() != '\n';
+    set_may_be_cut(ends_in_a_line(format) && bytes.back() != '\n');
   }
   Result<RawSpheres> read(std::int64_t frame) const override { return read_whole(format_, bytes_, name_, frame); }
 
@@ -150,7 +150,7 @@ class WholeFile : public RawFrames {
   Status look_at_end() {
     const Result<std::string> last = file_.read(file_.size() - 1, 1);
     if (!last) return last.error();
-    may_be_cut_ = ends_in_a_line(format_) && last->front() != '\n';
+    set_may_be_cut(ends_in_a_line(format_) && last->front() != '\n');
     return Done{};
   }
 
@@ -176,7 +176,7 @@ class IndexedText : public RawFrames {
   // From the index beside the file, or by a pass that writes it.
   Result<RawSpheres> open_with_index(std::int64_t wanted) {
     if (file_.written_ns() == 0) {
-      warnings_.push_back(file_.path() + ": there is no index of a packed file or a pipe");
+      warn(file_.path() + ": there is no index of a packed file or a pipe");
       return open(wanted);
     }
     const std::string path = kept_index_path(file_.path());
@@ -187,15 +187,15 @@ class IndexedText : public RawFrames {
       const Result<std::string> last = file_.read(file_.size() - 1, 1);
       if (index && last) {
         index_ = std::move(*index);
-        may_be_cut_ = last->front() != '\n';
+        set_may_be_cut(last->front() != '\n');
         return read(wanted);
       }
-      warnings_.push_back(path + ": is damaged, or belongs to another version of the file; it is made anew");
+      warn(path + ": is damaged, or belongs to another version of the file; it is made anew");
     }
     Result<RawSpheres> read = open(wanted);
     if (!read) return read;
     if (const Status status = write_file(path, encode_index(index_, of)); !status)
-      warnings_.push_back("the index is not kept: " + status.error().to_string());
+      warn("the index is not kept: " + status.error().to_string());
     return read;
   }
 
@@ -203,8 +203,10 @@ class IndexedText : public RawFrames {
   Result<RawSpheres> open(std::int64_t wanted) {
     // Where the file is larger than the memory, a frame may be too. Then find its length first.
     const bool is_large = static_cast<double>(file_.size()) > memory_bytes();
+    bool is_cut = false;
     Result<RawSpheres> read =
-        pass({0, file_.size(), 0}, FramePass{is_large ? FramePass::kNone : wanted, 0, &index_}, &may_be_cut_);
+        pass({0, file_.size(), 0}, FramePass{is_large ? FramePass::kNone : wanted, 0, &index_}, &is_cut);
+    set_may_be_cut(is_cut);
     return !read || !is_large ? std::move(read) : this->read(wanted);
   }
 

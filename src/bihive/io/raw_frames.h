@@ -25,6 +25,10 @@ class RawFrames {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  protected:
+  void warn(const std::string& warning) { warnings_.push_back(warning); }
+  void set_may_be_cut(bool may_be_cut) { may_be_cut_ = may_be_cut; }
+
+ private:
   std::vector<std::string> warnings_;
   bool may_be_cut_ = false;
 };
