@@ -44,12 +44,12 @@ class VtkReader {
 
   Result<RawSpheres> read() {
     if (Status status = read_all(); !status) return status.error();
-    if (!has_points_) return error("there are no POINTS in it", hint_);
+    if (!has_points_) return error("there are no POINTS in it", kHint);
     return spheres_of_arrays(places_, arrays_, file_);
   }
 
  private:
-  static constexpr const char* hint_ = "datasets with POINTS are read: POLYDATA, UNSTRUCTURED_GRID, STRUCTURED_GRID";
+  static constexpr const char* kHint = "datasets with POINTS are read: POLYDATA, UNSTRUCTURED_GRID, STRUCTURED_GRID";
 
   Error error(const std::string& message, const std::string& hint = "") const {
     return {message, file_, line_, 0, hint};
@@ -142,7 +142,7 @@ class VtkReader {
     if (keyword == "DATASET") {
       const std::string_view kind = word();
       if (kind != "POLYDATA" && kind != "UNSTRUCTURED_GRID" && kind != "STRUCTURED_GRID")
-        return error("the dataset " + quote(kind) + " has no points of its own", hint_);
+        return error("the dataset " + quote(kind) + " has no points of its own", kHint);
       return Done{};
     }
     if (keyword == "DIMENSIONS" || keyword == "METADATA") {
