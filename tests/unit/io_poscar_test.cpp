@@ -87,6 +87,15 @@ TEST(Poscar, SaysWhereItIsWrong) {
     (void)read_spheres_from_memory(std::string_view(kDiamond).substr(0, length), "POSCAR", {});
 }
 
+// A comment where names or counts should stand: the look at the first lines goes on without words.
+TEST(Poscar, ACommentInPlaceOfNamesIsNoStructure) {
+  for (const char* const comment : {"# c\n", "! c\n# d\n"}) {
+    const std::string text = std::string("x\n1\n1 0 0\n0 1 0\n0 0 1\n") + comment;
+    EXPECT_NE(error_of(text, "a").find("no file of spheres in a known format"), std::string::npos);
+    EXPECT_EQ(error_of(text, "POSCAR").find("known format"), std::string::npos);
+  }
+}
+
 TEST(Xdatcar, TakesEveryFrame) {
   const SphereFile first = read_text(kRun, "x");
   EXPECT_EQ(first.format, "XDATCAR");

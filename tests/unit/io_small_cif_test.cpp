@@ -69,6 +69,16 @@ TEST(SmallCif, FillsTheCellByTheGroup) {
   EXPECT_NE(file.warnings[0].find("1 sphere has no place"), std::string::npos);
 }
 
+// Journals put the words of a whole article before the atoms.
+TEST(SmallCif, IsKnownBehindALongText) {
+  std::string article = "data_article\n_publ_section_abstract\n;\n";
+  for (int line = 0; line < 2000; ++line) article += "words of the article that stand before the atoms\n";
+  const std::string text = with(kListed, "data_listed\n", article + ";\n");
+  const SphereFile file = read_text(text, "listed.cif");
+  EXPECT_EQ(file.format, "CIF");
+  EXPECT_EQ(file.spheres.size(), read_text(kListed, "listed.cif").spheres.size());
+}
+
 TEST(SmallCif, TakesTheListedOperations) {
   const SphereFile file = read_text(kListed, "l.cif");
   ASSERT_EQ(file.spheres.size(), 6);

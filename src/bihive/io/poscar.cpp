@@ -275,9 +275,9 @@ bool begins_as_vasp(TextScanner& scanner) {
   for (int vector = 0; vector < 3; ++vector)
     if (!scanner.next_line() || !numbers(3, 3)) return false;
   if (!scanner.next_line() || trim(scanner.line()).empty()) return false;
-  // Counts alone, or names and then counts.
+  // Counts alone, or names and then counts. A line with a comment alone has neither.
   std::vector<std::string> words = words_on(scanner);
-  if (!is_number(words[0])) {
+  if (!words.empty() && !is_number(words[0])) {
     if (!scanner.next_line()) return false;
     words = words_on(scanner);
   }

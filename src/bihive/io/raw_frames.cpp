@@ -45,7 +45,8 @@ Result<RawSpheres> read_whole(Format format, std::string_view bytes, const std::
     case Format::pqr:
       return read_pqr(bytes, name, frame);
     case Format::mmcif:
-      return read_mmcif(bytes, name, frame);
+      // The head of a long CIF may hold no atoms yet.
+      return is_small_cif(bytes) ? read_small_cif(bytes, name, frame) : read_mmcif(bytes, name, frame);
     case Format::xyz:
       return read_xyz(bytes, name, frame);
     case Format::gro:
