@@ -9,7 +9,7 @@ namespace bihive {
 namespace {
 
 // Inner nodes and leaves of a tree with that many leaves: inner = leaves - 1 + optimized.
-struct Shape {
+struct TreeShape {
   double leaves;
   double optimized_per_leaf;
   double one_sided_per_leaf;
@@ -39,12 +39,13 @@ MemoryPrediction predict_tree_memory(std::int64_t spheres, const BuildParameters
   // max_prims 1, with up to 0.41 clip nodes a leaf. A limited depth can end a chain of nodes early, which saves leaves.
   const double full_leaves = n / std::max(1.0, max_prims);
   const bool limited = most_leaves < full_leaves;
-  const Shape low{std::max(1.0, limited ? 0.25 * most_leaves : 0.8 * full_leaves), 0, 0.05};
-  const Shape high{std::min(most_leaves, std::max(1.0, n * std::min(1.45, 2.65 / std::max(1.0, max_prims)))), 0.42, 0};
+  const TreeShape low{std::max(1.0, limited ? 0.25 * most_leaves : 0.8 * full_leaves), 0, 0.05};
+  const TreeShape high{std::min(most_leaves, std::max(1.0, n * std::min(1.45, 2.65 / std::max(1.0, max_prims)))), 0.42,
+                       0};
 
   MemoryPrediction prediction;
-  const auto as_thesis = [spheres](const Shape& shape) { return thesis_bytes(shape.nodes(), 0, spheres).total(); };
-  const auto as_allocated = [spheres](const Shape& shape) {
+  const auto as_thesis = [spheres](const TreeShape& shape) { return thesis_bytes(shape.nodes(), 0, spheres).total(); };
+  const auto as_allocated = [spheres](const TreeShape& shape) {
     return static_cast<std::int64_t>(sizeof(Tree)) + shape.stored_nodes() * static_cast<std::int64_t>(sizeof(Node)) +
            spheres * static_cast<std::int64_t>(sizeof(std::int64_t));
   };
