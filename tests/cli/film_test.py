@@ -317,7 +317,7 @@ class Encoded(FilmTest):
         report = subprocess.run([BIHIVE, "film", "run.xyz", "-o", "run.mp4", *SMALL, "--json"], cwd=self.folder,
                                 env=environment, stdout=subprocess.PIPE, check=True, timeout=PATIENCE_S)
         self.assertEqual(json.loads(report.stdout)["drawn"], 6)
-        # What the program sends: rows of pixels, and nothing else.
+        # The program sends rows of pixels, and nothing else.
         self.film("run.xyz", "-o", "run/%d.png", *SMALL)
         self.assertEqual(self.read("run.mp4"), self.pixels_of_sequence("run"))
 
@@ -455,7 +455,7 @@ class WrongOptions(FilmTest):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assert_one_error_line(done.stderr)
         self.assertIn("run.xyz:", done.stderr)
-        # What is whole stays for another attempt; there is no film.
+        # Whole pictures stay for another attempt; there is no film.
         self.assertNotIn("x.y4m", self.names())
 
 

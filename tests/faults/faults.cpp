@@ -131,7 +131,7 @@ bool wants_nameless(int flags) {
   return plan.no_tmpfile && (flags & O_TMPFILE) == O_TMPFILE;
 }
 
-// What a program leaves open, apart from what it got.
+// Descriptors that a program leaves open, apart from those that it got.
 __attribute__((destructor)) void count_open() {
   if (plan.report == nullptr) return;
   int open_files = 0;

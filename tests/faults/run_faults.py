@@ -5,7 +5,7 @@ Usage: run_faults.py [--most N] [--short] [--jobs J] [--command NAME...] [--kind
 
 For each command and each kind of call (faults.cpp) it runs the program again and again: the first call fails, then the second,
 until a run meets no fault. With --most N it takes N of these calls, evenly spread.
-What the program reserves before it looks at the words of its command (some 6,500 allocations) fails in one command alone.
+Some 6,500 allocations come before the program looks at the words of its command; they fail in one command alone.
 
 A run is right if
   - the exit code is 0, 1 or 3, and no signal ended the program (`web` is asked for two files, then ended by SIGTERM: 0);
@@ -303,7 +303,7 @@ def leftovers(options):
 
 def step(case, kind, most, pool, jobs):
     """Lets calls of a kind fail: each until a run meets no fault, or so many of them. (runs, texts of wrong ones)"""
-    # What all commands do before they look at their words is tried once, by one of them.
+    # The part of all commands before they look at their words is tried once, by one of them.
     before = case.shared if kind.startswith("malloc") and case.name != WHOLE else 0
     if most and not case.outputs:
         most = max(1, most // 2)

@@ -1,4 +1,4 @@
-// What fuzz targets of whole engines share: numbers from any bytes, and answers that must have the same bits.
+// Shared by the fuzz targets of whole engines: numbers from any bytes, and answers that must have the same bits.
 #pragma once
 
 #include <algorithm>

@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const RayOrder order : {RayOrder::any, RayOrder::blocks})
       fuzz::demand(fuzz::answers_of(tracer, rays, order) == expected);
 
-  // What trace writes is read again.
+  // The output of trace is read again.
   const auto count = static_cast<std::int64_t>(expected.t.size());
   const Result<NpyArray> t = parse_npy(npy_bytes(expected.t, {count}), "fuzz");
   fuzz::demand(t.ok() && t->dtype == "<f8" && fuzz::same_bytes(t->values, expected.t));

@@ -98,7 +98,7 @@ void change(Bytes& bytes, const std::vector<Bytes>& seeds, Random& random) {
   }
 }
 
-// What the handler of signals needs: the input on trial.
+// For the handler of signals: the input on trial.
 const Bytes* on_trial = nullptr;
 char name_of_failed[64];
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bihive/io/gunzip.h"
+#include "bihive/io/unpack.h"
 #include "support/gzip.h"
 #include "support/read_text.h"
 
@@ -15,56 +15,56 @@ std::string long_text() {
   return text;
 }
 
-TEST(Gunzip, GivesBackWhatWasPacked) {
+TEST(Unpack, GivesBackWhatWasPacked) {
   for (const std::string& text : {std::string(), std::string("x"), long_text()}) {
-    const Result<std::string> back = gunzip(gzip(text), "a.gz");
+    const Result<std::string> back = unpack_bytes(gzip(text), "a.gz");
     ASSERT_TRUE(back.ok()) << back.error().to_string();
     EXPECT_EQ(*back, text);
   }
-  EXPECT_EQ(*gunzip(gzip(long_text(), 0), "a.gz"), long_text());
+  EXPECT_EQ(*unpack_bytes(gzip(long_text(), 0), "a.gz"), long_text());
 }
 
-TEST(Gunzip, GoesOnWithFurtherMembersAndPadding) {
+TEST(Unpack, GoesOnWithFurtherMembersAndPadding) {
   const std::string text = long_text();
-  EXPECT_EQ(*gunzip(gzip("one ") + gzip("") + gzip(text), "a.gz"), "one " + text);
-  EXPECT_EQ(*gunzip(gzip("one ") + gzip("two") + std::string(512, '\0'), "a.gz"), "one two");
+  EXPECT_EQ(*unpack_bytes(gzip("one ") + gzip("") + gzip(text), "a.gz"), "one " + text);
+  EXPECT_EQ(*unpack_bytes(gzip("one ") + gzip("two") + std::string(512, '\0'), "a.gz"), "one two");
 }
 
 // 64 MB of zeros take 64 kB. The limit counts, and is named, before the memory is taken.
-TEST(Gunzip, RefusesMoreThanTheMemoryHolds) {
+TEST(Unpack, RefusesMoreThanTheMemoryHolds) {
   const std::string packed = gzip(std::string(std::size_t{1} << 26, '0'));
   ASSERT_EQ(setenv("BIHIVE_MEMORY", "20000000", 1), 0);
-  const Result<std::string> unpacked = gunzip(packed, "bomb.gz");
+  const Result<std::string> unpacked = unpack_bytes(packed, "bomb.gz");
   ASSERT_EQ(unsetenv("BIHIVE_MEMORY"), 0);
   ASSERT_FALSE(unpacked.ok());
   EXPECT_NE(unpacked.error().to_string().find("BIHIVE_MEMORY allows 20 MB"), std::string::npos)
       << unpacked.error().to_string();
-  EXPECT_TRUE(gunzip(packed, "bomb.gz").ok());
+  EXPECT_TRUE(unpack_bytes(packed, "bomb.gz").ok());
 }
 
-TEST(Gunzip, RefusesCutData) {
+TEST(Unpack, RefusesCutData) {
   const std::string packed = gzip("some text that is packed") + gzip("and more of it");
   const std::size_t first = gzip("some text that is packed").size();
   for (std::size_t size = 2; size < packed.size(); ++size) {
     if (size == first) continue;
-    const Result<std::string> back = gunzip(packed.substr(0, size), "a.gz");
+    const Result<std::string> back = unpack_bytes(packed.substr(0, size), "a.gz");
     ASSERT_FALSE(back.ok()) << "cut at " << size;
     if (size < first + 2) continue;  // its second member is not gzip yet
     EXPECT_EQ(back.error().to_string(), "a.gz: the gzip data is cut: it ends before its end mark");
   }
 }
 
-TEST(Gunzip, RefusesDamagedData) {
+TEST(Unpack, RefusesDamagedData) {
   const std::string packed = gzip("some text that is packed, some text that is packed");
   std::string damaged = packed;
   damaged[packed.size() - 6] = static_cast<char>(damaged[packed.size() - 6] ^ 1);
-  EXPECT_EQ(gunzip(damaged, "a.gz").error().to_string(), "a.gz: the gzip data is damaged: incorrect data check");
-  EXPECT_FALSE(gunzip(std::string("\x1f\x8b") + std::string(50, 'x'), "a.gz").ok());
-  EXPECT_EQ(gunzip(packed + "more", "a.gz").error().to_string(),
+  EXPECT_EQ(unpack_bytes(damaged, "a.gz").error().to_string(), "a.gz: the gzip data is damaged: incorrect data check");
+  EXPECT_FALSE(unpack_bytes(std::string("\x1f\x8b") + std::string(50, 'x'), "a.gz").ok());
+  EXPECT_EQ(unpack_bytes(packed + "more", "a.gz").error().to_string(),
             "a.gz: the gzip data is damaged: something else follows its end mark");
 }
 
-TEST(Gunzip, UnpacksEveryFormat) {
+TEST(Unpack, UnpacksEveryFormat) {
   EXPECT_EQ(test::read_text(gzip("1 2 3 4\n"), "a.txt.gz").format, "CSV");
   EXPECT_EQ(test::read_text(gzip("1\n\nC 1 2 3\n"), "misleading.npy").format, "XYZ");
   EXPECT_EQ(test::read_text(gzip(std::string("x,y,z\n1,2,3\n")), "a.csv.gz").spheres.size(), 1);

@@ -54,7 +54,7 @@ struct LabelOptions {
   std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
 };
 
-/// What a film keeps the same in all its pictures.
+/// The things that stay the same in all pictures of a film.
 struct FixedByFilm {
   Camera camera;  ///< of this picture
   ColourRange range_of_style;
@@ -115,7 +115,7 @@ struct Shard {
 /// "i/N" with 0 <= i < N.
 Result<Shard> shard_from(const std::string& text);
 
-/// From which frames the colours of numbers get their range.
+/// The frames that give the colours of numbers their range.
 enum class RangeOfColours { first, film, frame };
 
 struct FilmOptions {

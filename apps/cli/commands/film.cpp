@@ -40,7 +40,7 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-// What contradicts the kind of the film, before anything is read.
+// Refuses what contradicts the kind of the film, before anything is read.
 void check_film_options(const FilmOptions& options, FilmKind kind) {
   const RenderOptions& picture = options.picture;
   if (options.join && (!picture.input.input.empty() || options.shard || options.frames || options.pictures))
@@ -227,7 +227,7 @@ void run_film(const FilmOptions& asked) {
   choose_engine(options.picture);
   warn_of_each_text_once();
 
-  // What the film shows, and whether an earlier run has begun it.
+  // Find out what the film shows, and whether an earlier run has begun it.
   const Style style = choose_style(options.picture.style);
   const FrameSource source = FrameSource::open(options.picture.input, style, !options.picture.style.name.empty());
   FilmPlan plan;

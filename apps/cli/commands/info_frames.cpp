@@ -47,7 +47,7 @@ struct Span {
   ordered_json json() const { return known() ? ordered_json{{"min", min}, {"max", max}} : ordered_json(); }
 };
 
-// What one frame holds, or all frames so far.
+// The contents of one frame, or of all frames so far.
 struct Summary {
   std::string format;
   std::int64_t frames = 0, with_cell = 0;

@@ -129,7 +129,7 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   return settings;
 }
 
-// What the graphics processor cannot draw.
+// Refuses what the graphics processor cannot draw.
 void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings& settings) {
   const auto refuse = [engine](const std::string& what, const std::string& without) {
     fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + what,

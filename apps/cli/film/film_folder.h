@@ -1,4 +1,4 @@
-// What a run leaves for the next one: the film's description, and the folder FILE.part of a film in one file.
+// The leavings of a run for the next one: the film's description, and the folder FILE.part of a film in one file.
 #pragma once
 
 #include <optional>

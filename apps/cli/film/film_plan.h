@@ -44,7 +44,7 @@ std::string film_plan_to_json(const FilmPlan& plan);
 /// Fails with kBadInput if the file is no such description.
 FilmPlan read_film_plan(const std::string& path);
 
-/// What differs between two wishes, for a message: "its frames are ..., not ..."; empty: nothing.
+/// The difference of two wishes, for a message: "its frames are ..., not ..."; empty: nothing.
 std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked);
 
 /// Sets the options' frame, camera and ranges to those of the picture that `options.picture` or `options.input.frame`

@@ -1,7 +1,5 @@
 #include "film/frame_source.h"
 
-#include <array>
-#include <fstream>
 #include <utility>
 
 #include "bihive/base/write_file.h"
@@ -9,19 +7,6 @@
 #include "support/outputs.h"
 
 namespace bihive::cli {
-namespace {
-
-// Whether the file is a scene: by its first bytes, if it is packed by its name.
-bool is_scene_file(const std::string& path) {
-  std::array<char, 64> first{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(first.data(), first.size());
-  const std::string bytes(first.data(), static_cast<std::size_t>(file.gcount()));
-  if (bytes.substr(0, 2) == "\x1f\x8b") return path.find(".json") != std::string::npos;
-  return looks_like_scene(bytes);
-}
-
-}  // namespace
 
 FrameSource FrameSource::open(const InputOptions& options, const Style& style, bool asked_for) {
   check_input_options(options);
@@ -32,8 +17,7 @@ FrameSource FrameSource::open(const InputOptions& options, const Style& style, b
     if (asked_for) fail_usage("--style is for files, not for " + options.input);
     return source;
   }
-  const bool piped = options.input == kStandardStream;
-  if (options.input != "demo" && !piped && !is_scene_file(options.input)) {
+  if (options.input != "demo" && !must_be_read_whole(options.input)) {
     ReadOptions reading = read_options(options);
     reading.frame = 0;
     source.frames_ = value_or_fail(open_frames(options.input, reading));
@@ -41,22 +25,15 @@ FrameSource FrameSource::open(const InputOptions& options, const Style& style, b
     return source;
   }
   if (options.input != "demo") {
-    source.name_ = piped ? "standard input" : options.input;
-    source.bytes_ = value_or_fail(unpack_gzip(read_input(options.input), source.name_));
+    source.name_ = input_name(options.input);
+    source.bytes_ = value_or_fail(unpack_if_packed(read_input(options.input), source.name_));
   }
   source.count_ = source.load(0, style).frames;
   return source;
 }
 
 Input FrameSource::load(std::int64_t frame, const Style& style) const {
-  if (std::optional<Scene> scene = generated_scene(options_)) {
-    Input input;
-    input.scene = std::move(*scene);
-    input.has_camera = true;
-    input.has_lights = true;
-    input.format = "built-in";
-    return input;
-  }
+  if (std::optional<Input> generated = generated_input(options_)) return std::move(*generated);
   if (frames_) {
     Input input = scene_of_spheres(value_or_fail(frames_->read(frame)), options_.input, &style);
     if (!options_.trajectory.empty()) input.files.push_back(options_.trajectory);

@@ -65,7 +65,7 @@ class Y4mFilm final : public FilmSink {
   }
 
  private:
-  // What a killed program left behind the last whole picture goes away.
+  // The rest behind the last whole picture, left by a killed program, goes away.
   void keep_whole_pictures() {
     struct stat found {};
     if (fstat(file_, &found) != 0) fail_of_system("cannot be read", path_, errno);

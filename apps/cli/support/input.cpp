@@ -59,15 +59,14 @@ class FileSize {
   std::uintmax_t size_;
 };
 
-// Whether the file must be in memory as a whole: a scene, or no plain file, which can be read only once.
-bool is_scene_file(const std::string& path) {
+}  // namespace
+
+bool must_be_read_whole(const std::string& path) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return true;
+  if (path == kStandardStream || !std::filesystem::is_regular_file(path, none)) return true;
   const Result<std::string> head = read_head(path);
   return head && looks_like_scene(*head);
 }
-
-}  // namespace
 
 bool is_generated(const std::string& name) {
   return is_built_in_scene(name) && name != "demo";
@@ -129,28 +128,34 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
   return std::move(loaded->scene);
 }
 
+std::optional<Input> generated_input(const InputOptions& options) {
+  std::optional<Scene> scene = generated_scene(options);
+  if (!scene) return std::nullopt;
+  Input input;
+  input.scene = std::move(*scene);
+  input.has_camera = true;
+  input.has_lights = true;
+  input.format = "built-in";
+  return input;
+}
+
 Input load_input(const InputOptions& options, LooksOfFile looks, const Style* style, bool asked_for) {
-  if (std::optional<Scene> scene = generated_scene(options)) {
+  if (std::optional<Input> generated = generated_input(options)) {
     only_for(asked_for, "--style", "files", options.input);
-    Input input;
-    input.scene = std::move(*scene);
-    input.has_camera = true;
-    input.has_lights = true;
-    input.format = "built-in";
-    return input;
+    return std::move(*generated);
   }
   check_input_options(options);
   const ReadOptions reading = read_options(options);
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
-    if (options.input != kStandardStream && !is_scene_file(options.input)) {
+    if (!must_be_read_whole(options.input)) {
       const FileSize size(options.input);
       Result<Input> loaded = load_spheres(options.input, reading, style);
       if (size.grew()) warn_of_growth(options.input);
       return loaded;
     }
     const std::string name = input_name(options.input);
-    const std::string bytes = value_or_fail(unpack_gzip(read_input(options.input), name));
+    const std::string bytes = value_or_fail(unpack_if_packed(read_input(options.input), name));
     return load_scene(bytes, name, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);
   };
   Input input = value_or_fail(load());

@@ -57,7 +57,12 @@ ReadOptions read_options(const InputOptions& options);
 /// Made by the program, not read: scenario1, scenario2, scenario3, four-spheres.
 bool is_generated(const std::string& name);
 
+/// Whether the input must be in memory as a whole: a scene, or no plain file, which can be read only once.
+bool must_be_read_whole(const std::string& path);
+
 /// The scene of a name of `bihive scene`: scenario1, scenario2, scenario3 or four-spheres; nothing for other names.
 std::optional<Scene> generated_scene(const InputOptions& options);
+/// The same as an input, with its camera and lights.
+std::optional<Input> generated_input(const InputOptions& options);
 
 }  // namespace bihive::cli

@@ -1,4 +1,4 @@
-// What else the machine did while something was measured.
+// Other work of the machine while something was measured.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What each primary ray of a picture does in a tree: nodes, leaves, gaps and sphere tests, counted without a clock.
+// The work of each primary ray of a picture in a tree: nodes, leaves, gaps and sphere tests, counted without a clock.
 #pragma once
 
 #include <vector>

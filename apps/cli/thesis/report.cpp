@@ -278,7 +278,7 @@ std::string front_html(const ReportFront& front) {
   return html + "</section>\n";
 }
 
-// What a reader must know before the first number: a busy machine, missing steps.
+// For a reader, before the first number: a busy machine, missing steps.
 std::string banner_html(const ReportHeader& header, const std::vector<ReportSection>& sections) {
   std::string html;
   if (header.load.busy())

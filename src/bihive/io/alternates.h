@@ -11,7 +11,7 @@
 
 namespace bihive {
 
-/// What names an atom with an alternate-location mark.
+/// The names of an atom with an alternate-location mark.
 struct AlternateAtom {
   std::string residue;         ///< chain, residue number, insertion code
   std::string_view component;  ///< the residue's name: it differs within one residue if that is heterogeneous

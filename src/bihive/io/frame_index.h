@@ -14,7 +14,7 @@ struct TextPlace {
   std::int64_t begin = 0, end = 0, lines_before = 0;
 };
 
-/// What a reader must know of the whole file to read one frame by its bytes alone. Everything in it is places: the
+/// A reader needs this of the whole file to read one frame by its bytes alone. Everything in it is places: the
 /// bytes themselves stay in the file.
 struct FrameIndex {
   std::vector<TextPlace> frames;          ///< one behind the other, the first from byte 0 on
@@ -26,7 +26,7 @@ struct FrameIndex {
   std::int64_t count() const { return static_cast<std::int64_t>(frames.size()); }
 };
 
-/// What a reader shall do with a text: read one frame and pass over the others.
+/// A reader's task with a text: read one frame and pass over the others.
 struct FramePass {
   static constexpr std::int64_t kNone = INT64_MIN;
 

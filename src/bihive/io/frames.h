@@ -20,7 +20,7 @@ class Frames {
   virtual ~Frames() = default;
 
   virtual std::int64_t count() const = 0;
-  /// What went wrong while it was opened and does not matter for the frames, one line each.
+  /// Faults of the opening that do not matter for the frames, one line each.
   virtual std::vector<std::string> warnings() const { return {}; }
   /// The same, bit for bit, as read_spheres() of the same file and options with this frame, 0 to count() - 1. Errors:
   /// as there; no such frame; the file changed meanwhile.

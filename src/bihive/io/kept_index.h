@@ -11,7 +11,7 @@
 
 namespace bihive {
 
-/// What an index belongs to. Where any of it differs, the index is of no use.
+/// The file of an index. Where any of it differs, the index is of no use.
 struct IndexedFile {
   Format format;
   std::int64_t size = 0;        ///< bytes

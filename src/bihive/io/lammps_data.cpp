@@ -108,7 +108,7 @@ class LammpsDataReader {
   // Inside of a section that is left out, labels may begin lines, so only known names end it.
   bool is_heading() { return is_section(scanner_.line()); }
 
-  // What write_data leaves there: "LAMMPS data file via write_data, version ..., timestep = 1000, units = lj".
+  // LAMMPS' write_data leaves there: "LAMMPS data file via write_data, version ..., timestep = 1000, units = lj".
   void read_title(std::string_view title) {
     const auto word_behind = [title](std::string_view key) {
       const std::size_t at = title.find(key);
@@ -299,7 +299,7 @@ class LammpsDataReader {
   RawSpheres spheres_;
   std::string units_, style_of_shapes_;
   std::optional<std::int64_t> count_, types_;
-  // What LAMMPS takes where the file says nothing.
+  // LAMMPS takes these where the file says nothing.
   std::array<std::array<double, 2>, 3> bounds_{{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}};
   std::array<double, 3> tilts_{}, origin_{};
   std::array<std::array<double, 3>, 3> edges_{};

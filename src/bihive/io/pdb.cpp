@@ -86,7 +86,7 @@ class PdbReader {
     places.back().end = scanner_.place();
   }
 
-  // What stands elsewhere in the file and is true of this model too.
+  // Lines elsewhere in the file that are true of this model too.
   void take_lines_of_index() {
     const FrameIndex& index = *pass_.index;
     const auto for_lines = [&](const TextPlace& place, const auto& take) {

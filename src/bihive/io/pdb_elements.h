@@ -16,7 +16,7 @@
 
 namespace bihive {
 
-/// What a file says of an atom's element.
+/// A file's words on an atom's element.
 struct ElementClues {
   std::string_view stated;   ///< columns 77 and 78
   std::string_view name;     ///< columns 13 to 16 with their blanks, or the bare name

@@ -39,7 +39,7 @@ std::optional<NumberType> ply_type(std::string_view name) {
   return std::nullopt;
 }
 
-// What programs call colours and radii beside the usual names.
+// Names of colours and radii in some programs, beside the usual ones.
 ColumnRole role_of_property(const std::string& name, bool rgb) {
   const std::string lower = lower_case(name);
   if (lower == "diffuse_red" || (rgb && lower == "r")) return ColumnRole::red;

@@ -231,7 +231,7 @@ class IndexedText : public RawFrames {
     return pass(place, FramePass{frame, frame, nullptr, &index_, &file_});
   }
 
-  // What the reader says where it meets the end of the file before that frame.
+  // The reader's error where it meets the end of the file before that frame.
   Result<RawSpheres> read_behind(std::int64_t frame) const {
     const std::int64_t begin = index_.frames.empty() ? 0 : index_.frames.back().end;
     return pass({begin, file_.size(), index_.lines}, FramePass{frame, index_.count()});

@@ -17,7 +17,7 @@ Result<SphereFile> read_spheres_from_memory(std::string_view bytes, const std::s
   });
 }
 
-Result<std::string> unpack_gzip(std::string bytes, const std::string& name) {
+Result<std::string> unpack_if_packed(std::string bytes, const std::string& name) {
   if (!is_packed(bytes)) return bytes;
   return unpack_bytes(bytes, name);
 }

@@ -51,9 +51,9 @@ struct SphereFile {
 /// Never throws. An error names file, and line and column if they are known.
 Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options);
 
-/// The bytes themselves, or what they hold if they are packed with gzip. Errors: damaged, or more than the memory holds
-/// (base/memory.h). `name` is for messages.
-Result<std::string> unpack_gzip(std::string bytes, const std::string& name);
+/// The bytes themselves, or what they hold if they are packed with gzip or zstd. Errors: damaged, or more than the
+/// memory holds (base/memory.h). `name` is for messages.
+Result<std::string> unpack_if_packed(std::string bytes, const std::string& name);
 
 /// The same from bytes in memory; `name` is used for messages and as the second clue to the format. A trajectory is
 /// still a file.

@@ -32,7 +32,7 @@ class Trajectory {
   virtual std::string format() const = 0;
   virtual std::int64_t frame_count() const = 0;
   virtual std::int64_t sphere_count() const = 0;
-  /// What the user should know of the file as a whole, one line each.
+  /// Remarks for the user on the file as a whole, one line each.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Frame 0 to frame_count() - 1. Errors: no such frame; damaged bytes; the file changed meanwhile.
   virtual Result<TrajectoryFrame> read(std::int64_t frame) const = 0;

@@ -49,7 +49,7 @@ struct Inflater {
   Inflater& operator=(const Inflater&) = delete;
 };
 
-// What follows a member: another member (true), padding or nothing (false).
+// Whether another member follows (true), or padding or nothing (false).
 Result<bool> goes_on(std::string& rest, const PieceSource& source, const std::string& name) {
   while (rest.size() < kGzipMark.size()) {
     const Result<std::string_view> piece = source();

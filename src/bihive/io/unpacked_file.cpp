@@ -24,7 +24,7 @@ constexpr std::int64_t kMarkBytes = 4;
 constexpr std::int64_t kPieceBytes = std::int64_t{1} << 18;
 constexpr std::size_t kHeadOfFile = 65536;
 
-// What is unpacked stays in memory up to this size, so that small files need no disk.
+// Unpacked bytes stay in memory up to this size, so that small files need no disk.
 constexpr double kMostInMemory = 1 << 25;
 constexpr double kMostOfMemory = 0.25;
 

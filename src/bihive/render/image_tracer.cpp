@@ -116,7 +116,7 @@ bool ImageTracer::by_place(std::int64_t leaves) const {
 
 // ---- One ray ----
 
-// What a walk through the tree of one image does: the scalar truth on the image's spheres.
+// A step of the walk through the tree of one image: the scalar truth on the image's spheres.
 template <class Answer>
 struct ImageTracer::AnswerOfImage {
   const ImageTracer& tracer;

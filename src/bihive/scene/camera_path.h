@@ -13,7 +13,7 @@
 
 namespace bihive {
 
-/// What the camera does at one picture of the film. What is unset comes from the keys before and after that state it,
+/// The camera at one picture of the film. Unset values come from the keys before and after that state them,
 /// and before the first and behind the last of these from that one alone.
 struct CameraKey {
   std::int64_t picture = 0;      ///< from 0

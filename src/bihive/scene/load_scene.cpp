@@ -97,7 +97,7 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options,
                                LooksOfFile looks, const Style* style) {
   if (is_packed(bytes)) {
-    const Result<std::string> unpacked = unpack_gzip(std::string(bytes), name);
+    const Result<std::string> unpacked = unpack_if_packed(std::string(bytes), name);
     if (!unpacked) return unpacked.error();
     return load_scene(*unpacked, name, options, looks, style);
   }

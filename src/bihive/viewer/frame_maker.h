@@ -12,8 +12,8 @@ namespace bihive {
 /// A frame in its look, with its tree: for Viewer::show_frame().
 class PreparedFrame;
 
-/// What was chosen when it was made (Viewer::frame_maker()): every frame gets the same look, and the ranges of colours
-/// by numbers that the frame on show had then. Never changes.
+/// The choices at the time when it was made (Viewer::frame_maker()): every frame gets the same look, and the ranges of
+/// colours by numbers that the frame on show had then. Never changes.
 class FrameMaker {
  public:
   struct Choices;

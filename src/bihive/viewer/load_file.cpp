@@ -1,9 +1,6 @@
 #include "bihive/viewer/load_file.h"
 
-#include <array>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
 #include <utility>
 
 #include "bihive/base/write_file.h"
@@ -13,13 +10,10 @@
 namespace bihive {
 namespace {
 
-// A scene file, and what is packed, is read whole.
+// A scene file is read whole.
 bool must_be_read_whole(const std::string& path) {
-  std::array<char, 4096> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), start.size());
-  const std::string_view bytes(start.data(), static_cast<std::size_t>(file.gcount()));
-  return bytes.empty() || is_packed(bytes) || looks_like_scene(bytes);
+  const Result<std::string> head = read_head(path);
+  return !head || looks_like_scene(*head);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Which frame of a trajectory is on show, and when the next one comes: time line, play, step, speed and loop of window
-// and page. Pure logic: the caller hands in the time of any steady clock, reads the frames and draws them.
+// The frame of a trajectory that is on show, and the time of the next one: time line, play, step, speed and loop of
+// window and page. Pure logic: the caller hands in the time of any steady clock, reads the frames and draws them.
 #pragma once
 
 #include <cstdint>

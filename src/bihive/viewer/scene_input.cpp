@@ -56,7 +56,7 @@ Status light_up(LoadedScene& loaded, const std::vector<std::string>& lights) {
   return Done{};
 }
 
-// What is done to all spheres before the rows.
+// Done to all spheres before the rows.
 Result<std::vector<Look>> looks_of_all(const ViewerLook& look) {
   std::vector<Look> looks;
   for (const auto& [action, value] : {std::pair("crease", look.crease), std::pair("colour-by", look.colour_by)}) {
@@ -111,7 +111,7 @@ Result<SceneInput> SceneInput::built_in(const std::string& name, const ScenarioP
 Result<SceneInput> SceneInput::file(std::string_view bytes, const std::string& name, const ReadOptions& options) {
   // The content counts, not the packing: a packed scene file has a look of its own too.
   if (is_packed(bytes)) {
-    const Result<std::string> unpacked = unpack_gzip(std::string(bytes), name);
+    const Result<std::string> unpacked = unpack_if_packed(std::string(bytes), name);
     if (!unpacked) return unpacked.error();
     return file(*unpacked, name, options);
   }

@@ -316,7 +316,7 @@ class Viewer::Implementation {
     return Done{};
   }
 
-  // What the new settings ask for that the ones before do not, and the picture cannot have.
+  // Refuse wishes that are new, and that the picture cannot have.
   Status check_wishes(const ViewerSettings& settings) const {
     if (!shown_) return Done{};
     if (!settings.focus_on.empty() && settings.focus_on != settings_.focus_on)

@@ -9,7 +9,7 @@
 
 namespace bihive {
 
-/// What stands before the packed bits of a frame.
+/// The numbers before the packed bits of a frame.
 struct PackedHead {
   std::int64_t count;      ///< places, more than kUnpacked
   float precision;         ///< whole numbers are places times this
