@@ -219,9 +219,11 @@ void App::on_character(unsigned character) {
   put(0x80 | (character & 0x3F));
 }
 
-// The pointer's place at this event: ImGui knows the place at the last frame only, and GLFW the place now.
+// The pointer's place at this event: ImGui knows the place at the last frame only, and GLFW the place now. So the overlay
+// is asked for its rectangle, and not ImGui whether the pointer is over it.
 bool App::over_picture() const {
-  const bool over_message = (asked_file_ || !message_.empty()) && ImGui::GetIO().WantCaptureMouse;
+  const bool over_message = (asked_file_ || !message_.empty()) && x_ >= overlay_min_.x && x_ < overlay_max_.x &&
+                            y_ >= overlay_min_.y && y_ < overlay_max_.y;
   const float bar = reader_ ? player_bar_height(window_->text_scale()) : 0;
   const bool over_bar = y_ >= ImGui::GetIO().DisplaySize.y - bar;
   return x_ * window_->pixels_per_unit() < picture_size().x && !over_bar && !over_message;
@@ -557,6 +559,9 @@ float App::begin_overlay(const char* name) const {
 }
 
 void App::end_overlay() {
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  overlay_min_ = corner;
+  overlay_max_ = {corner.x + size.x, corner.y + size.y};
   ImGui::End();
   ImGui::PopStyleVar();
 }

@@ -71,7 +71,7 @@ class App {
 
   void draw(const FrameReport& report, Image* screenshot);
   float begin_overlay(const char* name) const;
-  static void end_overlay();
+  void end_overlay();
   void draw_message();
   void draw_prompt();
   ImVec2 picture_size() const;  // in ImGui's units
@@ -100,6 +100,7 @@ class App {
   enum class Drag { none, orbit, pan };
   Drag drag_ = Drag::none;
   double x_ = 0, y_ = 0;  // of the pointer
+  ImVec2 overlay_min_ = {0, 0}, overlay_max_ = {0, 0};  // the message or the prompt, as last drawn, in ImGui's units
 };
 
 }  // namespace bihive::window

@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -289,6 +290,17 @@ class Window(ProgramTest):
         self.press("h")
         self.assertEqual(self.saved()["size"], (700, 400))
         self.press("h")
+
+        # A drag between two frames counts too, also if the last frame had the pointer over the panel and a message.
+        self.tool("mousemove", "--window", self.window, "600", "200")
+        self.saved()
+        time.sleep(0.5)  # for that frame
+        os.kill(self.program.pid, signal.SIGSTOP)
+        self.tool("mousemove", "--window", self.window, "100", "100", "mousedown", "1")
+        self.tool("mousemove", "--window", self.window, "160", "120", "mouseup", "1")
+        os.kill(self.program.pid, signal.SIGCONT)
+        self.assertNotEqual(self.saved()["camera"]["eye"], first["camera"]["eye"])
+        self.press("r")
 
         # A file with an error leaves the scene; another file replaces it.
         def open_file(name):
