@@ -47,4 +47,16 @@ constexpr std::int64_t kScatteredAtATime = 1 << 20;
 constexpr std::int64_t kLongRun = 4096;
 constexpr std::int64_t kRemainingAtATime = 16384;
 
+// ---- Points (wide/point_queries.h) ----
+
+/// A task of a thread: some milliseconds, and few tasks where there are millions of points.
+constexpr std::int64_t kPointsPerChunk = 1024;
+/// Points are sorted by cells from so many points and spheres on, so many at a time.
+constexpr std::int64_t kFewestPoints = 4096;
+constexpr std::int64_t kFewestSpheresOfPoints = 4096;
+constexpr std::int64_t kPointsAtATime = 1 << 22;
+/// On average a cell holds so many points; the grid has at most 2^bits cells along each side.
+constexpr std::int64_t kPointsPerCell = 16;
+constexpr int kMostPointCellBits = 7;
+
 }  // namespace bihive::wide

@@ -1,0 +1,24 @@
+// The scalar truth of the distance between a point and a sphere: one fixed sequence of binary64 operations.
+//
+// Every engine must give exactly these numbers. The file is compiled without fused multiply-add (-ffp-contract=off).
+#pragma once
+
+#include <cmath>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive {
+
+/// Where distances end: at the surface of a sphere, below 0 for a point inside of it, or at its centre.
+enum class DistanceTo { surface, centre };
+
+/// All in one unit (the engines: stored units of a set). sqrt(x * x + y * y + z * z) of the vector between the two
+/// points, summed from left to right; for the surface the radius is subtracted last. So it is 0 or below exactly where
+/// the sphere contains the point, its surface included.
+inline double sphere_distance(Vec3d point, Vec3d centre, double radius, DistanceTo to) {
+  const Vec3d between = centre - point;
+  const double to_centre = std::sqrt(dot(between, between));
+  return to == DistanceTo::centre ? to_centre : to_centre - radius;
+}
+
+}  // namespace bihive

@@ -1,0 +1,84 @@
+// Points against the wide tree: the nearest spheres, and the spheres that contain a point or overlap a ball.
+//
+// The distance between a point and a sphere is one fixed number (geometry/sphere_distance.h), computed in the tree's
+// stored units. Answers have the bits of brute force (render/brute_force_points.h) on every instruction set, for any
+// number of threads. Equal distances are ordered by id. A sphere of radius 0 counts as a point: unlike rays, these
+// queries find it.
+//
+// Points, limits and distances are in world units and binary64. A coordinate must be finite and within binary32's range
+// (3.4e38), as those of spheres must; an Error names the point. Distances to the surface are below 0 inside a sphere,
+// so the nearest sphere is then the one in which the point is deepest. Lengths of arrays are not checked.
+//
+// The queries make threads themselves (0: all), and may run beside other queries. A tree of a set with images knows the
+// stored spheres alone; an image (WideTree::image) is answered as the tree of its moved spheres.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/geometry/sphere_distance.h"
+#include "bihive/math/vec3.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+/// A view of `count` points that somebody else keeps: coordinate `axis` of point i is axis[axis][i * stride].
+struct PointSpan {
+  std::int64_t count = 0;
+  const double* axis[3] = {};
+  std::int64_t stride = 1;
+
+  /// x, y, z of one point after the other.
+  static PointSpan rows(const double* xyz, std::int64_t count) { return {count, {xyz, xyz + 1, xyz + 2}, 3}; }
+
+  Vec3d at(std::int64_t i) const { return {axis[0][i * stride], axis[1][i * stride], axis[2][i * stride]}; }
+};
+
+struct PointOptions {
+  DistanceTo to = DistanceTo::surface;
+  const std::uint8_t* mask = nullptr;  ///< a byte for each sphere of the tree, by id: 0 passes over it. Null: all
+  int threads = 0;                     ///< 0: all
+};
+
+/// `per_point` entries for each point, ordered by distance, then id. Where there are fewer spheres, the rest are +inf
+/// and kNothing.
+struct NearestSpheres {
+  std::int64_t per_point = 0;
+  std::vector<double> distance;
+  std::vector<std::int64_t> sphere_id;
+};
+
+/// The `per_point` nearest spheres of each point, among those at a distance of at most `within`. Error: a bad point,
+/// per_point below 1, `within` NaN, or not enough memory. Costs, AVX-512, one thread: 1.6 us a point for the nearest of
+/// a million spheres, 4.5 us for the nearest eight (a million random points in one call: docs/library.md, "Points").
+Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& points, std::int64_t per_point = 1,
+                                       double within = std::numeric_limits<double>::infinity(),
+                                       const PointOptions& options = {});
+
+/// The spheres of point i are entries begin[i] to before begin[i + 1], by ascending id.
+struct SphereLists {
+  std::vector<std::int64_t> begin;  ///< one more than there are points
+  std::vector<std::int64_t> sphere_id;
+  std::vector<double> distance;
+};
+
+/// Every sphere at a distance of at most limits[i] from point i. To the surface, 0 gives the spheres that contain the
+/// point, a radius those that overlap the ball around it, and -radius those that contain this ball; to the centre, a
+/// radius gives the centres in the ball. Error: a bad point, a limit that is NaN, or not enough memory.
+Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, const double* limits,
+                                   const PointOptions& options = {});
+/// The same limit for all points.
+Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, double limit,
+                                   const PointOptions& options = {});
+
+/// Every sphere that contains the point, its surface included. `options.to` does not matter.
+Result<SphereLists> spheres_containing(const WideTree& tree, const PointSpan& points, PointOptions options = {});
+
+/// Every sphere that shares a point with the ball of radius radii[i] around point i. `options.to` does not matter.
+/// Error: also a radius that is negative or not finite.
+Result<SphereLists> spheres_overlapping(const WideTree& tree, const PointSpan& points, const double* radii,
+                                        PointOptions options = {});
+
+}  // namespace bihive

@@ -1,0 +1,201 @@
+// Checks the points, sorts them, hands chunks of them to threads, and puts the answers in place.
+#include "bihive/wide/point_queries.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "bihive/base/parallel.h"
+#include "bihive/geometry/ray.h"
+#include "bihive/wide/schedule/point_order.h"
+#include "bihive/wide/schedule/tuning.h"
+#include "bihive/wide/trace/points.h"
+
+namespace bihive {
+namespace wide {
+namespace {
+
+constexpr double kInfiniteDistance = std::numeric_limits<double>::infinity();
+
+Error no_memory_for_points(std::int64_t points) {
+  return {"not enough memory for the answers of " + std::to_string(points) + " points", "", 0, 0,
+          "ask for fewer points at a time"};
+}
+
+Error bad_point(std::int64_t i, const std::string& what, double value) {
+  char number[40];
+  std::snprintf(number, sizeof number, "%.9g", value);
+  return {"point " + std::to_string(i) + ": " + what + " but is " + number, "", 0, 0, ""};
+}
+
+Status check_points(const PointSpan& points) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  for (std::int64_t i = 0; i < points.count; ++i) {
+    const Vec3d at = points.at(i);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string name(1, "xyz"[axis]);
+      if (!std::isfinite(at[axis])) return bad_point(i, name + " must be finite", at[axis]);
+      if (!(std::abs(at[axis]) <= kLargest))
+        return bad_point(i, name + " must fit single precision (3.4e38)", at[axis]);
+    }
+  }
+  return Done{};
+}
+
+// Calls answer(i) for each point, in an order that serves the cache: chunk by chunk on threads. begin(chunks) comes
+// before the chunks of a part, end(first, order) after them. False: there was not enough memory.
+template <class Begin, class Answer, class End>
+bool for_each_point(const WideTree& tree, const PointSpan& points, int threads, const Begin& begin,
+                    const Answer& answer, const End& end) {
+  PointOrder sorter;
+  std::vector<std::uint32_t> order;
+  for (std::int64_t first = 0; first < points.count; first += kPointsAtATime) {
+    PointSpan part = points;
+    part.count = std::min(kPointsAtATime, points.count - first);
+    for (const double*& axis : part.axis) axis += first * points.stride;
+    sorter.find(tree, part, order);
+    const std::int64_t chunks = (part.count + kPointsPerChunk - 1) / kPointsPerChunk;
+    begin(chunks);
+    std::atomic<bool> no_memory{false};
+    parallel_for(threads, chunks, [&](std::int64_t chunk) {
+      try {
+        const std::int64_t last = std::min(part.count, (chunk + 1) * kPointsPerChunk);
+        for (std::int64_t k = chunk * kPointsPerChunk; k < last; ++k)
+          answer(chunk, first + order[static_cast<std::size_t>(k)]);
+      } catch (const std::bad_alloc&) {
+        no_memory = true;
+      }
+    });
+    if (no_memory) return false;
+    end(first, order);
+  }
+  return true;
+}
+
+// limit(i) is that of point i, in world units.
+template <class Limit>
+Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, const Limit& limit,
+                               const PointOptions& options) {
+  if (Status status = check_points(points); !status) return status.error();
+  for (std::int64_t i = 0; i < points.count; ++i)
+    if (std::isnan(limit(i))) return bad_point(i, "the limit must be a number", limit(i));
+  try {
+    SphereLists lists;
+    lists.begin.assign(static_cast<std::size_t>(points.count) + 1, 0);
+    const double unit = 1 / tree.scale;
+    std::vector<std::vector<NearSphere>> found;
+    const auto count_of = [&](std::int64_t i) -> std::int64_t& { return lists.begin[static_cast<std::size_t>(i) + 1]; };
+    const bool done = for_each_point(
+        tree, points, options.threads,
+        [&](std::int64_t chunks) {
+          found.clear();
+          found.resize(static_cast<std::size_t>(chunks));
+        },
+        [&](std::int64_t chunk, std::int64_t i) {
+          std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
+          const std::size_t known = here.size();
+          find_within(tree, {points.at(i) * tree.scale, limit(i) * tree.scale, options.to, options.mask}, here);
+          std::sort(here.begin() + static_cast<std::ptrdiff_t>(known), here.end(),
+                    [](const NearSphere& a, const NearSphere& b) { return a.id < b.id; });
+          count_of(i) = static_cast<std::int64_t>(here.size() - known);
+        },
+        [&](std::int64_t first, const std::vector<std::uint32_t>& order) {
+          // Turn the counts of this part into places, then copy.
+          const auto part = static_cast<std::int64_t>(order.size());
+          for (std::int64_t i = first; i < first + part; ++i) count_of(i) += lists.begin[static_cast<std::size_t>(i)];
+          const auto total = static_cast<std::size_t>(lists.begin[static_cast<std::size_t>(first + part)]);
+          lists.sphere_id.resize(total);
+          lists.distance.resize(total);
+          parallel_for(options.threads, static_cast<std::int64_t>(found.size()), [&](std::int64_t chunk) {
+            const std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
+            std::size_t next = 0;
+            const std::int64_t last = std::min(part, (chunk + 1) * kPointsPerChunk);
+            for (std::int64_t k = chunk * kPointsPerChunk; k < last; ++k) {
+              const auto i = static_cast<std::size_t>(first + order[static_cast<std::size_t>(k)]);
+              for (auto to = static_cast<std::size_t>(lists.begin[i]);
+                   to < static_cast<std::size_t>(lists.begin[i + 1]); ++to, ++next) {
+                lists.sphere_id[to] = here[next].id;
+                lists.distance[to] = here[next].distance * unit;
+              }
+            }
+          });
+        });
+    if (!done) return no_memory_for_points(points.count);
+    return lists;
+  } catch (const std::bad_alloc&) {
+    return no_memory_for_points(points.count);
+  }
+}
+
+}  // namespace
+}  // namespace wide
+
+Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& points, std::int64_t per_point,
+                                       double within, const PointOptions& options) {
+  if (Status status = wide::check_points(points); !status) return status.error();
+  if (per_point < 1)
+    return Error{"the number of nearest spheres must be at least 1 but is " + std::to_string(per_point), "", 0, 0, ""};
+  if (std::isnan(within)) return Error{"the limit of the distance must be a number but is nan", "", 0, 0, ""};
+  try {
+    NearestSpheres nearest;
+    nearest.per_point = per_point;
+    if (points.count > 0 && per_point > static_cast<std::int64_t>(nearest.distance.max_size()) / points.count)
+      return wide::no_memory_for_points(points.count);
+    const auto entries = static_cast<std::size_t>(points.count * per_point);
+    nearest.distance.resize(entries, wide::kInfiniteDistance);
+    nearest.sphere_id.resize(entries, kNothing);
+    const double unit = 1 / tree.scale;
+    const std::int64_t most = std::min(per_point, std::max<std::int64_t>(1, tree.size));
+    std::vector<std::vector<wide::NearSphere>> rooms;
+    const bool done = wide::for_each_point(
+        tree, points, options.threads, [&](std::int64_t chunks) { rooms.resize(static_cast<std::size_t>(chunks)); },
+        [&](std::int64_t chunk, std::int64_t i) {
+          std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
+          room.resize(static_cast<std::size_t>(most));
+          const std::int64_t count = wide::find_nearest(
+              tree, {points.at(i) * tree.scale, within * tree.scale, options.to, options.mask}, most, room.data());
+          for (std::int64_t k = 0; k < count; ++k) {
+            const auto to = static_cast<std::size_t>(i * per_point + k);
+            nearest.distance[to] = room[static_cast<std::size_t>(k)].distance * unit;
+            nearest.sphere_id[to] = room[static_cast<std::size_t>(k)].id;
+          }
+        },
+        [&](std::int64_t, const std::vector<std::uint32_t>&) { rooms.clear(); });
+    if (!done) return wide::no_memory_for_points(points.count);
+    return nearest;
+  } catch (const std::bad_alloc&) {
+    return wide::no_memory_for_points(points.count);
+  }
+}
+
+Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, const double* limits,
+                                   const PointOptions& options) {
+  return wide::find_lists(
+      tree, points, [limits](std::int64_t i) { return limits[i]; }, options);
+}
+
+Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, double limit,
+                                   const PointOptions& options) {
+  return wide::find_lists(
+      tree, points, [limit](std::int64_t) { return limit; }, options);
+}
+
+Result<SphereLists> spheres_containing(const WideTree& tree, const PointSpan& points, PointOptions options) {
+  options.to = DistanceTo::surface;
+  return spheres_within(tree, points, 0.0, options);
+}
+
+Result<SphereLists> spheres_overlapping(const WideTree& tree, const PointSpan& points, const double* radii,
+                                        PointOptions options) {
+  options.to = DistanceTo::surface;
+  for (std::int64_t i = 0; i < points.count; ++i)
+    if (!(radii[i] >= 0 && std::isfinite(radii[i])))
+      return wide::bad_point(i, "the radius must be finite and not negative", radii[i]);
+  return spheres_within(tree, points, radii, options);
+}
+
+}  // namespace bihive

@@ -1,0 +1,185 @@
+// The walk of one point through a wide tree: boxes and spheres in binary64, a vector at a time, near children first.
+
+#if defined(BIHIVE_WIDE_TRACE_POINT_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BIHIVE_WIDE_TRACE_POINT_WALK_INL_H_
+#undef BIHIVE_WIDE_TRACE_POINT_WALK_INL_H_
+#else
+#define BIHIVE_WIDE_TRACE_POINT_WALK_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "bihive/simd/lanes-inl.h"
+#include "bihive/simd/wasm_float64-inl.h"
+#include "bihive/wide/trace/points.h"
+#include "bihive/wide/tree/radii-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The point that walks, and what it knows of the tree.
+class PointWalk {
+ public:
+  PointWalk(const WideTree& tree, const wide::PointQuestion& question)
+      : tree_(tree), question_(question), in_tree_(question.point) {
+    // The nodes of an image are where the tree has them.
+    if (tree.is_image) in_tree_ = question.point - tree.shift;
+    const double farthest = std::max({std::abs(in_tree_.x), std::abs(in_tree_.y), std::abs(in_tree_.z)}) + 2.0;
+    pad_ = (tree.is_image ? 0x1p-23 : 0x1p-24) + 0x1p-46 * farthest;
+    // Every radius is known to be at least this one.
+    const WideSpheres& spheres = tree.spheres;
+    if (spheres.has_palette && spheres.palette_size < 32)
+      least_radius_ = double(*std::min_element(spheres.palette.data(), spheres.palette.data() + spheres.palette_size));
+  }
+
+  /// Calls answer.take(distance, id) for spheres, among them every one at a distance of at most answer.limit(), which
+  /// may become less meanwhile.
+  template <class Answer>
+  HWY_INLINE void run(Answer& answer) const {
+    if (tree_.node_count == 0) return;
+    // A node or, with a count, the spheres of a leaf. A level leaves at most 16 waiting.
+    struct Waiting {
+      double key;
+      std::int64_t first, count;
+    };
+    Waiting waiting[kMostLevels * kWidth];  // NOLINT: written before read
+    int waiting_count = 1;
+    waiting[0] = {-std::numeric_limits<double>::infinity(), 0, 0};
+    double largest_key = key_of(answer.limit());
+    while (waiting_count > 0) {
+      const Waiting next = waiting[--waiting_count];
+      if (next.key > largest_key) continue;
+      if (next.count > 0) {
+        test_leaf(next.first, next.count, answer);
+        largest_key = key_of(answer.limit());
+        continue;
+      }
+      // Sort the children in between those that wait, so that the nearest comes next.
+      const WideNode& node = tree_.nodes[next.first];
+      alignas(64) double keys[kWidth];
+      find_keys(node, keys);
+      const int first = waiting_count;
+      for (int slot = 0; slot < node.child_count; ++slot) {
+        if (keys[slot] > largest_key) continue;
+        int place = waiting_count++;
+        for (; place > first && waiting[place - 1].key < keys[slot]; --place) waiting[place] = waiting[place - 1];
+        waiting[place] = node.is_leaf(slot) ? Waiting{keys[slot], node.sphere_begin(slot), node.sphere_count(slot)}
+                                            : Waiting{keys[slot], node.child_node(slot), 0};
+      }
+    }
+  }
+
+ private:
+  using Tag = hn::CappedTag<double, kMostLanes / 2>;
+  using Half = hn::Rebind<float, Tag>;
+  static constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+
+  const WideTree& tree_;
+  const wide::PointQuestion& question_;
+  Vec3d in_tree_;
+  double pad_;
+  double least_radius_ = 0;
+
+  // A distance squared orders as the distance does, and needs no root. Below 0 it stays what it is.
+  static double key_of_distance(double distance) { return distance > 0 ? distance * distance : distance; }
+
+  // The largest key of a box whose spheres may be within the limit.
+  double key_of(double limit) const {
+    return key_of_distance(limit + pad_ + (question_.to == DistanceTo::surface ? least_radius_ : 0));
+  }
+
+  // The key of the distance from the point to the box of each child, which is made smaller all around by the least
+  // radius: every centre lies in there. Inside, the distance is that of the nearest side, below 0.
+  HWY_INLINE void find_keys(const WideNode& node, double keys[kWidth]) const {
+    const Tag d;
+    const Half half;
+    const auto zero = hn::Zero(d);
+    const auto inset = hn::Set(d, least_radius_);
+    for (int i = 0; i < kWidth; i += kLanes) {
+      const auto outside = [&](int axis) HWY_ATTR {
+        const auto p = hn::Set(d, in_tree_[axis]);
+        const auto lo = hn::PromoteTo(d, hn::LoadU(half, node.lo[axis] + i));
+        const auto hi = hn::PromoteTo(d, hn::LoadU(half, node.hi[axis] + i));
+        return hn::Add(hn::Max(hn::Sub(lo, p), hn::Sub(p, hi)), inset);
+      };
+      const auto x = outside(0);
+      const auto y = outside(1);
+      const auto z = outside(2);
+      const auto most = hn::Max(hn::Max(x, y), z);
+      const auto px = hn::Max(x, zero);
+      const auto py = hn::Max(y, zero);
+      const auto pz = hn::Max(z, zero);
+      const auto squared = hn::Add(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(pz, pz));
+      hn::StoreU(hn::IfThenElse(hn::Gt(most, zero), squared, most), d, keys + i);
+    }
+  }
+
+  // sphere_distance() of kWidth spheres from `first` on.
+  HWY_INLINE void find_distances(std::int64_t first, double distances[kWidth]) const {
+    const Tag d;
+    const Half half;
+    const WideSpheres& spheres = tree_.spheres;
+    alignas(64) float radii[kWidth];
+    if (question_.to == DistanceTo::surface)
+      for (int i = 0; i < kWidth; i += kFloatLanes) hn::Store(load_radii(spheres, first + i), FloatTag(), radii + i);
+    for (int i = 0; i < kWidth; i += kLanes) {
+      const auto between = [&](const float* centres, double p) HWY_ATTR {
+        return hn::Sub(hn::PromoteTo(d, hn::LoadU(half, centres + first + i)), hn::Set(d, p));
+      };
+      const auto x = between(spheres.x, question_.point.x);
+      const auto y = between(spheres.y, question_.point.y);
+      const auto z = between(spheres.z, question_.point.z);
+      auto distance = hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
+      if (question_.to == DistanceTo::surface)
+        distance = hn::Sub(distance, hn::PromoteTo(d, hn::LoadU(half, radii + i)));
+      hn::StoreU(distance, d, distances + i);
+    }
+  }
+
+  template <class Answer>
+  HWY_INLINE void test_leaf(std::int64_t first, std::int64_t count, Answer& answer) const {
+    for (std::int64_t begin = first; begin < first + count; begin += kWidth) {
+      const auto here = static_cast<int>(std::min<std::int64_t>(kWidth, first + count - begin));
+      alignas(64) double distances[kWidth];
+      if (!tree_.is_image) {
+        find_distances(begin, distances);
+      } else {
+        for (int i = 0; i < here; ++i)
+          distances[i] =
+              sphere_distance(question_.point, tree_.centre(begin + i), tree_.spheres.radius(begin + i), question_.to);
+      }
+      for (int i = 0; i < here; ++i)
+        if (distances[i] <= answer.limit()) take(distances[i], tree_.spheres.id(begin + i), answer);
+    }
+  }
+
+  // The sphere, and those that lie in a pile under it.
+  template <class Answer>
+  HWY_INLINE void take(double distance, std::int64_t id, Answer& answer) const {
+    const std::uint8_t* const mask = question_.mask;
+    if (mask == nullptr || mask[id] != 0) answer.take(distance, id);
+    const WideTree& tree = tree_.is_image ? *tree_.image_of : tree_;
+    if (tree.piles.empty()) return;
+    const auto pile = std::lower_bound(tree.piles.begin(), tree.piles.end(), id,
+                                       [](const Pile& one, std::int64_t wanted) { return one.id < wanted; });
+    if (pile == tree.piles.end() || pile->id != id) return;
+    for (std::size_t k = pile->first_other; k < pile->end_of_others; ++k) {
+      const std::int64_t other = tree.others_in_piles[k];
+      if (mask == nullptr || mask[other] != 0) answer.take(distance, other);
+    }
+  }
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#endif  // BIHIVE_WIDE_TRACE_POINT_WALK_INL_H_

@@ -1,0 +1,84 @@
+#include "bihive/wide/trace/points.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "bihive/wide/trace/points.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "bihive/simd/dispatch.h"
+#include "bihive/wide/trace/point_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bihive {
+namespace HWY_NAMESPACE {
+
+// The best so far, as a heap with the worst of them in front.
+struct NearestAnswers {
+  double within;
+  std::int64_t most;
+  wide::NearSphere* best;
+  std::int64_t count = 0;
+
+  double limit() const { return count < most ? within : best[0].distance; }
+  void take(double distance, std::int64_t id) {
+    const wide::NearSphere sphere{distance, id};
+    if (count < most) {
+      best[count++] = sphere;
+    } else {
+      if (!(sphere < best[0])) return;
+      std::pop_heap(best, best + count);
+      best[count - 1] = sphere;
+    }
+    std::push_heap(best, best + count);
+  }
+};
+
+struct AllAnswers {
+  double within;
+  std::vector<wide::NearSphere>& found;
+
+  double limit() const { return within; }
+  void take(double distance, std::int64_t id) const { found.push_back({distance, id}); }
+};
+
+std::int64_t find_nearest_on_target(const WideTree& tree, const wide::PointQuestion& question, std::int64_t most,
+                                    wide::NearSphere* nearest) {
+  NearestAnswers answer{question.limit, most, nearest};
+  PointWalk(tree, question).run(answer);
+  std::sort_heap(nearest, nearest + answer.count);
+  return answer.count;
+}
+
+void find_within_on_target(const WideTree& tree, const wide::PointQuestion& question,
+                           std::vector<wide::NearSphere>& found) {
+  AllAnswers answer{question.limit, found};
+  PointWalk(tree, question).run(answer);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bihive
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bihive {
+HWY_EXPORT(find_nearest_on_target);
+HWY_EXPORT(find_within_on_target);
+
+namespace wide {
+
+std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, std::int64_t most, NearSphere* nearest) {
+  ensure_target();
+  return HWY_DYNAMIC_DISPATCH(find_nearest_on_target)(tree, question, most, nearest);
+}
+
+void find_within(const WideTree& tree, const PointQuestion& question, std::vector<NearSphere>& found) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(find_within_on_target)(tree, question, found);
+}
+
+}  // namespace wide
+}  // namespace bihive
+#endif

@@ -1,0 +1,38 @@
+// One point at a time against a wide tree, on the active target. docs/precision.md, "Points", derives the padding.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/geometry/sphere_distance.h"
+#include "bihive/math/vec3.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive::wide {
+
+/// A sphere and its distance, in stored units.
+struct NearSphere {
+  double distance;
+  std::int64_t id;
+};
+
+/// The order of answers.
+inline bool operator<(const NearSphere& a, const NearSphere& b) {
+  return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
+}
+
+/// The spheres at a distance of at most `limit` from `point`; stored units.
+struct PointQuestion {
+  Vec3d point;
+  double limit;
+  DistanceTo to;
+  const std::uint8_t* mask;  ///< null: all spheres
+};
+
+/// The nearest `most` of them, in order, to `nearest`, which has room for as many. Returns how many there are.
+std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, std::int64_t most, NearSphere* nearest);
+
+/// All of them, in any order, behind what `found` holds.
+void find_within(const WideTree& tree, const PointQuestion& question, std::vector<NearSphere>& found);
+
+}  // namespace bihive::wide
