@@ -1,5 +1,5 @@
 # cmake --install: the program, the library, its public headers (public_headers.txt), and the files that find_package(bihive)
-# needs.
+# needs. bindings/c installs the library for C.
 
 include(CMakePackageConfigHelpers)
 

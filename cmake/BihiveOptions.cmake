@@ -4,6 +4,7 @@ include(GNUInstallDirs)
 
 # Inside another project only the library is built, and nothing installed, unless that project says otherwise.
 option(BIHIVE_BUILD_CLI "Build the bihive program" ${PROJECT_IS_TOP_LEVEL})
+option(BIHIVE_BUILD_C "Build the library for C (bihive.h)" ${PROJECT_IS_TOP_LEVEL})
 option(BIHIVE_INSTALL "Install the library, its headers and what else is built" ${PROJECT_IS_TOP_LEVEL})
 option(BIHIVE_BUILD_TESTS "Build the tests (needs GoogleTest)" OFF)
 option(BIHIVE_BUILD_FUZZERS "Build the fuzz targets (needs clang)" OFF)

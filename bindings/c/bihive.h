@@ -1,0 +1,123 @@
+/* bihive for C, and for languages that call C: Fortran, Julia, Rust. Rays and points against spheres, and pictures.
+ *
+ * The answers have the same bits as those of the C++ library, for any number of threads (docs/precision.md).
+ *
+ * Contract of every function:
+ * - Arrays belong to the caller, who sees to their lengths; nothing refers to them after the return. `xyz` stands for
+ * x, y, z of one place after the other. Ids count from 0; -1 is none.
+ * - `threads`: 0 takes all that the machine has.
+ * - A function that returns int returns 0, or 1 after a failure; bihive_error_text() then says what was wrong, where,
+ * and what to do. Its outputs are then undefined, but a handle to be made is NULL. Nothing is thrown, printed or ended.
+ * - A handle is freed by its own *_free, which takes NULL too. Several threads may use a tree at a time, and one a
+ * scene.
+ */
+#ifndef BIHIVE_H
+#define BIHIVE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define BIHIVE_API __attribute__((visibility("default")))
+#else
+#define BIHIVE_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* "major.minor.patch". */
+BIHIVE_API const char* bihive_version(void);
+
+/* One line about the last failure on this thread; "" before the first. Valid until the next failure on this thread. */
+BIHIVE_API const char* bihive_error_text(void);
+
+/* ---- Spheres and their tree ---- */
+
+typedef struct bihive_tree bihive_tree;
+
+/* Copies `count` spheres, and builds their tree. Places and radii are rounded once, to single precision of the set's
+ * extent. Failures: a number that is not finite or beyond 3.4e38, a negative radius, not enough memory. */
+BIHIVE_API int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree);
+BIHIVE_API void bihive_tree_free(bihive_tree* tree);
+BIHIVE_API int64_t bihive_tree_size(const bihive_tree* tree);
+
+/* ---- Rays ---- */
+
+/* The points origin + t direction with t_min <= t <= t_max; t counts in lengths of the direction. A ray that is not
+ * valid (a number that is not finite, a direction of length 0, t_min > t_max) hits nothing. */
+typedef struct bihive_rays {
+  int64_t count;
+  const float* origins;    /* xyz */
+  const float* directions; /* xyz */
+  const double* t_min;     /* NULL: 0 */
+  const double* t_max;     /* NULL: infinity */
+  const int64_t* leaves;   /* id of the sphere on whose surface the ray starts, or -1; NULL: none */
+  const uint8_t* inside;   /* 1: it goes into that sphere; NULL: 0 */
+} bihive_rays;
+
+/* The nearest hit: t (infinity: none) and the sphere. Of equal t the smaller id counts. */
+BIHIVE_API int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads, double* t,
+                              int64_t* spheres);
+
+/* hidden[i] is 1 if ray i hits anything, else 0. */
+BIHIVE_API int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int threads, uint8_t* hidden);
+
+/* ---- Points ---- */
+
+/* Where distances end: at a sphere's surface, below 0 inside of it, or at its centre. */
+enum { BIHIVE_SURFACE = 0, BIHIVE_CENTRE = 1 };
+
+/* The `most` nearest spheres of each point, none farther than `within` (INFINITY: any), by distance, then id: entries
+ * i * most to i * most + most - 1 belong to point i. Missing ones: infinity and -1. `mask` has a byte for each sphere:
+ * 0 passes over it; NULL: all. */
+BIHIVE_API int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
+                              int distance_to, const uint8_t* mask, int threads, double* distances, int64_t* spheres);
+
+/* A list of spheres for each ray or point: those of number i are entries begin[i] to before begin[i + 1]. */
+typedef struct bihive_lists bihive_lists;
+BIHIVE_API const int64_t* bihive_lists_begin(const bihive_lists* lists);
+BIHIVE_API const int64_t* bihive_lists_spheres(const bihive_lists* lists);
+BIHIVE_API const double* bihive_lists_distances(const bihive_lists* lists); /* of rays: t */
+BIHIVE_API void bihive_lists_free(bihive_lists* lists);
+
+/* Every sphere at a distance of at most limits[i] from point i, by id. To the surface, a limit of 0 gives the spheres
+ * that contain the point (limits NULL: 0 for all), a radius those that overlap the ball around it; to the centre, a
+ * radius gives the centres in the ball. */
+BIHIVE_API int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
+                             int distance_to, const uint8_t* mask, int threads, bihive_lists** lists);
+
+/* Every sphere that ray i hits, by t, then id; t is where the ray enters it (where it leaves, if it starts inside). */
+BIHIVE_API int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int threads, bihive_lists** lists);
+
+/* ---- Pictures ---- */
+
+typedef struct bihive_scene bihive_scene;
+
+/* A scene of arrays. `rgb`: three bytes a sphere, as on the screen (sRGB); NULL: the style's colour. `style`: one of
+ * those that `bihive styles` lists; NULL: "default". At least one sphere. */
+BIHIVE_API int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb, int64_t count,
+                                const char* style, bihive_scene** scene);
+
+/* A scene of the bytes of a file: a scene file (JSON), or spheres of any format that bihive reads. `name` is the
+ * file's, for messages, and tells the format where the bytes do not. `style` as above; a scene file's own look stays.
+ */
+BIHIVE_API int bihive_scene_from_bytes(const char* bytes, size_t size, const char* name, const char* style,
+                                       bihive_scene** scene);
+BIHIVE_API void bihive_scene_free(bihive_scene* scene);
+
+/* Puts a camera that shows everything on a side: "front", "back", "left", "right", "top", "bottom" or "iso". Without
+ * this call it is the scene file's own, or "front". */
+BIHIVE_API int bihive_scene_view_from(bihive_scene* scene, const char* side);
+
+/* Draws the picture of `bihive render`: width * height * 4 bytes to `rgba`, row by row from the top; red, green and
+ * blue are not multiplied by the opacity, which is 255 unless the scene has a transparent background. Width and height:
+ * 1 to 65535. `samples` a pixel: 1 to 4096, 0: the scene's. */
+BIHIVE_API int bihive_render(bihive_scene* scene, int width, int height, int samples, int threads, uint8_t* rgba);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,33 @@
+// The text of the last failure, and the border that no exception crosses.
+#pragma once
+
+#include <exception>
+#include <new>
+
+#include "bihive/base/result.h"
+
+namespace bihive::c {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+
+/// Notes the text for bihive_error_text() of this thread, without memory from the heap; cuts it if it is very long.
+int fail(const char* text) noexcept;
+int fail(const Error& error);
+const char* last_error() noexcept;
+
+/// body() returns kDone or kFailed.
+template <class Body>
+int guarded(const Body& body) noexcept {
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory");
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  } catch (...) {
+    return fail("an unknown failure");
+  }
+}
+
+}  // namespace bihive::c

@@ -1,0 +1,239 @@
+// Trees, rays and points of bihive.h.
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive.h"
+#include "bihive/base/parallel.h"
+#include "bihive/base/version.h"
+#include "bihive/geometry/sphere_set.h"
+#include "bihive/wide/point_queries.h"
+#include "bihive/wide/queries.h"
+#include "bihive/wide/wide_builder.h"
+#include "c_errors.h"
+
+struct bihive_tree {
+  std::shared_ptr<const bihive::WideTree> tree;
+};
+
+struct bihive_lists {
+  std::vector<std::int64_t> begin, spheres;
+  std::vector<double> distances;
+};
+
+namespace bihive::c {
+namespace {
+
+// Rays are handed to threads in such parts.
+constexpr std::int64_t kRaysPerPart = 1 << 17;
+
+bool ready(const bihive_tree* tree, const bihive_rays* rays) {
+  return tree != nullptr && rays != nullptr && rays->count >= 0 &&
+         (rays->count == 0 || (rays->origins != nullptr && rays->directions != nullptr));
+}
+
+// Rays first to first + count - 1 as the engine takes them.
+class Columns {
+ public:
+  Columns(const bihive_rays& rays, std::int64_t first, std::int64_t count) {
+    span_.count = count;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::vector<float>& origin = columns_[axis];
+      std::vector<float>& direction = columns_[3 + axis];
+      origin.resize(static_cast<std::size_t>(count));
+      direction.resize(static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < origin.size(); ++i) {
+        const std::size_t at = 3 * (static_cast<std::size_t>(first) + i) + axis;
+        origin[i] = rays.origins[at];
+        direction[i] = rays.directions[at];
+      }
+      span_.origin[axis] = origin.data();
+      span_.direction[axis] = direction.data();
+    }
+    if (rays.t_min != nullptr) span_.t_min = rays.t_min + first;
+    if (rays.t_max != nullptr) span_.t_max = rays.t_max + first;
+    if (rays.leaves != nullptr) span_.leaves = rays.leaves + first;
+    if (rays.inside != nullptr) span_.inside = rays.inside + first;
+  }
+  const RaySpan& span() const { return span_; }
+
+ private:
+  std::vector<float> columns_[6];
+  RaySpan span_;
+};
+
+// Calls answer(rays, first, part) for one part of the rays after the other, on threads.
+template <class Answer>
+int for_parts(const bihive_rays& rays, int threads, const Answer& answer) {
+  const std::int64_t parts = (rays.count + kRaysPerPart - 1) / kRaysPerPart;
+  std::atomic<bool> no_memory{false};
+  parallel_for(threads, parts, [&](std::int64_t part) {
+    try {
+      const std::int64_t first = part * kRaysPerPart;
+      answer(Columns(rays, first, std::min(kRaysPerPart, rays.count - first)).span(), first, part);
+    } catch (const std::bad_alloc&) {
+      no_memory = true;
+    }
+  });
+  return no_memory ? fail("not enough memory for so many rays; trace fewer at a time") : kDone;
+}
+
+int check_point_arguments(const bihive_tree* tree, const double* xyz, std::int64_t count, int distance_to,
+                          int threads) {
+  if (tree == nullptr) return fail("the tree is NULL");
+  if (count < 0) return fail("the number of points is negative");
+  if (count > 0 && xyz == nullptr) return fail("the points are NULL");
+  if (distance_to != BIHIVE_SURFACE && distance_to != BIHIVE_CENTRE)
+    return fail("distance_to is neither BIHIVE_SURFACE nor BIHIVE_CENTRE");
+  if (threads < 0) return fail("the number of threads is negative; 0 takes all");
+  return kDone;
+}
+
+PointOptions options_of(int distance_to, const std::uint8_t* mask, int threads) {
+  return {distance_to == BIHIVE_CENTRE ? DistanceTo::centre : DistanceTo::surface, mask, threads};
+}
+
+}  // namespace
+}  // namespace bihive::c
+
+using namespace bihive;     // NOLINT(google-build-using-namespace): the functions below are C's
+using namespace bihive::c;  // NOLINT(google-build-using-namespace)
+
+const char* bihive_version(void) {
+  static const std::string text(version());
+  return text.c_str();
+}
+
+const char* bihive_error_text(void) {
+  return last_error();
+}
+
+int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree) {
+  if (tree == nullptr) return fail("there is no place for the tree");
+  *tree = nullptr;
+  return guarded([&] {
+    if (count < 0) return fail("the number of spheres is negative");
+    if (count > 0 && (xyz == nullptr || radii == nullptr)) return fail("the spheres are NULL");
+    if (threads < 0) return fail("the number of threads is negative; 0 takes all");
+    std::vector<double> columns[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      columns[axis].resize(static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < columns[axis].size(); ++i) columns[axis][i] = xyz[3 * i + axis];
+    }
+    const std::vector<double> r(radii, radii + count);
+    const auto spheres = SphereSet::from_world(columns[0], columns[1], columns[2], r);
+    if (!spheres) return fail(spheres.error());
+    WideBuilder builder;
+    const auto built = builder.build(*spheres, {}, threads);
+    if (!built) return fail(built.error());
+    *tree = new bihive_tree{*built};
+    return kDone;
+  });
+}
+
+void bihive_tree_free(bihive_tree* tree) {
+  delete tree;
+}
+
+int64_t bihive_tree_size(const bihive_tree* tree) {
+  return tree == nullptr ? 0 : tree->tree->size;
+}
+
+int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads, double* t, int64_t* spheres) {
+  return guarded([&] {
+    if (!ready(tree, rays) || threads < 0) return fail("tree or rays are NULL, or a number is negative");
+    if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return fail("there is no place for the hits");
+    return for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
+      closest_hits(*tree->tree, part, RayOrder::any, HitSpan{t, spheres}.part(first));
+    });
+  });
+}
+
+int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int threads, uint8_t* hidden) {
+  return guarded([&] {
+    if (!ready(tree, rays) || threads < 0) return fail("tree or rays are NULL, or a number is negative");
+    if (rays->count > 0 && hidden == nullptr) return fail("there is no place for the answers");
+    return for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
+      occluded(*tree->tree, part, RayOrder::any, hidden + first);
+    });
+  });
+}
+
+int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
+                   int distance_to, const uint8_t* mask, int threads, double* distances, int64_t* spheres) {
+  return guarded([&] {
+    if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
+    if (count > 0 && (distances == nullptr || spheres == nullptr)) return fail("there is no place for the spheres");
+    const auto nearest =
+        nearest_spheres(*tree->tree, PointSpan::rows(xyz, count), most, within, options_of(distance_to, mask, threads));
+    if (!nearest) return fail(nearest.error());
+    std::copy(nearest->distance.begin(), nearest->distance.end(), distances);
+    std::copy(nearest->sphere_id.begin(), nearest->sphere_id.end(), spheres);
+    return kDone;
+  });
+}
+
+const int64_t* bihive_lists_begin(const bihive_lists* lists) {
+  return lists->begin.data();
+}
+
+const int64_t* bihive_lists_spheres(const bihive_lists* lists) {
+  return lists->spheres.data();
+}
+
+const double* bihive_lists_distances(const bihive_lists* lists) {
+  return lists->distances.data();
+}
+
+void bihive_lists_free(bihive_lists* lists) {
+  delete lists;
+}
+
+int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits, int distance_to,
+                  const uint8_t* mask, int threads, bihive_lists** lists) {
+  if (lists == nullptr) return fail("there is no place for the lists");
+  *lists = nullptr;
+  return guarded([&] {
+    if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
+    const PointSpan points = PointSpan::rows(xyz, count);
+    const PointOptions options = options_of(distance_to, mask, threads);
+    auto found = limits != nullptr ? spheres_within(*tree->tree, points, limits, options)
+                                   : spheres_within(*tree->tree, points, 0.0, options);
+    if (!found) return fail(found.error());
+    *lists = new bihive_lists{std::move(found->begin), std::move(found->sphere_id), std::move(found->distance)};
+    return kDone;
+  });
+}
+
+int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int threads, bihive_lists** lists) {
+  if (lists == nullptr) return fail("there is no place for the lists");
+  *lists = nullptr;
+  return guarded([&] {
+    if (!ready(tree, rays) || threads < 0) return fail("tree or rays are NULL, or a number is negative");
+    std::vector<std::vector<RayHit>> of_part(static_cast<std::size_t>(rays->count / kRaysPerPart + 1));
+    const int done = for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t, std::int64_t number) {
+      all_hits(*tree->tree, part, of_part[static_cast<std::size_t>(number)]);
+    });
+    if (done != kDone) return done;
+    // The hits of each part are in order: count them for each ray, and put them one behind the other.
+    auto made = std::make_unique<bihive_lists>();
+    made->begin.assign(static_cast<std::size_t>(rays->count) + 1, 0);
+    std::int64_t first = 0;
+    for (std::vector<RayHit>& hits : of_part) {
+      for (const RayHit& hit : hits) {
+        ++made->begin[static_cast<std::size_t>(first + hit.ray) + 1];
+        made->spheres.push_back(hit.sphere_id);
+        made->distances.push_back(hit.t);
+      }
+      std::vector<RayHit>().swap(hits);
+      first += kRaysPerPart;
+    }
+    for (std::size_t i = 1; i < made->begin.size(); ++i) made->begin[i] += made->begin[i - 1];
+    *lists = made.release();
+    return kDone;
+  });
+}

@@ -1,0 +1,246 @@
+/* The library for C, from C11: what each function of bihive.h promises. Prints the first broken promise, and returns 1.
+ */
+#include <bihive.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+static int failures = 0;
+
+static void expect(int holds, const char* what, int line) {
+  if (holds) return;
+  ++failures;
+  fprintf(stderr, "line %d: %s (last error: %s)\n", line, what, bihive_error_text());
+}
+#define EXPECT(condition) expect((condition) != 0, #condition, __LINE__)
+#define EXPECT_ERROR(call, text)                         \
+  do {                                                   \
+    EXPECT((call) == 1);                                 \
+    EXPECT(strstr(bihive_error_text(), (text)) != NULL); \
+  } while (0)
+
+/* Three unit spheres along x, and one inside of the second. */
+static const double kPlaces[] = {0, 0, 0, 4, 0, 0, 8, 0, 0, 4, 0, 0};
+static const double kRadii[] = {1, 1, 1, 0.5};
+
+static void test_rays(const bihive_tree* tree) {
+  const float origins[] = {-5, 0, 0, 4, 0, 9, 0, 5, 0, 0, 0, 1};
+  const float directions[] = {1, 0, 0, 0, 0, -2, 0, 1, 0, 0, 0, -1};
+  const int64_t leaves[] = {-1, -1, -1, 0};
+  const uint8_t inside[] = {0, 0, 0, 1};
+  const double t_max[] = {INFINITY, INFINITY, INFINITY, 2};
+  bihive_rays rays = {4, NULL, NULL, NULL, NULL, NULL, NULL};
+  double t[4];
+  int64_t spheres[4];
+  uint8_t hidden[4];
+  bihive_lists* lists = NULL;
+  rays.origins = origins;
+  rays.directions = directions;
+  rays.leaves = leaves;
+  rays.inside = inside;
+  rays.t_max = t_max;
+
+  EXPECT(bihive_closest(tree, &rays, 1, t, spheres) == 0);
+  EXPECT(spheres[0] == 0 && t[0] == 4);
+  EXPECT(spheres[1] == 1 && t[1] == 4);
+  EXPECT(spheres[2] == -1 && isinf(t[2]));
+  EXPECT(spheres[3] == 0 && t[3] == 2); /* through the sphere on which it starts */
+  EXPECT(bihive_occluded(tree, &rays, 2, hidden) == 0);
+  EXPECT(hidden[0] == 1 && hidden[1] == 1 && hidden[2] == 0 && hidden[3] == 1);
+
+  EXPECT(bihive_all_hits(tree, &rays, 0, &lists) == 0);
+  if (lists != NULL) {
+    const int64_t* begin = bihive_lists_begin(lists);
+    const int64_t* ids = bihive_lists_spheres(lists);
+    const double* at = bihive_lists_distances(lists);
+    EXPECT(begin[0] == 0 && begin[1] == 4 && begin[2] == 6 && begin[3] == 6 && begin[4] == 7);
+    EXPECT(ids[0] == 0 && ids[1] == 1 && ids[2] == 3 && ids[3] == 2 && ids[4] == 1 && ids[5] == 3 && ids[6] == 0);
+    EXPECT(at[0] == 4 && at[1] == 8 && at[2] == 8.5 && at[3] == 12 && at[4] == 4 && at[5] == 4.25 && at[6] == 2);
+  }
+  bihive_lists_free(lists);
+
+  rays.count = 0;
+  EXPECT(bihive_closest(tree, &rays, 0, NULL, NULL) == 0);
+  rays.count = -1;
+  EXPECT_ERROR(bihive_closest(tree, &rays, 0, t, spheres), "negative");
+  EXPECT_ERROR(bihive_closest(NULL, &rays, 0, t, spheres), "NULL");
+  EXPECT_ERROR(bihive_occluded(tree, NULL, 0, hidden), "NULL");
+}
+
+/* More rays than one part of them holds: each column of a comb meets the sphere below it, on any number of threads. */
+static void test_many_rays(const bihive_tree* tree) {
+  const int64_t count = 300000;
+  float* origins = malloc((size_t)count * 3 * sizeof(float));
+  float* directions = malloc((size_t)count * 3 * sizeof(float));
+  double* t = malloc((size_t)count * sizeof(double));
+  int64_t* spheres = malloc((size_t)count * sizeof(int64_t));
+  bihive_rays rays = {0, NULL, NULL, NULL, NULL, NULL, NULL};
+  int64_t i, wrong = 0, hits = 0;
+  bihive_lists* lists = NULL;
+  if (origins == NULL || directions == NULL || t == NULL || spheres == NULL) exit(3);
+  for (i = 0; i < count; ++i) {
+    origins[3 * i] = (float)(i % 3) * 4;
+    origins[3 * i + 1] = (float)(i % 7) * 0.25f;
+    origins[3 * i + 2] = 5;
+    directions[3 * i] = directions[3 * i + 1] = 0;
+    directions[3 * i + 2] = -1;
+  }
+  rays.count = count;
+  rays.origins = origins;
+  rays.directions = directions;
+  EXPECT(bihive_closest(tree, &rays, 2, t, spheres) == 0);
+  for (i = 0; i < count; ++i) {
+    const int64_t expected = i % 7 <= 4 ? i % 3 : -1;
+    wrong += spheres[i] != expected;
+    hits += expected < 0 ? 0 : expected == 1 && i % 7 <= 2 ? 2 : 1;
+  }
+  EXPECT(wrong == 0);
+  EXPECT(bihive_all_hits(tree, &rays, 2, &lists) == 0);
+  if (lists != NULL) {
+    EXPECT(bihive_lists_begin(lists)[count] == hits);
+    for (i = 0, wrong = 0; i < count; ++i)
+      if (bihive_lists_begin(lists)[i] < bihive_lists_begin(lists)[i + 1])
+        wrong += bihive_lists_spheres(lists)[bihive_lists_begin(lists)[i]] != spheres[i];
+    EXPECT(wrong == 0);
+  }
+  bihive_lists_free(lists);
+  free(origins);
+  free(directions);
+  free(t);
+  free(spheres);
+}
+
+static void test_points(const bihive_tree* tree) {
+  const double points[] = {4, 0, 0, 2, 0, 0, 6.5, 0, 0};
+  const double limits[] = {-0.75, 1, 1};
+  const double bad[] = {0, NAN, 0};
+  const uint8_t mask[] = {1, 0, 1, 1};
+  double distances[6];
+  int64_t spheres[6];
+  bihive_lists* lists = NULL;
+
+  EXPECT(bihive_nearest(tree, points, 3, 2, INFINITY, BIHIVE_SURFACE, NULL, 0, distances, spheres) == 0);
+  EXPECT(spheres[0] == 1 && spheres[1] == 3 && distances[0] == -1 && distances[1] == -0.5);
+  EXPECT(spheres[2] == 0 && spheres[3] == 1 && distances[2] == 1 && distances[3] == 1);
+  EXPECT(spheres[4] == 2 && spheres[5] == 1 && distances[4] == 0.5 && distances[5] == 1.5);
+  EXPECT(bihive_nearest(tree, points, 1, 2, 0.25, BIHIVE_CENTRE, mask, 1, distances, spheres) == 0);
+  EXPECT(spheres[0] == 3 && distances[0] == 0 && spheres[1] == -1 && isinf(distances[1]));
+
+  EXPECT(bihive_within(tree, points, 3, NULL, BIHIVE_SURFACE, NULL, 0, &lists) == 0);
+  if (lists != NULL) {
+    const int64_t* begin = bihive_lists_begin(lists);
+    EXPECT(begin[1] == 2 && begin[2] == 2 && begin[3] == 2);
+    EXPECT(bihive_lists_spheres(lists)[0] == 1 && bihive_lists_spheres(lists)[1] == 3);
+    EXPECT(bihive_lists_distances(lists)[1] == -0.5);
+  }
+  bihive_lists_free(lists);
+  EXPECT(bihive_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, 2, &lists) == 0);
+  if (lists != NULL) {
+    const int64_t* begin = bihive_lists_begin(lists);
+    EXPECT(begin[1] == 1 && begin[2] == 3 && begin[3] == 4);
+  }
+  bihive_lists_free(lists);
+
+  EXPECT_ERROR(bihive_nearest(tree, bad, 1, 1, 1, BIHIVE_SURFACE, NULL, 0, distances, spheres),
+               "point 0: y must be finite");
+  EXPECT_ERROR(bihive_nearest(tree, points, 3, 0, 1, BIHIVE_SURFACE, NULL, 0, distances, spheres), "at least 1");
+  EXPECT_ERROR(bihive_nearest(tree, points, 3, 1, 1, 7, NULL, 0, distances, spheres), "BIHIVE_CENTRE");
+  lists = (bihive_lists*)&lists;
+  EXPECT_ERROR(bihive_within(tree, bad, 1, NULL, BIHIVE_SURFACE, NULL, 0, &lists), "point 0");
+  EXPECT(lists == NULL);
+}
+
+static void test_trees(void) {
+  bihive_tree* tree = NULL;
+  const double infinite[] = {0, INFINITY, 0}, negative = -1, one = 1;
+  EXPECT(bihive_tree_new(NULL, NULL, 0, 0, &tree) == 0);
+  EXPECT(bihive_tree_size(tree) == 0);
+  bihive_tree_free(tree);
+  EXPECT_ERROR(bihive_tree_new(infinite, &one, 1, 0, &tree), "sphere 0: y must be finite");
+  EXPECT(tree == NULL);
+  EXPECT_ERROR(bihive_tree_new(kPlaces, &negative, 1, 0, &tree), "radius must not be negative");
+  EXPECT_ERROR(bihive_tree_new(NULL, kRadii, 4, 0, &tree), "NULL");
+  bihive_tree_free(NULL);
+
+  EXPECT(bihive_tree_new(kPlaces, kRadii, 4, 1, &tree) == 0);
+  EXPECT(bihive_tree_size(tree) == 4);
+  if (tree == NULL) return;
+  test_rays(tree);
+  test_many_rays(tree);
+  test_points(tree);
+  bihive_tree_free(tree);
+}
+
+enum { kWidth = 96, kHeight = 64 };
+
+static const uint8_t* pixel(const uint8_t* rgba, int x, int y) {
+  return rgba + 4 * (y * kWidth + x);
+}
+
+static void test_pictures(void) {
+  static uint8_t one[kWidth * kHeight * 4], other[kWidth * kHeight * 4];
+  const double places[] = {-2, 0, 0, 2, 0, 0}, radii[] = {1, 1};
+  const uint8_t colours[] = {255, 0, 0, 0, 0, 255};
+  const char* json = "{\"bihive_scene\": 1, \"spheres\": [[0, 0, 0, 1]]}";
+  const char* xyz = "2\ntwo\nO 0 0 0\nC 3 0 0\n";
+  bihive_scene* scene = NULL;
+
+  EXPECT(bihive_scene_new(places, radii, colours, 2, "plain", &scene) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 1, one) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 2, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) == 0);
+  EXPECT(pixel(one, 24, 32)[0] > pixel(one, 24, 32)[2] + 50); /* the red one is left in front */
+  EXPECT(pixel(one, 72, 32)[2] > pixel(one, 72, 32)[0] + 50);
+  EXPECT(pixel(one, 0, 0)[0] == 255 && pixel(one, 0, 0)[1] == 255 && pixel(one, 0, 0)[3] == 255);
+  EXPECT(bihive_scene_view_from(scene, "back") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(pixel(other, 24, 32)[2] > pixel(other, 24, 32)[0] + 50);
+  EXPECT_ERROR(bihive_scene_view_from(scene, "below"), "iso");
+  EXPECT_ERROR(bihive_render(scene, 0, 10, 1, 0, other), "65535");
+  EXPECT_ERROR(bihive_render(scene, 10, 10, 5000, 0, other), "4096");
+  EXPECT_ERROR(bihive_render(scene, 10, 10, 1, 0, NULL), "no place");
+  bihive_scene_free(scene);
+
+  EXPECT(bihive_scene_from_bytes(xyz, strlen(xyz), "two.xyz", NULL, &scene) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 0, 0, one) == 0);
+  bihive_scene_free(scene);
+  EXPECT(bihive_scene_from_bytes(json, strlen(json), "one.json", NULL, &scene) == 0);
+  if (scene != NULL) EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, one) == 0);
+  bihive_scene_free(scene);
+
+  EXPECT_ERROR(bihive_scene_from_bytes("{", 1, "broken.json", NULL, &scene), "broken.json:1");
+  EXPECT(scene == NULL);
+  EXPECT_ERROR(bihive_scene_new(places, radii, NULL, 2, "nonsense", &scene), "nonsense");
+  EXPECT_ERROR(bihive_scene_new(places, radii, NULL, 0, NULL, &scene), "at least one");
+  bihive_scene_free(NULL);
+}
+
+int main(int argc, char** argv) {
+  EXPECT(strcmp(bihive_error_text(), "") == 0);
+  test_trees();
+  test_pictures();
+  /* The picture of a file, for comparison with that of `bihive render`: c_library FILE STYLE OUT, raw RGBA. */
+  if (argc == 4) {
+    static char bytes[1 << 20];
+    static uint8_t rgba[160 * 120 * 4];
+    FILE* file = fopen(argv[1], "rb");
+    const size_t size = file == NULL ? 0 : fread(bytes, 1, sizeof bytes, file);
+    bihive_scene* scene = NULL;
+    EXPECT(size > 0);
+    if (file != NULL) fclose(file);
+    EXPECT(bihive_scene_from_bytes(bytes, size, argv[1], argv[2], &scene) == 0);
+    EXPECT(bihive_render(scene, 160, 120, 2, 0, rgba) == 0);
+    bihive_scene_free(scene);
+    file = fopen(argv[3], "wb");
+    EXPECT(file != NULL);
+    if (file != NULL) {
+      EXPECT(fwrite(rgba, 1, sizeof rgba, file) == sizeof rgba);
+      EXPECT(fclose(file) == 0);
+    }
+  }
+  printf("bihive %s from C: %d broken promises, %d spheres\n", bihive_version(), failures, (int)COUNT(kRadii));
+  return failures == 0 ? 0 : 1;
+}
