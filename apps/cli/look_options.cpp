@@ -1,6 +1,7 @@
 #include "look_options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <variant>
@@ -139,6 +140,13 @@ std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOpt
 ColourRange range_of_style(const LoadedScene& input, const LookOptions& options) {
   const std::size_t of_looks = colourings_of(input.looks) + colourings_of(options.looks);
   return input.scene.coloured_by.size() > of_looks ? input.scene.coloured_by.front().range : std::nullopt;
+}
+
+void give_extent(ColourRange& range) {
+  if (!range || range->first < range->second) return;
+  const double value = range->first;
+  const double half = value != 0 ? std::abs(value) / 2 : 0.5;
+  range = {value - half, value + half};
 }
 
 void fix_range(Style& style, const ColourRange& range) {

@@ -53,6 +53,8 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
 /// categories. And that of the style with which the input was loaded.
 std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOptions& options);
 ColourRange range_of_style(const LoadedScene& input, const LookOptions& options);
+/// A range that is kept for other pictures needs an extent: a single number gets the middle of the colours.
+void give_extent(ColourRange& range);
 /// The style with this range, if it colours by an attribute and leaves the range open.
 void fix_range(Style& style, const ColourRange& range);
 

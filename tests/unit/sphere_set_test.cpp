@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -112,6 +115,57 @@ TEST(SphereSet, CountsWhatItHolds) {
   set.attributes().type.resize(100);
   set.attributes().numbers.push_back({"charge", std::vector<double>(10)});
   EXPECT_GE(set.allocated_bytes(), bare + 400 + 80);
+}
+
+// Numbers that lie somewhere else, as those of Python's arrays do: the same set as that of vectors.
+TEST(SphereSet, takes_numbers_where_they_lie) {
+  using Precision = NumbersView::Precision;
+  const auto equal = [](const SphereSet& a, const SphereSet& b) {
+    return a.x() == b.x() && a.y() == b.y() && a.z() == b.z() && a.r() == b.r() &&
+           a.scale_exponent() == b.scale_exponent();
+  };
+  // Rows of x, y, z, r, from the last to the first; an odd place in memory.
+  const std::vector<double> rows{1.1, 2.2, 3.3, 0.4, -5.5, 6.6, -7.7, 0.8};
+  const auto same = [&](auto number, Precision precision) {
+    using T = decltype(number);
+    std::vector<char> bytes(1 + rows.size() * sizeof(T));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const T value = static_cast<T>(rows[i]);
+      std::memcpy(bytes.data() + 1 + i * sizeof(T), &value, sizeof(T));
+    }
+    const auto column = [&](std::size_t k) {
+      return NumbersView{bytes.data() + 1 + (4 + k) * sizeof(T), -static_cast<std::ptrdiff_t>(4 * sizeof(T)), 2,
+                         precision};
+    };
+    const auto number_at = [&](std::size_t i) { return static_cast<T>(rows[i]); };
+    const Result<SphereSet> expected =
+        SphereSet::from_world(std::vector<T>{number_at(4), number_at(0)}, std::vector<T>{number_at(5), number_at(1)},
+                              std::vector<T>{number_at(6), number_at(2)}, std::vector<T>{number_at(7), number_at(3)});
+    const Result<SphereSet> found = SphereSet::from_world(column(0), column(1), column(2), column(3));
+    ASSERT_TRUE(expected && found);
+    EXPECT_TRUE(equal(*found, *expected));
+    // One radius for all, of the other precision too.
+    const double wide = 0.1;
+    const float narrow = 0.1f;
+    const Result<SphereSet> by_double = SphereSet::from_world(column(0), column(1), column(2), {&wide, 0, 2});
+    const Result<SphereSet> by_float =
+        SphereSet::from_world(column(0), column(1), column(2), {&narrow, 0, 2, Precision::binary32});
+    ASSERT_TRUE(by_double && by_float);
+    EXPECT_TRUE(equal(*by_double, *by_float));
+    EXPECT_EQ(static_cast<float>(by_double->radius(1)), 0.1f);
+  };
+  same(double{}, Precision::binary64);
+  same(float{}, Precision::binary32);
+}
+
+TEST(SphereSet, refuses_the_same_numbers_where_they_lie) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> x{0, nan};
+  const NumbersView zeros{x.data(), 0, 2}, bad{x.data(), sizeof(double), 2};
+  const Result<SphereSet> set = SphereSet::from_world(zeros, bad, zeros, zeros);
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().message, "sphere 1: y must be finite but is nan");
+  EXPECT_TRUE(SphereSet::from_world(NumbersView{}, NumbersView{}, NumbersView{}, NumbersView{})->empty());
 }
 
 // An empty set has no spheres to count, but its copies are.

@@ -45,14 +45,6 @@ void widen(ColourRange& range, const ColourRange& other) {
   range->second = std::max(range->second, other->second);
 }
 
-// A range needs an extent. A single number gets the middle of the colours.
-void give_extent(ColourRange& range) {
-  if (!range || range->first < range->second) return;
-  const double value = range->first;
-  const double half = value != 0 ? std::abs(value) / 2 : 0.5;
-  range = {value - half, value + half};
-}
-
 // The ranges of all frames of the film.
 void widen_over_film(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
                      FilmPlan::Fixed& fixed) {

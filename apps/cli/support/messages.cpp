@@ -22,6 +22,7 @@ constexpr double kRedrawMs = 100;
 constexpr int kBarCharacters = 24;
 
 std::atomic<bool> g_once{false};
+thread_local std::vector<std::string>* t_collected = nullptr;
 
 // File names and other texts of users may hold anything.
 void say(const std::string& text) {
@@ -35,7 +36,16 @@ void warn_of_each_text_once() {
   g_once = true;
 }
 
+CollectedWarnings::CollectedWarnings(std::vector<std::string>& texts) {
+  t_collected = &texts;
+}
+
+CollectedWarnings::~CollectedWarnings() {
+  t_collected = nullptr;
+}
+
 void warn(const std::string& text) {
+  if (t_collected != nullptr) return t_collected->push_back(text);
   if (g_once) {
     static std::mutex mutex;
     static std::set<std::string> said;

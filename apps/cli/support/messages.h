@@ -16,6 +16,15 @@ void warn(const std::vector<std::string>& texts);
 /// From now on a warning whose text was said before is dropped: for commands that read many frames. Then any number of
 /// threads may warn.
 void warn_of_each_text_once();
+/// During the life of such an object this thread's warnings go into the list, and not to stderr: for callers that show
+/// them in their own way.
+class CollectedWarnings {
+ public:
+  explicit CollectedWarnings(std::vector<std::string>& texts);
+  ~CollectedWarnings();
+  CollectedWarnings(const CollectedWarnings&) = delete;
+  CollectedWarnings& operator=(const CollectedWarnings&) = delete;
+};
 /// "bihive: error: ..." in one line.
 void say_error(const std::string& text);
 

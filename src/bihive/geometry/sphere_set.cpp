@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 
 namespace bihive {
@@ -28,11 +29,30 @@ Error bad_sphere(std::size_t i, const std::string& what, double value) {
   return {"sphere " + std::to_string(i) + ": " + what + " is " + number, "", 0, 0, ""};
 }
 
+// A NumbersView of one precision, to be read like a vector.
+template <class T>
+class TypedView {
+ public:
+  explicit TypedView(const NumbersView& view)
+      : first_(static_cast<const char*>(view.first)), step_(view.step_bytes), size_(view.count) {}
+
+  std::size_t size() const { return size_; }
+  T operator[](std::size_t i) const {
+    T value;
+    std::memcpy(&value, first_ + static_cast<std::ptrdiff_t>(i) * step_, sizeof(T));
+    return value;
+  }
+
+ private:
+  const char* first_;
+  std::ptrdiff_t step_;
+  std::size_t size_;
+};
+
 }  // namespace
 
-template <class T>
-Result<SphereSet> SphereSet::make(const std::vector<T>& x, const std::vector<T>& y, const std::vector<T>& z,
-                                  const std::vector<T>& r) {
+template <class Coordinates, class Radii>
+Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r) {
   BIHIVE_CHECK_EQ(x.size(), y.size());
   BIHIVE_CHECK_EQ(x.size(), z.size());
   BIHIVE_CHECK_EQ(x.size(), r.size());
@@ -57,7 +77,7 @@ Result<SphereSet> SphereSet::make(const std::vector<T>& x, const std::vector<T>&
   if (extent > 0) std::frexp(extent, &set.scale_exponent_);
   set.scale_exponent_ = std::min(-set.scale_exponent_, kLargestScaleExponent);
   const double scale = set.scale();
-  const auto round = [scale](const std::vector<T>& world) {
+  const auto round = [scale](const auto& world) {
     std::vector<float> stored(world.size());
     for (std::size_t i = 0; i < world.size(); ++i) stored[i] = static_cast<float>(double(world[i]) * scale);
     return stored;
@@ -79,6 +99,19 @@ Result<SphereSet> SphereSet::from_world(const std::vector<double>& x, const std:
 Result<SphereSet> SphereSet::from_world(const std::vector<float>& x, const std::vector<float>& y,
                                         const std::vector<float>& z, const std::vector<float>& r) {
   return make(x, y, z, r);
+}
+
+Result<SphereSet> SphereSet::from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
+                                        const NumbersView& r) {
+  using Precision = NumbersView::Precision;
+  BIHIVE_CHECK(x.precision == y.precision && x.precision == z.precision);
+  const auto with_radii = [&](const auto& one, const auto& two, const auto& three) {
+    if (r.precision == Precision::binary32) return make(one, two, three, TypedView<float>(r));
+    return make(one, two, three, TypedView<double>(r));
+  };
+  if (x.precision == Precision::binary32)
+    return with_radii(TypedView<float>(x), TypedView<float>(y), TypedView<float>(z));
+  return with_radii(TypedView<double>(x), TypedView<double>(y), TypedView<double>(z));
 }
 
 SphereSet::Bounds SphereSet::bounds() const {

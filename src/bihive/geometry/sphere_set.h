@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -23,6 +24,17 @@
 
 namespace bihive {
 
+/// Numbers that somebody else keeps, `step_bytes` apart: a column of a table, for example. The step may be negative, or
+/// 0: one number for all. They need not be aligned.
+struct NumbersView {
+  enum class Precision { binary32, binary64 };
+
+  const void* first = nullptr;
+  std::ptrdiff_t step_bytes = 0;
+  std::size_t count = 0;
+  Precision precision = Precision::binary64;
+};
+
 class SphereSet {
  public:
   SphereSet() = default;
@@ -34,6 +46,9 @@ class SphereSet {
                                       const std::vector<double>& z, const std::vector<double>& r);
   static Result<SphereSet> from_world(const std::vector<float>& x, const std::vector<float>& y,
                                       const std::vector<float>& z, const std::vector<float>& r);
+  /// The same from numbers where they lie. x, y and z must have the same precision.
+  static Result<SphereSet> from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
+                                      const NumbersView& r);
 
   /// The spheres that are stored.
   std::int64_t size() const { return static_cast<std::int64_t>(x_.size()); }
@@ -116,9 +131,8 @@ class SphereSet {
   Vec3d stored_image_centre(std::int64_t id) const;
   void count_vanishing_radii();
 
-  template <class T>
-  static Result<SphereSet> make(const std::vector<T>& x, const std::vector<T>& y, const std::vector<T>& z,
-                                const std::vector<T>& r);
+  template <class Coordinates, class Radii>
+  static Result<SphereSet> make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r);
 };
 
 }  // namespace bihive

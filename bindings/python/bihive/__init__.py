@@ -1,0 +1,48 @@
+"""bihive: exact ray tracing of spheres. NumPy in, picture out.
+
+>>> import numpy as np, bihive as bh
+>>> s = bh.Spheres(np.random.default_rng(1).normal(size=(1000, 3)), radius=0.1)
+>>> picture = bh.render(s, camera=bh.Orthographic("left"), style="illustrative", size=(80, 60))
+>>> np.asarray(picture).shape
+(60, 80, 3)
+
+Spheres, read       spheres of arrays, of a file
+render, film        pictures and films of them; Orthographic, Perspective, Look, Style decide how they look
+Tree                what rays hit
+select, stats       which spheres an expression takes; the trees in numbers
+colour_map          colours of numbers
+Error               the base of all exceptions of this package
+"""
+
+from ._bihive import __version__
+from ._camera import Look, Orthographic, Perspective, Style
+from ._errors import Error, FileError, InputError, InputWarning, MissingError, UsageError
+from ._film import film
+from ._picture import Picture
+from ._render import render
+from ._spheres import Spheres, colour_map, read, select, stats
+from ._tree import Hits, Tree
+
+__all__ = [
+    "Error",
+    "FileError",
+    "Hits",
+    "InputError",
+    "InputWarning",
+    "Look",
+    "MissingError",
+    "Orthographic",
+    "Perspective",
+    "Picture",
+    "Spheres",
+    "Style",
+    "Tree",
+    "UsageError",
+    "__version__",
+    "colour_map",
+    "film",
+    "read",
+    "render",
+    "select",
+    "stats",
+]

@@ -1,0 +1,107 @@
+# The compiled module. The package around it checks the arguments.
+
+from typing import Any, Callable, Optional, Union
+
+import numpy as np
+
+_Array = np.ndarray[Any, Any]
+
+__version__: str
+
+class Spheres:
+    xyz: _Array
+    radius: _Array
+    element: Optional[_Array]
+    type: Optional[_Array]
+    colour: Optional[_Array]
+    opacity: Optional[_Array]
+    columns: dict[str, Union[_Array, list[str]]]
+    cell: Optional[_Array]
+    bounds: _Array
+    has_images: bool
+    nbytes: int
+    name: str
+    format: str
+    frames: int
+    time_ps: Optional[float]
+    step: Optional[int]
+    rules: list[str]
+    warnings: list[str]
+    def __len__(self) -> int: ...
+    def select(self, expression: str) -> _Array: ...
+    def statistics(self, words: list[str]) -> str: ...
+
+class Picture:
+    pixels: _Array
+    report: str
+    warnings: list[str]
+    has_scene: bool
+    hash: int
+    def layer(self, name: str) -> _Array: ...
+    def png(self) -> bytes: ...
+    def save(self, path: str) -> None: ...
+    def detach(self) -> None: ...
+
+class Tree:
+    build_ms: float
+    def __len__(self) -> int: ...
+    def closest(
+        self,
+        origin: _Array,
+        direction: _Array,
+        t_min: Optional[_Array],
+        t_max: Optional[_Array],
+        leaves: Optional[_Array],
+        inside: Optional[_Array],
+        in_blocks: bool,
+    ) -> tuple[_Array, _Array]: ...
+    def occluded(
+        self,
+        origin: _Array,
+        direction: _Array,
+        t_min: Optional[_Array],
+        t_max: Optional[_Array],
+        leaves: Optional[_Array],
+        inside: Optional[_Array],
+        in_blocks: bool,
+    ) -> _Array: ...
+    def all_hits(
+        self,
+        origin: _Array,
+        direction: _Array,
+        t_min: Optional[_Array],
+        t_max: Optional[_Array],
+        leaves: Optional[_Array],
+        inside: Optional[_Array],
+    ) -> tuple[_Array, _Array, _Array]: ...
+
+def spheres_from_arrays(
+    xyz: _Array,
+    radius: _Array,
+    element: Optional[_Array],
+    type: Optional[_Array],
+    colour: Optional[_Array],
+    opacity: Optional[_Array],
+    numbers: dict[str, Any],
+    texts: dict[str, list[str]],
+    cell: Optional[_Array],
+    format: str,
+    name: str,
+) -> Spheres: ...
+def read(words: list[str]) -> Spheres: ...
+def render(
+    spheres: Optional[Spheres],
+    words: list[str],
+    style_text: str,
+    like: Optional[Picture],
+    progress: Optional[Callable[[float], None]],
+) -> Picture: ...
+def build_tree(spheres: Spheres, part: Optional[list[int]], words: list[str]) -> Tree: ...
+def colours_of(values: Union[_Array, list[str]], how: str, nan_colour: str) -> _Array: ...
+def linear_colour(text: str) -> Optional[tuple[float, float, float]]: ...
+def check_selection(text: str) -> None: ...
+def check_environment() -> None: ...
+def atomic_number(symbol: str) -> int: ...
+def element_symbol(number: int) -> str: ...
+def van_der_waals_radius(number: int) -> float: ...
+def target() -> str: ...

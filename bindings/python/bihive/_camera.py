@@ -1,0 +1,124 @@
+"""Cameras, looks and styles: what decides a picture besides its spheres. All can be compared, copied and pickled."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field, fields
+from typing import Any, Optional, Sequence, Union
+
+from ._errors import bad_argument
+from ._options import ACTIONS, action_words, boolean, option
+
+__all__ = ["Orthographic", "Perspective", "Look", "Style"]
+
+Vector = Sequence[float]
+
+
+def _words(camera: Any, projection: str) -> list[str]:
+    words = [option("projection", projection)]
+    for one in fields(camera):
+        value = getattr(camera, one.name)
+        if value is not None:
+            words.append(option(one.name, value))
+    return words
+
+
+@dataclass(frozen=True)
+class Orthographic:
+    """Parallel rays: equal spheres look equally large at any distance.
+
+    view_from: "front", "back", "left", "right", "top", "bottom" or "iso": the whole set from this side.
+    eye, look_at, up: three numbers each, in world units; instead of view_from.
+    turn: (azimuth, elevation) or (azimuth, elevation, roll) in degrees. zoom: a factor above 0.
+
+    >>> Orthographic("left", zoom=1.5)
+    Orthographic(view_from='left', eye=None, look_at=None, up=None, turn=None, zoom=1.5)
+    """
+
+    view_from: Optional[str] = None
+    eye: Optional[Vector] = None
+    look_at: Optional[Vector] = None
+    up: Optional[Vector] = None
+    turn: Optional[Vector] = None
+    zoom: Optional[float] = None
+
+    def words(self) -> list[str]:
+        return _words(self, "orthographic")
+
+
+@dataclass(frozen=True)
+class Perspective:
+    """Rays from one eye. The arguments of Orthographic, and:
+
+    fov: the angle along the picture's shorter side, in degrees (30).
+    aperture: the radius of the lens in world units (0: all is sharp). focus: the distance that is sharp, in world units,
+    "auto", or a selection.
+
+    >>> Perspective(eye=(0, 0, 50), look_at=(0, 0, 0)).fov is None
+    True
+    """
+
+    view_from: Optional[str] = None
+    eye: Optional[Vector] = None
+    look_at: Optional[Vector] = None
+    up: Optional[Vector] = None
+    turn: Optional[Vector] = None
+    zoom: Optional[float] = None
+    fov: Optional[float] = None
+    aperture: Optional[float] = None
+    focus: Union[float, str, None] = None
+
+    def words(self) -> list[str]:
+        return _words(self, "perspective")
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is done to the spheres of a selection: the options of the command line behind ``--select``.
+
+    select: an expression (docs/selections.md). show: False hides them. colour: a name, "#rrggbb" or three numbers of linear
+    light. colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
+    outline: pixels. crease: an attribute. clip: a text such as "plane:1,0,0,2.5", or several.
+
+    >>> Look("element C", colour="orange", opacity=0.5).words()
+    ['--select=element C', '--colour=orange', '--opacity=0.5']
+    """
+
+    select: str = "all"
+    show: Optional[bool] = None
+    colour: Union[str, Vector, None] = None
+    colour_by: Optional[str] = None
+    opacity: Optional[float] = None
+    material: Optional[str] = None
+    radius_scale: Optional[float] = None
+    outline: Optional[float] = None
+    crease: Optional[str] = None
+    clip: Union[str, Sequence[str], None] = None
+
+    def words(self) -> list[str]:
+        words = [option("select", self.select)]
+        if self.show is not None:
+            words.append("--show" if boolean("show", self.show) else "--hide")
+        for name in ACTIONS:
+            value = getattr(self, name)
+            if value is not None:
+                words += action_words(name, value)
+        return words
+
+
+@dataclass(frozen=True)
+class Style:
+    """A style of one's own: the keys of a style file (docs/styles.md) as a dictionary.
+
+    >>> Style({"material": {"diffuse": 0.9}, "background": "black"}).text()
+    '{"bihive_style": 1, "material": {"diffuse": 0.9}, "background": "black"}'
+    """
+
+    keys: dict[str, Any] = field(default_factory=dict)
+
+    def text(self) -> str:
+        """The style file."""
+        try:
+            return json.dumps({"bihive_style": 1, **self.keys})
+        except (TypeError, ValueError) as error:
+            raise bad_argument("style", f"cannot be written as JSON: {error}") from None

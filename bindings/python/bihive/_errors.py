@@ -1,0 +1,90 @@
+"""The exceptions of the package. Each says what was wrong, names the argument, and says what to do."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+__all__ = ["Error", "InputError", "UsageError", "FileError", "MissingError", "InputWarning", "failure"]
+
+
+class Error(Exception):
+    """The base of all of them.
+
+    Attributes: ``argument`` (the argument's name, or ""), ``file``, ``line`` and ``column`` (from 1, 0: unknown), ``hint``.
+    """
+
+    def __init__(
+        self, message: str, *, argument: str = "", file: str = "", line: int = 0, column: int = 0, hint: str = ""
+    ) -> None:
+        super().__init__(message)
+        self.argument = argument
+        self.file = file
+        self.line = line
+        self.column = column
+        self.hint = hint
+
+
+class InputError(Error, ValueError):
+    """Content that cannot be used: a file's, or numbers of an array."""
+
+
+class UsageError(Error, ValueError):
+    """An argument that is unknown, out of range, or contradicts another one."""
+
+
+class FileError(Error, OSError):
+    """A file that cannot be opened or written; ``errno`` and ``filename`` are those of OSError."""
+
+    def __init__(self, number: int, text: str, path: str) -> None:
+        OSError.__init__(self, number, text, path)
+        self.argument = "path"
+        self.file = path
+        self.line = self.column = 0
+        self.hint = ""
+
+
+class MissingError(Error, RuntimeError):
+    """Something that this machine lacks: a program, a driver, a device."""
+
+
+class InputWarning(UserWarning):
+    """What a reader or a picture wants its user to know."""
+
+
+_OPTION = re.compile(r"--([a-z][a-z-]*[a-z]|[a-z])\b")
+
+
+def in_python(text: str) -> str:
+    """A message of the command line in the words of Python: ``--view-from`` is ``view_from``."""
+    return _OPTION.sub(lambda match: match.group(1).replace("-", "_"), text)
+
+
+def failure(kind: str, message: str, file: str, line: int, column: int, hint: str, shown: str) -> Error:
+    """The exception of a failure in the compiled part, which calls this."""
+    argument = _OPTION.match(message)
+    hint = "" if hint.endswith("--help") else in_python(hint)
+    place = ":".join([file, *(str(number) for number in (line, column) if number > 0)]) if file else ""
+    text = (place + ": " if place else "") + in_python(message) + ("; " + hint if hint else "")
+    if shown:
+        text += "\n" + shown.rstrip("\n")
+    made: dict[str, type[Error]] = {"usage": UsageError, "missing": MissingError}
+    return made.get(kind, InputError)(
+        text,
+        argument=argument.group(1).replace("-", "_") if argument else "",
+        file=file,
+        line=line,
+        column=column,
+        hint=hint,
+    )
+
+
+def bad_argument(argument: str, message: str, hint: str = "") -> UsageError:
+    """An exception about an argument: "argument: message; hint"."""
+    return UsageError(f"{argument}: {message}" + (f"; {hint}" if hint else ""), argument=argument, hint=hint)
+
+
+def found(value: Any) -> str:
+    """A value in a message, shortened."""
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,113 @@
+"""From keyword arguments to the words of the command line, which has one description and one check for each option.
+
+``view_from="left"`` becomes ``--view-from=left``. So every option of ``bihive render`` is here, under its own name.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, Mapping
+
+from ._errors import bad_argument, found
+
+# Given as True; False is the same as leaving it out.
+FLAGS = ["legend", "scale_bar", "axes", "no_labels", "cell", "recenter", "wrap", "unwrap", "no_hydrogens", "no_water"]
+# True and False are --name and --no-name.
+SWITCHES = ["shadows", "ao"]
+# One value each. A tuple stands for numbers between commas.
+VALUES = [
+    "crop view samples recursion style ao_distance ao_directions light_points opacity_rule fog exposure tone transfer",
+    "background bits dpi view_from eye look_at up fov projection turn zoom aperture focus engine max_prims max_depth",
+    "threads count seed radius radius_scale assembly frame trajectory cell_vectors cell_origin outline element_colours",
+    "nan_colour title title_values length_unit",
+]
+ONE_VALUE = " ".join(VALUES).split()
+# Two or three numbers with an x between them.
+SIZES = ["size", "replicate"]
+# Actions on spheres: of a Look, and of all spheres.
+ACTIONS = ["colour", "colour_by", "opacity", "material", "radius_scale", "outline", "crease", "clip"]
+
+
+def number_word(name: str, value: Any) -> str:
+    """A number as the command line reads it: the shortest text with the same bits."""
+    if isinstance(value, bool):
+        raise bad_argument(name, f"expected a number, found {value}")
+    try:
+        return str(value.__index__())
+    except (AttributeError, TypeError):
+        pass
+    try:
+        return repr(float(value))
+    except (TypeError, ValueError):
+        raise bad_argument(name, f"expected a number, found {found(value)}") from None
+
+
+def flat(value: Iterable[Any]) -> Iterable[Any]:
+    for one in value:
+        if isinstance(one, str) or not hasattr(one, "__iter__") or getattr(one, "ndim", 1) == 0:
+            yield one
+        else:
+            yield from flat(one)
+
+
+def value_word(name: str, value: Any, between: str = ",") -> str:
+    """One value as text: texts and paths as they are, numbers, or several numbers."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)  # type: ignore[no-any-return]
+    if hasattr(value, "__iter__") and getattr(value, "ndim", 1) > 0:
+        return between.join(one if isinstance(one, str) else number_word(name, one) for one in flat(value))
+    return number_word(name, value)
+
+
+def option(name: str, value: Any, between: str = ",") -> str:
+    text = value_word(name, value, between)
+    if "\0" in text:
+        raise bad_argument(name, "a text must not hold a NUL character")
+    return f"--{name.replace('_', '-')}={text}"
+
+
+def boolean(name: str, value: Any) -> bool:
+    if value is True or value is False or type(value).__name__ == "bool_":
+        return bool(value)
+    raise bad_argument(name, f"expected True or False, found {found(value)}")
+
+
+def light_words(value: Any) -> list[str]:
+    lights = [value] if isinstance(value, str) else list(value)
+    return [option("light", light) for light in lights]
+
+
+def action_words(name: str, value: Any) -> list[str]:
+    """An action; several clips may come as a list."""
+    if name == "clip" and not isinstance(value, str):
+        return [option(name, clip) for clip in value]
+    return [option(name, value)]
+
+
+def words_of(options: Mapping[str, Any], allowed: Iterable[str] | None = None) -> list[str]:
+    """The words of these options. ``None`` leaves an option out.
+
+    Raises UsageError for a name that is not ``allowed`` (None: any option of a picture).
+    """
+    known = set(ONE_VALUE + FLAGS + SWITCHES + SIZES + ACTIONS + ["light"] if allowed is None else allowed)
+    words: list[str] = []
+    for name, value in options.items():
+        if name not in known:
+            raise bad_argument(name, "there is no such option", "known: " + ", ".join(sorted(known)))
+        if value is None:
+            continue
+        if name in FLAGS:
+            words += ["--" + name.replace("_", "-")] if boolean(name, value) else []
+        elif name in SWITCHES:
+            words.append(("--" if boolean(name, value) else "--no-") + name)
+        elif name in SIZES:
+            words.append(option(name, value, "x"))
+        elif name == "light":
+            words += light_words(value)
+        elif name in ACTIONS:
+            words += action_words(name, value)
+        else:
+            words.append(option(name, value))
+    return words

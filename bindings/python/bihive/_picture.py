@@ -1,0 +1,102 @@
+"""Pictures."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _bihive
+from ._errors import FileError, bad_argument, found
+
+__all__ = ["Picture"]
+
+
+class Picture:
+    """A finished picture, made by render().
+
+    It shows itself in a notebook. numpy.asarray(picture) is uint8 (height, width, 3), of a transparent picture (height, width,
+    4), and uint16 with bits=16; the same bits as in the PNG that ``bihive render`` writes.
+
+    It keeps its scene for layer(); detach() lets that go. A pickled picture has its pixels alone.
+    """
+
+    def __init__(self, core: _bihive.Picture) -> None:
+        self._core = core
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        height, width = self._core.pixels.shape[:2]
+        return width, height
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """What ``bihive render --json`` says: settings, numbers of rays, build_ms, render_ms."""
+        made: dict[str, Any] = json.loads(self._core.report)
+        return made
+
+    @property
+    def camera(self) -> dict[str, Any]:
+        """Where the picture is seen from: eye, look_at, up, fov_deg... in world units."""
+        made: dict[str, Any] = self.report["settings"]["camera"]
+        return made
+
+    @property
+    def hash(self) -> int:
+        """Equal pictures have equal hashes: ``picture_hash`` of ``bihive render --json``."""
+        return self._core.hash
+
+    def layer(self, name: str) -> np.ndarray[Any, Any]:
+        """Numbers of the first surface behind each pixel (height, width); a new array.
+
+        "depth": float32, distance along the view in world units, inf for nothing. "normal": float32 (height, width, 3).
+        "id": int64, the position of the sphere, -1 for nothing, -2 for the plane. "albedo": float32 (height, width, 3), the
+        colour before any light. "radiance": float32 (height, width, 3 or 4), the light of the picture without the screen's
+        curve. "attribute:NAME": float32, an attribute of the sphere, NaN for nothing.
+        """
+        if not isinstance(name, str):
+            raise bad_argument("layer", f"expected a name, found {found(name)}")
+        return self._core.layer(name)
+
+    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes a PNG, whole or not at all. Raises FileError (an OSError) if that cannot be."""
+        text = os.fspath(path)
+        if not isinstance(text, str) or not text or "\0" in text:
+            raise bad_argument("path", f"expected a path, found {found(path)}")
+        ending = os.path.splitext(text)[1].lower()
+        if ending not in ("", ".png"):
+            raise bad_argument("path", f"save() writes PNG, not {ending}", "let it end in .png; layer() has numbers")
+        try:
+            self._core.save(text)
+        except ValueError as error:
+            raise FileError(0, str(error), text) from None
+
+    def detach(self) -> Picture:
+        """Lets the scene and its tree go, whose memory may be large: layer() fails from now on. Returns the picture."""
+        self._core.detach()
+        return self
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self._core.png()
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> np.ndarray[Any, Any]:
+        pixels = self._core.pixels
+        array = pixels if pixels.dtype.isnative else pixels.astype(pixels.dtype.newbyteorder("="))
+        if dtype is not None and array.dtype != dtype:
+            return array.astype(dtype)
+        return array.copy() if copy else array
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Picture):
+            return NotImplemented
+        return np.array_equal(self._core.pixels, other._core.pixels)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        report = self.report
+        return f"<bihive.Picture: {width} x {height}, {report['spheres']} spheres of {report['scene']}>"

@@ -1,0 +1,113 @@
+"""From spheres or a file to a picture."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, Callable, Optional, Union
+
+from . import _bihive
+from ._adapt import spheres_of
+from ._camera import Look, Orthographic, Perspective, Style
+from ._errors import InputWarning, bad_argument, found
+from ._options import ACTIONS, option, words_of
+from ._picture import Picture
+from ._progress import Bar
+from ._spheres import Spheres, check_readable
+
+__all__ = ["render"]
+
+Camera = Union[Orthographic, Perspective, Picture, str, None]
+Progress = Union[None, bool, Callable[[float], object]]
+
+
+def picture_words(select: Optional[str], camera: Camera, style: Any, looks: Any, options: dict[str, Any]) -> list[str]:
+    """The words of `bihive render` for these arguments, without the input."""
+    if isinstance(camera, str):
+        options = {"view_from": camera, **options}
+    elif camera is not None and not isinstance(camera, (Orthographic, Perspective, Picture)):
+        raise bad_argument("camera", f"expected Orthographic, Perspective, a picture or a side, found {found(camera)}")
+    before = {name: value for name, value in options.items() if name in ACTIONS}
+    words = words_of({name: value for name, value in options.items() if name not in before})
+    words += words_of(before)
+    if isinstance(camera, (Orthographic, Perspective)):
+        words += camera.words()
+    if style is not None and not isinstance(style, (Style, dict)):
+        words.append(option("style", style))
+    for look in [looks] if isinstance(looks, Look) else looks or []:
+        if not isinstance(look, Look):
+            raise bad_argument("looks", f"expected Look(...), found {found(look)}")
+        words += look.words()
+    if select is not None:
+        if not isinstance(select, str):
+            raise bad_argument("select", f"expected a selection as text, found {found(select)}")
+        _bihive.check_selection(select)
+        words += [option("select", f"not ({select})"), "--hide"]
+    return words
+
+
+def style_text(style: Any) -> str:
+    """A style that is no name and no file, as text."""
+    if isinstance(style, dict):
+        style = Style(style)
+    return style.text() if isinstance(style, Style) else ""
+
+
+def draw(
+    spheres: Optional[Spheres], words: list[str], text: str, like: Optional[Picture], progress: Progress
+) -> Picture:
+    """The picture, and its warnings."""
+    with Bar(progress, "rendering") as bar:
+        core = _bihive.render(spheres._core if spheres is not None else None, words, text, None if like is None else like._core, bar)
+    for warning in core.warnings:
+        warnings.warn(warning, InputWarning, stacklevel=3)
+    return Picture(core)
+
+
+def render(
+    spheres: Any,
+    *,
+    camera: Camera = None,
+    style: Union[str, os.PathLike[str], Style, dict[str, Any], None] = None,
+    size: Optional[tuple[int, int]] = None,
+    select: Optional[str] = None,
+    looks: Any = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Picture:
+    """Draws spheres.
+
+    spheres: Spheres, atoms of ASE, an AtomGroup or Universe of MDAnalysis, or the path of a file (a scene file too) or a
+        built-in name: "demo", "scenario1", "scenario2", "scenario3", "four-spheres".
+    camera: Orthographic(...), Perspective(...), a side such as "left", or a Picture: seen as in that one, with its ranges of
+        colours.
+    style: a name ("illustrative"; `bihive styles` lists them), the path of a style file, or a Style or dictionary.
+    size: width and height in pixels (1280, 720).
+    select: a selection; all other spheres are hidden.
+    looks: a Look, or several, done one after the other.
+    progress: None: a bar if it takes over a second on a terminal or in a notebook, by tqdm if that is there; False: none;
+        or a function, which is called with the finished share, 0 to 1.
+    options: every other option of `bihive render` under its name with underscores: samples=16, shadows=False,
+        background="black", ao=True, outline=2, fog=0.3, light="studio", legend=True, view="normal", crop=(0, 0, 64, 64),
+        transfer="none", bits=16, threads=2, engine="reference", replicate=(2, 2, 2)... A tuple stands for numbers
+        between commas.
+
+    Returns a Picture: the same bits as ``bihive render``, on any number of threads. Other Python threads run meanwhile, and
+    Ctrl-C ends it within half a second (the building of a tree and the reading of a file are not ended).
+
+    Raises UsageError and InputError (both ValueErrors), which name the argument; FileError (an OSError); MissingError, a
+    RuntimeError, if the machine lacks something.
+
+    >>> render("demo", size=(64, 48), samples=1, select="chain A")
+    <bihive.Picture: 64 x 48, 758 spheres of demo>
+    """
+    _bihive.check_environment()
+    words = picture_words(select, camera, style, looks, {"size": size, **options})
+    path: Optional[str] = None
+    made: Optional[Spheres] = None
+    if isinstance(spheres, (str, os.PathLike)):
+        path = check_readable(spheres)
+    else:
+        made = spheres_of(spheres)
+    all_words = ["-o", "picture.png", *words, "--", path if path is not None else "spheres"]
+    return draw(made, all_words, style_text(style), camera if isinstance(camera, Picture) else None, progress)

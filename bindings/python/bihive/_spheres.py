@@ -1,0 +1,433 @@
+"""Spheres: arrays in, a set for pictures and trees out."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, Iterator, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _bihive
+from ._arrays import as_array, numbers, one_each, texts, whole_numbers
+from ._errors import FileError, InputWarning, bad_argument, found
+from ._options import words_of
+
+__all__ = ["Spheres", "read", "select", "stats", "colour_map"]
+
+Array = np.ndarray[Any, Any]
+_BUILT_IN = ["demo", "scenario1", "scenario2", "scenario3", "four-spheres"]
+_MAPS = ["viridis", "magma", "cividis", "coolwarm", "okabe-ito"]
+_OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
+_READING = ["radius", "radius_scale", "assembly", "frame", "trajectory", "cell_vectors", "cell_origin", "recenter"]
+_READING += ["wrap", "unwrap", "count", "seed"]
+
+
+def _bytes_on_screen(colours: Array) -> Array:
+    """Linear light of colours as a screen shows them, given as bytes."""
+    table = np.array([_colour_of_text(f"#{byte:02x}0000")[0] for byte in range(256)], dtype=np.float32)
+    made: Array = table[colours]
+    return made
+
+
+def _colours(value: Any, count: int) -> Array:
+    """float32 (n, 3) of linear light."""
+    if isinstance(value, str):
+        return np.broadcast_to(_colour_of_text(value), (count, 3))
+    array = as_array("colour", value)
+    if array.dtype.kind in "US" or (array.dtype.kind == "O" and array.ndim == 1 and array.size > 0):
+        names = texts("colour", array, count)
+        known = {name: _colour_of_text(name) for name in set(names)}
+        return np.array([known[name] for name in names], dtype=np.float32).reshape(count, 3)
+    array = _bytes_on_screen(array) if array.dtype == np.uint8 else numbers("colour", array)
+    if array.shape == (3,):
+        array = np.broadcast_to(array, (count, 3))
+    if array.shape != (count, 3):
+        raise bad_argument("colour", f"expected a colour, or shape ({count}, 3), found shape {array.shape}")
+    if count > 0 and not bool(((array >= 0) & (array <= 1)).all()):
+        raise bad_argument("colour", "expected linear light from 0 to 1", "colours of bytes must have dtype uint8")
+    return array
+
+
+def _colour_of_text(text: str) -> Array:
+    light = _bihive.linear_colour(text)
+    if light is None:
+        raise bad_argument("colour", f"expected a name, '#rrggbb', or numbers, found {found(text)}")
+    return np.array(light, dtype=np.float32)
+
+
+def _opacities(value: Any, count: int) -> Array:
+    array = one_each("opacity", value, count)
+    if count > 0 and not bool(((array >= 0) & (array <= 1)).all()):
+        raise bad_argument("opacity", "expected numbers from 0 (clear) to 1")
+    return array
+
+
+def _elements(value: Any, count: int) -> Array:
+    """uint8: atomic numbers, 0 for unknown ones."""
+    array = as_array("element", value)
+    if array.ndim == 0 and array.dtype.kind in "US":
+        array = np.broadcast_to(array, (count,))
+    if array.dtype.kind in "USO":
+        symbols = texts("element", array, count)
+        known = {symbol: _bihive.atomic_number(symbol.strip()) for symbol in set(symbols)}
+        return np.array([known[symbol] for symbol in symbols], dtype=np.uint8)
+    return whole_numbers("element", array, count, 0, 118).astype(np.uint8)
+
+
+def _radii_of(elements: Array) -> Array:
+    table = np.array([_bihive.van_der_waals_radius(number) for number in range(119)])
+    radii: Array = table[elements]
+    unknown = np.flatnonzero(radii == 0)
+    if len(unknown) > 0:
+        raise bad_argument("radius", f"sphere {unknown[0]} has no known element, and so no radius", "give radius")
+    return radii
+
+
+def _cell(value: Any) -> Array:
+    """(4, 3): three vectors, then the origin."""
+    array = numbers("cell", value)
+    if array.shape == (3,):
+        array = np.diag(array)
+    if array.shape == (3, 3):
+        array = np.vstack([array, np.zeros((1, 3))])
+    if array.shape != (4, 3) or not bool(np.isfinite(array).all()):
+        raise bad_argument("cell", "expected 3 lengths, 3 vectors (3, 3), or 3 vectors and a corner (4, 3), all finite")
+    return array
+
+
+class Spheres:
+    """Spheres with what is known of each: a set that does not change.
+
+    xyz: float32 or float64, shape (n, 3): centres, in world units of any size; or (n, 4): and radii. Read where it lies,
+        with any strides, and rounded once to binary32 in a scale of the set's own; other real types are copied first.
+    radius: one number, or shape (n,); at least 0. Left out: the fourth column, else van der Waals radii by element.
+    colour: one colour, or shape (n, 3): linear light from 0 to 1 (colour_map() makes it), uint8: as a screen shows it; or n
+        names or "#rrggbb". Left out: by element or type, else the style's.
+    opacity: one number, or shape (n,): 0 (clear) to 1.
+    element: atomic numbers (0: unknown) or symbols, shape (n,), or one.
+    type: whole numbers, shape (n,), or one.
+    cell: the periodic cell: three lengths, vectors (3, 3), or vectors and corner (4, 3).
+    columns: further attributes by name, each of shape (n,): numbers or texts. Selections and colour_by know them.
+
+    Raises UsageError (a ValueError) that names the argument, InputError for a coordinate or radius that is NaN, infinite,
+    beyond 3.4e38 or negative; its message has the sphere's position.
+
+    >>> import numpy as np
+    >>> s = Spheres(np.zeros((2, 3)), radius=[1, 2], charge=[-1, 1])
+    >>> s
+    <bihive.Spheres: 2 spheres, charge>
+    >>> s["charge"].tolist(), s[s["charge"] > 0].radius.tolist()
+    ([-1.0, 1.0], [2.0])
+    """
+
+    def __init__(
+        self,
+        xyz: Any,
+        radius: Any = None,
+        colour: Any = None,
+        opacity: Any = None,
+        *,
+        element: Any = None,
+        type: Any = None,
+        cell: Any = None,
+        name: str = "spheres",
+        columns: Optional[Mapping[str, Any]] = None,
+        **more_columns: Any,
+    ) -> None:
+        places = numbers("xyz", xyz)
+        if places.shape == (0,):
+            places = places.reshape(0, 3)
+        if places.ndim != 2 or places.shape[1] not in (3, 4):
+            raise bad_argument("xyz", f"expected shape (n, 3) or (n, 4), found shape {places.shape}")
+        count = places.shape[0]
+        elements = None if element is None else _elements(element, count)
+        if places.shape[1] == 4:
+            if radius is not None:
+                raise bad_argument("radius", "the fourth column of xyz holds the radii", "leave one of them out")
+            radii = places[:, 3]
+        elif radius is not None:
+            radii = one_each("radius", radius, count)
+        elif elements is not None:
+            radii = _radii_of(elements)
+        elif count == 0:
+            radii = np.zeros(0)
+        else:
+            raise bad_argument("radius", "is missing", "give one number, an array, or element")
+        numbers_of: dict[str, Array] = {}
+        texts_of: dict[str, list[str]] = {}
+        for column, values in {**(columns or {}), **more_columns}.items():
+            if column in _OF_SETS or not isinstance(column, str) or not column:
+                raise bad_argument("columns", f"{found(column)} cannot be the name of a column")
+            array = as_array(column, values)
+            if array.dtype.kind in "USO":
+                texts_of[column] = texts(column, array, count)
+            else:
+                numbers_of[column] = np.asarray(one_each(column, array, count), dtype=np.float64)
+        self._core = _bihive.spheres_from_arrays(
+            places,
+            radii,
+            elements,
+            None if type is None else whole_numbers("type", type, count, -(2**31), 2**31 - 1).astype(np.int32),
+            None if colour is None else np.asarray(_colours(colour, count), dtype=np.float32),
+            None if opacity is None else np.asarray(_opacities(opacity, count), dtype=np.float32),
+            numbers_of,
+            texts_of,
+            None if cell is None else np.asarray(_cell(cell), dtype=np.float64),
+            "array",
+            name,
+        )
+
+    @classmethod
+    def _of(cls, core: _bihive.Spheres) -> Spheres:
+        made = cls.__new__(cls)
+        made._core = core
+        return made
+
+    @property
+    def xyz(self) -> Array:
+        """float64 (n, 3): centres as they are kept, in world units; a new array."""
+        return self._core.xyz
+
+    @property
+    def radius(self) -> Array:
+        """float64 (n,): radii as they are kept, in world units; a new array."""
+        return self._core.radius
+
+    @property
+    def bounds(self) -> Array:
+        """float64 (2, 3): lowest and highest corner of the box around all spheres, world units."""
+        return self._core.bounds
+
+    @property
+    def cell(self) -> Optional[Array]:
+        """float64 (4, 3): the three vectors of the periodic cell and its corner; None: there is none."""
+        return self._core.cell
+
+    @property
+    def columns(self) -> list[str]:
+        """The names of what is known of each sphere besides centre and radius."""
+        own = [name for name in ("element", "type", "colour", "opacity") if getattr(self._core, name) is not None]
+        return own + list(self._core.columns)
+
+    @property
+    def name(self) -> str:
+        """The file that they come from, or the name that was given."""
+        return self._core.name
+
+    @property
+    def format(self) -> str:
+        """The format of the file: "PDB", "XYZ"...; "array"."""
+        return self._core.format
+
+    @property
+    def frames(self) -> int:
+        """The number of frames in the file."""
+        return self._core.frames
+
+    @property
+    def time_ps(self) -> Optional[float]:
+        """The frame's time in picoseconds, if the file states it."""
+        return self._core.time_ps
+
+    @property
+    def step(self) -> Optional[int]:
+        """The frame's step, if the file states it."""
+        return self._core.step
+
+    @property
+    def rules(self) -> list[str]:
+        """What the reader did, a sentence each."""
+        return self._core.rules
+
+    @property
+    def nbytes(self) -> int:
+        """The memory of the set, in bytes."""
+        return self._core.nbytes
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    def __getitem__(self, key: Any) -> Any:
+        """s["charge"]: an attribute as an array. s[mask], s[ids], s[a:b]: these spheres alone, as a new set."""
+        if isinstance(key, str):
+            return self._attribute(key)
+        state = self.__getstate__()
+        count = len(self)
+        ids = np.arange(count)
+        try:
+            chosen = np.atleast_1d(ids[key if isinstance(key, slice) else np.asarray(key)])
+        except IndexError as error:
+            raise IndexError(f"bihive.Spheres of {count}: {error}") from None
+        for name in ("xyz", "radius", "colour", "opacity", "element", "type"):
+            if state[name] is not None:
+                state[name] = state[name][chosen]
+        state["columns"] = {name: np.asarray(values)[chosen] for name, values in state["columns"].items()}
+        made = Spheres.__new__(Spheres)
+        made.__setstate__(state)
+        return made
+
+    def __iter__(self) -> Iterator[Any]:
+        raise TypeError("Spheres are no sequence of spheres: use s.xyz and s.radius")
+
+    def _attribute(self, name: str) -> Array:
+        if name in ("x", "y", "z"):
+            return self.xyz[:, "xyz".index(name)]
+        if name in ("r", "radius"):
+            return self.radius
+        if name in ("element", "type", "opacity", "colour"):
+            value = getattr(self._core, name)
+            if value is not None:
+                return np.asarray(value)
+        columns = self._core.columns
+        if name not in columns:
+            known = ", ".join(["x", "y", "z", "radius", *self.columns])
+            raise KeyError(f"there is no attribute {name!r}; there are {known}")
+        value = columns[name]
+        return np.array(value, dtype=object) if isinstance(value, list) else np.asarray(value)
+
+    def __repr__(self) -> str:
+        count = len(self)
+        source = "" if self.format == "array" else f" from {self.name} ({self.format})"
+        known = ", ".join(self.columns)
+        return f"<bihive.Spheres: {count} sphere{'' if count == 1 else 's'}{source}{', ' + known if known else ''}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        core = self._core
+        if core.has_images:
+            raise bad_argument("replicate", "replicated spheres cannot be copied by value", "give replicate to render")
+        state: dict[str, Any] = {"format": core.format, "name": core.name, "xyz": self.xyz, "radius": self.radius}
+        for name in ("element", "type", "colour", "opacity", "cell", "columns"):
+            state[name] = getattr(core, name)
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        texts_of = {name: list(v) for name, v in state["columns"].items() if isinstance(v, list) or v.dtype.kind in "USO"}
+        self._core = _bihive.spheres_from_arrays(
+            state["xyz"],
+            state["radius"],
+            state["element"],
+            state["type"],
+            state["colour"],
+            state["opacity"],
+            {name: values for name, values in state["columns"].items() if name not in texts_of},
+            texts_of,
+            state["cell"],
+            state["format"],
+            state["name"],
+        )
+
+    def __copy__(self) -> Spheres:
+        return Spheres._of(self._core)
+
+    def __deepcopy__(self, memo: Any) -> Spheres:
+        return Spheres._of(self._core)  # nobody can change it
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Spheres):
+            return NotImplemented
+        return self._core is other._core or _same(self.__getstate__(), other.__getstate__())
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, dict):
+        return isinstance(b, dict) and a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
+    if isinstance(a, np.ndarray):
+        return isinstance(b, np.ndarray) and a.shape == b.shape and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+    return bool(a == b)
+
+
+def check_readable(path: Union[str, os.PathLike[str]]) -> str:
+    """The path of an input as text. Raises FileError if the file cannot be opened."""
+    text = os.fspath(path)
+    if not isinstance(text, str) or not text or "\0" in text:
+        raise bad_argument("path", f"expected the path of a file or a built-in name, found {found(path)}")
+    if text in _BUILT_IN:
+        return text
+    try:
+        with open(text, "rb"):
+            pass
+    except OSError as error:
+        raise FileError(error.errno or 0, error.strerror or str(error), text) from None
+    return text
+
+
+def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
+    """The spheres of a file of any format that ``bihive render`` reads, or of a built-in name ("demo").
+
+    options: frame (from 0), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, cell_vectors, cell_origin;
+    of built-in scenarios count and seed.
+
+    Raises FileError (an OSError) if the file cannot be opened, InputError (a ValueError) with file and line if its content
+    cannot be used. Warnings of the reader are given as InputWarning.
+
+    >>> read("demo")
+    <bihive.Spheres: 1631 spheres from demo (PDB), element, occupancy, b_factor, resid, record, name, chain, resname>
+    """
+    text = check_readable(path)
+    core = _bihive.read(words_of(options, _READING) + ["--", text])
+    for warning in core.warnings:
+        warnings.warn(warning, InputWarning, stacklevel=2)
+    return Spheres._of(core)
+
+
+def select(spheres: Spheres, expression: str) -> Array:
+    """bool (n,): which spheres a selection (docs/selections.md) takes. Raises UsageError that shows the wrong place.
+
+    >>> int(select(read("demo"), "name CA and chain A").sum())
+    99
+    """
+    if not isinstance(spheres, Spheres):
+        raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
+    if not isinstance(expression, str):
+        raise bad_argument("expression", f"expected a text, found {found(expression)}")
+    return spheres._core.select(expression)
+
+
+def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> dict[str, Any]:
+    """Both trees in numbers, as ``bihive stats --json`` prints them: nodes, depths, overlap, memory in bytes.
+
+    >>> stats(read("demo"))["spheres"]
+    1631
+    """
+    import json
+
+    if not isinstance(spheres, Spheres):
+        raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
+    options = {"max_prims": max_prims, "max_depth": max_depth}
+    made: dict[str, Any] = json.loads(spheres._core.statistics(words_of(options)))
+    return made
+
+
+def colour_map(values: Any, map: Optional[str] = None, range: Any = None, log: bool = False, nan_colour: str = "grey") -> Array:
+    """float32 (n, 3) of linear light: the colours that ``--colour-by`` gives these values.
+
+    values: numbers or texts, shape (n,). map: "viridis", "magma", "cividis", "coolwarm" or "okabe-ito"; left out: viridis for
+    numbers, colours by category for texts. range: the two numbers at the ends of the map; left out: those of the values.
+    log: the map runs along the logarithm. nan_colour: of NaN.
+
+    >>> colour_map([0.0, 1.0, 2.0], "viridis", range=(0, 3)).shape
+    (3, 3)
+    """
+    array = as_array("values", values)
+    if array.ndim != 1:
+        raise bad_argument("values", f"expected shape (n,), found shape {array.shape}")
+    data: Any = texts("values", array, len(array)) if array.dtype.kind in "USO" else numbers("values", array)
+    if map is not None and map not in _MAPS:
+        raise bad_argument("map", f"expected one of {', '.join(_MAPS)}, found {found(map)}")
+    if not isinstance(nan_colour, str) or _bihive.linear_colour(nan_colour) is None:
+        raise bad_argument("nan_colour", f"expected a name or '#rrggbb', found {found(nan_colour)}")
+    ends = ""
+    if range is not None:
+        pair = numbers("range", range)
+        if pair.shape != (2,) or not bool(np.isfinite(pair).all()) or not pair[0] < pair[1]:
+            raise bad_argument("range", f"expected two finite numbers, the first below the second, found {found(range)}")
+        if log and pair[0] <= 0:
+            raise bad_argument("range", f"of a logarithmic map begins above 0, found {found(range)}")
+        ends = f"{float(pair[0])!r},{float(pair[1])!r}"
+    how = [map or "", ends, "log" if log else ""]
+    while how and not how[-1]:
+        how.pop()
+    return _bihive.colours_of(data, "".join(":" + one for one in how), nan_colour)

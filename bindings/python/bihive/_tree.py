@@ -1,0 +1,199 @@
+"""Trees that answer what rays hit."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+
+from . import _bihive
+from ._adapt import spheres_of
+from ._arrays import one_each, vectors, whole_numbers
+from ._errors import bad_argument, found
+from ._options import words_of
+from ._spheres import Spheres
+
+__all__ = ["Tree", "Hits"]
+
+Array = np.ndarray[Any, Any]
+
+
+class Hits(NamedTuple):
+    """Every hit of many rays: by ray, then by t, then by id. Arrays of one length.
+
+    ray: int64, the ray's position. t: float64. id: int64, the sphere's position. begin: int64 (rays + 1): the hits of ray i
+    are those from begin[i] to before begin[i + 1].
+    """
+
+    ray: Array
+    t: Array
+    id: Array
+    begin: Array
+
+
+class Tree:
+    """Answers which spheres rays meet. Exact: float64 decides, without an epsilon, and the answers are those of testing every
+    sphere, bit for bit.
+
+    spheres: Spheres, or what render() takes besides paths. select: only these spheres count; ids stay positions in all.
+    engine: "auto" (wide), "wide", "reference", "brute" or "wide-brute". max_prims, max_depth: limits of the tree.
+    threads: of building and queries; 0: as many as the machine runs at once.
+
+    >>> import numpy as np
+    >>> tree = Tree(Spheres(np.array([[0.0, 0, 0], [5, 0, 0]]), radius=1))
+    >>> t, i = tree.closest([[-10, 0, 0], [0, 9, 0]], [1, 0, 0])
+    >>> t.tolist(), i.tolist()
+    ([9.0, inf], [0, -1])
+    >>> tree.all_hits([-10, 0, 0], [1, 0, 0]).t.tolist()
+    [9.0, 14.0]
+    """
+
+    def __init__(
+        self,
+        spheres: Any,
+        *,
+        select: Optional[str] = None,
+        engine: str = "auto",
+        max_prims: Any = None,
+        max_depth: Any = None,
+        threads: int = 0,
+    ) -> None:
+        _bihive.check_environment()
+        self._spheres: Spheres = spheres_of(spheres)
+        self._ids: Optional[Array] = None
+        if select is not None:
+            if not isinstance(select, str):
+                raise bad_argument("select", f"expected a selection as text, found {found(select)}")
+            self._ids = np.flatnonzero(self._spheres._core.select(select))
+        options = {"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads}
+        part = None if self._ids is None else self._ids.tolist()
+        self._core = _bihive.build_tree(self._spheres._core, part, words_of(options))
+
+    @property
+    def spheres(self) -> Spheres:
+        """The spheres of which it was made."""
+        return self._spheres
+
+    @property
+    def build_ms(self) -> float:
+        """How long its building took, in milliseconds."""
+        return self._core.build_ms
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    def __repr__(self) -> str:
+        return f"<bihive.Tree of {len(self)} spheres>"
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a tree cannot be pickled: pickle its spheres, and build it again")
+
+    def closest(
+        self,
+        origins: Any,
+        directions: Any,
+        *,
+        t_min: Any = None,
+        t_max: Any = None,
+        leaves: Any = None,
+        inside: Any = None,
+        order: str = "any",
+    ) -> tuple[Array, Array]:
+        """The nearest hit of each ray: t, float64 (n,), inf for none; and the sphere's position, int64 (n,), -1 for none.
+
+        origins, directions: shape (n, 3), or (3,) for one that all rays share. Directions may have any length above 0, and t
+            counts in lengths of them: the hit is at origin + t direction. Rays are kept in float32: float64 is rounded once. A
+            ray with NaN, an infinity (or beyond 3.4e38), or a direction of 0 hits nothing.
+        t_min, t_max: the part of the ray that counts, both ends with it: one number, or shape (n,); 0 and inf.
+        leaves: the sphere on which a ray starts, int64, one or (n,); -1: none. It is not met again, or with inside=True (one,
+            or bool (n,)) at its far side alone.
+        order: "blocks" if each 64 neighbours are close to each other, as 8 x 8 pixels are: faster. The answers do not change.
+
+        Other Python threads run meanwhile, and Ctrl-C ends it.
+        """
+        t, ids = self._core.closest(*self._rays(origins, directions, t_min, t_max, leaves, inside), _in_blocks(order))
+        return t, self._positions(ids)
+
+    def occluded(
+        self,
+        origins: Any,
+        directions: Any,
+        *,
+        t_min: Any = None,
+        t_max: Any = None,
+        leaves: Any = None,
+        inside: Any = None,
+        order: str = "any",
+    ) -> Array:
+        """Whether each ray hits anything: bool (n,). Arguments as those of closest(); faster than that."""
+        return self._core.occluded(*self._rays(origins, directions, t_min, t_max, leaves, inside), _in_blocks(order))
+
+    def all_hits(
+        self,
+        origins: Any,
+        directions: Any,
+        *,
+        t_min: Any = None,
+        t_max: Any = None,
+        leaves: Any = None,
+        inside: Any = None,
+    ) -> Hits:
+        """Every sphere that each ray meets, at the place where it enters. Arguments as those of closest()."""
+        rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
+        ray, t, ids = self._core.all_hits(*rays)
+        begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
+        return Hits(ray, t, self._positions(ids), begin)
+
+    def _positions(self, ids: Array) -> Array:
+        """Positions among all spheres, of positions in the part that counts."""
+        if self._ids is None or len(self._ids) == 0:
+            return ids
+        made: Array = np.where(ids >= 0, self._ids[np.maximum(ids, 0)], ids)
+        return made
+
+    def _in_part(self, leaves: Array) -> Array:
+        """The inverse; a sphere that does not count is none."""
+        if self._ids is None:
+            return leaves
+        if len(self._ids) == 0:
+            return np.full_like(leaves, -1)
+        place = np.minimum(np.searchsorted(self._ids, leaves), len(self._ids) - 1)
+        made: Array = np.where(self._ids[place] == leaves, place, -1)
+        return made
+
+    def _rays(
+        self, origins: Any, directions: Any, t_min: Any, t_max: Any, leaves: Any, inside: Any
+    ) -> tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]]:
+        origin = vectors("origins", origins)
+        direction = vectors("directions", directions)
+        counts = {array.shape[0] for array in (origin, direction) if array.ndim == 2}
+        if len(counts) > 1:
+            raise bad_argument(
+                "directions", f"expected as many as origins, found shapes {origin.shape} and {direction.shape}"
+            )
+        count = counts.pop() if counts else 1
+        limits = [None if v is None else one_each(n, v, count) for n, v in (("t_min", t_min), ("t_max", t_max))]
+        left = None
+        if leaves is not None:
+            most = max(len(self._spheres) - 1, 0)
+            given = whole_numbers("leaves", leaves, count, -2, most)
+            left = np.ascontiguousarray(self._in_part(given.astype(np.int64)), dtype=np.int64)
+        into = None
+        if inside is not None:
+            into = np.ascontiguousarray(one_each("inside", inside, count) != 0).view(np.uint8)
+        return (
+            np.broadcast_to(origin, (count, 3)),
+            np.broadcast_to(direction, (count, 3)),
+            limits[0],
+            limits[1],
+            left,
+            into,
+        )
+
+
+def _in_blocks(order: str) -> bool:
+    if order not in ("any", "blocks"):
+        raise bad_argument("order", f"expected 'any' or 'blocks', found {found(order)}")
+    return order == "blocks"
+
+

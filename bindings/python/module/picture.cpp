@@ -1,0 +1,272 @@
+#include "picture.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "bihive/base/write_file.h"
+#include "bihive/image/png.h"
+#include "bihive/render/draw_labels.h"
+#include "bihive/render/layers.h"
+#include "bihive/render/memory.h"
+#include "commands/choose_look.h"
+#include "commands/names.h"
+#include "commands/picture_file.h"
+#include "commands/picture_settings.h"
+#include "commands/render_on_gpu.h"
+#include "errors.h"
+#include "spheres.h"
+#include "support/messages.h"
+#include "waiting.h"
+
+namespace py = pybind11;
+
+namespace bihive::python {
+namespace {
+
+// A scene with its tracer, which refers to it: neither is moved.
+struct Drawing {
+  cli::Input input;
+  RenderSettings settings;
+  std::optional<Tracer> tracer;
+};
+
+struct Picture {
+  std::shared_ptr<const Drawing> drawing;  // null: it was let go, or the picture was unpickled
+  PngPixels pixels;
+  Film film;  // of the light; empty where `drawing` is null
+  PngText text;
+  double dots_per_inch = 0;
+  std::string report;  // JSON
+  std::vector<std::string> warnings;
+  std::optional<cli::FixedByFilm> fixed;  // for pictures like it; unset: it was unpickled
+};
+
+// The options that are for files: an array has been read already. Its frame is for titles.
+void refuse_for_arrays(const cli::InputOptions& options) {
+  const auto refuse = [](bool given, const char* option, const char* hint) {
+    if (given) cli::fail_usage(std::string(option) + " is for files, and these spheres are in memory", hint);
+  };
+  refuse(options.count || options.seed, "--count and --seed", "leave them out");
+  refuse(options.radius.has_value(), "--radius", "give it to Spheres");
+  refuse(options.radius_scale.has_value(), "--radius-scale", "use looks: Look(radius_scale=...)");
+  refuse(!options.trajectory.empty(), "--trajectory", "give it to read");
+  refuse(options.recenter, "--recenter", "give it to read");
+  refuse(!options.assembly.empty(), "--assembly", "give it to read");
+  refuse(options.cell_vectors || options.cell_origin, "--cell-vectors and --cell-origin", "give Spheres a cell");
+  refuse(options.wrapping != Wrapping::none, "--wrap and --unwrap", "give them to read");
+}
+
+cli::Input input_of(const Spheres& spheres, const cli::RenderOptions& options, const Style& style) {
+  refuse_for_arrays(options.input);
+  if (spheres.file.spheres.empty())
+    cli::fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
+  SphereFile file = spheres.file;
+  if (options.input.replicate) {
+    if (!file.spheres.cell()) cli::fail_usage("--replicate needs a periodic cell", "give Spheres a cell");
+    value_of(file.spheres.replicate(file.spheres.cell()->vectors, *options.input.replicate));
+  }
+  return scene_of_spheres(std::move(file), spheres.name, &style);
+}
+
+// A style that is not in a file comes as its text.
+Style style_of(const cli::RenderOptions& options, const std::string& style_text) {
+  if (style_text.empty()) return cli::choose_style(options.style);
+  return value_of(parse_style(style_text, "style"));
+}
+
+nlohmann::ordered_json rays_json(const RenderCounts& rays) {
+  return {{"primary", rays.primary},
+          {"shadow", rays.shadow},
+          {"reflected", rays.reflected},
+          {"transmitted", rays.transmitted},
+          {"ambient", rays.ambient}};
+}
+
+// The film by the engine, and what is reported of it.
+Rendered draw(const Drawing& drawing, cli::RenderEngine engine, Work& work) {
+  const Tracer& tracer = *drawing.tracer;
+  const auto progress = [&work](double done) { work.done.store(done, std::memory_order_relaxed); };
+  if (!cli::is_gpu(engine))
+    return value_of(render(drawing.input.scene, tracer, drawing.settings, progress, &work.cancel));
+  cli::GpuPicture picture = cli::render_on_gpu(drawing.input.scene, tracer.tree(), drawing.settings, [&](double done) {
+    progress(done);
+    if (work.cancel.cancelled()) cli::fail({"cancelled", "", 0, 0, ""});
+  });
+  Rendered rendered;
+  rendered.film = std::move(picture.film);
+  rendered.rays.primary = picture.primary;
+  rendered.render_ms = picture.render_ms;
+  return rendered;
+}
+
+std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, cli::RenderOptions options,
+                                      const std::string& style_text, const Picture* like, Work& work) {
+  auto picture = std::make_shared<Picture>();
+  const cli::CollectedWarnings collected(picture->warnings);
+
+  // Load the scene, and apply the options to it.
+  if (like != nullptr && !like->fixed)
+    cli::fail_usage("camera: a picture that was unpickled has none", "render it again, or give eye and look_at");
+  if (like != nullptr) options.fixed = like->fixed;
+  const cli::RenderEngine engine = cli::choose_engine(options);
+  Style style = style_of(options, style_text);
+  if (options.fixed) cli::fix_range(style, options.fixed->range_of_style);
+  auto drawing = std::make_shared<Drawing>();
+  const bool asked_for = !options.style.name.empty() || !style_text.empty();
+  drawing->input = spheres != nullptr ? input_of(*spheres, options, style)
+                                      : cli::load_input(options.input, LooksOfFile::keep, &style, asked_for);
+  drawing->settings = cli::prepare_picture(options, engine, drawing->input);
+  const Scene& scene = drawing->input.scene;
+  const RenderSettings& settings = drawing->settings;
+  const Tile drawn = drawn_pixels(settings);
+  cli::check_memory_of(engine, drawing->input, options, settings);
+  value_of(check_picture_memory(drawn.width(), drawn.height()));
+
+  // Build and draw.
+  drawing->tracer = value_of(Tracer::build(scene, cli::structure_of(engine), options.tree, settings.threads));
+  Rendered rendered = draw(*drawing, engine, work);
+  const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
+  picture->pixels =
+      png_pixels_from_film(rendered.film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
+  draw_labels(picture->pixels, scene, settings, options.dots_per_inch);
+
+  // Keep what is known of it.
+  const nlohmann::ordered_json described = cli::settings_json(options, settings, scene, {});
+  for (const auto& [name, value] : cli::text_of(scene, described)) picture->text.emplace_back(name, cli::latin1(value));
+  nlohmann::ordered_json report;
+  report["scene"] = scene.name;
+  report["spheres"] = scene.spheres.size();
+  report["settings"] = described;
+  report["rays"] = rays_json(rendered.rays);
+  report["build_ms"] = drawing->tracer->build_ms();
+  report["render_ms"] = rendered.render_ms;
+  picture->report = cli::as_text(report, -1);
+  picture->dots_per_inch = options.dots_per_inch;
+  cli::FixedByFilm fixed{scene.camera, cli::range_of_style(drawing->input, options.looks),
+                         cli::ranges_of_looks(drawing->input, options.looks)};
+  cli::give_extent(fixed.range_of_style);
+  for (cli::ColourRange& range : fixed.ranges_of_looks) cli::give_extent(range);
+  picture->fixed = std::move(fixed);
+  picture->film = std::move(rendered.film);
+  picture->drawing = std::move(drawing);
+  return picture;
+}
+
+std::shared_ptr<Picture> render_picture(const std::shared_ptr<Spheres>& spheres, const std::vector<std::string>& words,
+                                        const std::string& style_text, const Picture* like,
+                                        const py::object& progress) {
+  std::vector<std::string> all{"render"};
+  all.insert(all.end(), words.begin(), words.end());
+  const auto options = std::get<cli::RenderOptions>(request_of(all));
+  std::shared_ptr<Picture> picture;
+  wait_for([&](Work& work) { picture = make_picture(spheres, options, style_text, like, work); }, progress);
+  return picture;
+}
+
+py::array pixels_of(const py::object& self) {
+  const auto& pixels = self.cast<const Picture&>().pixels;
+  const py::dtype type(pixels.bits == 8 ? "u1" : ">u2");
+  py::array made(type, {pixels.height, pixels.width, pixels.channels}, {}, pixels.bytes.data(), self);
+  made.attr("setflags")(py::arg("write") = false);
+  return made;
+}
+
+// `name` is known to layers_from_text(), and is one layer. Ids are 64-bit, -1 for nothing and -2 for the plane.
+py::object layer_of(const Picture& picture, const std::string& name) {
+  if (picture.drawing == nullptr)
+    cli::fail_usage("layer: this picture has its pixels alone, because it was unpickled or detached",
+                    "render it again");
+  const Drawing& drawing = *picture.drawing;
+  const std::vector<Layer> layers = value_of(layers_from_text(name));
+  if (layers.size() != 1) cli::fail_usage("layer: expected one name, found \"" + name + "\"");
+  std::vector<Channel> channels;
+  wait_for(
+      [&](Work& work) {
+        value_of(check_layers(drawing.input.scene, layers));
+        channels =
+            draw_layers(drawing.input.scene, *drawing.tracer, drawing.settings, layers, picture.film, &work.cancel);
+      },
+      py::none());
+  const py::ssize_t width = picture.pixels.width, height = picture.pixels.height;
+  if (channels.size() == 1 && channels.front().of_ids) {
+    std::vector<std::int64_t> ids;
+    ids.reserve(channels.front().ids.size());
+    for (const std::uint32_t id : channels.front().ids)
+      ids.push_back(id == kIdOfNothing ? kNothing : id == kIdOfPlane ? kPlane : std::int64_t{id});
+    return array_from<std::int64_t>(std::move(ids), {height, width});
+  }
+  if (channels.size() == 1) return array_from<float>(std::move(channels.front().numbers), {height, width});
+  const std::size_t count = channels.size();
+  std::vector<float> mixed(static_cast<std::size_t>(width * height) * count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t i = 0; i < channels[k].numbers.size(); ++i) mixed[i * count + k] = channels[k].numbers[i];
+  return array_from<float>(std::move(mixed), {height, width, static_cast<py::ssize_t>(count)});
+}
+
+std::string png_bytes(const Picture& picture) {
+  return value_of(encode_png(picture.pixels, picture.text, picture.dots_per_inch));
+}
+
+py::tuple state_of(const Picture& picture) {
+  const PngPixels& pixels = picture.pixels;
+  const py::bytes bytes(reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size());
+  py::list text;
+  for (const auto& [name, value] : picture.text) text.append(py::make_tuple(py::bytes(name), py::bytes(value)));
+  return py::make_tuple(pixels.width, pixels.height, pixels.channels, pixels.bits, bytes, text, picture.dots_per_inch,
+                        picture.report);
+}
+
+std::shared_ptr<Picture> from_state(const py::tuple& state) {
+  auto picture = std::make_shared<Picture>();
+  PngPixels& pixels = picture->pixels;
+  pixels.width = state[0].cast<int>();
+  pixels.height = state[1].cast<int>();
+  pixels.channels = state[2].cast<int>();
+  pixels.bits = state[3].cast<int>();
+  const auto bytes = state[4].cast<std::string>();
+  pixels.bytes.assign(bytes.begin(), bytes.end());
+  if (pixels.bytes.size() != pixels.row_bytes() * static_cast<std::size_t>(pixels.height))
+    cli::fail({"a pickled picture is damaged", "", 0, 0, "render it again"});
+  for (const py::handle one : state[5].cast<py::list>()) {
+    const auto pair = one.cast<py::tuple>();
+    picture->text.emplace_back(pair[0].cast<std::string>(), pair[1].cast<std::string>());
+  }
+  picture->dots_per_inch = state[6].cast<double>();
+  picture->report = state[7].cast<std::string>();
+  return picture;
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& module) {
+  py::class_<Picture, std::shared_ptr<Picture>>(module, "Picture")
+      .def_property_readonly("pixels", pixels_of)
+      .def_property_readonly("report", [](const Picture& p) { return p.report; })
+      .def_property_readonly("warnings", [](const Picture& p) { return p.warnings; })
+      .def_property_readonly("has_scene", [](const Picture& p) { return p.drawing != nullptr; })
+      .def_property_readonly("hash", [](const Picture& p) { return picture_hash(p.pixels); })
+      .def("layer", layer_of)
+      .def("png", [](const Picture& p) { return py::bytes(png_bytes(p)); })
+      .def("save",
+           [](const Picture& p, const std::string& path) {
+             const py::gil_scoped_release unlocked;
+             value_of(write_file(path, png_bytes(p)));
+           })
+      .def("detach",
+           [](Picture& p) {
+             p.drawing.reset();
+             p.film = {};
+           })
+      .def(py::pickle(&state_of, &from_state));
+  module.def("render", render_picture);
+}
+
+}  // namespace bihive::python

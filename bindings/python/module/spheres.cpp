@@ -1,0 +1,292 @@
+#include "spheres.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "arrays.h"
+#include "bihive/base/timer.h"
+#include "bihive/bih/reference_builder.h"
+#include "bihive/io/bundled.h"
+#include "bihive/io/elements.h"
+#include "bihive/io/packed.h"
+#include "bihive/render/memory.h"
+#include "bihive/scene/colour_by.h"
+#include "bihive/scene/colour_text.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/select/selection.h"
+#include "bihive/viewer/statistics_json.h"
+#include "errors.h"
+#include "support/input.h"
+#include "support/selection.h"
+#include "waiting.h"
+
+namespace py = pybind11;
+
+namespace bihive::python {
+namespace {
+
+template <class T>
+using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+NamedTexts texts_from(const std::string& name, const std::vector<std::string>& values) {
+  TextCollector texts;
+  texts.reserve(values.size());
+  for (const std::string& value : values) texts.add(value);
+  return texts.take(name);
+}
+
+std::vector<Vec3f> colours_from(const Array<float>& array) {
+  std::vector<Vec3f> colours(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    for (int k = 0; k < 3; ++k) colours[i][k] = array.at(static_cast<py::ssize_t>(i), k);
+  return colours;
+}
+
+// All arrays have an entry for each sphere: bihive/_spheres.py has checked that.
+SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
+                                  const std::optional<Array<std::uint8_t>>& element,
+                                  const std::optional<Array<std::int32_t>>& type,
+                                  const std::optional<Array<float>>& colour, const std::optional<Array<float>>& opacity,
+                                  const std::map<std::string, Array<double>>& numbers,
+                                  const std::map<std::string, std::vector<std::string>>& texts,
+                                  const std::optional<Array<double>>& cell, const std::string& format,
+                                  const std::string& name) {
+  auto made = std::make_shared<Spheres>();
+  const NumbersView x = column_of(xyz, 0), y = column_of(xyz, 1), z = column_of(xyz, 2), r = view_of(radius);
+  {
+    const py::gil_scoped_release unlocked;
+    made->file.spheres = value_of(SphereSet::from_world(x, y, z, r));
+  }
+  SphereAttributes& attributes = made->file.spheres.attributes();
+  if (element) attributes.element = vector_from<std::uint8_t>(*element);
+  if (type) attributes.type = vector_from<std::int32_t>(*type);
+  if (colour) attributes.colour = colours_from(*colour);
+  if (opacity) attributes.opacity = vector_from<float>(*opacity);
+  for (const auto& [column, values] : numbers) attributes.numbers.push_back({column, vector_from<double>(values)});
+  for (const auto& [column, values] : texts) attributes.texts.push_back(texts_from(column, values));
+  if (cell) {
+    const auto row = [&](py::ssize_t i) { return Vec3d{cell->at(i, 0), cell->at(i, 1), cell->at(i, 2)}; };
+    made->file.spheres.cell() = Cell{row(3), {row(0), row(1), row(2)}};
+  }
+  made->file.format = format;
+  made->name = name;
+  return made;
+}
+
+SphereFile without_scene(LoadedScene loaded) {
+  SphereFile file;
+  file.spheres = std::move(loaded.scene.spheres);
+  file.format = loaded.format;
+  file.frames = loaded.frames;
+  file.rules = std::move(loaded.rules);
+  file.warnings = std::move(loaded.warnings);
+  file.assemblies = std::move(loaded.assemblies);
+  file.time_ps = loaded.time_ps;
+  file.step = loaded.step;
+  file.recentred_by = loaded.recentred_by;
+  return file;
+}
+
+SphereFile read_input_file(const cli::InputOptions& options) {
+  if (std::optional<cli::Input> generated = cli::generated_input(options)) return without_scene(std::move(*generated));
+  cli::check_input_options(options);
+  const ReadOptions reading = cli::read_options(options);
+  if (options.input == "demo") return value_of(read_spheres_from_memory(bundled_molecule(), "demo", reading));
+  if (!cli::must_be_read_whole(options.input)) return value_of(read_spheres(options.input, reading));
+  const std::string bytes = value_of(unpack_if_packed(cli::read_input(options.input), options.input));
+  if (!looks_like_scene(bytes)) return value_of(read_spheres_from_memory(bytes, options.input, reading));
+  return without_scene(value_of(load_scene(bytes, options.input, reading)));
+}
+
+SharedSpheres read(const std::vector<std::string>& words) {
+  std::vector<std::string> all{"info"};
+  all.insert(all.end(), words.begin(), words.end());
+  const cli::InputOptions options = std::get<cli::InfoOptions>(request_of(all)).input;
+  auto made = std::make_shared<Spheres>();
+  wait_for(
+      [&](Work&) {
+        made->file = read_input_file(options);
+        made->name = options.input;
+      },
+      py::none());
+  return made;
+}
+
+py::array_t<double> centres(const Spheres& spheres) {
+  const SphereSet& set = spheres.file.spheres;
+  py::array_t<double> made({static_cast<py::ssize_t>(set.size()), py::ssize_t{3}});
+  double* to = made.mutable_data();
+  for (std::int64_t id = 0; id < set.size(); ++id) {
+    const Vec3d centre = set.centre(id);
+    for (int k = 0; k < 3; ++k) *to++ = centre[k];
+  }
+  return made;
+}
+
+py::array_t<double> radii(const Spheres& spheres) {
+  const SphereSet& set = spheres.file.spheres;
+  py::array_t<double> made(static_cast<py::ssize_t>(set.size()));
+  double* const to = made.mutable_data();
+  for (std::int64_t id = 0; id < set.size(); ++id) to[id] = set.radius(id);
+  return made;
+}
+
+template <class T>
+py::object array_or_none(const std::vector<T>& values) {
+  if (values.empty()) return py::none();
+  return array_from<T>(values, {static_cast<py::ssize_t>(values.size())});
+}
+
+py::object colours_or_none(const Spheres& spheres) {
+  const std::vector<Vec3f>& colours = spheres.file.spheres.attributes().colour;
+  if (colours.empty()) return py::none();
+  std::vector<float> flat;
+  flat.reserve(colours.size() * 3);
+  for (const Vec3f& colour : colours) flat.insert(flat.end(), {colour.x, colour.y, colour.z});
+  return array_from<float>(std::move(flat), {static_cast<py::ssize_t>(colours.size()), 3});
+}
+
+py::dict columns(const Spheres& spheres) {
+  const SphereAttributes& attributes = spheres.file.spheres.attributes();
+  py::dict made;
+  for (const NamedNumbers& column : attributes.numbers) made[py::str(column.name)] = array_or_none(column.values);
+  for (const NamedTexts& column : attributes.texts) {
+    // A label stands beside its number under the same name: `type` of LAMMPS.
+    const std::string name = made.contains(py::str(column.name)) ? column.name + "_text" : column.name;
+    py::list texts;
+    for (std::size_t i = 0; i < column.text_of_sphere.size(); ++i) texts.append(column.of(i));
+    made[py::str(name)] = texts;
+  }
+  return made;
+}
+
+py::object cell_or_none(const Spheres& spheres) {
+  const std::optional<Cell>& cell = spheres.file.spheres.cell();
+  if (!cell) return py::none();
+  std::vector<double> flat;
+  for (const Vec3d& v : {cell->vectors[0], cell->vectors[1], cell->vectors[2], cell->origin})
+    flat.insert(flat.end(), {v.x, v.y, v.z});
+  return array_from<double>(std::move(flat), {4, 3});
+}
+
+py::array_t<bool> select(const Spheres& spheres, const std::string& expression) {
+  std::vector<std::uint8_t> mask;
+  {
+    const py::gil_scoped_release unlocked;
+    mask = cli::selected_or_fail(spheres.file.spheres, expression, "expression");
+  }
+  py::array_t<bool> made(static_cast<py::ssize_t>(mask.size()));
+  std::transform(mask.begin(), mask.end(), made.mutable_data(), [](std::uint8_t one) { return one != 0; });
+  return made;
+}
+
+// As `bihive stats --json` prints it.
+std::string statistics(const Spheres& spheres, const std::vector<std::string>& words) {
+  std::vector<std::string> all{"stats", "spheres"};
+  all.insert(all.end(), words.begin(), words.end());
+  const TreeParameters parameters = std::get<cli::StatsOptions>(request_of(all)).tree;
+  std::string text;
+  wait_for(
+      [&](Work&) {
+        const SphereSet& set = spheres.file.spheres;
+        for (const Engine engine : {Engine::reference, Engine::wide})
+          value_of(check_tree_memory(set, engine, parameters));
+        const WideFacts wide = wide_facts(value_of(build_wide_tree(set, parameters)));
+        const Timer timer;
+        const Tree tree = build_reference_tree(set, parameters.for_reference());
+        text = statistics_json(reference_facts(tree, timer.elapsed_ms()), wide, std::nullopt);
+      },
+      py::none());
+  return text;
+}
+
+// Colours as --colour-by gives them, for numbers or texts that belong to no set.
+py::array_t<float> colours_of(const py::object& values, const std::string& how, const std::string& nan_colour) {
+  const bool are_texts = py::isinstance<py::list>(values);
+  SphereAttributes attributes;
+  std::size_t count = 0;
+  if (are_texts) {
+    const auto texts = values.cast<std::vector<std::string>>();
+    count = texts.size();
+    attributes.texts.push_back(texts_from("values", texts));
+  } else {
+    attributes.numbers.push_back({"values", vector_from<double>(values.cast<Array<double>>())});
+    count = attributes.numbers.front().values.size();
+  }
+  if (count == 0) return py::array_t<float>(std::vector<py::ssize_t>{0, 3});
+  const std::vector<float> zeros(count);
+  SphereSet set = value_of(SphereSet::from_world(zeros, zeros, zeros, zeros));
+  set.attributes() = std::move(attributes);
+  ColourBy asked = value_of(colour_by_from_text("values" + how));
+  asked.nan_colour = nan_colour;
+  std::vector<Vec3f> colours(count);
+  value_of(colour_by(set, asked, std::vector<std::uint8_t>(count, 1), Transfer::srgb, colours));
+  py::array_t<float> made({static_cast<py::ssize_t>(count), py::ssize_t{3}});
+  float* to = made.mutable_data();
+  for (const Vec3f& colour : colours)
+    for (int k = 0; k < 3; ++k) *to++ = colour[k];
+  return made;
+}
+
+}  // namespace
+
+cli::Request request_of(const std::vector<std::string>& words) {
+  std::vector<const char*> arguments{"bihive"};
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  return cli::parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+void bind_spheres(py::module_& module) {
+  py::class_<Spheres, std::shared_ptr<Spheres>>(module, "Spheres")
+      .def("__len__", [](const Spheres& s) { return s.file.spheres.size(); })
+      .def_property_readonly("xyz", centres)
+      .def_property_readonly("radius", radii)
+      .def_property_readonly("element",
+                             [](const Spheres& s) { return array_or_none(s.file.spheres.attributes().element); })
+      .def_property_readonly("type", [](const Spheres& s) { return array_or_none(s.file.spheres.attributes().type); })
+      .def_property_readonly("colour", colours_or_none)
+      .def_property_readonly("opacity",
+                             [](const Spheres& s) { return array_or_none(s.file.spheres.attributes().opacity); })
+      .def_property_readonly("columns", columns)
+      .def_property_readonly("cell", cell_or_none)
+      .def_property_readonly(
+          "bounds",
+          [](const Spheres& s) {
+            const SphereSet::Bounds box = s.file.spheres.bounds();
+            return array_from<double>({box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}, {2, 3});
+          })
+      .def_property_readonly("has_images", [](const Spheres& s) { return s.file.spheres.has_images(); })
+      .def_property_readonly("nbytes", [](const Spheres& s) { return s.file.spheres.allocated_bytes(); })
+      .def_property_readonly("name", [](const Spheres& s) { return s.name; })
+      .def_property_readonly("format", [](const Spheres& s) { return s.file.format; })
+      .def_property_readonly("frames", [](const Spheres& s) { return s.file.frames; })
+      .def_property_readonly("time_ps", [](const Spheres& s) { return s.file.time_ps; })
+      .def_property_readonly("step", [](const Spheres& s) { return s.file.step; })
+      .def_property_readonly("rules", [](const Spheres& s) { return s.file.rules; })
+      .def_property_readonly("warnings", [](const Spheres& s) { return s.file.warnings; })
+      .def("select", select)
+      .def("statistics", statistics);
+  module.def("spheres_from_arrays", spheres_from_arrays);
+  module.def("read", read);
+  module.def("colours_of", colours_of);
+  module.def("linear_colour", [](const std::string& text) -> std::optional<std::array<double, 3>> {
+    const std::optional<Vec3d> light = colour_from_text(text, Transfer::srgb);
+    if (!light) return std::nullopt;
+    return std::array<double, 3>{light->x, light->y, light->z};
+  });
+  module.def("check_selection", [](const std::string& text) {
+    if (const Status status = check_selection(text); !status) cli::fail_selection("--select", text, status.error());
+  });
+  module.def("atomic_number", [](const std::string& symbol) { return atomic_number(symbol); });
+  module.def("element_symbol", element_symbol);
+  module.def("van_der_waals_radius", van_der_waals_radius);
+}
+
+}  // namespace bihive::python

@@ -1,0 +1,28 @@
+// The spheres of a Spheres object: those of a file, or of arrays.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bihive/io/read_spheres.h"
+#include "command_line.h"
+
+namespace bihive::python {
+
+/// Never changed after it is made, so that pictures and trees may share it.
+struct Spheres {
+  SphereFile file;
+  std::string name;  ///< for messages
+};
+using SharedSpheres = std::shared_ptr<const Spheres>;
+
+/// The request of a command line without the program's name.
+cli::Request request_of(const std::vector<std::string>& words);
+
+/// Adds them to the module.
+void bind_spheres(pybind11::module_& module);
+
+}  // namespace bihive::python

@@ -1,0 +1,257 @@
+#include "tree.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "bihive/base/parallel.h"
+#include "bihive/render/memory.h"
+#include "bihive/render/tracer.h"
+#include "errors.h"
+#include "spheres.h"
+#include "waiting.h"
+
+namespace py = pybind11;
+
+namespace bihive::python {
+namespace {
+
+// Rays in a piece of work: many, because scattered rays are sorted within a piece; few enough that each thread has
+// several, and that Ctrl-C is seen soon.
+constexpr std::int64_t kFewestRays = 16384;
+constexpr std::int64_t kMostRays = 131072;
+constexpr std::int64_t kPiecesPerThread = 4;
+// Brute force tests in a piece: well below a second.
+constexpr std::int64_t kMostTests = std::int64_t{1} << 25;
+
+struct RayTree {
+  SharedSpheres spheres;
+  std::optional<Tracer> tracer;
+  int threads = 0;
+};
+
+// Columns of Python's arrays, each of `count` numbers. `leaves` and `inside` are null or contiguous.
+struct RayArrays {
+  std::int64_t count = 0;
+  std::array<NumbersView, 3> origin, direction;
+  std::optional<NumbersView> t_min, t_max;
+  const std::int64_t* leaves = nullptr;
+  const std::uint8_t* inside = nullptr;
+};
+
+template <class From, class To>
+void copy_as(const NumbersView& view, std::int64_t first, std::int64_t count, To* to) {
+  const char* from = static_cast<const char*>(view.first) + first * view.step_bytes;
+  for (std::int64_t i = 0; i < count; ++i, from += view.step_bytes) {
+    From value;
+    std::memcpy(&value, from, sizeof(value));
+    to[i] = static_cast<To>(value);
+  }
+}
+
+// Rounded to nearest where the numbers are wider. A number beyond binary32's range becomes infinite.
+template <class To>
+void copy_part(const NumbersView& view, std::int64_t first, std::int64_t count, To* to) {
+  if (view.precision == NumbersView::Precision::binary32)
+    copy_as<float>(view, first, count, to);
+  else
+    copy_as<double>(view, first, count, to);
+}
+
+// The rays of a piece as the engine reads them. Its memory is used again for the next piece.
+class RayPiece {
+ public:
+  RaySpan take(const RayArrays& rays, std::int64_t first, std::int64_t count) {
+    const auto size = static_cast<std::size_t>(count);
+    RaySpan span;
+    span.count = count;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      batch_.origin[axis].resize(size);
+      batch_.direction[axis].resize(size);
+      copy_part(rays.origin[axis], first, count, batch_.origin[axis].data());
+      copy_part(rays.direction[axis], first, count, batch_.direction[axis].data());
+      span.origin[axis] = batch_.origin[axis].data();
+      span.direction[axis] = batch_.direction[axis].data();
+    }
+    const auto limit = [&](const std::optional<NumbersView>& view, std::vector<double>& kept) -> const double* {
+      if (!view) return nullptr;
+      kept.resize(size);
+      copy_part(*view, first, count, kept.data());
+      return kept.data();
+    };
+    span.t_min = limit(rays.t_min, batch_.t_min);
+    span.t_max = limit(rays.t_max, batch_.t_max);
+    if (rays.leaves != nullptr) span.leaves = rays.leaves + first;
+    if (rays.inside != nullptr) span.inside = rays.inside + first;
+    return span;
+  }
+
+ private:
+  RayBatch batch_;
+};
+
+RayPiece& piece_of_thread() {
+  thread_local RayPiece piece;
+  return piece;
+}
+
+std::int64_t rays_per_piece(const RayTree& tree, std::int64_t rays) {
+  const std::int64_t spheres = std::max<std::int64_t>(1, tree.spheres->file.spheres.size());
+  if (is_brute(tree.tracer->engine())) return std::clamp<std::int64_t>(kMostTests / spheres, 1, kFewestRays);
+  const std::int64_t workers = tree.threads > 0 ? tree.threads : hardware_threads();
+  return std::clamp(rays / (workers * kPiecesPerThread), kFewestRays, kMostRays);
+}
+
+// Calls trace(span, first ray) for all pieces of the rays. Python's lock is held before and after, not meanwhile.
+template <class Trace>
+void trace_in_pieces(const RayTree& tree, const RayArrays& rays, const Trace& trace) {
+  const std::int64_t most = rays_per_piece(tree, rays.count);
+  const std::int64_t pieces = (rays.count + most - 1) / most;
+  SignalWatch watch;
+  std::atomic<bool> no_memory{false};
+  {
+    const py::gil_scoped_release unlocked;
+    parallel_for(tree.threads, pieces, [&](std::int64_t piece) {
+      if (watch.cancelled() || no_memory) return;
+      const std::int64_t first = piece * most;
+      try {
+        trace(piece_of_thread().take(rays, first, std::min(most, rays.count - first)), first, piece);
+      } catch (const std::bad_alloc&) {
+        no_memory = true;
+      }
+    });
+  }
+  watch.rethrow();
+  if (no_memory) throw std::bad_alloc();
+}
+
+// bihive/_tree.py has checked shapes and types. `origin` and `direction`: (n, 3).
+RayArrays rays_from(const py::array& origin, const py::array& direction, const std::optional<py::array>& t_min,
+                    const std::optional<py::array>& t_max, const std::optional<py::array_t<std::int64_t>>& leaves,
+                    const std::optional<py::array_t<std::uint8_t>>& inside) {
+  RayArrays rays;
+  rays.count = origin.shape(0);
+  for (py::ssize_t axis = 0; axis < 3; ++axis) {
+    rays.origin[static_cast<std::size_t>(axis)] = column_of(origin, axis);
+    rays.direction[static_cast<std::size_t>(axis)] = column_of(direction, axis);
+  }
+  if (t_min) rays.t_min = view_of(*t_min);
+  if (t_max) rays.t_max = view_of(*t_max);
+  if (leaves) rays.leaves = leaves->data();
+  if (inside) rays.inside = inside->data();
+  return rays;
+}
+
+RayOrder order_of(bool in_blocks) {
+  return in_blocks ? RayOrder::blocks : RayOrder::any;
+}
+
+py::tuple closest(const RayTree& tree, const py::array& origin, const py::array& direction,
+                  const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
+                  const std::optional<py::array_t<std::int64_t>>& leaves,
+                  const std::optional<py::array_t<std::uint8_t>>& inside, bool in_blocks) {
+  const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
+  py::array_t<double> t(rays.count);
+  py::array_t<std::int64_t> id(rays.count);
+  const HitSpan hits{t.mutable_data(), id.mutable_data()};
+  trace_in_pieces(tree, rays, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
+    tree.tracer->closest_hits(span, order_of(in_blocks), hits.part(first));
+  });
+  return py::make_tuple(t, id);
+}
+
+py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const py::array& direction,
+                           const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
+                           const std::optional<py::array_t<std::int64_t>>& leaves,
+                           const std::optional<py::array_t<std::uint8_t>>& inside, bool in_blocks) {
+  const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
+  py::array_t<bool> hidden(rays.count);
+  static_assert(sizeof(bool) == sizeof(std::uint8_t));
+  auto* const to = reinterpret_cast<std::uint8_t*>(hidden.mutable_data());
+  trace_in_pieces(tree, rays, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
+    tree.tracer->occluded(span, order_of(in_blocks), to + first);
+  });
+  return hidden;
+}
+
+// Three arrays with an entry for each hit: ray, t, id.
+py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::array& direction,
+                    const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
+                    const std::optional<py::array_t<std::int64_t>>& leaves,
+                    const std::optional<py::array_t<std::uint8_t>>& inside) {
+  const WideTree* const wide = tree.tracer->wide_tree();
+  if (wide == nullptr || tree.tracer->has_images())
+    cli::fail_usage("all_hits needs the wide engine, and spheres without copies", "leave out engine");
+  const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
+  const std::int64_t most = rays_per_piece(tree, rays.count);
+  std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
+  trace_in_pieces(tree, rays, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
+    std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
+    all_hits(*wide, span, found);
+    for (RayHit& hit : found) hit.ray += first;
+  });
+  std::size_t count = 0;
+  for (const std::vector<RayHit>& some : hits) count += some.size();
+  const auto size = static_cast<py::ssize_t>(count);
+  py::array_t<std::int64_t> ray(size), id(size);
+  py::array_t<double> t(size);
+  std::int64_t *to_ray = ray.mutable_data(), *to_id = id.mutable_data();
+  double* to_t = t.mutable_data();
+  for (std::vector<RayHit>& some : hits) {
+    for (const RayHit& hit : some) *to_ray++ = hit.ray, *to_t++ = hit.t, *to_id++ = hit.sphere_id;
+    some = {};
+  }
+  return py::make_tuple(ray, t, id);
+}
+
+// `part`: ids of the only spheres that count; their positions in it are the answers' ids. `words`: options of
+// `bihive trace` about tree, engine and threads.
+std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
+                                    const std::vector<std::string>& words) {
+  std::vector<std::string> all{"trace", "spheres", "--rays", "rays", "--t", "t", "--id", "id"};
+  all.insert(all.end(), words.begin(), words.end());
+  const auto options = std::get<cli::TraceOptions>(request_of(all));
+  auto tree = std::make_shared<RayTree>();
+  tree->threads = static_cast<int>(options.threads);
+  wait_for(
+      [&](Work&) {
+        tree->spheres = spheres;
+        if (part) {
+          auto some = std::make_shared<Spheres>();
+          some->file.spheres = spheres->file.spheres.part(*part);
+          tree->spheres = std::move(some);
+        }
+        const SphereSet& set = tree->spheres->file.spheres;
+        value_of(check_tree_memory(set, options.engine, options.tree));
+        tree->tracer = value_of(Tracer::build(set, options.engine, options.tree, tree->threads));
+      },
+      py::none());
+  return tree;
+}
+
+}  // namespace
+
+void bind_trees(py::module_& module) {
+  py::class_<RayTree, std::shared_ptr<RayTree>>(module, "Tree")
+      .def("__len__", [](const RayTree& tree) { return tree.spheres->file.spheres.size(); })
+      .def_property_readonly("build_ms", [](const RayTree& tree) { return tree.tracer->build_ms(); })
+      .def("closest", closest)
+      .def("occluded", occluded)
+      .def("all_hits", every_hit);
+  module.def("build_tree",
+             [](const std::shared_ptr<Spheres>& spheres, const std::optional<std::vector<std::int64_t>>& part,
+                const std::vector<std::string>& words) { return build_tree(spheres, part, words); });
+}
+
+}  // namespace bihive::python

@@ -1,0 +1,74 @@
+#include "waiting.h"
+
+#include <condition_variable>
+#include <mutex>
+
+namespace py = pybind11;
+
+namespace bihive::python {
+namespace {
+
+constexpr std::chrono::milliseconds kLook(50);
+
+// The exception that a signal's handler or the progress function throws; null: none. Takes Python's lock.
+std::exception_ptr look(const py::object* progress, double done) {
+  const py::gil_scoped_acquire lock;
+  try {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (progress != nullptr && !progress->is_none()) (*progress)(done);
+  } catch (py::error_already_set&) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void wait_for(const std::function<void(Work&)>& work, const py::object& progress) {
+  Work shared;
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool finished = false;
+  std::exception_ptr of_work, of_caller;
+  {
+    const py::gil_scoped_release unlocked;
+    std::thread worker([&] {
+      try {
+        work(shared);
+      } catch (...) {
+        of_work = std::current_exception();
+      }
+      const std::lock_guard<std::mutex> guard(mutex);
+      finished = true;
+      changed.notify_one();
+    });
+    while (true) {
+      {
+        std::unique_lock<std::mutex> guard(mutex);
+        if (changed.wait_for(guard, kLook, [&] { return finished; })) break;
+      }
+      if (of_caller) continue;
+      of_caller = look(&progress, shared.done.load(std::memory_order_relaxed));
+      if (of_caller) shared.cancel.cancel();
+    }
+    worker.join();
+  }
+  if (of_caller) std::rethrow_exception(of_caller);
+  if (of_work) std::rethrow_exception(of_work);
+}
+
+bool SignalWatch::cancelled() {
+  if (std::this_thread::get_id() != caller_ || thrown_) return cancel_.cancelled();
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_look_ < kLook) return cancel_.cancelled();
+  last_look_ = now;
+  thrown_ = look(nullptr, 0);
+  if (thrown_) cancel_.cancel();
+  return cancel_.cancelled();
+}
+
+void SignalWatch::rethrow() const {
+  if (thrown_) std::rethrow_exception(thrown_);
+}
+
+}  // namespace bihive::python

@@ -1,0 +1,43 @@
+// Long work without Python's lock, which Ctrl-C stops.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <thread>
+
+#include "bihive/base/cancel.h"
+
+namespace bihive::python {
+
+/// Between the work and the thread that waits for it.
+struct Work {
+  CancelToken cancel;           ///< set: stop soon; the result is not wanted any more
+  std::atomic<double> done{0};  ///< the finished share, 0 to 1
+};
+
+/// Does the work on a thread of its own. The calling thread waits, and several times a second it looks for signals and
+/// calls `progress` (None, or a function of the finished share). An exception of either cancels the work, and is thrown
+/// after its end.
+void wait_for(const std::function<void(Work&)>& work, const pybind11::object& progress);
+
+/// For work in short pieces on several threads, the calling one among them: it looks for signals between two pieces.
+/// The caller must have released Python's lock.
+class SignalWatch {
+ public:
+  /// Whether the work shall end. Calls from other threads than that of the constructor only look.
+  bool cancelled();
+  /// Throws what the signal's handler threw. Python's lock must be held.
+  void rethrow() const;
+
+ private:
+  CancelToken cancel_;
+  std::thread::id caller_ = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point last_look_ = std::chrono::steady_clock::now();
+  std::exception_ptr thrown_;
+};
+
+}  // namespace bihive::python

@@ -1,0 +1,99 @@
+"""bihive.film: of files by the program, of frames in memory."""
+
+import os
+import shutil
+import subprocess
+import unittest
+
+import bihive as bh
+import numpy as np
+from adapt_test import AseLike, Universe
+from program import ProgramTest, main
+
+OPTIONS = {"size": (32, 24), "samples": 1, "style": "flat"}
+
+
+def pictures_of(path):
+    """uint8 (frames, height, width, 3) by ffmpeg."""
+    words = ["ffmpeg", "-loglevel", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    raw = subprocess.run(words, stdout=subprocess.PIPE, check=True).stdout
+    return np.frombuffer(raw, np.uint8).reshape(-1, 24, 32, 3)
+
+
+@unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed: scripts/setup test installs it")
+class Films(ProgramTest):
+    def assert_film(self, name, pictures):
+        """The pictures of a film, but for the losses of its codec."""
+        found = pictures_of(self.path(name)).astype(float)
+        self.assertEqual(len(found), len(pictures))
+        for one, expected in zip(found, pictures):
+            self.assertLess(np.abs(one - np.asarray(expected)).mean(), 6)
+
+    def test_frames_in_memory(self):
+        frames = [bh.Spheres([[x, 0, 0], [0, 0, 0]], radius=1) for x in (2, 3, 4, 5)]
+        self.assertEqual(bh.film(iter(frames), self.path("a.mp4"), fps=10, **OPTIONS), 4)
+        first = bh.render(frames[0], **OPTIONS)
+        self.assert_film("a.mp4", [bh.render(s, camera=first, **OPTIONS) for s in frames])
+        self.assertEqual(os.listdir(self.folder), ["a.mp4"])
+        rate = "ffprobe -v error -show_entries stream=r_frame_rate -of csv=p=0 a.mp4".split()
+        self.assertEqual(subprocess.run(rate, cwd=self.folder, stdout=subprocess.PIPE).stdout.strip(), b"10/1")
+        self.assertEqual(bh.film(frames, self.path("b.webm"), frames=slice(1, 4, 2), **OPTIONS), 2)
+
+    def test_a_universe(self):
+        universe = Universe()
+        self.assertEqual(bh.film(universe, self.path("a.mp4"), select="element O and x > -1", **OPTIONS), 4)
+        universe = Universe()
+        self.assertEqual(bh.film(universe.atoms, self.path("b.mp4"), frames=slice(0, 4, 2), **OPTIONS), 2)
+        universe = Universe()
+        self.assertEqual(bh.film(universe.trajectory, self.path("c.mkv"), atoms=universe.atoms, **OPTIONS), 4)
+        with self.assertRaisesRegex(bh.UsageError, "source: a trajectory of MDAnalysis does not know its atoms"):
+            bh.film(universe.trajectory, self.path("d.mp4"), **OPTIONS)
+        self.assertNotIn("d.mp4", os.listdir(self.folder))
+
+    def test_a_list_of_atoms(self):
+        self.assertEqual(bh.film([AseLike(), AseLike()], self.path("a.mp4"), title="{frame}", **OPTIONS), 2)
+
+    def test_files(self):
+        self.write("run.xyz", "".join(f"2\n\nC {x} 0 0\nO 0 0 0\n" for x in (2, 3, 4)))
+        bh.film(self.path("run.xyz"), self.path("a.mp4"), **OPTIONS)
+        frames = [bh.read(self.path("run.xyz"), frame=i) for i in range(3)]
+        first = bh.render(frames[0], **OPTIONS)
+        self.assert_film("a.mp4", [bh.render(s, camera=first, **OPTIONS) for s in frames])
+        bh.film(self.path("run.xyz"), self.path("b.mp4"), frames="0:2", select="element C", fps="30000/1001", **OPTIONS)
+        self.assertEqual(len(pictures_of(self.path("b.mp4"))), 2)
+        bh.film("demo", self.path("c.mp4"), turntable=360, pictures=3, camera=bh.Orthographic("iso"), **OPTIONS)
+        self.assertEqual(len(pictures_of(self.path("c.mp4"))), 3)
+        with self.assertRaisesRegex(bh.Error, "frames: "):
+            bh.film(self.path("run.xyz"), self.path("d.mp4"), frames="9:12", **OPTIONS)
+
+    def test_failures_leave_nothing(self):
+        frames = [bh.Spheres(np.zeros((1, 3)), radius=1)] * 2
+
+        def broken():
+            yield frames[0]
+            raise RuntimeError("broken")
+
+        for call, error in [
+            (lambda: bh.film(broken(), self.path("a.mp4"), **OPTIONS), RuntimeError),
+            (lambda: bh.film([], self.path("a.mp4"), **OPTIONS), bh.UsageError),
+            (lambda: bh.film(frames, self.path("a.gif"), **OPTIONS), bh.UsageError),
+            (lambda: bh.film(frames, self.path("a.mp4"), fps=0, **OPTIONS), bh.UsageError),
+            (lambda: bh.film(3, self.path("a.mp4"), **OPTIONS), bh.UsageError),
+            (lambda: bh.film(frames, self.path("no/a.mp4"), **OPTIONS), bh.FileError),
+            (lambda: bh.film(self.path("absent"), self.path("a.mp4"), **OPTIONS), bh.FileError),
+            (lambda: bh.film([frames[0], 3], self.path("a.mp4"), **OPTIONS), bh.UsageError),
+        ]:
+            with self.assertRaises(error):
+                call()
+            self.assertEqual(os.listdir(self.folder), [])
+
+    def test_ffmpeg_is_missing(self):
+        path = os.environ["PATH"]
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        os.environ["PATH"] = self.folder
+        with self.assertRaisesRegex(bh.MissingError, "ffmpeg"):
+            bh.film([bh.Spheres(np.zeros((1, 3)), radius=1)], self.path("a.mp4"), **OPTIONS)
+
+
+if __name__ == "__main__":
+    main()

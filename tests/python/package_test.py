@@ -1,0 +1,115 @@
+"""The package as a whole: docstrings, the page docs/python.md, types, what an import costs."""
+
+import doctest
+import importlib
+import inspect
+import os
+import pkgutil
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+import bihive as bh
+from program import PATIENCE_S, ProgramTest, main
+
+SOURCE = os.environ["BIHIVE_SOURCE"]
+PACKAGE = os.path.dirname(bh.__file__)
+PAGE = os.path.join(SOURCE, "docs", "python.md")
+
+
+class Documentation(ProgramTest):
+    def test_examples_in_docstrings(self):
+        examples = 0
+        for info in pkgutil.iter_modules(bh.__path__):
+            if info.name == "_bihive":
+                continue
+            module = importlib.import_module("bihive." + info.name)
+            names = {**vars(module), "render": bh.render, "read": bh.read}
+            result = doctest.testmod(module, extraglobs=names)
+            self.assertEqual(result.failed, 0, info.name)
+            examples += result.attempted
+        result = doctest.testmod(bh)
+        self.assertEqual(result.failed, 0)
+        self.assertGreater(examples + result.attempted, 20)
+
+    def test_everything_public_is_explained(self):
+        self.assertEqual(sorted(bh.__all__), bh.__all__)
+        for name in bh.__all__:
+            thing = getattr(bh, name)
+            if name.startswith("__"):
+                continue
+            self.assertTrue(inspect.getdoc(thing), name)
+            for member, value in vars(thing).items() if inspect.isclass(thing) else []:
+                if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                    if member != "words":
+                        self.assertTrue(inspect.getdoc(value), f"{name}.{member}")
+
+    def test_the_page(self):
+        with open(PAGE, encoding="utf-8") as file:
+            page = file.read()
+        blocks = re.findall(r"^```python( notest)?\n(.*?)^```", page, re.M | re.S)
+        self.assertGreater(len(blocks), 5)
+        shutil.copy(os.path.join(SOURCE, "data", "1hpv.pdb"), self.folder)
+        names, before = {}, os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, before)
+        for left_out, block in blocks:
+            if not left_out:
+                exec(compile(block, PAGE, "exec"), names)
+
+    def test_every_option_of_the_command_line_is_known(self):
+        help_text = self.succeed("render", "--help")
+        options = set(re.findall(r"^\s+(?:-\w,)?(?:TRAJECTORY,)?(--[a-z-]+)", help_text, re.M))
+        self.assertGreater(len(options), 50)
+        # The input, the output, and what has another form here.
+        elsewhere = {"--help", "--output", "--layers", "--film", "--picture", "--json", "--select", "--hide", "--show"}
+        from bihive import _options
+
+        known = set(_options.ONE_VALUE + _options.FLAGS + _options.SWITCHES + _options.SIZES + _options.ACTIONS + ["light"])
+        spelt = {"--" + name.replace("_", "-") for name in known} | {"--no-" + name for name in _options.SWITCHES}
+        self.assertEqual(options - spelt - elsewhere, set())
+        self.assertEqual(spelt - options, set())
+
+
+class Types(ProgramTest):
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed: scripts/setup test installs it")
+    def test_mypy(self):
+        # Debian's mypy runs under Debian's python, and looks into the folder where it is called.
+        done = subprocess.run(
+            [shutil.which("mypy"), "--strict", "--cache-dir", self.path("cache"), "-p", "bihive"],
+            cwd=os.path.dirname(PACKAGE), capture_output=True, text=True, timeout=PATIENCE_S,
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertTrue(os.path.exists(os.path.join(PACKAGE, "py.typed")))
+
+    def test_the_stub_names_what_the_module_has(self):
+        from bihive import _bihive
+
+        with open(os.path.join(PACKAGE, "_bihive.pyi"), encoding="utf-8") as file:
+            stub = file.read()
+        stated = set(re.findall(r"^(?:class|def) (\w+)", stub, re.M)) | {"__version__"}
+        self.assertEqual(stated, {name for name in vars(_bihive) if not name.startswith("__")} | {"__version__"})
+        for name in ["Spheres", "Picture", "Tree"]:
+            body = re.search(rf"^class {name}:\n((?:    .*\n|\n)+)", stub, re.M).group(1)
+            members = set(re.findall(r"^    (?:def )?(\w+)", body, re.M)) - {"__len__"}
+            real = {member for member in vars(getattr(_bihive, name)) if not member.startswith("_")}
+            self.assertEqual(members, real, name)
+
+
+class Import(unittest.TestCase):
+    def test_it_brings_nothing_along(self):
+        code = "import sys, numpy\nbefore = set(sys.modules)\nimport bihive\n"
+        code += "print(sorted({name.split('.')[0] for name in set(sys.modules) - before}))"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=PATIENCE_S)
+        brought = set(eval(done.stdout)) - set(sys.stdlib_module_names)
+        self.assertEqual(brought, {"bihive"})
+
+    def test_version(self):
+        done = subprocess.run([os.environ["BIHIVE"], "--version"], capture_output=True, text=True)
+        self.assertEqual(done.stdout.split()[1], bh.__version__)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,351 @@
+"""bihive.render: the bits of the command line, layers, errors, Ctrl-C, threads."""
+
+import copy
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+import warnings
+
+import bihive as bh
+import numpy as np
+from program import PATIENCE_S, ProgramTest, main, png_numbers
+
+SIZE = (48, 36)
+
+
+def pixels_of_file(data):
+    return np.array(png_numbers(data))
+
+
+class SameBits(ProgramTest):
+    """Each picture beside that of the command line with the same options."""
+
+    def assert_same(self, input_name, words, spheres=None, **options):
+        report = self.succeed_json("render", input_name, "-o", "a.png", "--size", "48x36", *words)
+        picture = bh.render(self.path(input_name) if spheres is None else spheres, size=SIZE, **options)
+        self.assertEqual(f"{picture.hash:016x}", report["picture_hash"], options)
+        np.testing.assert_array_equal(np.asarray(picture), pixels_of_file(self.read("a.png")))
+        return picture
+
+    def test_the_options_of_the_command_line(self):
+        for words, options in [
+            ([], {}),
+            (["--style", "illustrative"], {"style": "illustrative"}),
+            (["--view-from", "left", "--projection", "orthographic"], {"camera": bh.Orthographic("left")}),
+            (["--view-from", "top"], {"camera": "top"}),
+            (
+                ["--eye", "-40,5,60", "--look-at=0,1,-2.5", "--up", "0,0,1", "--fov", "25"],
+                {"camera": bh.Perspective(eye=(-40, 5, 60), look_at=np.array([0, 1, -2.5]), up=[0, 0, 1], fov=25)},
+            ),
+            (["--turn", "30,-20", "--zoom", "1.5"], {"turn": (30, -20), "zoom": np.float32(1.5)}),
+            (["--aperture", "2", "--focus", "resname 478", "--samples", "8"], {"aperture": 2, "focus": "resname 478", "samples": 8}),
+            (["--no-shadows", "--recursion", "2", "--samples", "auto"], {"shadows": False, "recursion": 2, "samples": "auto"}),
+            (["--ao-distance", "5", "--ao-directions", "8"], {"ao_distance": 5, "ao_directions": 8}),
+            (["--light", "studio", "--fog", "0.3", "--outline", "2"], {"light": "studio", "fog": 0.3, "outline": 2}),
+            (["--light", "at:9,9,50", "--light", "from:1,1,1:red"], {"light": ["at:9,9,50", "from:1,1,1:red"]}),
+            (["--background", "none"], {"background": "none"}),
+            (["--bits", "16", "--background", "0.1,0.2,0.3"], {"bits": 16, "background": (0.1, 0.2, 0.3)}),
+            (["--crop", "8,4,40,30"], {"crop": (8, 4, 40, 30)}),
+            (["--view", "normal"], {"view": "normal"}),
+            (["--view", "traversal", "--max-prims", "1"], {"view": "traversal", "max_prims": 1}),
+            (["--view", "tree"], {"view": "tree"}),
+            (["--engine", "reference", "--threads", "1"], {"engine": "reference", "threads": 1}),
+            (["--legend", "--axes", "--title", "Häuser {spheres}"], {"legend": True, "axes": True, "title": "Häuser {spheres}"}),
+            (["--colour-by", "b_factor:magma", "--legend"], {"colour_by": "b_factor:magma", "legend": True}),
+            (["--opacity", "0.4", "--no-water"], {"opacity": 0.4, "no_water": True}),
+            (["--clip", "plane:1,0,0,2", "--clip", "sphere:0,0,0,4"], {"clip": ["plane:1,0,0,2", "sphere:0,0,0,4"]}),
+            (
+                ["--select", "chain A", "--colour", "red", "--material", "metal", "--select", "water", "--hide"],
+                {"looks": [bh.Look("chain A", colour="red", material="metal"), bh.Look("water", show=False)]},
+            ),
+            (["--select", "not (chain B)", "--hide"], {"select": "chain B"}),
+            (["--exposure", "0.5", "--tone", "filmic", "--transfer", "none"], {"exposure": 0.5, "tone": "filmic", "transfer": "none"}),
+        ]:
+            with self.subTest(options=options):
+                report = self.succeed_json("render", "demo", "-o", "a.png", "--size", "48x36", *words)
+                picture = bh.render("demo", size=SIZE, **options)
+                self.assertEqual(f"{picture.hash:016x}", report["picture_hash"])
+                np.testing.assert_array_equal(np.asarray(picture), pixels_of_file(self.read("a.png")))
+                # Spheres that were read first are the same spheres.
+                read_first = bh.render(bh.read("demo"), size=SIZE, **options)
+                self.assertEqual(read_first, picture)
+
+    def test_arrays_as_a_file_of_them(self):
+        rng = np.random.default_rng(3)
+        four = rng.random((200, 4)).astype(np.float32)
+        np.save(self.path("a.npy"), four)
+        self.assert_same("a.npy", [], bh.Spheres(four))
+        self.assert_same("a.npy", [], bh.Spheres(four[:, :3].astype(float), four[:, 3]))
+        self.assert_same("a.npy", ["--colour-by", "r:coolwarm"], bh.Spheres(four), colour_by="r:coolwarm")
+        self.assert_same("a.npy", ["--radius", "0.05"], radius=0.05)
+
+    def test_scenes_and_cells(self):
+        self.succeed("scene", "four-spheres", "-o", "four.json")
+        self.assert_same("four.json", ["--recursion", "3"], recursion=3)
+        report = self.succeed_json("render", "scenario2", "-o", "a.png", "--size", "48x36", "--count", "300", "--seed", "5")
+        self.assertEqual(f"{bh.render('scenario2', size=SIZE, count=300, seed=5).hash:016x}", report["picture_hash"])
+        self.write("cell.extxyz", '2\nLattice="2 0 0 0 3 0 0 0 4" Properties=species:S:1:pos:R:3\nC 0 0 0\nO 1 1 1\n')
+        s = bh.read(self.path("cell.extxyz"))
+        self.assert_same("cell.extxyz", ["--replicate", "2x3x1", "--cell"], s, replicate=(2, 3, 1), cell=True)
+
+    def test_styles_of_ones_own(self):
+        keys = {"material": "metal", "background": "black", "picture": {"shadows": False}}
+        self.write("own.json", '{"bihive_style": 1, "material": "metal", "background": "black", "picture": {"shadows": false}}')
+        report = self.succeed_json("render", "demo", "-o", "a.png", "--size", "48x36", "--style", "own.json")
+        for style in [keys, bh.Style(keys), pickle.loads(pickle.dumps(bh.Style(keys))), self.path("own.json")]:
+            self.assertEqual(f"{bh.render('demo', size=SIZE, style=style).hash:016x}", report["picture_hash"])
+        with self.assertRaisesRegex(bh.InputError, "unknown key"):
+            bh.render("demo", size=SIZE, style={"materiel": "metal"})
+
+    def test_a_saved_picture_is_the_programs_file(self):
+        self.succeed("render", "demo", "-o", "a.png", "--size", "48x36", "--dpi", "300", "--title", "Ä")
+        picture = bh.render("demo", size=SIZE, dpi=300, title="Ä")
+        picture.save(self.path("b.png"))
+        self.assertEqual(self.read("b.png"), self.read("a.png"))
+        self.assertEqual(picture._repr_png_(), self.read("a.png"))
+
+    def test_any_number_of_threads(self):
+        one = bh.render("demo", size=SIZE, threads=1)
+        self.assertEqual(one, bh.render("demo", size=SIZE, threads=7))
+
+
+class Pictures(ProgramTest):
+    def test_array(self):
+        picture = bh.render("demo", size=SIZE)
+        self.assertEqual((picture.size, np.asarray(picture).shape, np.asarray(picture).dtype), (SIZE, (36, 48, 3), np.uint8))
+        self.assertEqual(np.asarray(picture, dtype=float).dtype, float)
+        with self.assertRaises(ValueError):
+            np.asarray(picture)[0, 0, 0] = 1
+        deep = np.asarray(bh.render("demo", size=SIZE, bits=16, background="none"))
+        self.assertEqual((deep.shape, deep.dtype), ((36, 48, 4), np.uint16))
+        self.assertTrue(deep.dtype.isnative)
+
+    def test_layers(self):
+        s = bh.Spheres([[0, 0, 0], [0.5, 0, -3]], radius=1, charge=[-0.5, 7])
+        picture = bh.render(s, camera=bh.Orthographic(eye=(0, 0, 10), look_at=(0, 0, 0)), size=(21, 15))
+        ids, depth, normal = picture.layer("id"), picture.layer("depth"), picture.layer("normal")
+        self.assertEqual((ids.dtype, ids.shape, normal.shape), (np.int64, (15, 21), (15, 21, 3)))
+        self.assertEqual(set(np.unique(ids)), {-1, 0, 1})
+        self.assertEqual(ids[7, 10], 0)
+        self.assertAlmostEqual(float(depth[7, 10]), 9, places=5)
+        np.testing.assert_array_equal(depth[ids == -1], np.inf)
+        np.testing.assert_allclose(np.linalg.norm(normal[ids >= 0], axis=1), 1, atol=1e-6)
+        charge = picture.layer("attribute:charge")
+        np.testing.assert_array_equal(charge[ids == 1], 7)
+        self.assertTrue(np.isnan(charge[ids == -1]).all())
+        self.assertEqual(picture.layer("radiance").shape, (15, 21, 3))
+        for bad in ["colour", "attribute:mass", "depth,id", ""]:
+            with self.assertRaises(ValueError):
+                picture.layer(bad)
+        # A hidden sphere keeps the others' ids.
+        self.assertEqual(set(np.unique(bh.render(s, size=(21, 15), select="charge > 0").layer("id"))), {-1, 1})
+        with self.assertRaisesRegex(bh.UsageError, "detached"):
+            picture.detach().layer("depth")
+
+    def test_seen_as_in_another_picture(self):
+        s = bh.read("demo")
+        first = bh.render(s, size=SIZE, camera="left", colour_by="b_factor")
+        part = s[: len(s) // 2]
+        again = bh.render(part, size=SIZE, camera=first, colour_by="b_factor")
+        self.assertEqual(again.camera, first.camera)
+        self.assertNotEqual(bh.render(part, size=SIZE, camera="left").camera, first.camera)
+
+    def test_pickle_and_repr(self):
+        picture = bh.render("demo", size=SIZE, bits=16)
+        same = pickle.loads(pickle.dumps(picture))
+        self.assertEqual((same, same.hash, same._repr_png_()), (picture, picture.hash, picture._repr_png_()))
+        self.assertEqual(repr(same), "<bihive.Picture: 48 x 36, 1631 spheres of demo>")
+        with self.assertRaisesRegex(bh.UsageError, "unpickled"):
+            same.layer("depth")
+        with self.assertRaises(bh.UsageError) as caught:
+            bh.render("demo", size=SIZE, camera=same)
+        self.assertTrue(str(caught.exception).startswith("camera: "))
+        for thing in [bh.Orthographic("left"), bh.Perspective(fov=20), bh.Look("water", show=False), bh.Style({"name": "x"})]:
+            self.assertEqual(pickle.loads(pickle.dumps(thing)), thing)
+            self.assertEqual(copy.deepcopy(thing), thing)
+
+    def test_save(self):
+        picture = bh.render("demo", size=SIZE)
+        with self.assertRaises(OSError) as caught:
+            picture.save(self.path("no/such/folder.png"))
+        self.assertIsInstance(caught.exception, bh.Error)
+        with self.assertRaises(bh.UsageError):
+            picture.save(self.path("a.jpg"))
+        self.assertEqual(self.contents(), {})
+
+
+class Failures(ProgramTest):
+    def test_errors_name_the_argument(self):
+        s = bh.Spheres(np.zeros((1, 3)), radius=1)
+        for options, argument in [
+            ({"size": (0, 10)}, "size"),
+            ({"size": "big"}, "size"),
+            ({"size": (10, float("nan"))}, "size"),
+            ({"samples": 0}, "samples"),
+            ({"samples": True}, "samples"),
+            ({"recursion": 17}, "recursion"),
+            ({"view": "nice"}, "view"),
+            ({"view_from": "above"}, "view_from"),
+            ({"camera": "above"}, "view_from"),
+            ({"camera": 3}, "camera"),
+            ({"camera": bh.Perspective(fov=200)}, "fov"),
+            ({"eye": (0, 1)}, "eye"),
+            ({"eye": "a\0b"}, "eye"),
+            ({"shadows": 1}, "shadows"),
+            ({"legend": "yes"}, "legend"),
+            ({"style": "nice"}, "style"),
+            ({"light": "nice"}, "light"),
+            ({"background": "nice"}, "background"),
+            ({"ao_distance": -1}, "ao_distance"),
+            ({"looks": ["chain A"]}, "looks"),
+            ({"looks": bh.Look("all", opacity=2)}, "opacity"),
+            ({"looks": bh.Look("mass > 2", opacity=0.5)}, "select"),
+            ({"select": "x >"}, "select"),
+            ({"select": 3}, "select"),
+            ({"progress": 3}, "progress"),
+            ({"shininess": 3}, "shininess"),
+            ({"json": True}, "json"),
+            ({"frame": -1}, "frame"),
+            ({"trajectory": "a.dcd"}, "trajectory"),
+            ({"replicate": (2, 2, 2)}, "replicate"),
+        ]:
+            with self.subTest(options=options):
+                with self.assertRaises(bh.UsageError) as caught:
+                    bh.render(s, **options)
+                self.assertEqual(caught.exception.argument, argument, caught.exception)
+                self.assertNotIn("--", str(caught.exception))
+
+    def test_things_that_are_no_spheres(self):
+        for thing in [3, None, [1, 2], np.zeros((2, 3)), object()]:
+            with self.assertRaises(bh.UsageError) as caught:
+                bh.render(thing)
+            self.assertEqual(caught.exception.argument, "spheres")
+
+    def test_files(self):
+        with self.assertRaises(bh.FileError) as caught:
+            bh.render(self.path("absent.pdb"))
+        self.assertEqual((caught.exception.errno, caught.exception.filename), (2, self.path("absent.pdb")))
+        self.assertIsInstance(caught.exception, OSError)
+        self.write("bad.xyz", "2\n\nC 0 0 0\nC 0 zero 0\n")
+        for call in [bh.render, bh.read]:
+            with self.assertRaises(bh.InputError) as caught:
+                call(self.path("bad.xyz"))
+            self.assertEqual((caught.exception.file, caught.exception.line), (self.path("bad.xyz"), 4))
+            self.assertIsInstance(caught.exception, ValueError)
+        with self.assertRaisesRegex(bh.UsageError, "zoom: there is no such option"):
+            bh.read("demo", zoom=2)
+
+    def test_warnings(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            bh.render("demo", size=SIZE, looks=bh.Look("index 99999", colour="red"))
+        self.assertEqual([w.category for w in caught], [bh.InputWarning])
+        self.assertRegex(str(caught[0].message), "selects no sphere")
+        self.assertEqual(caught[0].filename, __file__)
+
+    def test_an_unknown_instruction_set(self):
+        done = subprocess.run(
+            [sys.executable, "-c", "import bihive as bh\nbh.render('demo')"],
+            env={**os.environ, "BIHIVE_TARGET": "no_such"}, capture_output=True, text=True, timeout=PATIENCE_S,
+        )
+        self.assertIn("InputError", done.stderr.splitlines()[-1])
+        self.assertIn("no_such", done.stderr.splitlines()[-1])
+
+
+LONG = "import bihive as bh, sys\nprint('ready', flush=True)\n"
+LONG += "bh.render('scenario3', size=(4000, 4000), samples=64, shadows=True)\n"
+
+
+class Interrupts(ProgramTest):
+    def test_control_c_ends_a_render(self):
+        for begin_s in [0.3, 1.5]:
+            process = subprocess.Popen(
+                [sys.executable, "-c", LONG], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            )
+            self.assertEqual(process.stdout.readline(), "ready\n")
+            self.let_work(process, begin_s)
+            self.assertIsNone(process.poll(), "the picture was drawn too early for this test")
+            process.send_signal(signal.SIGINT)
+            # The rest of the work would take minutes.
+            _, err = process.communicate(timeout=60)
+            self.assertEqual(err.splitlines()[-1], "KeyboardInterrupt")
+            self.assertEqual(process.returncode, -signal.SIGINT)
+
+    def test_an_exception_of_a_handler_and_of_the_progress(self):
+        class Enough(Exception):
+            pass
+
+        def enough(done):
+            raise Enough(done)
+
+        with self.assertRaises(Enough):
+            bh.render("scenario3", size=(4000, 4000), samples=64, progress=enough)
+
+        def handler(number, frame):
+            raise Enough
+
+        before = signal.signal(signal.SIGALRM, handler)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with self.assertRaises(Enough):
+            bh.render("scenario3", size=(4000, 4000), samples=64)
+        # The module works on.
+        bh.render("demo", size=SIZE)
+
+    def test_control_c_ends_rays(self):
+        code = "import bihive as bh, numpy as np\nt = bh.Tree(bh.read('scenario1', count=4096), engine='brute')\n"
+        code += "o = np.zeros((20_000_000, 3), np.float32)\nprint('ready', flush=True)\nt.closest(o, [0, 0, -1])\n"
+        process = subprocess.Popen(
+            [sys.executable, "-c", code], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        self.assertEqual(process.stdout.readline(), "ready\n")
+        self.let_work(process, 1)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual((err.splitlines()[-1], process.returncode), ("KeyboardInterrupt", -signal.SIGINT))
+
+    def test_other_threads_run_meanwhile(self):
+        counted = []
+        over = threading.Event()
+
+        def count():
+            while not over.is_set():
+                counted.append(time.monotonic())
+                time.sleep(0.005)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        begin = time.monotonic()
+        bh.render("demo", size=(640, 480), samples=16, threads=1)
+        end = time.monotonic()
+        over.set()
+        thread.join()
+        during = [moment for moment in counted if begin < moment < end]
+        # It would be none or two if the lock were kept.
+        self.assertGreater(len(during), 5)
+
+    def test_pictures_on_several_threads_at_once(self):
+        expected = bh.render("demo", size=SIZE)
+        made = []
+        threads = [threading.Thread(target=lambda: made.append(bh.render("demo", size=SIZE))) for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(made, [expected] * 6)
+
+    def test_progress(self):
+        shares = []
+        bh.render("demo", size=(640, 480), samples=16, progress=shares.append)
+        self.assertEqual(shares, sorted(shares))
+        self.assertTrue(all(0 <= share <= 1 for share in shares))
+        self.assertGreater(len(shares), 0)
+
+
+if __name__ == "__main__":
+    main()

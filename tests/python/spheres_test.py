@@ -1,0 +1,254 @@
+"""bihive.Spheres: arrays of every kind, what they hold afterwards, and errors that name the argument."""
+
+import array
+import copy
+import pickle
+import unittest
+
+import bihive as bh
+import numpy as np
+
+RNG = np.random.default_rng(7)
+
+
+class OnlyDlpack:
+    """An array of a library that knows nothing but DLPack."""
+
+    def __init__(self, values, device=None):
+        self.values = values
+        self.device = device
+
+    def __dlpack__(self, stream=None):
+        return self.values.__dlpack__()
+
+    def __dlpack_device__(self):
+        return self.device or self.values.__dlpack_device__()
+
+
+class OnlyInterface:
+    def __init__(self, values):
+        self.values = values
+        self.__array_interface__ = values.__array_interface__
+
+
+class Arrays(unittest.TestCase):
+    def assert_same(self, value, xyz):
+        """The set of `value` holds what that of a plain float64 copy holds."""
+        expected = bh.Spheres(np.ascontiguousarray(xyz, dtype=np.float64), radius=0.5)
+        np.testing.assert_array_equal(bh.Spheres(value, radius=0.5).xyz, expected.xyz)
+
+    def test_types_and_layouts(self):
+        single = RNG.normal(size=(50, 3)).astype(np.float32)
+        double = RNG.normal(size=(50, 3)) * 1e3
+        for values in [single, double]:
+            wide = np.zeros((100, 7), dtype=values.dtype)
+            wide[::2, 1:7:2] = values
+            frozen = values.copy()
+            frozen.setflags(write=False)
+            raw = b"x" + values.tobytes()
+            unaligned = np.frombuffer(raw, dtype=values.dtype, offset=1).reshape(50, 3)
+            self.assertFalse(unaligned.flags.aligned)
+            for same in [
+                values,
+                np.asfortranarray(values),
+                wide[::2, 1:7:2],
+                values[::-1][::-1],
+                frozen,
+                unaligned,
+                values.astype(values.dtype.newbyteorder()),
+                memoryview(values),
+                OnlyInterface(values),
+                OnlyDlpack(values),
+                values.tolist(),
+                values.astype(object),
+                np.ma.array(values),
+                values.astype(np.longdouble),
+            ]:
+                self.assert_same(same, values)
+            self.assert_same(values[::-1], np.array(values)[::-1].copy())
+        whole = RNG.integers(-100, 100, size=(20, 3))
+        for kind in [np.int8, np.int64, np.float16, object]:
+            self.assert_same(whole.astype(kind), whole)
+
+    def test_fourth_column_and_radii(self):
+        four = np.abs(RNG.normal(size=(30, 4))).astype(np.float32)
+        np.testing.assert_array_equal(bh.Spheres(four).radius, bh.Spheres(four[:, :3], four[:, 3]).radius)
+        np.testing.assert_array_equal(bh.Spheres(four[:, :3], four[::-1, 3]).radius, four[::-1, 3])
+        np.testing.assert_array_equal(bh.Spheres(four[:, :3], array.array("d", [0.25] * 30)).radius, [0.25] * 30)
+        np.testing.assert_array_equal(bh.Spheres(four[:, :3], np.float32(0.5)).radius, [0.5] * 30)
+        np.testing.assert_array_equal(bh.Spheres(four[:, :3], 2).radius, [2] * 30)
+
+    def test_large_and_small_worlds_keep_their_precision(self):
+        for scale in [1e-20, 1e20]:
+            xyz = RNG.normal(size=(40, 3)) * scale
+            np.testing.assert_allclose(bh.Spheres(xyz, radius=scale).xyz, xyz, rtol=1e-7, atol=1e-7 * scale)
+
+    def test_empty(self):
+        for empty in [np.zeros((0, 3)), np.zeros((0, 4), np.float32), np.zeros((0, 3), dtype=int), []]:
+            s = bh.Spheres(empty)
+            self.assertEqual((len(s), s.xyz.shape, s.radius.shape), (0, (0, 3), (0,)))
+        s = bh.Spheres(np.zeros((0, 3)), radius=[], colour=np.zeros((0, 3)), charge=[])
+        self.assertEqual(len(s), 0)
+        with self.assertRaisesRegex(bh.InputError, "there are no spheres to draw"):
+            bh.render(s, size=(8, 8))
+        t, i = bh.Tree(s).closest([[0, 0, 0]], [1, 0, 0])
+        self.assertEqual((t.tolist(), i.tolist()), ([np.inf], [-1]))
+
+    def test_numbers_that_are_none(self):
+        for bad, what in [(np.nan, "nan"), (np.inf, "inf"), (1e39, r"1e\+39")]:
+            xyz = np.zeros((9, 3))
+            xyz[6, 1] = bad
+            with self.assertRaisesRegex(ValueError, f"sphere 6: y must .* is {what}"):
+                bh.Spheres(xyz, radius=1)
+            with self.assertRaisesRegex(bh.InputError, f"sphere 4: the radius must .* is {what}"):
+                bh.Spheres(np.zeros((9, 3)), radius=np.where(np.arange(9) == 4, bad, 1))
+        with self.assertRaisesRegex(ValueError, "sphere 0: the radius must not be negative"):
+            bh.Spheres(np.zeros((9, 3)), radius=-1)
+        # Sphere without extent, and attributes that are not known, are no errors.
+        self.assertEqual(len(bh.Spheres(np.zeros((9, 3)), radius=0, charge=np.full(9, np.nan))), 9)
+
+    def test_errors_name_the_argument(self):
+        xyz = np.zeros((4, 3))
+        for call, argument in [
+            (lambda: bh.Spheres(np.zeros((4, 2)), 1), "xyz"),
+            (lambda: bh.Spheres(np.zeros(4), 1), "xyz"),
+            (lambda: bh.Spheres(np.zeros((2, 4, 3)), 1), "xyz"),
+            (lambda: bh.Spheres("abc", 1), "xyz"),
+            (lambda: bh.Spheres(xyz.astype(complex), 1), "xyz"),
+            (lambda: bh.Spheres([["a", "b", "c"]], 1), "xyz"),
+            (lambda: bh.Spheres([[1, 2, 3], [1, 2]], 1), "xyz"),
+            (lambda: bh.Spheres(np.ma.masked_equal(xyz, 0), 1), "xyz"),
+            (lambda: bh.Spheres(OnlyDlpack(xyz, device=(2, 0)), 1), "xyz"),
+            (lambda: bh.Spheres(xyz), "radius"),
+            (lambda: bh.Spheres(xyz, radius=[1, 2]), "radius"),
+            (lambda: bh.Spheres(np.zeros((4, 4)), radius=1), "radius"),
+            (lambda: bh.Spheres(xyz, element=[6, 6, 0, 6]), "radius"),
+            (lambda: bh.Spheres(xyz, 1, element=[6, 6, 300, 6]), "element"),
+            (lambda: bh.Spheres(xyz, 1, element=[6.5] * 4), "element"),
+            (lambda: bh.Spheres(xyz, 1, type=[2**40] * 4), "type"),
+            (lambda: bh.Spheres(xyz, 1, colour="no colour"), "colour"),
+            (lambda: bh.Spheres(xyz, 1, colour=np.full((4, 3), 1.5)), "colour"),
+            (lambda: bh.Spheres(xyz, 1, colour=np.full((4, 3), np.nan)), "colour"),
+            (lambda: bh.Spheres(xyz, 1, colour=np.zeros((3, 3))), "colour"),
+            (lambda: bh.Spheres(xyz, 1, opacity=2), "opacity"),
+            (lambda: bh.Spheres(xyz, 1, cell=np.zeros((2, 3))), "cell"),
+            (lambda: bh.Spheres(xyz, 1, charge=[1, 2]), "charge"),
+            (lambda: bh.Spheres(xyz, 1, columns={"x": [1, 2, 3, 4]}), "columns"),
+        ]:
+            with self.assertRaises(bh.UsageError) as caught:
+                call()
+            self.assertEqual(caught.exception.argument, argument)
+            self.assertTrue(str(caught.exception).startswith(argument + ": "), caught.exception)
+            self.assertIsInstance(caught.exception, ValueError)
+            self.assertIsInstance(pickle.loads(pickle.dumps(caught.exception)), bh.UsageError)
+
+
+class Attributes(unittest.TestCase):
+    def test_colours(self):
+        xyz = np.zeros((2, 3))
+        by_name = bh.Spheres(xyz, 1, colour=["red", "#804020"])
+        by_byte = bh.Spheres(xyz, 1, colour=np.array([[255, 0, 0], [0x80, 0x40, 0x20]], dtype=np.uint8))
+        np.testing.assert_array_equal(by_name["colour"], by_byte["colour"])
+        self.assertAlmostEqual(by_byte["colour"][1, 0], ((128 / 255 + 0.055) / 1.055) ** 2.4, places=6)
+        np.testing.assert_array_equal(bh.Spheres(xyz, 1, colour="blue")["colour"], [[0, 0, 1]] * 2)
+        np.testing.assert_array_equal(bh.Spheres(xyz, 1, colour=(0.5, 0.25, 0))["colour"], [[0.5, 0.25, 0]] * 2)
+
+    def test_elements(self):
+        xyz = np.zeros((3, 3))
+        s = bh.Spheres(xyz, element=["C", "Fe", "cl"])
+        self.assertEqual(s["element"].tolist(), [6, 26, 17])
+        self.assertEqual(s, bh.Spheres(xyz, element=[6, 26, 17]))
+        self.assertAlmostEqual(s.radius[0], 1.7, places=6)
+        self.assertEqual(bh.Spheres(xyz, element="C")["element"].tolist(), [6, 6, 6])
+
+    def test_columns_and_parts(self):
+        s = bh.Spheres(np.arange(30).reshape(10, 3), radius=np.arange(10), charge=np.arange(10) - 5, chain=list("AAAAABBBBB"))
+        self.assertEqual(s.columns, ["charge", "chain"])
+        part = s[bh.select(s, "chain B and charge > 1")]
+        self.assertEqual(part["charge"].tolist(), [2, 3, 4])
+        self.assertEqual(part["chain"].tolist(), ["B"] * 3)
+        self.assertEqual(s[-2:].radius.tolist(), [8, 9])
+        self.assertEqual(len(s[3]), 1)
+        np.testing.assert_array_equal(s["y"], s.xyz[:, 1])
+        with self.assertRaisesRegex(KeyError, "there is no attribute 'mass'; there are x, y, z, radius, charge, chain"):
+            s["mass"]
+        with self.assertRaises(IndexError):
+            s[[12]]
+        with self.assertRaises(TypeError):
+            list(s)
+
+    def test_a_bad_selection_shows_its_place(self):
+        s = bh.Spheres(np.zeros((2, 3)), 1)
+        with self.assertRaises(bh.UsageError) as caught:
+            bh.select(s, "x > 1 and and")
+        self.assertEqual(caught.exception.argument, "")
+        self.assertRegex(str(caught.exception), r"\Aexpression: column 11: [^\n]+\n  x > 1 and and\n {12}\^\Z")
+
+    def test_copies_and_pickles(self):
+        s = bh.Spheres(
+            RNG.normal(size=(20, 3)),
+            radius=RNG.random(20),
+            colour=RNG.random((20, 3)),
+            opacity=0.5,
+            element=6,
+            type=np.arange(20),
+            cell=(1, 2, 3),
+            charge=[np.nan] + [1.0] * 19,
+            label=["a b"] * 20,
+        )
+        for same in [copy.copy(s), copy.deepcopy(s), pickle.loads(pickle.dumps(s)), s[:]]:
+            self.assertEqual(same, s)
+            self.assertEqual(repr(same), "<bihive.Spheres: 20 spheres, element, type, colour, opacity, charge, label>")
+        self.assertNotEqual(s, s[1:])
+        self.assertEqual(s.cell.tolist(), [[1, 0, 0], [0, 2, 0], [0, 0, 3], [0, 0, 0]])
+
+    def test_the_arrays_are_nobody_elses(self):
+        xyz = np.zeros((2, 3))
+        s = bh.Spheres(xyz, 1)
+        xyz[:] = 9
+        s.xyz[:] = 5
+        self.assertEqual(s.xyz.tolist(), [[0, 0, 0], [0, 0, 0]])
+
+    def test_memory(self):
+        s = bh.Spheres(np.zeros((100_000, 3), dtype=np.float32), radius=1)
+        self.assertEqual(s.nbytes, 100_000 * 16)
+
+
+class ColourMap(unittest.TestCase):
+    def test_ends_and_unknown(self):
+        colours = bh.colour_map([0.0, 3.0, 5.0, np.nan], "viridis", range=(0, 3), nan_colour="red")
+        np.testing.assert_array_equal(colours[1], colours[2])
+        np.testing.assert_array_equal(colours[3], [1, 0, 0])
+        self.assertEqual(colours.dtype, np.float32)
+        self.assertLess(colours[0].sum(), colours[1].sum())
+
+    def test_categories(self):
+        colours = bh.colour_map(["a", "b", "a"])
+        np.testing.assert_array_equal(colours[0], colours[2])
+        self.assertTrue((colours[0] != colours[1]).any())
+
+    def test_the_command_lines_colours(self):
+        z = RNG.normal(size=50)
+        s = bh.Spheres(np.c_[np.zeros((50, 2)), z], radius=0.1)
+        coloured = bh.Spheres(s.xyz, radius=0.1, colour=bh.colour_map(s.xyz[:, 2], "magma"))
+        options = dict(size=(40, 30), style="plain")
+        self.assertEqual(bh.render(s, colour_by="z:magma", **options), bh.render(coloured, **options))
+
+    def test_errors(self):
+        for call, argument in [
+            (lambda: bh.colour_map([[1, 2]]), "values"),
+            (lambda: bh.colour_map([1, 2], "rainbow"), "map"),
+            (lambda: bh.colour_map([1, 2], range=(1,)), "range"),
+            (lambda: bh.colour_map([1, 2], range=(2, 1)), "range"),
+            (lambda: bh.colour_map([1, 2], "viridis", range=(0, 1), log=True), "range"),
+            (lambda: bh.colour_map([1, 2], nan_colour="nice"), "nan_colour"),
+        ]:
+            with self.assertRaises(bh.UsageError) as caught:
+                call()
+            self.assertEqual(caught.exception.argument, argument)
+        np.testing.assert_array_equal(bh.colour_map([np.nan], nan_colour="red"), [[1, 0, 0]])
+        self.assertEqual(bh.colour_map([]).shape, (0, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()

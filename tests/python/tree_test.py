@@ -1,0 +1,190 @@
+"""bihive.Tree: answers beside brute force in NumPy and beside the engine that tests every sphere."""
+
+import unittest
+
+import bihive as bh
+import numpy as np
+
+RNG = np.random.default_rng(11)
+
+
+def brute_force(xyz, radius, origin, direction, t_min=0.0, t_max=np.inf):
+    """For each ray and sphere the t where the ray enters the sphere, or leaves it if it begins inside; NaN: neither."""
+    o, d = origin[:, None, :].astype(np.longdouble), direction[:, None, :].astype(np.longdouble)
+    to_centre = xyz[None].astype(np.longdouble) - o
+    a = (d * d).sum(-1)
+    b = (to_centre * d).sum(-1)
+    c = (to_centre * to_centre).sum(-1) - radius[None].astype(np.longdouble) ** 2
+    with np.errstate(invalid="ignore"):
+        root = np.sqrt(b * b - a * c)
+    near, far = (b - root) / a, (b + root) / a
+    limits = [np.asarray(limit)[..., None] for limit in (t_min, t_max)]
+    inside = [(limits[0] <= t) & (t <= limits[1]) for t in (near, far)]
+    return np.where(inside[0], near, np.where(inside[1], far, np.nan))
+
+
+def rays(count):
+    return RNG.normal(size=(count, 3)).astype(np.float32) * 3, RNG.normal(size=(count, 3)).astype(np.float32)
+
+
+class Queries(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.spheres = bh.Spheres(RNG.normal(size=(300, 3)), radius=RNG.random(300) * 0.2, charge=RNG.normal(size=300))
+        cls.xyz, cls.radius = cls.spheres.xyz, cls.spheres.radius
+        cls.tree = bh.Tree(cls.spheres)
+
+    def check(self, t, ids, candidates):
+        nothing = np.isnan(candidates).all(axis=1)
+        filled = np.where(np.isnan(candidates), np.inf, candidates)
+        np.testing.assert_array_equal(ids == -1, nothing)
+        np.testing.assert_array_equal(t[nothing], np.inf)
+        np.testing.assert_array_equal(ids[~nothing], filled.argmin(axis=1)[~nothing])
+        np.testing.assert_allclose(t[~nothing], filled.min(axis=1)[~nothing].astype(float), rtol=1e-9, atol=1e-9)
+
+    def test_closest_beside_numpy(self):
+        origin, direction = rays(5000)
+        t, ids = self.tree.closest(origin, direction)
+        self.assertEqual((t.dtype, ids.dtype, t.shape), (np.float64, np.int64, (5000,)))
+        self.assertGreater((ids >= 0).sum(), 200)
+        self.check(t, ids, brute_force(self.xyz, self.radius, origin, direction))
+
+    def test_limits(self):
+        origin, direction = rays(3000)
+        t_min, t_max = RNG.random(3000) * 2, 2 + RNG.random(3000) * 2
+        t, ids = self.tree.closest(origin, direction, t_min=t_min, t_max=t_max)
+        self.check(t, ids, brute_force(self.xyz, self.radius, origin, direction, t_min, t_max))
+        t, ids = self.tree.closest(origin, direction, t_max=np.float32(1.5))
+        self.check(t, ids, brute_force(self.xyz, self.radius, origin, direction, t_max=np.full(3000, 1.5)))
+
+    def test_the_bits_of_every_engine(self):
+        origin, direction = rays(40_000)
+        expected = bh.Tree(self.spheres, engine="brute").closest(origin, direction)
+        for engine in ["auto", "wide", "reference", "wide-brute"]:
+            for threads in [1, 2]:
+                tree = bh.Tree(self.spheres, engine=engine, threads=threads, max_prims=2)
+                for order in ["any", "blocks"]:
+                    found = tree.closest(origin, direction, order=order)
+                    for one, other in zip(found, expected):
+                        np.testing.assert_array_equal(one.view(np.int64), other.view(np.int64))
+                    np.testing.assert_array_equal(tree.occluded(origin, direction, order=order), expected[1] >= 0)
+
+    def test_all_hits(self):
+        origin, direction = rays(2000)
+        hits = self.tree.all_hits(origin, direction)
+        candidates = brute_force(self.xyz, self.radius, origin, direction)
+        self.assertEqual(len(hits.ray), int((~np.isnan(candidates)).sum()))
+        for ray in range(2000):
+            part = slice(hits.begin[ray], hits.begin[ray + 1])
+            self.assertEqual(set(hits.id[part]), set(np.flatnonzero(~np.isnan(candidates[ray]))))
+            self.assertTrue((np.diff(hits.t[part]) >= 0).all())
+            self.assertTrue((hits.ray[part] == ray).all())
+        t, ids = self.tree.closest(origin, direction)
+        first = hits.begin[:-1][ids >= 0]
+        np.testing.assert_array_equal(hits.t[first], t[ids >= 0])
+        np.testing.assert_array_equal(hits.id[first], ids[ids >= 0])
+
+    def test_layouts_of_rays(self):
+        origin, direction = rays(1000)
+        expected = self.tree.closest(origin, direction)
+        wide = np.zeros((1000, 9), dtype=np.float64)
+        wide[:, 0:6:2], wide[:, 1:7:2] = origin, direction
+        for o, d in [
+            (origin.astype(float), direction),
+            (np.asfortranarray(origin), direction[::-1][::-1]),
+            (wide[:, 0:6:2], wide[:, 1:7:2]),
+            (origin.astype(">f4"), direction.astype(">f8")),
+            (origin.tolist(), memoryview(np.ascontiguousarray(direction))),
+        ]:
+            for one, other in zip(self.tree.closest(o, d), expected):
+                np.testing.assert_array_equal(one, other)
+        # One origin, or one direction, for all.
+        one = self.tree.closest(origin[0], direction)
+        many = self.tree.closest(np.tile(origin[0], (1000, 1)), direction)
+        np.testing.assert_array_equal(one, many)
+        self.assertEqual(self.tree.closest(origin[0], direction[0])[0].shape, (1,))
+        self.assertEqual(self.tree.closest(np.zeros((0, 3)), direction[0])[0].shape, (0,))
+
+    def test_rays_that_hit_nothing(self):
+        origin = np.zeros((5, 3))
+        direction = np.ones((5, 3))
+        origin[0, 0], origin[1, 1], direction[2], direction[3, 2], origin[4, 2] = np.nan, np.inf, 0, np.nan, 1e39
+        everywhere = bh.Tree(bh.Spheres(np.zeros((1, 3)), radius=1e3))
+        t, ids = everywhere.closest(origin, direction)
+        self.assertEqual((t.tolist(), ids.tolist()), ([np.inf] * 5, [-1] * 5))
+        self.assertFalse(everywhere.occluded(origin, direction).any())
+        self.assertEqual(len(everywhere.all_hits(origin, direction).t), 0)
+        self.assertEqual(everywhere.closest([0, 0, 0], [1, 0, 0], t_min=3, t_max=2)[1].tolist(), [-1])
+
+    def test_leaves(self):
+        tree = bh.Tree(bh.Spheres([[0, 0, 0], [9, 0, 0]], radius=[1, 2]))
+        self.assertEqual(tree.closest([0, 1, 0], [1, 0, 0], leaves=0)[1].tolist(), [1])
+        t, ids = tree.closest([-1, 0, 0], [1, 0, 0], leaves=[0], inside=True)
+        self.assertEqual((t.tolist(), ids.tolist()), ([2.0], [0]))
+        self.assertEqual(tree.closest([-1, 0, 0], [1, 0, 0], leaves=[-1])[0].tolist(), [0.0])
+
+    def test_a_part_by_attribute(self):
+        origin, direction = rays(3000)
+        mask = self.spheres["charge"] > 0
+        tree = bh.Tree(self.spheres, select="charge > 0")
+        self.assertEqual(len(tree), int(mask.sum()))
+        t, ids = tree.closest(origin, direction)
+        self.assertTrue(mask[ids[ids >= 0]].all())
+        self.check(t, ids, np.where(mask, brute_force(self.xyz, self.radius, origin, direction), np.nan))
+        np.testing.assert_array_equal(tree.occluded(origin, direction), ids >= 0)
+        hit = int(np.flatnonzero(ids >= 0)[0])
+        again = tree.closest(origin[hit], direction[hit], leaves=ids[hit])
+        self.assertNotEqual(again[1][0], ids[hit])
+        nobody = bh.Tree(self.spheres, select="charge > 1e9")
+        self.assertFalse(nobody.occluded(origin, direction, leaves=3).any())
+
+    def test_many_rays_in_pieces(self):
+        origin, direction = rays(400_000)
+        t, ids = self.tree.closest(origin, direction)
+        for part in [slice(0, 1000), slice(199_500, 200_500), slice(399_000, 400_000)]:
+            some = self.tree.closest(origin[part], direction[part])
+            np.testing.assert_array_equal(t[part], some[0])
+            np.testing.assert_array_equal(ids[part], some[1])
+        hits = self.tree.all_hits(origin, direction)
+        self.assertEqual(hits.begin[-1], len(hits.t))
+        np.testing.assert_array_equal(np.diff(hits.begin) > 0, ids >= 0)
+
+    def test_errors_name_the_argument(self):
+        o, d = np.zeros((4, 3)), np.ones((4, 3))
+        for call, argument in [
+            (lambda: self.tree.closest(np.zeros((4, 2)), d), "origins"),
+            (lambda: self.tree.closest(o, np.ones((5, 3))), "directions"),
+            (lambda: self.tree.closest(o, "abc"), "directions"),
+            (lambda: self.tree.closest(o, d, t_min=[0, 1]), "t_min"),
+            (lambda: self.tree.closest(o, d, t_max="far"), "t_max"),
+            (lambda: self.tree.closest(o, d, leaves=300), "leaves"),
+            (lambda: self.tree.closest(o, d, leaves=0.5), "leaves"),
+            (lambda: self.tree.closest(o, d, inside=[True]), "inside"),
+            (lambda: self.tree.closest(o, d, order="best"), "order"),
+            (lambda: bh.Tree(self.spheres, engine="fast"), "engine"),
+            (lambda: bh.Tree(self.spheres, max_prims=0), "max_prims"),
+            (lambda: bh.Tree(self.spheres, threads=-1), "threads"),
+            (lambda: bh.Tree(self.spheres, select="mass > 1"), "expression"),
+            (lambda: bh.Tree([1, 2]), "spheres"),
+        ]:
+            with self.assertRaises(bh.UsageError) as caught:
+                call()
+            self.assertTrue(str(caught.exception).startswith(argument + ":"), caught.exception)
+        with self.assertRaisesRegex(bh.UsageError, "all_hits needs the wide engine"):
+            bh.Tree(self.spheres, engine="reference").all_hits(o, d)
+
+    def test_statistics(self):
+        import json
+        import os
+        import subprocess
+
+        out = subprocess.run([os.environ["BIHIVE"], "stats", "demo", "--json", "--max-prims", "3"], capture_output=True, text=True)
+        stated = json.loads(out.stdout)
+        found = bh.stats(bh.read("demo"), max_prims=3)
+        self.assertEqual(found.keys(), stated.keys())
+        for key in ["spheres", "inner_nodes", "leaves"]:
+            self.assertEqual(found[key], stated[key])
+
+
+if __name__ == "__main__":
+    unittest.main()
