@@ -12,6 +12,7 @@
 #include "film/film_plan.h"
 #include "server/addresses.h"
 #include "support/failure.h"
+#include "words/read_program_words.h"
 
 namespace bihive::cli {
 namespace {
@@ -614,6 +615,8 @@ Request parse_words(int argc, const char* const* argv, bool with_film) {
   add_convert(app, convert, request);
   add_thesis(app, thesis, request);
   add_web(app, web, request);
+  // Manual pages and completions, for the build: --help does not list it.
+  if (argc > 1 && std::string(argv[1]) == "describe") return HelpText{describe(app, {argv + 2, argv + argc}), true};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

@@ -1,0 +1,48 @@
+// The words of the command line as data. Manual pages and completions are written from them, so that they say what
+// --help says.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace bihive::cli {
+
+/// What may stand in the place of a value, as far as a shell can offer it.
+struct Candidates {
+  std::vector<std::string> words;  ///< "shaded", "tree"
+  bool files = false;
+  bool folders = false;
+};
+
+struct OptionWords {
+  std::vector<std::string> names;  ///< "-o", "--output"; none: a place without a name
+  std::string place;               ///< "INPUT", if it is a word without a name; else empty
+  std::string type;                ///< "WxH"; empty: a switch, or a place that its name describes
+  std::string help;                ///< in one line
+  bool required = false;
+  bool takes_value = false;
+  bool repeatable = false;
+  Candidates candidates;
+};
+
+struct CommandWords {
+  std::string name;  ///< "render"; that of the program itself: "bihive"
+  std::string help;
+  std::vector<OptionWords> options;  ///< in the order of --help
+  std::vector<std::string> examples;
+};
+
+struct ProgramWords {
+  CommandWords program;
+  std::vector<CommandWords> commands;
+  std::string version;  ///< "0.1.0"
+};
+
+/// The manual page of the program (`command` empty) or of a command, for man(1). An unknown command has none: "".
+std::string man_page(const ProgramWords& words, const std::string& command);
+
+std::string bash_completion(const ProgramWords& words);
+std::string zsh_completion(const ProgramWords& words);
+std::string fish_completion(const ProgramWords& words);
+
+}  // namespace bihive::cli

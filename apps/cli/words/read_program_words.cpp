@@ -1,0 +1,119 @@
+#include "words/read_program_words.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "bihive/base/version.h"
+#include "bihive/scene/camera_lights.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/scene/style.h"
+#include "support/failure.h"
+#include "thesis/experiment.h"
+
+namespace bihive::cli {
+namespace {
+
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts{""};
+  for (const char c : text)
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+// "N|auto" offers auto: a word in lower case stands for itself, one in upper case for something that it names.
+bool stands_for_itself(const std::string& word) {
+  constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_-.";
+  return !word.empty() && word.find_first_not_of(kAllowed) == std::string::npos;
+}
+
+Candidates candidates_of_type(const std::string& type) {
+  Candidates found;
+  for (const std::string& part : split(type, '|')) {
+    if (stands_for_itself(part)) found.words.push_back(part);
+    if (part == "FILE") found.files = true;
+    if (part == "DIR") found.folders = true;
+    if (part == "PRESET")
+      for (const auto& [name, rig] : light_presets()) found.words.push_back(name);
+    if (part == "NAME") found.words.insert(found.words.end(), style_names().begin(), style_names().end());
+  }
+  return found;
+}
+
+Candidates candidates_of_place(const std::string& place, const std::string& command) {
+  Candidates found;
+  if (place == "EXPERIMENT") {
+    found.words.emplace_back("all");
+    for (const thesis::Experiment& experiment : thesis::all_experiments()) found.words.push_back(experiment.id);
+  } else if (place == "INPUT" || place == "NAME") {
+    for (const char* name : kBuiltInScenes)
+      if (place == "INPUT" || std::string(name) != "demo") found.words.emplace_back(name);
+  }
+  found.files = (place == "INPUT" || place == "TRAJECTORY") && command != "scene";
+  return found;
+}
+
+OptionWords read_option(const CLI::Option& option, const std::string& command) {
+  OptionWords words;
+  for (const std::string& name : option.get_snames()) words.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) words.names.push_back("--" + name);
+  if (option.get_positional()) words.place = option.get_name(/*positional=*/true);
+  words.type = option.get_items_expected_max() > 0 ? option.get_type_name() : "";
+  words.help = in_one_line(option.get_description());
+  words.required = option.get_required();
+  words.takes_value = option.get_items_expected_max() > 0;
+  words.repeatable = option.get_expected_max() > 1 || option.get_trigger_on_parse();
+  words.candidates =
+      words.place.empty() ? candidates_of_type(words.type) : candidates_of_place(words.place, command);
+  return words;
+}
+
+// Lines of the footer below "Examples:".
+std::vector<std::string> read_examples(const std::string& footer) {
+  std::vector<std::string> examples;
+  for (const std::string& line : split(footer, '\n'))
+    if (line.compare(0, 2, "  ") == 0) examples.push_back(line.substr(2));
+  return examples;
+}
+
+CommandWords read_command(const CLI::App& app) {
+  CommandWords words{app.get_name(), in_one_line(app.get_description()), {}, read_examples(app.get_footer())};
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty()) words.options.push_back(read_option(*option, words.name));
+  return words;
+}
+
+}  // namespace
+
+ProgramWords read_program_words(const CLI::App& app) {
+  ProgramWords words{read_command(app), {}, std::string(version())};
+  for (const CLI::App* command : app.get_subcommands(/*filter=*/nullptr))
+    words.commands.push_back(read_command(*command));
+  return words;
+}
+
+std::string describe(const CLI::App& app, const std::vector<std::string>& words) {
+  const ProgramWords program = read_program_words(app);
+  const std::string what = words.empty() ? "" : words.front();
+  std::string text;
+  if (what == "commands" && words.size() == 1) {
+    for (const CommandWords& command : program.commands) text += command.name + "\n";
+  } else if (what == "man" && words.size() <= 2) {
+    text = man_page(program, words.size() == 2 ? words[1] : "");
+  } else if (words.size() == 1) {
+    if (what == "bash") text = bash_completion(program);
+    if (what == "zsh") text = zsh_completion(program);
+    if (what == "fish") text = fish_completion(program);
+  }
+  if (text.empty()) fail_usage("bihive describe knows: commands, man [COMMAND], bash, zsh, fish", "see docs/packages.md");
+  return text;
+}
+
+}  // namespace bihive::cli
