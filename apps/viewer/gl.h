@@ -12,6 +12,7 @@ namespace bihive::window {
   X(void, Clear, (GLbitfield))                                                                      \
   X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                         \
   X(void, DeleteTextures, (GLsizei, const GLuint*))                                                 \
+  X(void, Finish, ())                                                                               \
   X(void, GenTextures, (GLsizei, GLuint*))                                                          \
   X(const GLubyte*, GetString, (GLenum))                                                            \
   X(void, PixelStorei, (GLenum, GLint))                                                             \

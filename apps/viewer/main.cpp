@@ -10,6 +10,7 @@
 #include "bihive/scene/load_scene.h"
 #include "bihive/viewer/load_file.h"
 #include "bihive/viewer/viewer_json.h"
+#include "shown_frames_window.h"
 
 namespace bihive::window {
 namespace {
@@ -45,6 +46,13 @@ int run(int argc, char** argv) {
   if (argc != 2) return fail({"this program is started by `bihive view`", "", 0, 0, ""}, kBadUsage);
   const Result<Request> request = request_from_json(argv[1]);
   if (!request) return fail(request.error(), kBadUsage);
+  if (!request->shown_frames.empty()) {
+    if (const Status status = check_writable(request->shown_frames); !status) return fail(status.error(), kBadInput);
+    const Result<std::string> json = measure_shown_frames(request->seconds);
+    if (!json) return fail(json.error(), kEnvironment);
+    const Status status = write_file(request->shown_frames, *json);
+    return status ? kSuccess : fail(status.error(), kBadInput);
+  }
   if (!request->screenshot.empty())
     if (const Status status = check_writable(request->screenshot); !status) return fail(status.error(), kBadInput);
   Viewer viewer;

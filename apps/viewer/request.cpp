@@ -11,6 +11,11 @@ using nlohmann::json;
 
 Request take(const json& document) {
   Request request;
+  if (document.contains("shown_frames")) {
+    request.shown_frames = document.at("shown_frames").get<std::string>();
+    request.seconds = document.value("seconds", request.seconds);
+    return request;
+  }
   request.input = document.at("input").get<std::string>();
   request.scenario.count = document.value("count", request.scenario.count);
   request.scenario.seed = document.value("seed", request.scenario.seed);

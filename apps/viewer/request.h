@@ -8,6 +8,9 @@
 //    "size": [1280, 800], "view_from": "left",
 //    "settings": {...}, "look": {...},       as in viewer/viewer_json.h; missing ones are the scene's
 //    "screenshot": "window.png"}
+//
+// scripts/shown_frames starts it with {"shown_frames": "frames.json", "seconds": 2}, and nothing else: the window shows
+// the configurations of the thesis's Figure 4.4, writes how many frames a second it showed, and ends.
 #pragma once
 
 #include <optional>
@@ -30,6 +33,8 @@ struct Request {
   std::string settings = "{}";
   std::string look = "{}";
   std::string screenshot;  ///< not empty: a PNG of the settled window is written there, and the program ends
+  std::string shown_frames;  ///< not empty: frames shown a second are written there as JSON, and the program ends
+  double seconds = 2;        ///< of each such measurement
 };
 
 Result<Request> request_from_json(std::string_view text);

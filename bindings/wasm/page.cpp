@@ -3,6 +3,7 @@
 #include <emscripten/bind.h>
 #include <emscripten/html5_webgl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -60,6 +61,23 @@ ordered_json names_json(const Names<T>& names) {
 
 Result<StatedValues> stated_values() {
   return StatedValues::parse(builtin_values_figure_4_4(), "thesis/figure-4.4/values.json");
+}
+
+// A full run of the thesis ends in about ten minutes, a quick one in about one: slower devices draw smaller pictures.
+constexpr double kThesisSeconds = 600, kQuickThesisSeconds = 60;
+
+MeasuringDevice device_from(const std::string& text) {
+  const ordered_json json = ordered_json::parse(text, nullptr, /*allow_exceptions=*/false);
+  MeasuringDevice device;
+  if (!json.is_object()) return device;
+  for (const auto& [name, value] : json.items()) {
+    if (!value.is_string()) continue;
+    if (name == "device")
+      device.words = value.get<std::string>();
+    else
+      device.facts.emplace_back(name, value.get<std::string>());
+  }
+  return device;
 }
 
 std::string done_or(const Status& status) {
@@ -283,14 +301,18 @@ std::string Page::frame(double budget_ms) {
   });
 }
 
-std::string Page::take_image() {
-  const Image& image = viewer_.image();
+void Page::take_pixels(const Image& image) {
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   pixels_.resize(4 * pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     for (std::size_t channel = 0; channel < 3; ++channel) pixels_[4 * i + channel] = image.rgb[3 * i + channel];
     pixels_[4 * i + 3] = 255;
   }
+}
+
+std::string Page::take_image() {
+  const Image& image = viewer_.image();
+  take_pixels(image);
   return text_of({{"width", image.width}, {"height", image.height}});
 }
 
@@ -322,14 +344,14 @@ std::string Page::take_picture() {
   });
 }
 
-std::string Page::begin_thesis(bool quick) {
+std::string Page::begin_thesis(bool quick, const std::string& saved) {
   return with_memory([&] {
     const Result<StatedValues> values = stated_values();
     if (!values) return failure(values.error());
-    const Result<FrameRatePlan> plan = FrameRatePlan::from_values(*values);
+    Result<FrameRatePlan> plan = FrameRatePlan::from_values(*values);
     if (!plan) return failure(plan.error());
-    thesis_.reset();
-    thesis_gl_.reset();
+    if (quick) plan = plan->quickly();
+    end_thesis();
     if (viewer_.settings().engine == ViewerEngine::gpu) {
       Result<GlRenderer> renderer = GlRenderer::create(browser_gl_functions());
       if (!renderer) return failure(renderer.error());
@@ -337,8 +359,20 @@ std::string Page::begin_thesis(bool quick) {
     }
     FrameEngine engine;
     engine.gl = thesis_gl_ ? &*thesis_gl_ : nullptr;
-    thesis_.emplace(quick ? plan->quickly() : *plan, engine);
-    return std::string("{}");
+    const std::optional<SavedFrameRates> earlier = saved_frame_rates(saved);
+    const bool same = earlier && earlier->engine == thesis_engine() && earlier->quick == quick &&
+                      earlier->rounds == plan->rounds && earlier->width_px <= plan->width_px;
+    if (same) {
+      plan->width_px = earlier->width_px;
+      plan->height_px = earlier->height_px;
+    } else {
+      plan = plan->within(quick ? kQuickThesisSeconds : kThesisSeconds, engine);
+      if (!plan) return failure(plan.error());
+    }
+    thesis_.emplace(*plan, engine);
+    if (same) thesis_->resume(earlier->rates);
+    return text_of(
+        {{"width_px", plan->width_px}, {"height_px", plan->height_px}, {"resumed", thesis_->rates().size()}});
   });
 }
 
@@ -356,17 +390,66 @@ std::string Page::step_thesis() {
   });
 }
 
-std::string Page::end_thesis(const std::string& device) {
+std::string Page::thesis_so_far(const std::string& device) const {
   return with_memory([&] {
     if (!thesis_) return failure({"no run of the thesis has begun", "", 0, 0, ""});
     const Result<StatedValues> values = stated_values();
     if (!values) return failure(values.error());
-    const std::string engine = thesis_gl_ ? "gpu" : "cpu";
     ordered_json json;
-    json["result"] = frame_rates_json(*thesis_, *values, engine, device);
+    json["result"] = frame_rates_json(*thesis_, *values, thesis_engine(), device_from(device));
     json["charts"] = frame_rates_charts(*thesis_, *values, "this device");
-    thesis_.reset();
-    thesis_gl_.reset();
+    return text_of(json);
+  });
+}
+
+void Page::end_thesis() {
+  thesis_.reset();
+  thesis_gl_.reset();
+}
+
+std::string Page::begin_shown_frames(double seconds) {
+  return with_memory([&] {
+    const Result<StatedValues> values = stated_values();
+    if (!values) return failure(values.error());
+    Result<ShownFramesPlan> plan = ShownFramesPlan::from_values(*values);
+    if (!plan) return failure(plan.error());
+    plan->measure_for(seconds);
+    shown_frames_.emplace(std::move(*plan));
+    return std::string("{}");
+  });
+}
+
+std::string Page::draw_shown_frame() {
+  return with_memory([&] {
+    if (!shown_frames_) return failure({"no frames are measured", "", 0, 0, ""});
+    const Result<const Image*> image = shown_frames_->draw();
+    if (!image) return failure(image.error());
+    take_pixels(**image);
+    return text_of({{"width", (*image)->width}, {"height", (*image)->height}});
+  });
+}
+
+std::string Page::frame_is_shown(double now_ms) {
+  return with_memory([&] {
+    if (!shown_frames_) return failure({"no frames are measured", "", 0, 0, ""});
+    shown_frames_->shown(now_ms);
+    const std::vector<ShownRate>& rates = shown_frames_->rates();
+    const ShownRate& now = rates[std::min(shown_frames_->measured(), rates.size() - 1)];
+    return text_of({{"finished", shown_frames_->finished()},
+                    {"done", static_cast<double>(shown_frames_->measured()) / static_cast<double>(rates.size())},
+                    {"scenario", now.scenario},
+                    {"spheres", now.spheres},
+                    {"max_prims", now.max_prims ? ordered_json(*now.max_prims) : ordered_json()},
+                    {"turning", now.turning}});
+  });
+}
+
+std::string Page::end_shown_frames(const std::string& device) {
+  return with_memory([&] {
+    if (!shown_frames_) return failure({"no frames are measured", "", 0, 0, ""});
+    ordered_json json;
+    json["result"] = shown_frames_->json("page", device_from(device).words);
+    shown_frames_.reset();
     return text_of(json);
   });
 }
@@ -422,5 +505,10 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("statistics", &Page::statistics)
       .function("begin_thesis", &Page::begin_thesis)
       .function("step_thesis", &Page::step_thesis)
-      .function("end_thesis", &Page::end_thesis);
+      .function("thesis_so_far", &Page::thesis_so_far)
+      .function("end_thesis", &Page::end_thesis)
+      .function("begin_shown_frames", &Page::begin_shown_frames)
+      .function("draw_shown_frame", &Page::draw_shown_frame)
+      .function("frame_is_shown", &Page::frame_is_shown)
+      .function("end_shown_frames", &Page::end_shown_frames);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bihive/thesis/frame_rates.h"
+#include "bihive/thesis/shown_frames.h"
 #include "bihive/io/frames.h"
 #include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
@@ -91,16 +92,33 @@ class Page {
 
   // Figure 4.4, one step for each call.
 
-  std::string begin_thesis(bool quick);
+  /// Pictures are smaller where the run would take more than ten minutes, of a quick run one. `saved`: the result of an
+  /// earlier run that was not completed, or any other text; its measurements are kept if it is one of the same plan and
+  /// engine. Answers {"width_px", "height_px", "resumed": configurations that are done}.
+  std::string begin_thesis(bool quick, const std::string& saved);
   /// {"finished", "done", "seconds_left", "configurations_done", "configurations", "scenario", "spheres"}.
   std::string step_thesis();
-  /// The results so far: {"result": JSON text, "charts": [SVG text]}.
-  std::string end_thesis(const std::string& device);
+  /// The results so far: {"result": JSON text, "charts": [SVG text]}. `device`: a JSON object with "device", words, and
+  /// other texts by name.
+  std::string thesis_so_far(const std::string& device) const;
+  void end_thesis();
+
+  // Frames shown a second (thesis/shown_frames.h). The caller draws a picture, shows it, and says when it is shown.
+
+  std::string begin_shown_frames(double seconds);
+  /// {"width", "height"}, and the pixels as a view of memory by pixels().
+  std::string draw_shown_frame();
+  /// {"finished", "done": 0 to 1, "scenario", "spheres", "max_prims" (null: the wide engine), "turning"}
+  std::string frame_is_shown(double now_ms);
+  /// {"result": JSON text}
+  std::string end_shown_frames(const std::string& device);
 
  private:
   void start_player();
   Status show_frame(std::int64_t frame);
   std::string loaded(const Result<SceneFacts>& facts) const;
+  void take_pixels(const Image& image);
+  const char* thesis_engine() const { return thesis_gl_ ? "gpu" : "cpu"; }
 
   Viewer viewer_;
   std::shared_ptr<const Frames> frames_;  // null: there is one
@@ -110,6 +128,7 @@ class Page {
   std::vector<std::uint8_t> pixels_;
   std::optional<GlRenderer> thesis_gl_;
   std::optional<FrameRateRun> thesis_;
+  std::optional<ShownFrames> shown_frames_;
 };
 
 }  // namespace bihive::page

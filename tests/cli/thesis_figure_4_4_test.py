@@ -129,6 +129,26 @@ class Figure44(ProgramTest):
         ]
         self.assertEqual(ticks[0], ticks[1], "one scale")
 
+    def test_only_the_texts_own_engine_is_measured_by_its_words(self):
+        """Another engine that behaves otherwise contradicts nobody, and one that behaves alike confirms nothing."""
+        self.write_values()
+        # The gains are 900 %: within a factor of 2 of the stated ones, and far from 9 %.
+        for stated, verdict in [(1495, "agrees"), (9, "differs")]:
+            changes = {"scenario2__gain_percent__best": stated}
+            experiment = self.with_frames(self.frames([20, 20, 20], [10, 10, 10]), **changes)
+            kinds = {finding["name"]: finding["kind"] for finding in experiment["findings"]}
+            (gain,) = [f for f in experiment["findings"] if f["name"] == "reference.scenario2.gain_percent.best"]
+            self.assertEqual((gain["verdict"], gain["kind"]), (verdict, "inferred"), "how near is near is ours")
+            self.assertIn("within a factor of 2", gain["expected"])
+            for name in ["winner", "worst", "best", "curve.scenario2.spheres64"]:
+                self.assertEqual(kinds["reference." + name], "stated", name)
+                self.assertEqual(kinds["wide." + name], "inferred", name)
+            self.assertEqual(kinds["deviation.spheres64"], "inferred")
+            # Brute force is the text's on every engine: each ray against each sphere.
+            self.assertEqual(kinds["wide.independence.spheres64"], "stated")
+            note = self.table(experiment, "Which MAX_PRIMS wins where", "wide")["note"]
+            self.assertIn("our inference", note)
+
     def test_what_rays_do_is_counted(self):
         experiment = self.without_egl(lambda: self.measure())
         for row in experiment["data"]["counts"]:

@@ -289,6 +289,32 @@ class Report(ProgramTest):
             self.assertIn(file + ": ", self.fail_input("thesis", "section-d", "--quick", "--out", "bad", "--device", file))
         self.assertFalse(os.path.exists(self.path("bad")))
 
+    def test_frames_on_a_screen_have_a_part_of_their_own(self):
+        configurations = [
+            {"scenario": scenario, "spheres": spheres, "max_prims": max_prims, "turning": turning,
+             "frames": frames, "seconds": 2.0, "fps": frames / 2}
+            for scenario in (1, 2, 3) for spheres in (64, 128, 256)
+            for max_prims, frames in [(None, 240), (8, 55)] for turning in (False, True)
+        ]
+        shown = {"experiment": "shown-frames", "by": "window", "device": "a <screen>", "width_px": 1136, "height_px": 640,
+                 "seconds": 2.0, "threads": 2, "complete": True, "configurations": configurations}
+        self.write("shown.json", json.dumps(shown))
+        self.succeed("thesis", "section-d", "--quick", "--out", "out", "--device", "shown.json")
+        results, report = self.results("out"), self.report("out")
+        self.assertNotIn("devices", results)
+        self.assertEqual(
+            [(each["by"], each["engine"], each["turning"], len(each["rates"])) for each in results["shown_frames"]],
+            [("window", "wide", False, 9), ("window", "wide", True, 9), ("window", "BIH 8", False, 9), ("window", "BIH 8", True, 9)],
+        )
+        self.assertEqual({rate["fps"] for rate in results["shown_frames"][2]["rates"]}, {27.5})
+        self.assertIn("a &lt;screen&gt;", report)
+        self.assertIn("Frames on a screen", report)
+        self.assertIn("27.5", report)
+        for name, value in [("frames", 0), ("seconds", 0), ("turning", 3)]:
+            wrong = [{**configurations[0], name: value}]
+            self.write("bad.json", json.dumps({**shown, "configurations": wrong}))
+            self.assertIn("bad.json: ", self.fail_input("thesis", "section-d", "--quick", "--out", "bad", "--device", "bad.json"))
+
     def test_an_older_run_that_is_none(self):
         self.write("bad.json", "{}")
         self.write("text.json", '{"bihive_results": "2", "experiments": []}')
@@ -362,7 +388,7 @@ class Report(ProgramTest):
             ("A larger MAX_PRIMS needs less memory", "shape_only"),
             ("At recursion depth 1 the transparent sphere is dark grey", "inferred"),
             ("Radii of 0.001 avoid overlaps that could make a wrong tree", "own_check"),
-            ("In Scenario 1 nodes overlap more, since many primitives lie in a small volume", "contradicted"),
+            ("In Scenario 1 nodes overlap more, since many primitives lie in a small volume", "not_inferred"),
         ]:
             self.assertEqual(verdicts[words], verdict, words)
         report = self.report("out")

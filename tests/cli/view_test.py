@@ -436,6 +436,31 @@ class Window(ProgramTest):
         self.press("q")
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
+    def test_frames_shown_are_counted(self):
+        request = json.dumps({"shown_frames": self.path("shown.json"), "seconds": 0.01})
+        command = [os.environ["BIHIVE_VIEW"], request]
+        done = subprocess.run(command, env=self.screen.environment(), capture_output=True, text=True, timeout=PATIENCE_S)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        shown = json.loads(self.read("shown.json"))
+        self.assertEqual((shown["by"], shown["complete"], shown["width_px"], shown["height_px"]), ("window", True, 1136, 640))
+        self.assertRegex(shown["device"], "the window by .+")
+        found = [(one["scenario"], one["spheres"], one["max_prims"], one["turning"]) for one in shown["configurations"]]
+        wanted = [
+            (scenario, spheres, tree, turning)
+            for scenario in (1, 2, 3) for spheres in (64, 128, 256) for tree in (None, 8) for turning in (False, True)
+        ]
+        self.assertEqual(found, wanted)
+        for one in shown["configurations"]:
+            self.assertGreaterEqual(one["seconds"], 0.01)
+            self.assertAlmostEqual(one["fps"], one["frames"] / one["seconds"])
+        self.succeed("thesis", "section-d", "--quick", "--out", "out", "--device", "shown.json")
+        self.assertIn("Frames on a screen", self.read("out/report.html").decode())
+
+        command[1] = json.dumps({"shown_frames": self.path("none/shown.json")})
+        done = subprocess.run(command, env=self.screen.environment(), capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assert_one_error_line(done.stderr)
+
     def title(self, expected):
         """Waits until the window has that name."""
         deadline = time.monotonic() + PATIENCE_S

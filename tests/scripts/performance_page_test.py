@@ -98,6 +98,15 @@ class PerformancePageTest(unittest.TestCase):
         self.assertTrue(rows["random"].endswith("| aim met |"), rows["random"])
         self.assertTrue(rows["bytes a sphere, at most"].endswith("| met |"))
 
+    def test_frames_of_the_thesis_count_with_their_bytes(self):
+        """The floor is that of the instruction set: 200 frames a second are enough on AVX2 and too few on AVX-512."""
+        frames = {"scenario": 1, "spheres": 64, "render_ms": 3, "fps": 333, "fps_with_bytes": 200}
+        for target, said in [("avx2", "met"), ("avx512", "missed by 17 %"), ("sse4", "")]:
+            run = {"threads": 2, "target": target, "configurations": [frames]}
+            page = self.generate([report("thesis", [run])])
+            self.assertIn(f"| scenario 1, 64 spheres | 3.00 | 333 | 200 | {said} |", page)
+            shutil.rmtree(self.folder / "measured")
+
     def test_a_section_says_its_own_machine_commit_date_and_command(self):
         wide = report("scenes", [result_of("s1", 1, 3)])
         narrow = dict(report("avx2", [dict(result_of("s1", 1, 3), target="avx2")]), commit="fedcba321", date="2026-03-04")

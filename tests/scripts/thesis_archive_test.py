@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,10 +21,14 @@ class ThesisArchive(unittest.TestCase):
 
     def archive(self, *options, busy=False, exit_code=0):
         """Runs the script with a program that writes such a report, and says with which arguments it was called."""
-        results = json.dumps({"load": {"busy": busy, "most_others": 0.4 if busy else 0.01}})
+        results = json.dumps(
+            {"load": {"busy": busy, "most_others": 0.4 if busy else 0.01}, "experiments": [{"id": "ä", "data": [0.1]}, {}]}
+        )
         program = self.folder / "bihive"
         program.write_text(
             f"#!{sys.executable}\nimport os, sys\nassert sys.argv[1:5] == ['thesis', 'all', '--out', 'report'], sys.argv\n"
+            f"for name in sys.argv[5::2]: assert name in ('--device', '--quick'), sys.argv\n"
+            f"for name in sys.argv[6::2]: assert os.path.isfile(name), name\n"
             f"os.mkdir('report')\nopen('report/results.json', 'w').write({results!r})\n"
             f"open('report/report.html', 'w').write({PAGE!r})\nsys.exit({exit_code})\n"
         )
@@ -40,6 +45,25 @@ class ThesisArchive(unittest.TestCase):
         self.assertNotIn("base64", page)
         for kept in ["<h1>r</h1>", "<figcaption>c</figcaption>", "<svg></svg>", "left out of the archive"]:
             self.assertIn(kept, page)
+
+    def test_results_are_the_same_in_fewer_bytes(self):
+        out, done = self.archive()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (out / "results.json").read_text(encoding="utf-8")
+        self.assertEqual(json.loads(text)["experiments"], [{"id": "ä", "data": [0.1]}, {}])
+        self.assertIn('\n{"id":"ä","data":[0.1]},\n{}\n', text)
+
+    def test_files_of_devices_are_shown_and_kept(self):
+        phone = self.folder / "phone.json"
+        phone.write_text("{}")
+        out, done = self.archive("--device", phone)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((out / "phone.json").read_text(), "{}")
+        shutil.rmtree(out)
+        out, done = self.archive("--device", self.folder / "none.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("none.json is not there", done.stderr)
+        self.assertFalse(out.exists())
 
     def test_a_busy_machine_is_refused_unless_it_is_asked_for(self):
         out, done = self.archive(busy=True)

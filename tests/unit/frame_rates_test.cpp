@@ -143,8 +143,11 @@ TEST(MeasuredRate, IsOfTheMedianRound) {
 TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
   FrameRateRun run(small_plan(), {});
   while (!run.finished()) ASSERT_TRUE(run.step());
-  const auto json = nlohmann::json::parse(frame_rates_json(run, stated_values().value(), "cpu", "a \"device\" \xff"));
+  const auto json = nlohmann::json::parse(frame_rates_json(run, stated_values().value(), "cpu", {"a \"device\" \xff", {{"browser", "a browser"}, {"gpu", "a processor"}}}));
   EXPECT_EQ(json["engine"], "cpu");
+  EXPECT_EQ(json["browser"], "a browser");
+  EXPECT_EQ(json["gpu"], "a processor");
+  EXPECT_DOUBLE_EQ(json["drift"].get<double>(), drift_of(run.rates()));
   EXPECT_EQ(json["complete"], true);
   ASSERT_EQ(json["configurations"].size(), 6u);
   EXPECT_TRUE(json["configurations"][0]["max_prims"].is_null());
@@ -156,6 +159,76 @@ TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
   EXPECT_EQ(json["stated"]["brute.fps.spheres256"]["value"], 1.87);
   // Values that we inferred, because the thesis states none, do not count as stated.
   EXPECT_FALSE(json["stated"].contains("width_px"));
+}
+
+TEST(FrameRatesReport, DriftIsOfTheLastRoundOverTheFirst) {
+  EXPECT_DOUBLE_EQ(drift_of({}), 1);
+  EXPECT_DOUBLE_EQ(drift_of({{1, 64, std::nullopt, {10}}}), 1) << "one round drifts nowhere";
+  EXPECT_DOUBLE_EQ(drift_of({{1, 64, std::nullopt, {10, 90, 11}}, {1, 64, 1, {5, 6}}, {1, 64, 8, {2, 2}}}), 1.1);
+}
+
+// As after a page that was closed: what was complete is kept, the rest is measured.
+TEST(FrameRateRun, GoesOnWhereAnEarlierRunStopped) {
+  FrameRateRun first(small_plan(), {});
+  while (first.rates().empty()) ASSERT_TRUE(first.step());
+  const std::optional<SavedFrameRates> saved =
+      saved_frame_rates(frame_rates_json(first, stated_values().value(), "gpu", {"d"}));
+  ASSERT_TRUE(saved);
+  EXPECT_EQ(saved->engine, "gpu");
+  EXPECT_EQ(saved->width_px, 16);
+  EXPECT_EQ(saved->rounds, 3);
+  ASSERT_EQ(saved->rates.size(), 3u);
+
+  FrameRateRun second(small_plan(), {});
+  second.resume(saved->rates);
+  EXPECT_EQ(second.rates().size(), 3u);
+  EXPECT_EQ(second.scenario(), 2);
+  EXPECT_NEAR(second.done(), 0.5, 1e-9);
+  EXPECT_EQ(second.seconds_left(), 0) << "nothing was measured by this run";
+  int steps = 0;
+  for (; !second.finished(); ++steps) ASSERT_TRUE(second.step());
+  EXPECT_EQ(steps, 3 * 4);
+  ASSERT_EQ(second.rates().size(), 6u);
+  EXPECT_EQ(second.rates()[1].frame_ms, first.rates()[1].frame_ms);
+
+  FrameRateRun third(small_plan(), {});
+  third.resume(second.rates());
+  EXPECT_TRUE(third.finished());
+}
+
+TEST(FrameRateRun, TakesNoRatesOfAnotherPlan) {
+  std::vector<MeasuredRate> rates{{1, 64, std::nullopt, {1, 1, 1}}, {1, 64, 1, {1, 1, 1}}, {1, 64, 8, {1, 1, 1}}};
+  const auto taken = [](const std::vector<MeasuredRate>& from) {
+    FrameRateRun run(small_plan(), {});
+    run.resume(from);
+    return run.rates().size();
+  };
+  EXPECT_EQ(taken(rates), 3u);
+  rates[2].frame_ms.pop_back();
+  EXPECT_EQ(taken(rates), 0u) << "a round is missing";
+  rates[2].frame_ms.push_back(1);
+  rates[2].max_prims = 4;
+  EXPECT_EQ(taken(rates), 0u);
+  rates.pop_back();
+  EXPECT_EQ(taken(rates), 0u) << "half a group";
+  EXPECT_FALSE(saved_frame_rates("{}"));
+  EXPECT_FALSE(saved_frame_rates("no JSON"));
+}
+
+// No time at all leaves the smallest pictures; an hour those of the plan.
+TEST(FrameRatePlan, ShrinksPicturesUntilTheRunEndsInTime) {
+  FrameRatePlan plan = small_plan();
+  plan.width_px = 160;
+  plan.height_px = 96;
+  const Result<FrameRatePlan> whole = plan.within(3600, {});
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->width_px, 160);
+  const Result<FrameRatePlan> least = plan.within(0, {});
+  ASSERT_TRUE(least);
+  EXPECT_EQ(least->width_px, 20);
+  EXPECT_EQ(least->height_px, 12);
+  EXPECT_EQ(least->rounds, plan.rounds);
+  EXPECT_EQ(least->max_prims, plan.max_prims);
 }
 
 TEST(FrameRatesReport, DrawsWhatIsComplete) {

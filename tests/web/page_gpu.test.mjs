@@ -234,35 +234,65 @@ test('a context that is lost comes back with the picture', async () => {
   await context.close();
 });
 
+// A scene that software draws quickly.
+async function draw_a_little_by_gpu(page) {
+  await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  await choose_gpu(page);
+}
+
 for (const engine of ['cpu', 'gpu'])
   test(`the thesis on this device, by the ${engine}`, async () => {
     const { page, context, complaints } = await open_page(browser, `${server.url}?quick`, {
-      viewport: { width: 900, height: 700 },
+      viewport: { width: 800, height: 400 },
     });
-    if (engine === 'gpu') await choose_gpu(page);
+    if (engine === 'gpu') await draw_a_little_by_gpu(page);
     await page.click('#thesis_open');
     assert.ok(await page.isChecked('#thesis_quick'));
 
-    // Cancelled while it runs; the complete results are kept.
+    // Cancelled while it runs; the complete results are kept, and a later visit goes on from them.
+    const text = () => page.textContent('#thesis_text');
+    const until = (words) =>
+      page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#thesis_text').textContent), words);
+    assert.equal(await page.textContent('#thesis_run'), 'Run');
+    assert.ok(await page.isHidden('#thesis_anew'));
     await page.click('#thesis_run');
-    await page.waitForFunction(() => /^[1-9]\d* of 54 configurations, about /.test(document.querySelector('#thesis_text').textContent));
+    await until('^([6-9]|[1-5]\\d) of 54 configurations, about ');
     await page.click('#thesis_cancel');
-    await page.waitForFunction(() => /^Cancelled/.test(document.querySelector('#thesis_text').textContent));
-    assert.ok(await page.isVisible('#thesis_run'));
+    await until('^Cancelled');
+    assert.equal(await page.textContent('#thesis_run'), 'Continue');
+    await page.reload();
+    await settled(page);
+    if (engine === 'gpu') await draw_a_little_by_gpu(page);
+    await page.click('#thesis_open');
+    assert.equal(await page.textContent('#thesis_run'), 'Continue');
+    // What was kept is of this engine and size alone.
+    await page.uncheck('#thesis_quick');
+    assert.equal(await page.textContent('#thesis_run'), 'Run');
+    await page.check('#thesis_quick');
+    assert.ok(await page.isVisible('#thesis_anew'));
 
-    // To the end.
-    if (engine === 'cpu') {
-      await page.click('#thesis_run');
-      await page.waitForFunction(() => /All configurations/.test(document.querySelector('#thesis_text').textContent));
-      assert.match(await page.textContent('#thesis_text'), /pictures of 284 × 160/);
-      assert.equal(await page.locator('#thesis_charts svg').count(), 4);
-      assert.match(await page.textContent('#thesis_charts'), /iPhone 5s, stated/);
-    }
+    // To the end, also where software is the graphics processor: its pictures are smaller.
+    const kept = JSON.parse(await page.evaluate(() => localStorage.getItem('bihive-thesis')));
+    assert.ok(kept.configurations.length >= 6 && kept.configurations.length % 6 === 0);
+    await page.click('#thesis_run');
+    await until('All configurations');
+    if (engine === 'cpu') assert.match(await text(), /pictures of 284 × 160/);
+    assert.equal(await page.textContent('#thesis_run'), 'Run');
+    assert.equal(await page.evaluate(() => localStorage.getItem('bihive-thesis')), null);
+    assert.equal(await page.locator('#thesis_charts svg').count(), 4);
+    assert.match(await page.textContent('#thesis_charts'), /iPhone 5s, stated/);
     const [json] = await Promise.all([page.waitForEvent('download'), page.click('#thesis_json')]);
     const result = JSON.parse(readFileSync(await json.path(), 'utf8'));
     assert.equal(result.engine, engine);
-    assert.equal(result.complete, engine === 'cpu');
-    if (result.complete) assert.equal(result.configurations.length, 54);
+    assert.equal(result.complete, true);
+    assert.equal(result.configurations.length, 54);
+    assert.deepEqual(result.configurations.slice(0, kept.configurations.length), kept.configurations);
+    assert.match(result.gpu, /SwiftShader/i);
+    assert.match(result.browser, /Chrom/);
+    assert.match(result.screen, /^\d+ x \d+, [\d.]+ pixels each$/);
+    assert.ok(result.device.includes(result.gpu) && result.device.includes(result.browser));
+    assert.ok(result.drift > 0);
     assert.ok(result.configurations.every(({ fps }) => fps > 0));
     assert.equal(result.stated['brute.fps.spheres256'].value, 1.87);
     const [png] = await Promise.all([page.waitForEvent('download'), page.click('#thesis_png')]);
@@ -277,3 +307,35 @@ for (const engine of ['cpu', 'gpu'])
     no_complaints(complaints);
     await context.close();
   });
+
+test('frames shown a second are counted', async () => {
+  const { page, context, complaints } = await open_page(browser, `${server.url}?quick`, {
+    viewport: { width: 800, height: 400 },
+  });
+  await draw_a_little_by_gpu(page); // the frames are the CPU's all the same
+  const before = await page.locator('#gpu_canvas').screenshot();
+  await page.click('#thesis_open');
+  await page.click('#thesis_shown');
+  await page.waitForFunction(() => /^Scenario \d, \d+ spheres, (wide engine|BIH 8), (turning|at rest)$/.test(document.querySelector('#thesis_text').textContent));
+  await page.click('#thesis_cancel');
+  await page.waitForFunction(() => /^Cancelled/.test(document.querySelector('#thesis_text').textContent));
+  await page.click('#thesis_shown');
+  await page.waitForFunction(() => /^36 measurements, [\d.]+ to [\d.]+ frames shown a second/.test(document.querySelector('#thesis_text').textContent));
+  const [json] = await Promise.all([page.waitForEvent('download'), page.click('#thesis_json')]);
+  assert.equal(json.suggestedFilename(), 'bihive-shown-frames.json');
+  const shown = JSON.parse(readFileSync(await json.path(), 'utf8'));
+  assert.deepEqual([shown.experiment, shown.by, shown.complete], ['shown-frames', 'page', true]);
+  assert.deepEqual([shown.width_px, shown.height_px], [1136, 640]);
+  assert.equal(shown.configurations.length, 36);
+  // A page shows no more than its screen does; 60 here, and frames are whole.
+  for (const { fps, frames, seconds } of shown.configurations) {
+    assert.ok(frames >= 1 && Math.abs(fps - frames / seconds) < 1e-9);
+    assert.ok(fps < 75, `${fps} frames a second`);
+  }
+  await page.click('#thesis_close');
+  await settled(page);
+  await page.waitForSelector('#gpu_canvas:not([hidden])');
+  assert.ok((await compare(page, before, await page.locator('#gpu_canvas').screenshot(), 2)).share < 0.01);
+  no_complaints(complaints);
+  await context.close();
+});

@@ -31,11 +31,11 @@ function lines_of(context: CanvasRenderingContext2D, text: string, width: number
   return lines;
 }
 
-/** All charts, one below the other, under a heading and a smaller line about it; `width` in pixels. */
+/** All charts, one below the other, under a heading and smaller lines about it; `width` in pixels. */
 export async function charts_as_png(
   charts: SVGSVGElement[],
   heading: string,
-  about: string,
+  about: string[],
   width: number,
 ): Promise<Blob> {
   const margin = 24, line_height = 26;
@@ -44,7 +44,7 @@ export async function charts_as_png(
   const context = canvas.getContext('2d')!;
   const about_font = '18px system-ui, sans-serif';
   context.font = about_font;
-  const lines = lines_of(context, about, width - 2 * margin);
+  const lines = about.flatMap((text) => lines_of(context, text, width - 2 * margin));
   const heading_height = 66 + line_height * lines.length;
   canvas.width = width; // forgets the font
   canvas.height = Math.ceil(heading_height + heights.reduce((sum, height) => sum + height + margin, 0));

@@ -12,10 +12,11 @@ const attributes: WebGLContextAttributes = {
 
 // Recognises WebGL2 without a graphics processor: the CPU engine is faster. Browsers do not say so directly, but the
 // names of their software renderers do.
-function is_software(context: WebGL2RenderingContext): boolean {
+const is_software = (name: string) => /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+
+function name_of(context: WebGL2RenderingContext): string {
   const unmasked = context.getExtension('WEBGL_debug_renderer_info');
-  const name = String(context.getParameter(unmasked ? unmasked.UNMASKED_RENDERER_WEBGL : context.RENDERER));
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  return String(context.getParameter(unmasked ? unmasked.UNMASKED_RENDERER_WEBGL : context.RENDERER));
 }
 
 export interface GlEvents {
@@ -25,7 +26,7 @@ export interface GlEvents {
 
 export class GlCanvas {
   private context: WebGL2RenderingContext | null = null;
-  private is_software = false;
+  private name = '';
   private why_not = '';
 
   constructor(
@@ -37,7 +38,7 @@ export class GlCanvas {
       this.why_not = (event as WebGLContextEvent).statusMessage;
     });
     this.context = canvas.getContext('webgl2', attributes);
-    this.is_software = this.context !== null && is_software(this.context);
+    if (this.context) this.name = name_of(this.context);
     if (this.context) this.register();
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault(); // else it never comes back
@@ -55,11 +56,11 @@ export class GlCanvas {
 
   /** Drawn by the processor. */
   get software(): boolean {
-    return this.is_software;
+    return is_software(this.name);
   }
 
   state(description: string): GpuState {
-    return { here: this.here, software: this.is_software, why_not: this.why_not, description };
+    return { here: this.here, software: this.software, name: this.name, why_not: this.why_not, description };
   }
 
   // Also after a loss: it asks for the extensions again and forgets the names of lost objects.

@@ -31,7 +31,7 @@ let source: Source = { built_in: 'demo' };
 let settings: Settings | null = null;
 let look: Look | null = null;
 let facts: Facts | null = null;
-let gpu: GpuState = { here: false, software: false, why_not: '', description: '' };
+let gpu: GpuState = { name: '', here: false, software: false, why_not: '', description: '' };
 let serial = 0;
 let look_serial = 0;
 let loading = 0; // id of the load that is awaited
@@ -47,6 +47,7 @@ let size = { width: 1, height: 1 };
 const engine = new Engine(
   {
     ready: ({ version, threads, gpu: found }) => {
+      program_version = version;
       gpu = found;
       show_gpu();
       element('about').textContent =
@@ -107,7 +108,19 @@ const engine = new Engine(
     picture_progress: ({ done }) => saving.progress(done),
     picture: ({ picture: file }) => saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
-    thesis_failed: ({ message }) => thesis.failed(message),
+    thesis_failed: ({ message }) => {
+      if (settings) show_engine(settings.engine);
+      thesis.failed(message);
+    },
+    thesis_saved: ({ result }) => thesis.saved(result),
+    shown_progress: ({ progress }) => {
+      show_engine('cpu'); // its canvas shows the frames
+      thesis.shown_progress(progress);
+    },
+    shown_done: ({ cancelled, result }) => {
+      if (settings) show_engine(settings.engine);
+      thesis.shown_done(cancelled, result);
+    },
     thesis_done: ({ cancelled, result, charts }) => thesis.done(cancelled, result, charts),
   },
   (message) => {
@@ -140,13 +153,35 @@ const saving = new Saving({
 });
 const player = new PlayerBar((action) => engine.send({ type: 'play', action }));
 const thesis = new ThesisDialog({
-  run: (quick) => engine.send({ type: 'thesis', quick, device: device_words() }),
+  run: (quick, saved) => engine.send({ type: 'thesis', quick, device: device_json(), saved }),
+  show_frames: (seconds) => engine.send({ type: 'shown_frames', seconds, device: device_json() }),
   cancel: () => engine.send({ type: 'thesis_cancel' }),
+  goes_on_from: (result) => result['engine'] === settings?.engine && result['version'] === program_version,
 });
 
-function device_words(): string {
-  const drawn_by = settings?.engine === 'gpu' ? gpu.description : `${navigator.hardwareConcurrency} threads`;
-  return `${drawn_by}; ${navigator.userAgent}`;
+// The measuring device, for the files that go from here to `bihive thesis --device`.
+let program_version = '';
+let model = ''; // of a phone; browsers that know it tell
+interface AgentData {
+  getHighEntropyValues?(names: string[]): Promise<{ model?: string }>;
+}
+void (navigator as { userAgentData?: AgentData }).userAgentData
+  ?.getHighEntropyValues?.(['model'])
+  .then((values) => (model = values.model ?? ''))
+  .catch(() => undefined);
+
+function device_json(): string {
+  const threads = `${navigator.hardwareConcurrency} threads`;
+  const gpu_name = gpu.name || 'no WebGL2';
+  return JSON.stringify({
+    device: [model, gpu_name, threads, navigator.userAgent].filter(Boolean).join('; '),
+    model,
+    gpu: gpu_name,
+    browser: navigator.userAgent,
+    screen: `${screen.width} x ${screen.height}, ${devicePixelRatio} pixels each`,
+    threads,
+    version: program_version,
+  });
 }
 
 // Answers of the worker.

@@ -32,9 +32,14 @@ export interface Page {
   take_picture(): string;
   drop_picture(): void;
   statistics(): string;
-  begin_thesis(quick: boolean): string;
+  begin_thesis(quick: boolean, saved: string): string;
   step_thesis(): string;
-  end_thesis(device: string): string;
+  thesis_so_far(device: string): string;
+  end_thesis(): void;
+  begin_shown_frames(seconds: number): string;
+  draw_shown_frame(): string;
+  frame_is_shown(now_ms: number): string;
+  end_shown_frames(device: string): string;
 }
 
 /** Emscripten's list of contexts: what the C++ side calls WebGL through. */

@@ -124,6 +124,16 @@ export interface ThesisProgress {
   spheres: number;
 }
 
+/** A configuration whose frames are shown and counted. */
+export interface ShownProgress {
+  finished: boolean;
+  done: number;
+  scenario: number;
+  spheres: number;
+  max_prims: number | null; // null: the wide engine
+  turning: boolean;
+}
+
 /** A file of the user's, and its trajectory where it has one of its own. They are read in pieces where they lie. */
 export interface Files {
   name: string;
@@ -162,7 +172,8 @@ export type Request =
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | { type: 'picture_cancel' }
   | { type: 'play'; action: PlayAction }
-  | { type: 'thesis'; quick: boolean; device: string }
+  | { type: 'thesis'; quick: boolean; device: string; saved: string } // device: JSON; saved: of a run to be continued, or ''
+  | { type: 'shown_frames'; seconds: number; device: string }
   | { type: 'thesis_cancel' };
 
 /** From the worker. `serial`: of the last request to set something that is in these settings. */
@@ -180,11 +191,15 @@ export type Answer =
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }
+  | { type: 'thesis_saved'; result: string } // after each configuration: what a later visit can go on from
+  | { type: 'shown_progress'; progress: ShownProgress }
+  | { type: 'shown_done'; cancelled: boolean; result: string }
   | { type: 'thesis_failed'; message: string }
   | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
 
 /** What there is to draw with. */
 export interface GpuState {
+  name: string; // of the graphics processor, in the browser's words; may be empty
   here: boolean;
   software: boolean; // drawn by the processor: slower than the CPU engine
   why_not: string; // there is none, in the browser's words; may be empty

@@ -1,16 +1,48 @@
-// The dialog that runs Figure 4.4 of the thesis on this device.
+// The dialog that runs Figure 4.4 of the thesis on this device, and counts the frames that its screen shows. A run is
+// kept in the browser after each configuration, so that a page that was closed, or that the system ended, goes on.
 import { chart_element, charts_as_png } from './chart';
 import { element } from './dom';
 import { save } from './download';
 import { fail } from './messages';
-import type { ThesisProgress } from './protocol';
+import type { ShownProgress, ThesisProgress } from './protocol';
 
 export interface ThesisActions {
-  run(quick: boolean): void;
+  /** `saved`: the result of a run to be continued, or ''. */
+  run(quick: boolean, saved: string): void;
+  show_frames(seconds: number): void;
   cancel(): void;
+  /** Whether a run with the engine on show could go on from this result. */
+  goes_on_from(result: Record<string, unknown>): boolean;
 }
 
 const png_width = 1200;
+const key = 'bihive-thesis';
+
+// If the browser forbids storage, runs cannot be continued.
+function storage<T>(work: (store: Storage) => T): T | null {
+  try {
+    return work(localStorage);
+  } catch {
+    return null;
+  }
+}
+
+interface Rate {
+  scenario: number;
+  spheres: number;
+  max_prims: number | null;
+  fps: number;
+}
+
+// The rates as words: a line for each scenario and number of spheres.
+function rate_lines(rates: Rate[]): string[] {
+  const lines: string[] = [];
+  for (const { scenario, spheres, max_prims, fps } of rates) {
+    if (max_prims === null) lines.push(`Scenario ${scenario}, ${spheres} spheres, fps: BF ${fps.toPrecision(3)}`);
+    else lines[lines.length - 1] += `, BIH ${max_prims} ${fps.toPrecision(3)}`;
+  }
+  return lines;
+}
 
 function time_left(seconds: number): string {
   return seconds < 90 ? `about ${Math.max(1, Math.round(seconds))} s left` : `about ${Math.round(seconds / 60)} min left`;
@@ -28,6 +60,8 @@ export class ThesisDialog {
   private readonly dialog = element<HTMLDialogElement>('thesis');
   private readonly quick = element<HTMLInputElement>('thesis_quick');
   private readonly run = element<HTMLButtonElement>('thesis_run');
+  private readonly anew = element<HTMLButtonElement>('thesis_anew');
+  private readonly shown = element<HTMLButtonElement>('thesis_shown');
   private readonly cancel = element<HTMLButtonElement>('thesis_cancel');
   private readonly json = element<HTMLButtonElement>('thesis_json');
   private readonly png = element<HTMLButtonElement>('thesis_png');
@@ -35,42 +69,97 @@ export class ThesisDialog {
   private readonly text = element('thesis_text');
   private charts: SVGSVGElement[] = [];
   private result = '';
+  private file = 'bihive-figure-4.4';
 
   constructor(private readonly actions: ThesisActions) {
     // "?quick" chooses the quick run, for a quick try.
     this.quick.checked = new URLSearchParams(location.search).has('quick');
-    element('thesis_open').addEventListener('click', () => this.dialog.showModal());
+    element('thesis_open').addEventListener('click', () => {
+      this.show_saved();
+      this.dialog.showModal();
+    });
+    this.quick.addEventListener('change', () => this.show_saved());
     element('thesis_close').addEventListener('click', () => this.dialog.close());
     this.dialog.addEventListener('close', () => {
       if (!this.cancel.hidden) actions.cancel();
     });
-    this.run.addEventListener('click', () => this.start());
+    this.run.addEventListener('click', () => this.start(() => actions.run(this.quick.checked, this.kept())));
+    this.anew.addEventListener('click', () => this.start(() => actions.run(this.quick.checked, '')));
+    this.shown.addEventListener('click', () => this.start(() => actions.show_frames(this.quick.checked ? 0.3 : 2)));
     this.cancel.addEventListener('click', () => {
       this.cancel.disabled = true;
       this.text.textContent = 'Cancelling';
       actions.cancel();
     });
     this.json.addEventListener('click', () =>
-      save(new Blob([this.result], { type: 'application/json' }), 'bihive-figure-4.4.json'),
+      save(new Blob([this.result], { type: 'application/json' }), `${this.file}.json`),
     );
     this.png.addEventListener('click', () => void this.save_png());
   }
 
-  private start(): void {
+  // The result of an earlier run that this one would go on from, or ''.
+  private kept(): string {
+    const text = storage((store) => store.getItem(key)) ?? '';
+    try {
+      const result = JSON.parse(text) as Record<string, unknown>;
+      return result['quick'] === this.quick.checked && this.actions.goes_on_from(result) ? text : '';
+    } catch {
+      return '';
+    }
+  }
+
+  private show_saved(): void {
+    const kept = this.kept();
+    const running = !this.cancel.hidden;
+    this.run.textContent = kept === '' ? 'Run' : 'Continue';
+    this.anew.hidden = running || kept === '';
+  }
+
+  /** After each configuration. */
+  saved(result: string): void {
+    storage((store) => store.setItem(key, result));
+  }
+
+  private start(run: () => void): void {
     this.set_running(true);
     this.text.textContent = 'Starting';
     this.bar.value = 0;
     element('thesis_charts').replaceChildren();
     element('thesis_progress').hidden = false;
-    this.actions.run(this.quick.checked);
+    run();
   }
 
   private set_running(running: boolean): void {
-    this.run.hidden = running;
+    this.run.hidden = this.shown.hidden = running;
     this.cancel.hidden = !running;
     this.cancel.disabled = false;
     this.quick.disabled = running;
     this.json.hidden = this.png.hidden = true;
+    this.show_saved();
+  }
+
+  shown_progress({ done, scenario, spheres, max_prims, turning }: ShownProgress): void {
+    if (this.cancel.hidden || this.cancel.disabled) return;
+    this.bar.value = done;
+    this.text.textContent =
+      `Scenario ${scenario}, ${spheres} spheres, ${max_prims === null ? 'wide engine' : `BIH ${max_prims}`}, ` +
+      (turning ? 'turning' : 'at rest');
+  }
+
+  shown_done(cancelled: boolean, result: string): void {
+    this.set_running(false);
+    this.result = result;
+    this.charts = [];
+    this.file = 'bihive-shown-frames';
+    const { configurations } = JSON.parse(result) as { configurations: (Rate & { turning: boolean })[] };
+    this.json.hidden = configurations.length === 0;
+    this.bar.value = cancelled ? this.bar.value : 1;
+    const all = configurations.map(({ fps }) => fps);
+    this.text.textContent =
+      all.length === 0
+        ? 'Cancelled before a configuration was complete.'
+        : `${cancelled ? 'Cancelled: ' : ''}${all.length} measurements, ` +
+          `${Math.min(...all).toFixed(1)} to ${Math.max(...all).toFixed(1)} frames shown a second.`;
   }
 
   progress(progress: ThesisProgress): void {
@@ -82,8 +171,10 @@ export class ThesisDialog {
   }
 
   done(cancelled: boolean, result: string, charts: string[]): void {
+    if (!cancelled) storage((store) => store.removeItem(key));
     this.set_running(false);
     this.result = result;
+    this.file = 'bihive-figure-4.4';
     this.charts = charts.map(chart_element);
     element('thesis_charts').replaceChildren(...this.charts);
     this.json.hidden = this.png.hidden = this.charts.length === 0;
@@ -102,9 +193,16 @@ export class ThesisDialog {
 
   private async save_png(): Promise<void> {
     try {
-      const { engine, device, ...size } = JSON.parse(this.result) as { engine: string; device: string } & PictureSize;
+      const { engine, device, drift, configurations, ...size } = JSON.parse(this.result) as PictureSize & {
+        engine: string;
+        device: string;
+        drift: number;
+        configurations: Rate[];
+      };
       const heading = `bihive: Figure 4.4 by the ${engine.toUpperCase()} engine, ${pixels(size)}`;
-      save(await charts_as_png(this.charts, heading, device, png_width), 'bihive-figure-4.4.png');
+      const drifted = `Last round over first: ${drift < 1 ? '−' : '+'}${Math.abs(100 * (drift - 1)).toFixed(1)} % time`;
+      const about = [device, drifted, ...rate_lines(configurations)];
+      save(await charts_as_png(this.charts, heading, about, png_width), `${this.file}.png`);
     } catch (error) {
       fail((error as Error).message);
     }

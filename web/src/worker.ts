@@ -3,7 +3,7 @@ import { BadInput, load_module, value_of, type Module, type Page } from './modul
 import { GlCanvas } from './gl_canvas';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ThesisProgress,
+  Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
 } from './protocol';
 import { UserFiles } from './user_files';
 import { in_words_of_the_page } from './words';
@@ -31,7 +31,7 @@ let frame_pending = false;
 let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
 let saving: PictureRun | null = null;
-let thesis: { device: string; cancelled: boolean } | null = null;
+let thesis: { device: string; cancelled: boolean; saved: number } | null = null; // saved: configurations
 
 function send(answer: Answer): void {
   postMessage(answer);
@@ -185,6 +185,10 @@ function send_player(): void {
 function show_cpu_image(): void {
   const { width, height } = value_of<{ width: number; height: number }>(page.take_image());
   if (width === 0 || height === 0) return;
+  put_cpu_pixels(width, height);
+}
+
+function put_cpu_pixels(width: number, height: number): void {
   if (cpu_canvas.width !== width) cpu_canvas.width = width;
   if (cpu_canvas.height !== height) cpu_canvas.height = height;
   cpu_context.putImageData(image_data(width, height), 0, 0);
@@ -326,13 +330,20 @@ async function picture(request: Request & { type: 'picture' }): Promise<void> {
 
 // The thesis's measurements. No frames are drawn meanwhile.
 
-function run_thesis(quick: boolean, device: string): void {
+interface ThesisSoFar {
+  result: string;
+  charts: string[];
+}
+
+const busy_saving = 'A picture is being drawn to be saved: wait for it, or cancel it';
+
+function run_thesis(quick: boolean, device: string, saved: string): void {
   if (thesis) return;
   try {
-    if (saving) throw new BadInput('A picture is being drawn to be saved: wait for it, or cancel it');
+    if (saving) throw new BadInput(busy_saving);
     apply_changes();
-    value_of(page.begin_thesis(quick));
-    thesis = { device, cancelled: false };
+    const { resumed } = value_of<{ resumed: number }>(page.begin_thesis(quick, saved));
+    thesis = { device, cancelled: false, saved: resumed };
     setTimeout(step_thesis);
   } catch (error) {
     send({ type: 'thesis_failed', message: (error as Error).message });
@@ -345,15 +356,55 @@ function step_thesis(): void {
     if (!run.cancelled) {
       const progress = value_of<ThesisProgress>(page.step_thesis());
       send({ type: 'thesis_progress', progress });
+      if (progress.configurations_done > run.saved) {
+        run.saved = progress.configurations_done;
+        send({ type: 'thesis_saved', result: value_of<ThesisSoFar>(page.thesis_so_far(run.device)).result });
+      }
       // The page's messages are read between two steps, so a cancel takes effect.
       if (!progress.finished) return void setTimeout(step_thesis);
     }
-    const { result, charts } = value_of<{ result: string; charts: string[] }>(page.end_thesis(run.device));
+    const { result, charts } = value_of<ThesisSoFar>(page.thesis_so_far(run.device));
     send({ type: 'thesis_done', cancelled: run.cancelled, result, charts });
   } catch (error) {
     send({ type: 'thesis_failed', message: (error as Error).message });
   }
+  page.end_thesis();
   thesis = null;
+  ask_for_frame();
+}
+
+// Frames on the screen: the next picture is drawn when the browser asks for one, and counts when it asks again.
+
+const next_refresh = () =>
+  new Promise<number>((resolve) => {
+    if (typeof requestAnimationFrame === 'function') requestAnimationFrame(() => resolve(performance.now()));
+    else setTimeout(() => resolve(performance.now()), 4);
+  });
+
+async function show_frames(seconds: number, device: string): Promise<void> {
+  if (thesis) return;
+  const run = { device, cancelled: false, saved: 0 };
+  try {
+    if (saving) throw new BadInput(busy_saving);
+    value_of(page.begin_shown_frames(seconds));
+    thesis = run;
+    let done = -1;
+    for (let finished = false; !finished && !run.cancelled; ) {
+      const { width, height } = value_of<{ width: number; height: number }>(page.draw_shown_frame());
+      put_cpu_pixels(width, height);
+      const progress = value_of<ShownProgress>(page.frame_is_shown(await next_refresh()));
+      finished = progress.finished;
+      if (progress.done !== done) send({ type: 'shown_progress', progress });
+      done = progress.done;
+    }
+    const { result } = value_of<{ result: string }>(page.end_shown_frames(device));
+    send({ type: 'shown_done', cancelled: run.cancelled, result });
+  } catch (error) {
+    send({ type: 'thesis_failed', message: (error as Error).message });
+  }
+  thesis = null;
+  // The scene's own picture again.
+  if (has_scene && settings().engine === 'cpu') show_cpu_image();
   ask_for_frame();
 }
 
@@ -404,7 +455,9 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       saving?.cancel();
       return;
     case 'thesis':
-      return attempt(null, () => run_thesis(request.quick, request.device));
+      return attempt(null, () => run_thesis(request.quick, request.device, request.saved));
+    case 'shown_frames':
+      return attempt(null, () => show_frames(request.seconds, request.device));
     case 'thesis_cancel':
       if (thesis) thesis.cancelled = true;
       return;

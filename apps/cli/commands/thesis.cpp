@@ -232,7 +232,7 @@ void print_summary(const std::vector<ReportSection>& sections, const std::vector
     print(text + "\n");
   }
   for (const ReportFront& front : fronts)
-    if (front.id != "devices" && !front.paragraphs.empty()) print(front.paragraphs.back() + "\n");
+    if ((front.id == "verdicts" || front.id == "against") && !front.paragraphs.empty()) print(front.paragraphs.back() + "\n");
   print(escaped(report) + "\n");
 }
 
@@ -249,8 +249,8 @@ void run_thesis(const ThesisOptions& options) {
   // Other runs are read before the long work: a file that is none is told at once, and this run may write over it.
   std::optional<OlderRun> older;
   if (!options.against.empty()) older = read_older_run(options.against);
-  std::optional<ReportFront> devices;
-  if (!options.devices.empty()) devices = devices_page(options.devices, load_values("figure-4.4", options.values));
+  std::vector<ReportFront> devices;
+  if (!options.devices.empty()) devices = devices_pages(options.devices, load_values("figure-4.4", options.values));
   make_folder(options.out);
   const std::string report = options.out + "/report.html";
   if (const Status status = check_writable(report); !status) fail(status.error());
@@ -273,7 +273,7 @@ void run_thesis(const ThesisOptions& options) {
                       {}};
   for (const ReportSection& of_experiment : sections) header.load.add(of_experiment.load);
   std::vector<ReportFront> fronts{verdict_page(sections)};
-  if (devices) fronts.push_back(std::move(*devices));
+  for (ReportFront& page : devices) fronts.push_back(std::move(page));
   if (older) fronts.push_back(compared_with(*older, sections));
   const std::string json = results_json(header, fronts, sections).dump(2) + "\n";
   if (const Status status = write_file(options.out + "/results.json", json); !status) fail(status.error());

@@ -1,4 +1,5 @@
-// Runs of Figure 4.4 on other devices: files that the page's "Run the thesis on this device" saves.
+// What other devices measured: runs of Figure 4.4 and frames shown a second, files that the page's "Run the thesis on
+// this device" saves, and the window's by scripts/shown_frames.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace bihive::cli::thesis {
 
-/// One row a file, beside what the text states of its iPhone 5s. Fails if a file is no such run.
-ReportFront devices_page(const std::vector<std::string>& files, const Values& figure_4_4);
+/// The runs of Figure 4.4, one row a file, beside what the text states of its iPhone 5s; and the frames shown, a row for
+/// each engine, at rest and turning. A part without a file is left out. Fails if a file is neither.
+std::vector<ReportFront> devices_pages(const std::vector<std::string>& files, const Values& figure_4_4);
 
 }  // namespace bihive::cli::thesis

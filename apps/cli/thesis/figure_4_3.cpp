@@ -295,7 +295,7 @@ void add_colours(Statements& statements, const SectionContext& context, Section&
                  {"(b), (c), (e), (f)", ValueKind::inferred}, fmt::format("({})", fmt::join(greener, "), (")),
                  verdict_if(greener == std::vector<std::string>{"b", "c", "e", "f"}));
   statements.add("most_empty_space", "The empty space between the nodes is maximized in (c) and (f)", "(c) and (f)",
-                 fmt::format("most gaps a ray: {:.2f}, in {}", most_gaps, most_letter),
+                 fmt::format("most gaps a ray: {:.2f}, in ({})", most_gaps, fmt::join(most_letter, ") and (")),
                  verdict_if(most_letter == "cf"));
   const double several = result_of(context, "c")->at("seen").at("several_gaps_share").get<double>();
   statements.add("brighter_green", "Brighter shades of green: the ray passed several gaps, in (c)", "some",

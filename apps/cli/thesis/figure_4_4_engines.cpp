@@ -18,6 +18,10 @@ namespace {
 
 // Brute force counts as equal in all scenarios if the fastest is ahead of the slowest by at most this.
 constexpr double kStable = 0.10;
+// Behind the rules of the engines that are not the text's.
+const char* const kOtherEngine =
+    " The text says this of its own tree, in its own program. That this engine behaves alike is our inference, so no row "
+    "agrees with the text or differs from it.";
 
 std::string fps_text(double fps) {
   return fps < 100 ? fmt::format("{:.2f}", fps) : fmt::format("{:.1f}", fps);
@@ -63,6 +67,9 @@ class EngineBlock {
  private:
   const Values& values() const { return context_.values; }
   std::string engine_title(const std::string& title) const { return title + " (engine " + engine_.name + ")"; }
+
+  /// It traces by the text's algorithm and tree; what the text found of them can be asked of no other engine.
+  bool is_of_text() const { return engine_.engine.tree == Engine::reference && !engine_.gpu; }
 
   const char* words() const {
     if (engine_.gpu) return "a graphics processor's program";
@@ -227,10 +234,12 @@ class EngineBlock {
   void add_judgements(Section& section) {
     const std::vector<Judgement> judgements = judge_frame_rates(times_, values());
     for (const auto& [title, rule] : judgement_tables()) {
-      Statements statements(engine_title(title), rule);
-      for (const Judgement& row : judgements)
-        if (row.table == title)
-          statements.add(row.name, row.statement, row.expected, row.ours, row.verdict, "", /*timed=*/true);
+      Statements statements(engine_title(title), is_of_text() ? rule : rule + kOtherEngine);
+      for (const Judgement& row : judgements) {
+        if (row.table != title) continue;
+        const ValueKind kind = is_of_text() ? row.expected.kind : ValueKind::inferred;
+        statements.add(row.name, row.statement, {row.expected.text, kind}, row.ours, row.verdict, "", /*timed=*/true);
+      }
       if (statements.empty()) continue;
       section.data["statements"].update({{engine_.name + ": " + title, statements.data()}});
       move(statements, section);

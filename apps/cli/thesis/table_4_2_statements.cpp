@@ -268,8 +268,8 @@ class TableStatements {
       ours.push_back(fmt::format("Scenario {}: {:.1f} %", row["scenario"].get<std::int64_t>(), 100 * share));
     }
     statements_.add("most_overlap", "Nodes overlap more in this scenario than in the others: split nodes that do",
-                    fmt::format("Scenario {}", claimed), fmt::format("{}", fmt::join(ours, ", ")),
-                    verdict_if(here > elsewhere));
+                    {fmt::format("Scenario {}", claimed), values_.kind("most_overlap.scenario")},
+                    fmt::format("{}", fmt::join(ours, ", ")), verdict_if(here > elsewhere));
   }
 
   const SectionContext& context_;

@@ -92,6 +92,45 @@ FrameRatePlan FrameRatePlan::quickly() const {
   return plan;
 }
 
+Result<FrameRatePlan> FrameRatePlan::within(double seconds, const FrameEngine& engine) const {
+  constexpr int kSmallest = 8;
+  const auto smaller = [this](int divisor) {
+    FrameRatePlan plan = *this;
+    plan.width_px = std::max(1, width_px / divisor);
+    plan.height_px = std::max(1, height_px / divisor);
+    return plan;
+  };
+
+  // The time of a small frame by brute force on the most spheres, after one that warms up.
+  FrameRatePlan pilot = smaller(kSmallest);
+  pilot.max_prims.clear();
+  pilot.rounds = 1;
+  pilot.least_ms = 0;
+  const std::int64_t most = *std::max_element(spheres.begin(), spheres.end());
+  Result<FrameContest> contest = FrameContest::of_trees(pilot, engine, scenarios.front(), most);
+  if (!contest) return contest.error();
+  while (!contest->finished())
+    if (Status status = contest->step(); !status) return status.error();
+  const double pixels = static_cast<double>(pilot.width_px) * pilot.height_px;
+  const double ms_of_a_unit = contest->rates().front().frame_ms.front() / pixels / frame_cost(most, false);
+
+  // All frames of the run. With a graphics processor each round draws one more, for the scene's upload.
+  double units = 0;
+  int turns = 0;
+  for (const std::int64_t count : spheres) {
+    units += frame_cost(count, false) + frame_cost(count, true) * static_cast<double>(max_prims.size());
+    turns += 1 + static_cast<int>(max_prims.size());
+  }
+  const double frames = static_cast<double>(scenarios.size()) * (rounds + 1) * (engine.gl != nullptr ? 2 : 1);
+  for (int divisor = 1; divisor < kSmallest; ++divisor) {
+    FrameRatePlan plan = smaller(divisor);
+    const double area = static_cast<double>(plan.width_px) * plan.height_px;
+    const double ms = frames * (units * ms_of_a_unit * area + turns * least_ms);
+    if (ms <= 1000 * seconds) return plan;
+  }
+  return smaller(kSmallest);
+}
+
 int FrameRatePlan::configurations() const {
   return static_cast<int>(scenarios.size() * spheres.size() * (1 + max_prims.size()));
 }
@@ -219,7 +258,8 @@ double FrameRateRun::done() const {
 }
 
 double FrameRateRun::seconds_left() const {
-  return done_cost_ > 0 ? spent_ms_ / 1000 * (all_cost_ - done_cost_) / done_cost_ : 0;
+  const double measured = done_cost_ - resumed_cost_;
+  return measured > 0 ? spent_ms_ / 1000 * (all_cost_ - done_cost_) / measured : 0;
 }
 
 Status FrameRateRun::measure() {
@@ -245,14 +285,38 @@ Status FrameRateRun::step() {
   spent_ms_ += timer.elapsed_ms();
   if (!contest_->finished()) return Done{};
 
-  // Go on to the next number of spheres, and the next scenario.
   rates_.insert(rates_.end(), contest_->rates().begin(), contest_->rates().end());
   contest_.reset();
-  if (++count_ == plan_.spheres.size()) {
-    count_ = 0;
-    finished_ = ++scenario_ == plan_.scenarios.size();
-  }
+  go_on();
   return Done{};
+}
+
+// To the next number of spheres, and the next scenario.
+void FrameRateRun::go_on() {
+  if (++count_ < plan_.spheres.size()) return;
+  count_ = 0;
+  finished_ = ++scenario_ == plan_.scenarios.size();
+}
+
+void FrameRateRun::resume(const std::vector<MeasuredRate>& rates) {
+  const std::size_t group = 1 + plan_.max_prims.size();
+  for (std::size_t first = 0; !finished_ && first + group <= rates.size(); first += group) {
+    double cost = 0;
+    for (std::size_t i = 0; i < group; ++i) {
+      const MeasuredRate& rate = rates[first + i];
+      const std::optional<std::int64_t> max_prims =
+          i == 0 ? std::optional<std::int64_t>() : std::optional(plan_.max_prims[i - 1]);
+      if (rate.scenario != scenario() || rate.spheres != spheres() || rate.max_prims != max_prims ||
+          static_cast<int>(rate.frame_ms.size()) != plan_.rounds)
+        return;
+      cost += frame_cost(rate.spheres, max_prims.has_value());
+    }
+    done_cost_ += cost * (plan_.rounds + 1);
+    resumed_cost_ = done_cost_;
+    rates_.insert(rates_.end(), rates.begin() + static_cast<std::ptrdiff_t>(first),
+                  rates.begin() + static_cast<std::ptrdiff_t>(first + group));
+    go_on();
+  }
 }
 
 }  // namespace bihive

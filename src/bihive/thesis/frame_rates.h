@@ -23,6 +23,8 @@
 
 namespace bihive {
 
+struct FrameEngine;
+
 /// The plan: every scenario with every number of spheres, by brute force and by a tree of each MAX_PRIMS.
 struct FrameRatePlan {
   std::vector<std::int64_t> scenarios, spheres, max_prims;  ///< none empty
@@ -41,6 +43,11 @@ struct FrameRatePlan {
   FrameRatePlan with_small_pictures() const;
   /// Small pictures and a single round: seconds instead of minutes, and rougher numbers.
   FrameRatePlan quickly() const;
+
+  /// The largest pictures, a whole part of this plan's in width and height, with which the whole run takes about
+  /// `seconds` or less on this engine; at least an eighth. A few small frames by brute force are measured for that. Then
+  /// the run ends also on a slow graphics processor.
+  Result<FrameRatePlan> within(double seconds, const FrameEngine& engine) const;
 
   int configurations() const;
 };
@@ -126,12 +133,16 @@ class FrameRateRun {
  public:
   FrameRateRun(FrameRatePlan plan, const FrameEngine& engine);
 
+  /// Before the first step: goes on behind the complete rates of an earlier run of the same plan. Rates that are not
+  /// whole groups in the order of the plan, with all rounds, are left out, and measured again.
+  void resume(const std::vector<MeasuredRate>& rates);
+
   /// Runs one round of one configuration. Does nothing after finished(). After an Error the run is over.
   Status step();
 
   bool finished() const { return finished_; }
   double done() const;          ///< 0 to 1, a share of the whole time
-  double seconds_left() const;  ///< estimated from the rounds so far; 0 before the first
+  double seconds_left() const;  ///< estimated from this run's rounds so far; 0 before the first
   const FrameRatePlan& plan() const { return plan_; }
   /// The complete ones, in the order of scenarios, spheres, brute force before trees.
   const std::vector<MeasuredRate>& rates() const { return rates_; }
@@ -141,6 +152,7 @@ class FrameRateRun {
 
  private:
   Status measure();
+  void go_on();
 
   FrameRatePlan plan_;
   FrameEngine engine_;
@@ -148,7 +160,9 @@ class FrameRateRun {
   std::optional<FrameContest> contest_;
   bool finished_ = false;
   std::vector<MeasuredRate> rates_;
-  double done_cost_ = 0, all_cost_ = 0, spent_ms_ = 0;
+  double done_cost_ = 0, all_cost_ = 0;
+  double resumed_cost_ = 0;  // of done_cost_: measured by an earlier run
+  double spent_ms_ = 0;      // by this one
 };
 
 }  // namespace bihive

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bihive/math/quartiles.h"
+
 namespace bihive {
 namespace {
 
@@ -110,18 +112,27 @@ ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>
   return bars;
 }
 
+double drift_of(const std::vector<MeasuredRate>& rates) {
+  std::vector<double> drifts;
+  for (const MeasuredRate& rate : rates)
+    if (rate.frame_ms.size() > 1) drifts.push_back(rate.frame_ms.back() / rate.frame_ms.front());
+  return drifts.empty() ? 1 : median(drifts);
+}
+
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
-                             const std::string& device) {
+                             const MeasuringDevice& device) {
   const FrameRatePlan& plan = run.plan();
   ordered_json json;
   json["experiment"] = "figure-4.4";
   json["engine"] = engine;
-  json["device"] = device;
+  json["device"] = device.words;
+  for (const auto& [name, value] : device.facts) json[name] = value;
   json["width_px"] = plan.width_px;
   json["height_px"] = plan.height_px;
   json["quick"] = plan.quick;
   json["rounds"] = plan.rounds;
   json["complete"] = run.finished() && static_cast<int>(run.rates().size()) == plan.configurations();
+  json["drift"] = drift_of(run.rates());
   json["configurations"] = ordered_json::array();
   for (const MeasuredRate& rate : run.rates())
     json["configurations"].push_back({{"scenario", rate.scenario},
@@ -140,6 +151,31 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
   for (const auto& [name, entry] : stated["values"].items())
     if (entry["kind"] == "stated") json["stated"][name] = entry;
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<SavedFrameRates> saved_frame_rates(const std::string& json) {
+  const ordered_json document = ordered_json::parse(json, nullptr, /*allow_exceptions=*/false);
+  SavedFrameRates saved;
+  try {
+    if (document.at("experiment") != "figure-4.4") return std::nullopt;
+    saved.engine = document.at("engine").get<std::string>();
+    saved.width_px = document.at("width_px").get<int>();
+    saved.height_px = document.at("height_px").get<int>();
+    saved.rounds = document.at("rounds").get<int>();
+    saved.quick = document.at("quick").get<bool>();
+    for (const ordered_json& one : document.at("configurations")) {
+      MeasuredRate rate{one.at("scenario").get<std::int64_t>(), one.at("spheres").get<std::int64_t>(), std::nullopt,
+                        one.at("frame_ms").get<std::vector<double>>()};
+      if (!one.at("max_prims").is_null()) rate.max_prims = one.at("max_prims").get<std::int64_t>();
+      for (const double ms : rate.frame_ms)
+        if (!(ms > 0)) return std::nullopt;
+      saved.rates.push_back(std::move(rate));
+    }
+  } catch (const ordered_json::exception&) {
+    return std::nullopt;
+  }
+  if (saved.width_px < 1 || saved.height_px < 1 || saved.rounds < 1) return std::nullopt;
+  return saved;
 }
 
 std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const StatedValues& values,

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bihive/image/svg_chart.h"
@@ -20,12 +22,31 @@ ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>
 /// The name of a tree in charts and tables: "BIH 8".
 std::string tree_name(std::int64_t max_prims);
 
-/// {"experiment", "engine", "device", "width_px", "height_px", "quick", "rounds", "complete", "configurations":
-/// [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains": [{"scenario",
-/// "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}. `device`: any
-/// description of the machine.
+/// The measuring machine. `words`: any description. `facts`: names and values for machines ("browser", "gpu").
+struct MeasuringDevice {
+  std::string words;
+  std::vector<std::pair<std::string, std::string>> facts = {};
+};
+
+/// The time of the last round over that of the first: the median of all rates with two rounds or more, 1 without any. A
+/// device that grows hot and slow has more than 1.
+double drift_of(const std::vector<MeasuredRate>& rates);
+
+/// {"experiment", "engine", "device", (its facts), "width_px", "height_px", "quick", "rounds", "complete", "drift",
+/// "configurations": [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains":
+/// [{"scenario", "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}.
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
-                             const std::string& device);
+                             const MeasuringDevice& device);
+
+/// What FrameRateRun::resume() needs of such a text.
+struct SavedFrameRates {
+  std::string engine;
+  int width_px = 0, height_px = 0, rounds = 0;
+  bool quick = false;
+  std::vector<MeasuredRate> rates;
+};
+/// Nothing if the text is no such result.
+std::optional<SavedFrameRates> saved_frame_rates(const std::string& json);
 
 /// SVG texts: the gains over brute force beside the stated ones, then the frame rates of each scenario beside the few
 /// that the thesis states. `here` names this device in the legend.

@@ -1,0 +1,143 @@
+#include "bihive/thesis/shown_frames.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bihive/base/parallel.h"
+#include "bihive/math/elementary.h"
+#include "bihive/render/renderer.h"
+#include "bihive/scene/generators.h"
+#include "bihive/thesis/frame_rates.h"
+
+namespace bihive {
+namespace {
+
+// The camera, turned around the vertical axis through what it looks at.
+Camera turned(const Camera& camera, double turns) {
+  const auto [s, c] = sine_cosine_deg(360 * turns);
+  const Vec3d from = camera.eye - camera.look_at;
+  Camera around = camera;
+  around.eye = camera.look_at + Vec3d{c * from.x + s * from.z, from.y, c * from.z - s * from.x};
+  return around;
+}
+
+}  // namespace
+
+Result<ShownFramesPlan> ShownFramesPlan::from_values(const StatedValues& values) {
+  Result<FrameRatePlan> rates = FrameRatePlan::from_values(values);
+  if (!rates) return rates.error();
+  const Result<std::int64_t> best = values.integer("winner.max_prims");
+  if (!best) return best.error();
+  ShownFramesPlan plan;
+  plan.scenarios = std::move(rates->scenarios);
+  plan.spheres = std::move(rates->spheres);
+  plan.max_prims = *best;
+  plan.radius = rates->radius;
+  plan.width_px = rates->width_px;
+  plan.height_px = rates->height_px;
+  plan.recursion = rates->recursion;
+  return plan;
+}
+
+void ShownFramesPlan::measure_for(double each_seconds) {
+  seconds = each_seconds;
+  warm_up_seconds = std::min(warm_up_seconds, each_seconds);
+}
+
+ShownFrames::ShownFrames(ShownFramesPlan plan) : plan_(std::move(plan)) {
+  for (const std::int64_t scenario : plan_.scenarios)
+    for (const std::int64_t spheres : plan_.spheres)
+      for (const std::optional<std::int64_t>& max_prims : {std::optional<std::int64_t>(), std::optional(plan_.max_prims)})
+        for (const bool turning : {false, true}) rates_.push_back({scenario, spheres, max_prims, turning, 0, 0});
+}
+
+// Makes scene and tree of the current measurement, unless they are there.
+Status ShownFrames::prepare() {
+  if (prepared_ == next_) return Done{};
+  const ShownRate& rate = rates_[next_];
+  if (rate.scenario < 1 || rate.scenario > 3) return Error{"there are the scenarios 1, 2 and 3", "", 0, 0, ""};
+  Result<Scene> scene = scenario_scene(static_cast<Scenario>(rate.scenario),
+                                       {rate.spheres, static_cast<float>(plan_.radius), plan_.seed});
+  if (!scene) return scene.error();
+  // The tracer refers to the spheres of the scene where it stays.
+  tracer_.reset();
+  scene_ = std::move(*scene);
+  BuildParameters parameters;
+  if (rate.max_prims) parameters.max_prims = *rate.max_prims;
+  Result<Tracer> tracer = Tracer::build(scene_->spheres, rate.max_prims ? Engine::reference : Engine::automatic,
+                                        rate.max_prims ? TreeParameters(parameters) : TreeParameters());
+  if (!tracer) return tracer.error();
+  tracer_ = std::move(*tracer);
+  prepared_ = next_;
+  warm_since_ms_.reset();
+  since_ms_.reset();
+  turned_ = 0;
+  return Done{};
+}
+
+Result<const Image*> ShownFrames::draw() {
+  if (Status status = prepare(); !status) {
+    failed_ = true;
+    return status.error();
+  }
+  Scene& scene = *scene_;
+  RenderSettings settings = settings_from(scene.picture);
+  settings.width_px = plan_.width_px;
+  settings.height_px = plan_.height_px;
+  settings.recursion = plan_.recursion;
+  settings.threads = plan_.threads;
+  const Camera at_rest = scene.camera;
+  if (rates_[next_].turning) scene.camera = turned(at_rest, turned_);
+  Result<Rendered> rendered = render(scene, *tracer_, settings, {}, nullptr, std::move(film_));
+  scene.camera = at_rest;
+  if (!rendered) {
+    failed_ = true;
+    return rendered.error();
+  }
+  film_ = std::move(rendered->film);
+  image_ = image_from_film(film_, settings.view, scene.picture.transfer, settings.threads);
+  return &image_;
+}
+
+void ShownFrames::shown(double now_ms) {
+  if (finished()) return;
+  if (!warm_since_ms_) warm_since_ms_ = now_ms;
+  if (!since_ms_) {
+    // The last frame before the time begins is its start, and does not count.
+    if (now_ms - *warm_since_ms_ >= 1000 * plan_.warm_up_seconds) since_ms_ = now_ms;
+    return;
+  }
+  ShownRate& rate = rates_[next_];
+  ++rate.frames;
+  rate.seconds = (now_ms - *since_ms_) / 1000;
+  turned_ = std::min(1.0, rate.seconds / plan_.seconds);
+  if (rate.seconds >= plan_.seconds) ++next_;
+}
+
+std::string ShownFrames::json(const std::string& by, const std::string& device) const {
+  using nlohmann::ordered_json;
+  ordered_json json;
+  json["experiment"] = "shown-frames";
+  json["by"] = by;
+  json["device"] = device;
+  json["width_px"] = plan_.width_px;
+  json["height_px"] = plan_.height_px;
+  json["seconds"] = plan_.seconds;
+  json["threads"] = plan_.threads > 0 ? plan_.threads : hardware_threads();
+  json["complete"] = next_ == rates_.size();
+  json["configurations"] = ordered_json::array();
+  for (std::size_t i = 0; i < next_; ++i) {
+    const ShownRate& rate = rates_[i];
+    json["configurations"].push_back({{"scenario", rate.scenario},
+                                      {"spheres", rate.spheres},
+                                      {"max_prims", rate.max_prims ? ordered_json(*rate.max_prims) : ordered_json()},
+                                      {"turning", rate.turning},
+                                      {"frames", rate.frames},
+                                      {"seconds", rate.seconds},
+                                      {"fps", rate.fps()}});
+  }
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace bihive
