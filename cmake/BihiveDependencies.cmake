@@ -75,6 +75,25 @@ if(NOT BIHIVE_OPENEXR STREQUAL "OFF")
   endif()
 endif()
 
+# HDF5 files are read by libhdf5, which is looked for when a file needs it: only its header is used here, and the name
+# under which the library is found later.
+set(BIHIVE_HDF5 AUTO CACHE STRING "Read HDF5: ON, OFF, or AUTO: where it is installed")
+set(BIHIVE_HAS_HDF5 OFF)
+if(NOT BIHIVE_HDF5 STREQUAL "OFF")
+  find_path(BIHIVE_HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial)
+  find_library(BIHIVE_HDF5_LIBRARY NAMES hdf5_serial hdf5 PATH_SUFFIXES hdf5/serial)
+  mark_as_advanced(BIHIVE_HDF5_INCLUDE_DIR BIHIVE_HDF5_LIBRARY)
+  if(BIHIVE_HDF5_INCLUDE_DIR AND BIHIVE_HDF5_LIBRARY)
+    file(REAL_PATH "${BIHIVE_HDF5_LIBRARY}" library)
+    string(REGEX MATCH "[^/]+\\.so\\.[0-9]+" BIHIVE_HDF5_SONAME "${library}")
+  endif()
+  if(BIHIVE_HDF5_SONAME)
+    set(BIHIVE_HAS_HDF5 ON)
+  elseif(NOT BIHIVE_HDF5 STREQUAL "AUTO")
+    bihive_missing("HDF5" libhdf5-dev)
+  endif()
+endif()
+
 # Files that are packed with zstd are read where libzstd is installed; nothing else needs it.
 set(BIHIVE_ZSTD AUTO CACHE STRING "Read files packed with zstd: ON, OFF, or AUTO: where libzstd is installed")
 if(NOT BIHIVE_ZSTD STREQUAL "OFF")

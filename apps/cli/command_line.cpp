@@ -85,12 +85,12 @@ void add_generator_options(CLI::App& app, InputOptions& input) {
 void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
   app.add_option("INPUT", input.input,
                  "A file (PDB, PQR, mmCIF, CIF, XYZ, GRO, LAMMPS dump and data, POSCAR, XDATCAR, SDF,\n"
-                 "MOL2, GSD, CSV, NPY, NPZ, PLY, PCD, VTK, scene JSON) or a built-in name:\n"
+                 "MOL2, GSD, CSV, NPY, NPZ, PLY, PCD, VTK, HDF5, NetCDF, scene JSON) or a built-in name:\n"
                  "scenario1, scenario2, scenario3, four-spheres, demo; - is the standard input")
       ->type_name("")
       ->required();
   app.add_option(alone ? "TRAJECTORY,--trajectory" : "--trajectory", input.trajectory,
-                 "Files: the places of the same spheres at many times (DCD, XTC, TRR)")
+                 "Files: the places of the same spheres at many times (DCD, XTC, TRR,\nNetCDF of AMBER, H5MD)")
       ->type_name("FILE");
 }
 
@@ -106,6 +106,10 @@ void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scal
               if (text.empty()) return Error{"expected the id of an assembly, found an empty text", "", 0, 0, ""};
               return text;
             });
+  add_value(app, "--columns", input.columns, "PART=COLUMN,...",
+            "CSV, XYZ, LAMMPS dump, NPY, NPZ, PLY, PCD, VTK, HDF5, NetCDF: columns by\nname or place, "
+            "e.g. --columns x=px,y=py,z=pz,r=5",
+            columns_from_text);
   add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
   add_value(app, "--replicate", input.replicate, "AxBxC",
             "Files: so many copies along the vectors of the periodic cell", copies_from_text);

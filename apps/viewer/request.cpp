@@ -28,6 +28,7 @@ Request take(const json& document) {
   request.reading.recenter = document.value("recenter", false);
   request.reading.trajectory = document.value("trajectory", "");
   request.reading.assembly = document.value("assembly", "");
+  request.reading.columns = document.value("columns", request.reading.columns);
   request.reading.replicate = document.value("replicate", request.reading.replicate);
   const auto vector = [](const json& v) {
     return Vec3d{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};

@@ -1,8 +1,10 @@
-// DCD, XTC and TRR from any bytes: a trajectory whose frames agree with it, or an error in one line. The bytes are a
-// whole file, so that real trajectories are seeds.
+// DCD, XTC, TRR and AMBER's NetCDF from any bytes: a trajectory whose frames agree with it, or an error in one line.
+// The bytes are a whole file, so that real trajectories are seeds.
 #include <algorithm>
 #include <memory>
 
+#include "bihive/io/arrays/array_file.h"
+#include "bihive/io/arrays/array_frames.h"
 #include "bihive/io/trajectory/formats.h"
 #include "read_and_check.h"
 
@@ -45,7 +47,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const auto file = [&] { return RandomFile::of_bytes(bytes, "fuzz"); };
   // What no format claims still goes to one of them: each takes any bytes.
-  if (looks_like_xtc(bytes)) {
+  if (looks_like_netcdf(bytes)) {
+    check(open_array_trajectory(file(), ""));
+  } else if (looks_like_xtc(bytes)) {
     check(open_xtc(file()));
   } else if (looks_like_trr(bytes)) {
     check(open_trr(file()));

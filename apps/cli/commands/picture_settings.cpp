@@ -255,6 +255,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   if (!input.trajectory.empty()) json["trajectory"] = input.trajectory;
   if (input.recenter) json["recenter"] = true;
   if (!input.assembly.empty()) json["assembly"] = input.assembly;
+  if (!input.columns.empty()) json["columns"] = input.columns;
   if (scene.spheres.has_images()) json["replicate"] = scene.spheres.images().counts;
   if (input.cell_vectors)
     for (const Vec3d& v : *input.cell_vectors) json["cell_vectors"].push_back({v.x, v.y, v.z});

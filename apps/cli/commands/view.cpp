@@ -108,6 +108,7 @@ ordered_json request_of(const ViewOptions& options) {
   if (!input.trajectory.empty()) request["trajectory"] = input.trajectory;
   if (input.recenter) request["recenter"] = true;
   if (!input.assembly.empty()) request["assembly"] = input.assembly;
+  if (!input.columns.empty()) request["columns"] = input.columns;
   put(request, "replicate", input.replicate);
   if (input.cell_vectors)
     for (const Vec3d& v : *input.cell_vectors) request["cell_vectors"].push_back({v.x, v.y, v.z});

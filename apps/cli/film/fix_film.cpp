@@ -10,6 +10,7 @@
 
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
+#include "bihive/io/data_path.h"
 #include "commands/names.h"
 #include "commands/picture_settings.h"
 #include "film/turning_camera.h"
@@ -31,7 +32,8 @@ constexpr std::int64_t kMostPictures = 100'000'000;
 ordered_json described_file(const std::string& path) {
   ordered_json object = {{"path", path}};
   struct stat found {};
-  if (is_built_in_scene(path) || stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return object;
+  if (is_built_in_scene(path) || stat(data_path(path).file.c_str(), &found) != 0 || !S_ISREG(found.st_mode))
+    return object;
   object["bytes"] = static_cast<std::int64_t>(found.st_size);
   object["changed_ns"] = static_cast<std::int64_t>(found.st_mtim.tv_sec) * 1'000'000'000 +
                          static_cast<std::int64_t>(found.st_mtim.tv_nsec);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bihive/base/write_file.h"
+#include "bihive/io/data_path.h"
 #include "support/failure.h"
 #include "support/outputs.h"
 
@@ -36,7 +37,7 @@ Input FrameSource::load(std::int64_t frame, const Style& style) const {
   if (std::optional<Input> generated = generated_input(options_)) return std::move(*generated);
   if (frames_) {
     Input input = scene_of_spheres(value_or_fail(frames_->read(frame)), options_.input, &style);
-    if (!options_.trajectory.empty()) input.files.push_back(options_.trajectory);
+    if (!options_.trajectory.empty()) input.files.push_back(data_path(options_.trajectory).file);
     return input;
   }
   ReadOptions reading = read_options(options_);

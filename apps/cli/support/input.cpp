@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "bihive/base/write_file.h"
+#include "bihive/io/data_path.h"
 #include "bihive/io/packed.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/scene/load_spheres.h"
@@ -31,6 +32,7 @@ void refuse_file_options(const InputOptions& options) {
   only_for(options.frame.has_value(), "--frame", "files", options.input);
   only_for(!options.trajectory.empty(), "a trajectory", "files", options.input);
   only_for(!options.assembly.empty(), "--assembly", "PDB and mmCIF files", options.input);
+  only_for(!options.columns.empty(), "--columns", "files", options.input);
   only_for(options.replicate.has_value(), "--replicate", "files", options.input);
   only_for(options.cell_vectors.has_value(), "--cell-vectors", "files", options.input);
   only_for(options.cell_origin.has_value(), "--cell-origin", "files", options.input);
@@ -63,8 +65,9 @@ class FileSize {
 
 bool must_be_read_whole(const std::string& path) {
   std::error_code none;
-  if (path == kStandardStream || !std::filesystem::is_regular_file(path, none)) return true;
-  const Result<std::string> head = read_head(path);
+  const std::string file = data_path(path).file;
+  if (path == kStandardStream || !std::filesystem::is_regular_file(file, none)) return true;
+  const Result<std::string> head = read_head(file);
   return head && looks_like_scene(*head);
 }
 
@@ -89,6 +92,7 @@ ReadOptions read_options(const InputOptions& options) {
   reading.frame = options.frame.value_or(0);
   reading.trajectory = options.trajectory;
   reading.assembly = options.assembly;
+  reading.columns = options.columns;
   reading.replicate = options.replicate.value_or(reading.replicate);
   reading.cell_vectors = options.cell_vectors;
   reading.cell_origin = options.cell_origin;
@@ -101,7 +105,7 @@ std::string input_name(const std::string& path) {
 }
 
 std::string file_of(const InputOptions& options) {
-  return is_built_in_scene(options.input) || options.input == kStandardStream ? "" : options.input;
+  return is_built_in_scene(options.input) || options.input == kStandardStream ? "" : data_path(options.input).file;
 }
 
 void check_input_options(const InputOptions& options) {
@@ -149,7 +153,7 @@ Input load_input(const InputOptions& options, LooksOfFile looks, const Style* st
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
     if (!must_be_read_whole(options.input)) {
-      const FileSize size(options.input);
+      const FileSize size(data_path(options.input).file);
       Result<Input> loaded = load_spheres(options.input, reading, style);
       if (size.grew()) warn_of_growth(options.input);
       return loaded;
@@ -159,7 +163,7 @@ Input load_input(const InputOptions& options, LooksOfFile looks, const Style* st
     return load_scene(bytes, name, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);
   };
   Input input = value_or_fail(load());
-  if (!options.trajectory.empty()) input.files.push_back(options.trajectory);
+  if (!options.trajectory.empty()) input.files.push_back(data_path(options.trajectory).file);
   warn(input.warnings);
   return input;
 }

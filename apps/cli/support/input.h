@@ -23,6 +23,7 @@ struct InputOptions {
   std::string trajectory = "";  ///< a file; empty: none
   bool recenter = false;
   std::string assembly = "";  ///< an id; empty: not asked for
+  ColumnChoice columns = {};  ///< empty: by their names
   std::optional<std::array<std::int32_t, 3>> replicate;
   std::optional<std::array<Vec3d, 3>> cell_vectors;
   std::optional<Vec3d> cell_origin;

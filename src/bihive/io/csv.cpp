@@ -47,15 +47,10 @@ std::vector<TableColumn> columns_of_header(const std::vector<std::string>& names
   return columns;
 }
 
-std::vector<TableColumn> columns_of_numbers(std::size_t count) {
-  std::vector<TableColumn> columns{{"x", ColumnRole::x}, {"y", ColumnRole::y}, {"z", ColumnRole::z}};
-  if (count > 3) columns.push_back({"radius", ColumnRole::radius});
-  return columns;
-}
-
 }  // namespace
 
-Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame) {
+Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice) {
   TextScanner scanner(text, file);
   if (!next_data_line(scanner)) return scanner.line_error("there is no line with numbers in it");
   if (frame != 0) return no_such_frame(file, frame, 1);
@@ -69,15 +64,17 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
   if (!has_header) {
     scanner.set_comment('#');
     fields = fields_of(scanner, separator_of(scanner.line(), false));
-    if (fields.size() != 3 && fields.size() != 4)
+    if (fields.size() != 3 && fields.size() != 4 && !chooses_places(choice))
       return scanner.line_error("expected 'x y z' or 'x y z r' but found " + std::to_string(fields.size()) +
                                     (fields.size() == 1 ? " column" : " columns"),
-                                "name the columns in a header line");
+                                "name the columns in a header line, or say which they are: --columns x=1,y=2,z=3");
   }
 
-  SphereTable table(has_header ? columns_of_header(fields) : columns_of_numbers(fields.size()));
+  std::vector<TableColumn> columns = has_header ? columns_of_header(fields) : columns_without_names(fields.size());
+  if (const std::string fault = choose_columns(choice, columns); !fault.empty()) return scanner.line_error(fault);
+  SphereTable table(columns);
   if (const std::string fault = table.columns_fault(); !fault.empty())
-    return scanner.line_error(fault + " in the header " + quote(table.column_names()));
+    return scanner.line_error(fault + " in the header " + quote(table.column_names()), std::string(kNameColumns));
   table.reserve(scanner.lines_left() + 1, scanner.bytes_left());
 
   // Every later line is a sphere.
@@ -88,10 +85,10 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
   while (next_data_line(scanner))
     if (Status row = table.add_row(scanner); !row) return row.error();
 
-  const std::string columns = table.column_names();
+  const std::string names = table.column_names();
   RawSpheres spheres = std::move(table).take();
   spheres.format = "CSV";
-  spheres.rules.insert(spheres.rules.begin(), (has_header ? "columns by the header: " : "plain columns: ") + columns);
+  spheres.rules.insert(spheres.rules.begin(), (has_header ? "columns by the header: " : "plain columns: ") + names);
   return spheres;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bihive/io/arrays/array_file.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/pqr_line.h"
 #include "bihive/io/readers.h"
@@ -118,6 +119,8 @@ std::optional<Format> format_by_name(const std::string& name) {
 std::optional<Format> format_by_content(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, 6) == "\x93NUMPY") return Format::npy;
   if (bytes.substr(0, 4) == "PK\x03\x04") return Format::npz;
+  if (looks_like_hdf5(bytes)) return Format::hdf5;
+  if (looks_like_netcdf(bytes)) return Format::netcdf;
   if (GsdFile::looks_like(bytes)) return Format::gsd;
   const std::string_view head = bytes.substr(0, kLook);
   // Their headers are text, and what follows may be binary.
@@ -156,7 +159,8 @@ std::string known_formats() {
          ".mol), "
          "MOL2 (.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt "
          ".dat), "
-         "NPY and NPZ (.npy .npz), each also as .gz or .zst";
+         "NPY and NPZ (.npy .npz), HDF5 and H5MD (.h5 .hdf5 .h5md), NetCDF of LAMMPS and AMBER (.nc .ncdf), each also "
+         "as .gz or .zst";
 }
 
 }  // namespace bihive

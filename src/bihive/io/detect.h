@@ -27,7 +27,9 @@ enum class Format {
   gsd,
   csv,
   npy,
-  npz
+  npz,
+  hdf5,
+  netcdf
 };
 
 /// The format of unpacked bytes by their content; nothing if it fits none, or several. Where PDB and PQR both fit, the

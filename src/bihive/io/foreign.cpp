@@ -27,8 +27,6 @@ constexpr Known kKnown[] = {
     {"trr", "a TRR trajectory of GROMACS", ".trr", kTopologyFirst},
     {"tng", "a TNG trajectory of GROMACS", ".tng", kTrajectory},
     {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
-    {"netcdf", "a NetCDF file", ".nc .ncdf .netcdf", kMdanalysis},
-    {"hdf5", "an HDF5 file", ".h5 .hdf5 .h5md .hdf", "write its data set with h5py and numpy.save as .npy"},
     {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'"},
     {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'"},
     {"bcif", "a BinaryCIF file", ".bcif", "take the entry's mmCIF file"},
@@ -78,10 +76,6 @@ std::string_view by_mark(std::string_view bytes) {
   static constexpr std::pair<std::string_view, std::string_view> marks[] = {
       {"\0\0\x07\xcb"sv, "xtc"},
       {"\0\0\x07\xc9"sv, "trr"},
-      {"CDF\x01"sv, "netcdf"},
-      {"CDF\x02"sv, "netcdf"},
-      {"CDF\x05"sv, "netcdf"},
-      {"\x89HDF\r\n\x1a\n"sv, "hdf5"},
       {"BZh"sv, "bzip2"},
       {"\xfd"
        "7zXZ\0"sv,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bihive/io/column_choice.h"
 #include "bihive/io/text_scanner.h"
 #include "bihive/io/trajectory/random_file.h"
 
@@ -36,6 +37,7 @@ struct FramePass {
   /// Not null: the text is the wanted frame's bytes in this file, of which the index is known.
   const FrameIndex* index = nullptr;
   const RandomFile* file = nullptr;
+  ColumnChoice columns = {};  ///< of formats with columns
 
   bool reads_none() const { return wanted == kNone; }
 };

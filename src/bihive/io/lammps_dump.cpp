@@ -24,6 +24,7 @@ constexpr Naming kNamings[] = {
     {{"xs", "ys", "zs"}, true, "coordinates: scaled, xs ys zs, brought into the box"},
     {{"xsu", "ysu", "zsu"}, true, "coordinates: scaled and unwrapped, xsu ysu zsu, brought to the box's scale"},
 };
+constexpr Naming kChosenCoordinates = {{}, false, "coordinates: columns as asked for"};
 
 class LammpsReader {
  public:
@@ -131,7 +132,13 @@ class LammpsReader {
     header.next_line();
     for (std::string_view name; columns.size() <= SphereTable::kMostColumns && header.next_field(name);)
       columns.push_back({std::string(name), ColumnRole::number});
-    const Naming* const naming = choose_coordinates(columns);
+    const bool asked_for = chooses_places(pass_.columns);
+    const Naming* naming = asked_for ? nullptr : choose_coordinates(columns);
+    if (asked_for)
+      for (TableColumn& column : columns) column.role = usual_role(column.name);
+    if (const std::string fault = choose_columns(pass_.columns, columns); !fault.empty())
+      return scanner_.line_error(fault);
+    if (asked_for) naming = naming_of(columns);
     if (!naming)
       return scanner_.line_error("expected columns x y z, xu yu zu, xs ys zs or xsu ysu zsu but found " +
                                  quote(trim(item.substr(5))));
@@ -186,6 +193,20 @@ class LammpsReader {
       return &naming;
     }
     return nullptr;
+  }
+
+  // The naming of the columns that the user has chosen as coordinates.
+  static const Naming* naming_of(const std::vector<TableColumn>& columns) {
+    constexpr ColumnRole axes[3] = {ColumnRole::x, ColumnRole::y, ColumnRole::z};
+    for (const Naming& naming : kNamings) {
+      bool same = true;
+      for (int axis = 0; axis < 3; ++axis)
+        same = same && std::any_of(columns.begin(), columns.end(), [&](const TableColumn& column) {
+                 return column.role == axes[axis] && column.name == naming.names[axis];
+               });
+      if (same) return &naming;
+    }
+    return &kChosenCoordinates;
   }
 
   void unscale() {

@@ -26,14 +26,17 @@ struct PcdField {
 
 class PcdReader {
  public:
-  PcdReader(std::string_view bytes, const std::string& file) : bytes_(bytes), scanner_(bytes, file) {}
+  PcdReader(std::string_view bytes, const std::string& file, const ColumnChoice& choice)
+      : bytes_(bytes), scanner_(bytes, file), choice_(choice) {}
 
   Result<RawSpheres> read() {
     if (Status head = read_header(); !head) return head.error();
     if (Status fields = describe_fields(); !fields) return fields.error();
+    if (const std::string fault = choose_columns(choice_, columns_); !fault.empty())
+      return scanner_.line_error(fault + " in FIELDS");
     SphereTable table(columns_);
     if (const std::string fault = table.columns_fault(); !fault.empty())
-      return scanner_.line_error(fault + " in FIELDS");
+      return scanner_.line_error(fault + " in FIELDS", std::string(kNameColumns));
     if (has_rgb_) table.colours_are_bytes();
     table.reserve(points_, scanner_.bytes_left());
     if (Status points = data_ == "ascii" ? read_text(table) : read_binary(table); !points) return points.error();
@@ -233,6 +236,7 @@ class PcdReader {
 
   std::string_view bytes_;
   TextScanner scanner_;
+  const ColumnChoice& choice_;
   std::set<std::string> seen_;
   std::vector<std::string> names_, sizes_, types_, counts_;
   std::vector<PcdField> fields_;
@@ -254,9 +258,10 @@ bool is_pcd(std::string_view head) {
          (scanner.line().substr(0, 6) == "FIELDS" || scanner.line().substr(0, 7) == "COLUMNS");
 }
 
-Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame) {
+Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice) {
   if (frame != 0) return no_such_frame(file, frame, 1);
-  return PcdReader(bytes, file).read();
+  return PcdReader(bytes, file, choice).read();
 }
 
 }  // namespace bihive

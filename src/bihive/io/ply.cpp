@@ -50,7 +50,8 @@ ColumnRole role_of_property(const std::string& name, bool rgb) {
 
 class PlyReader {
  public:
-  PlyReader(std::string_view bytes, const std::string& file) : bytes_(bytes), scanner_(bytes, file) {}
+  PlyReader(std::string_view bytes, const std::string& file, const ColumnChoice& choice)
+      : bytes_(bytes), scanner_(bytes, file), choice_(choice) {}
 
   Result<RawSpheres> read() {
     if (Status head = read_header(); !head) return head.error();
@@ -165,16 +166,20 @@ class PlyReader {
     };
     const bool rgb = has("r") && has("g") && has("b");
     std::vector<TableColumn> columns;
+    std::vector<bool> whole;  // columns of whole numbers
     bool colours_are_bytes = false;
     for (const Property& property : element.properties) {
       if (property.length) continue;
-      const ColumnRole role = role_of_property(property.name, rgb);
-      columns.push_back({property.name, role});
-      if (role == ColumnRole::red) colours_are_bytes = property.type.kind != 'f';
+      columns.push_back({property.name, role_of_property(property.name, rgb)});
+      whole.push_back(property.type.kind != 'f');
     }
+    if (const std::string fault = choose_columns(choice_, columns); !fault.empty())
+      return scanner_.line_error(fault + " in the element 'vertex'");
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].role == ColumnRole::red) colours_are_bytes = whole[i];
     SphereTable table(columns);
     if (const std::string fault = table.columns_fault(); !fault.empty())
-      return scanner_.line_error(fault + " in the element 'vertex'");
+      return scanner_.line_error(fault + " in the element 'vertex'", std::string(kNameColumns));
     if (colours_are_bytes) table.colours_are_bytes();
     table.reserve(element.count, static_cast<std::int64_t>(bytes_.size() - body_));
     std::vector<double> row;
@@ -256,6 +261,7 @@ class PlyReader {
 
   std::string_view bytes_;
   TextScanner scanner_;
+  const ColumnChoice& choice_;
   std::size_t body_ = 0;  // binary: the place of the next byte
   Form form_ = Form::ascii;
   std::vector<Element> elements_;
@@ -264,9 +270,10 @@ class PlyReader {
 
 }  // namespace
 
-Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame) {
+Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice) {
   if (frame != 0) return no_such_frame(file, frame, 1);
-  return PlyReader(bytes, file).read();
+  return PlyReader(bytes, file, choice).read();
 }
 
 }  // namespace bihive

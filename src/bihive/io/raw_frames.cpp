@@ -8,11 +8,14 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/base/write_file.h"
+#include "bihive/io/arrays/array_frames.h"
+#include "bihive/io/data_path.h"
 #include "bihive/io/detect.h"
 #include "bihive/io/foreign.h"
 #include "bihive/io/frame_index.h"
 #include "bihive/io/kept_index.h"
 #include "bihive/io/readers.h"
+#include "bihive/io/text_scanner.h"
 #include "bihive/io/trajectory/gsd.h"
 #include "bihive/io/unpacked_file.h"
 
@@ -22,8 +25,27 @@ namespace {
 // The content of a file shows its format within so many bytes.
 constexpr std::int64_t kHead = 65536;
 
+bool has_columns(Format format) {
+  switch (format) {
+    case Format::xyz:
+    case Format::lammps_dump:
+    case Format::ply:
+    case Format::pcd:
+    case Format::vtk_legacy:
+    case Format::vtk_xml:
+    case Format::csv:
+    case Format::npy:
+    case Format::npz:
+    case Format::hdf5:
+    case Format::netcdf:
+      return true;
+    default:
+      return false;
+  }
+}
+
 // The content tells, then the name. A format that is known and not read, or not without another file, is named.
-Result<Format> find_format(std::string_view head, const std::string& name) {
+Result<Format> known_format(std::string_view head, const std::string& name, bool with_columns) {
   if (const auto format = format_by_content(head, name)) return *format;
   std::optional<ForeignFormat> foreign = foreign_by_content(head);
   if (!foreign) {
@@ -35,10 +57,23 @@ Result<Format> find_format(std::string_view head, const std::string& name) {
                                                  : ", which bihive does not read";
     return Error{"this is " + foreign->name + why, name, 0, 0, foreign->advice};
   }
+  // A table whose header has no x, y and z.
+  if (with_columns && head.find('\0') == std::string_view::npos) return Format::csv;
   return Error{"this is no file of spheres in a known format", name, 0, 0, "known are " + known_formats()};
 }
 
-Result<RawSpheres> read_whole(Format format, std::string_view bytes, const std::string& name, std::int64_t frame) {
+Result<Format> find_format(std::string_view head, const std::string& name, const ColumnChoice& columns) {
+  const Result<Format> format = known_format(head, name, !columns.empty());
+  if (format && !columns.empty() && !has_columns(*format))
+    return Error{"the columns of this format cannot be chosen", name, 0, 0,
+                 "they can for CSV, XYZ, LAMMPS dumps, NPY, NPZ, PLY, PCD, VTK, HDF5 and NetCDF"};
+  return format;
+}
+
+Result<RawSpheres> read_whole(Format format, std::string_view bytes, const std::string& name, std::int64_t frame,
+                              const ColumnChoice& columns) {
+  FramePass pass{frame};
+  pass.columns = columns;
   switch (format) {
     case Format::pdb:
       return read_pdb(bytes, name, frame);
@@ -48,11 +83,11 @@ Result<RawSpheres> read_whole(Format format, std::string_view bytes, const std::
       // The head of a long CIF may hold no atoms yet.
       return is_small_cif(bytes) ? read_small_cif(bytes, name, frame) : read_mmcif(bytes, name, frame);
     case Format::xyz:
-      return read_xyz(bytes, name, frame);
+      return read_xyz(TextScanner(bytes, name), pass);
     case Format::gro:
       return read_gro(bytes, name, frame);
     case Format::lammps_dump:
-      return read_lammps_dump(bytes, name, frame);
+      return read_lammps_dump(TextScanner(bytes, name), pass);
     case Format::lammps_data:
       return read_lammps_data(bytes, name, frame);
     case Format::poscar:
@@ -66,21 +101,28 @@ Result<RawSpheres> read_whole(Format format, std::string_view bytes, const std::
     case Format::small_cif:
       return read_small_cif(bytes, name, frame);
     case Format::ply:
-      return read_ply(bytes, name, frame);
+      return read_ply(bytes, name, frame, columns);
     case Format::pcd:
-      return read_pcd(bytes, name, frame);
+      return read_pcd(bytes, name, frame, columns);
     case Format::vtk_legacy:
-      return read_vtk_legacy(bytes, name, frame);
+      return read_vtk_legacy(bytes, name, frame, columns);
     case Format::vtk_xml:
-      return read_vtk_xml(bytes, name, frame);
+      return read_vtk_xml(bytes, name, frame, columns);
     case Format::gsd:
       return read_gsd(bytes, name, frame);
     case Format::csv:
-      return read_csv(bytes, name, frame);
+      return read_csv(bytes, name, frame, columns);
     case Format::npy:
-      return read_npy(bytes, name, frame);
+      return read_npy(bytes, name, frame, columns);
     case Format::npz:
-      return read_npz(bytes, name, frame);
+      return read_npz(bytes, name, frame, columns);
+    case Format::hdf5:
+    case Format::netcdf: {
+      const Result<std::shared_ptr<const RawFrames>> frames =
+          open_array_frames(RandomFile::of_bytes(bytes, name), "", columns);
+      if (!frames) return frames.error();
+      return (*frames)->read(frame);
+    }
   }
   return Error{"unknown format", name, 0, 0, ""};
 }
@@ -111,6 +153,8 @@ bool ends_in_a_line(Format format) {
     case Format::npy:
     case Format::npz:
     case Format::gsd:
+    case Format::hdf5:
+    case Format::netcdf:
     case Format::ply:
     case Format::pcd:
     case Format::vtk_legacy:
@@ -124,29 +168,33 @@ bool ends_in_a_line(Format format) {
 // Bytes that the caller keeps.
 class BytesInMemory : public RawFrames {
  public:
-  BytesInMemory(std::string_view bytes, std::string name, Format format)
-      : bytes_(bytes), name_(std::move(name)), format_(format) {
+  BytesInMemory(std::string_view bytes, std::string name, Format format, ColumnChoice columns)
+      : bytes_(bytes), name_(std::move(name)), format_(format), columns_(std::move(columns)) {
     set_may_be_cut(ends_in_a_line(format) && bytes.back() != '\n');
   }
-  Result<RawSpheres> read(std::int64_t frame) const override { return read_whole(format_, bytes_, name_, frame); }
+  Result<RawSpheres> read(std::int64_t frame) const override {
+    return read_whole(format_, bytes_, name_, frame, columns_);
+  }
 
  private:
   std::string_view bytes_;
   std::string name_;
   Format format_;
+  ColumnChoice columns_;
 };
 
 // A file that is read as a whole for each frame.
 class WholeFile : public RawFrames {
  public:
-  WholeFile(RandomFile file, Format format) : file_(std::move(file)), format_(format) {}
+  WholeFile(RandomFile file, Format format, ColumnChoice columns)
+      : file_(std::move(file)), format_(format), columns_(std::move(columns)) {}
 
   Result<RawSpheres> read(std::int64_t frame) const override {
     if (Status status = check_memory(static_cast<double>(file_.size()), "the file"); !status)
       return Error{status.error().message, file_.path(), 0, 0, ""};
     const Result<std::string> bytes = file_.read(0, file_.size());
     if (!bytes) return bytes.error();
-    return read_whole(format_, *bytes, file_.path(), frame);
+    return read_whole(format_, *bytes, file_.path(), frame, columns_);
   }
   Status look_at_end() {
     const Result<std::string> last = file_.read(file_.size() - 1, 1);
@@ -158,6 +206,7 @@ class WholeFile : public RawFrames {
  private:
   RandomFile file_;
   Format format_;
+  ColumnChoice columns_;
 };
 
 class GsdFrames : public RawFrames {
@@ -172,7 +221,8 @@ class GsdFrames : public RawFrames {
 // A text with many frames on the disk.
 class IndexedText : public RawFrames {
  public:
-  IndexedText(RandomFile file, Format format) : file_(std::move(file)), format_(format), reader_(pass_reader(format)) {}
+  IndexedText(RandomFile file, Format format, ColumnChoice columns)
+      : file_(std::move(file)), format_(format), reader_(pass_reader(format)), columns_(std::move(columns)) {}
 
   // From the index beside the file, or by a pass that writes it.
   Result<RawSpheres> open_with_index(std::int64_t wanted) {
@@ -237,7 +287,8 @@ class IndexedText : public RawFrames {
     return pass({begin, file_.size(), index_.lines}, FramePass{frame, index_.count()});
   }
 
-  Result<RawSpheres> pass(const TextPlace& place, const FramePass& wish, bool* is_cut = nullptr) const {
+  Result<RawSpheres> pass(const TextPlace& place, FramePass wish, bool* is_cut = nullptr) const {
+    wish.columns = columns_;
     FileText part{file_, place.begin, place.end, place.lines_before, {}};
     const TextScanner scanner(part);
     if (is_cut != nullptr) *is_cut = !scanner.ends_in_newline();
@@ -249,6 +300,7 @@ class IndexedText : public RawFrames {
   RandomFile file_;
   Format format_;
   PassReader reader_;
+  ColumnChoice columns_;
   FrameIndex index_;
 };
 
@@ -264,26 +316,38 @@ Error empty_file(const std::string& name) {
 
 }  // namespace
 
-Result<OpenedFrames> open_raw_frames(std::string_view bytes, const std::string& name, std::int64_t wanted) {
+Result<OpenedFrames> open_raw_frames(std::string_view bytes, const std::string& name, std::int64_t wanted,
+                                     const ColumnChoice& columns) {
   if (bytes.empty()) return empty_file(name);
-  const Result<Format> format = find_format(bytes.substr(0, static_cast<std::size_t>(kHead)), name);
+  const Result<Format> format = find_format(bytes.substr(0, static_cast<std::size_t>(kHead)), name, columns);
   if (!format) return format.error();
-  auto frames = std::make_shared<const BytesInMemory>(bytes, name, *format);
+  auto frames = std::make_shared<const BytesInMemory>(bytes, name, *format, columns);
   Result<RawSpheres> read = frames->read(wanted);
   return opened(std::move(frames), std::move(read));
 }
 
-Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wanted, bool keep_index) {
-  Result<RandomFile> file = open_unpacked(path);
+Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wanted, bool keep_index,
+                                     const ColumnChoice& columns) {
+  const DataPath named = data_path(path);
+  Result<RandomFile> file = open_unpacked(named.file);
   if (!file) return file.error();
   if (file->size() == 0) return empty_file(path);
   const Result<std::string> head = file->read(0, std::min(kHead, file->size()));
   if (!head) return head.error();
-  const Result<Format> format = find_format(*head, path);
+  const Result<Format> format = find_format(*head, path, columns);
   if (!format) return format.error();
 
+  const bool has_arrays = *format == Format::hdf5 || *format == Format::netcdf;
+  if (!named.inside.empty() && !has_arrays)
+    return Error{"names of data sets are for HDF5 files, and this is none: " + quote(named.inside), path, 0, 0, ""};
+  if (has_arrays) {
+    Result<std::shared_ptr<const RawFrames>> frames = open_array_frames(std::move(*file), named.inside, columns);
+    if (!frames) return frames.error();
+    Result<RawSpheres> read = (*frames)->read(wanted);
+    return opened(std::move(*frames), std::move(read));
+  }
   if (pass_reader(*format) != nullptr) {
-    auto frames = std::make_shared<IndexedText>(std::move(*file), *format);
+    auto frames = std::make_shared<IndexedText>(std::move(*file), *format, columns);
     Result<RawSpheres> read = keep_index ? frames->open_with_index(wanted) : frames->open(wanted);
     return opened<IndexedText>(std::move(frames), std::move(read));
   }
@@ -294,7 +358,7 @@ Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wante
     Result<RawSpheres> read = frames->read(wanted);
     return opened(std::move(frames), std::move(read));
   }
-  auto frames = std::make_shared<WholeFile>(std::move(*file), *format);
+  auto frames = std::make_shared<WholeFile>(std::move(*file), *format, columns);
   if (Status status = frames->look_at_end(); !status) return status.error();
   Result<RawSpheres> read = frames->read(wanted);
   return opened<WholeFile>(std::move(frames), std::move(read));

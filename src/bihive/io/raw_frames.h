@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/io/column_choice.h"
 #include "bihive/io/raw_spheres.h"
 
 namespace bihive {
@@ -42,9 +43,11 @@ struct OpenedFrames {
 /// memory at a time, and later reads take the frame's bytes alone. Files of one frame and mmCIF are read as a whole.
 /// Errors: those of the format's reader for the whole file.
 /// `keep_index`: as in FramesOptions.
-Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wanted, bool keep_index = false);
+Result<OpenedFrames> open_raw_frames(const std::string& path, std::int64_t wanted, bool keep_index = false,
+                                     const ColumnChoice& columns = {});
 
 /// The same from bytes that must outlive it.
-Result<OpenedFrames> open_raw_frames(std::string_view bytes, const std::string& name, std::int64_t wanted);
+Result<OpenedFrames> open_raw_frames(std::string_view bytes, const std::string& name, std::int64_t wanted,
+                                     const ColumnChoice& columns = {});
 
 }  // namespace bihive

@@ -13,6 +13,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/io/column_choice.h"
 
 namespace bihive {
 
@@ -29,6 +30,7 @@ struct ReadOptions {
   /// read at its first frame. Empty: none.
   std::string trajectory = "";
   std::string assembly = "";  ///< id of a biological assembly in a PDB or mmCIF file; empty: the atoms as they are
+  ColumnChoice columns = {};  ///< of formats with columns: which one plays which part; the others go by their names
   /// The vectors of the cell and its corner, in place of the file's. A corner that neither states is 0.
   std::optional<std::array<Vec3d, 3>> cell_vectors;
   std::optional<Vec3d> cell_origin;

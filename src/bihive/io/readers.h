@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "bihive/base/result.h"
+#include "bihive/io/column_choice.h"
 #include "bihive/io/frame_index.h"
 #include "bihive/io/raw_spheres.h"
 
@@ -61,19 +62,24 @@ Result<RawSpheres> read_mol2(std::string_view text, const std::string& file, std
 Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file, std::int64_t frame);
 
 /// The points of PLY, in text or binary. One frame.
-Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame);
+Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice);
 
 /// Point clouds of PCL (PCD), in text, binary or packed. One frame.
-Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame);
+Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice);
 
 /// The points of VTK's old format, in text or binary. One frame.
-Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame);
+Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame,
+                                   const ColumnChoice& choice);
 
 /// The points of VTK's XML format (.vtp .vtu .vts). One frame.
-Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame);
+Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame,
+                                const ColumnChoice& choice);
 
 /// NPZ of NumPy: columns x, y, z, or one array of places, and other arrays of as many rows. One frame.
-Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std::int64_t frame);
+Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice);
 
 /// Whether the first lines of a text are those of the format. is_small_cif: whether a CIF has fractional coordinates.
 bool is_small_cif(std::string_view text);
@@ -89,9 +95,34 @@ bool is_mol2(std::string_view head);
 Result<RawSpheres> read_gsd(std::string_view bytes, const std::string& file, std::int64_t frame);
 
 /// CSV with a header line, or plain `x y z [r]` lines. One frame.
-Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame);
+Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice);
 
 /// NumPy array of n x 3 (x, y, z) or n x 4 (x, y, z, r). One frame.
-Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std::int64_t frame);
+Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std::int64_t frame,
+                            const ColumnChoice& choice);
+
+/// The same by the columns' own names.
+inline Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame) {
+  return read_ply(bytes, file, frame, {});
+}
+inline Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame) {
+  return read_pcd(bytes, file, frame, {});
+}
+inline Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame) {
+  return read_vtk_legacy(bytes, file, frame, {});
+}
+inline Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame) {
+  return read_vtk_xml(bytes, file, frame, {});
+}
+inline Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std::int64_t frame) {
+  return read_npz(bytes, file, frame, {});
+}
+inline Result<RawSpheres> read_csv(std::string_view bytes, const std::string& file, std::int64_t frame) {
+  return read_csv(bytes, file, frame, {});
+}
+inline Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std::int64_t frame) {
+  return read_npy(bytes, file, frame, {});
+}
 
 }  // namespace bihive

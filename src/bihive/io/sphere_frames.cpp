@@ -9,12 +9,14 @@
 
 namespace bihive {
 Result<SphereFile> SphereFrames::open(std::int64_t frame) {
-  return without_throwing(
-      name_, [&] { return begin(open_raw_frames(name_, is_moved() ? 0 : frame, of_frames_.keep_index), frame); });
+  return without_throwing(name_, [&] {
+    return begin(open_raw_frames(name_, is_moved() ? 0 : frame, of_frames_.keep_index, options_.columns), frame);
+  });
 }
 
 Result<SphereFile> SphereFrames::open(std::string_view bytes, std::int64_t frame) {
-  return without_throwing(name_, [&] { return begin(open_raw_frames(bytes, name_, is_moved() ? 0 : frame), frame); });
+  return without_throwing(
+      name_, [&] { return begin(open_raw_frames(bytes, name_, is_moved() ? 0 : frame, options_.columns), frame); });
 }
 
 Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t frame) {

@@ -65,6 +65,17 @@ ColumnRole usual_role(std::string_view name) {
   return found == roles.end() ? ColumnRole::number : found->second;
 }
 
+std::vector<TableColumn> columns_without_names(std::size_t count) {
+  std::vector<TableColumn> columns;
+  if (count != 3 && count != 4) {
+    for (std::size_t i = 1; i <= count; ++i) columns.push_back({"column_" + std::to_string(i), ColumnRole::number});
+    return columns;
+  }
+  columns = {{"x", ColumnRole::x}, {"y", ColumnRole::y}, {"z", ColumnRole::z}};
+  if (count > 3) columns.push_back({"radius", ColumnRole::radius});
+  return columns;
+}
+
 // Asking for the memory's size costs more than reading a row.
 constexpr std::int64_t kRowsBetweenChecks = 1 << 16;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/io/column_choice.h"
 #include "bihive/io/raw_spheres.h"
 #include "bihive/io/text_scanner.h"
 
@@ -40,6 +41,19 @@ struct TableColumn {
 /// The role that a column's name stands for in most formats (upper or lower case): x, y, z, radius, diameter, element,
 /// symbol, species, atomic_number, type, red, green, blue, opacity, transparency; else `number`.
 ColumnRole usual_role(std::string_view name);
+
+/// Gives the chosen columns their parts, and takes these from other columns. Returns the reason why it cannot, or an
+/// empty text.
+std::string choose_columns(const ColumnChoice& choice, std::vector<TableColumn>& columns);
+
+/// Whether x, y or z are among the chosen.
+bool chooses_places(const ColumnChoice& choice);
+
+/// Of a table without names: x, y, z and radius if there are three or four columns, else column_1, column_2, ...
+std::vector<TableColumn> columns_without_names(std::size_t count);
+
+/// The remedy where no column is called x.
+constexpr std::string_view kNameColumns = "say which columns they are: --columns x=NAME,y=NAME,z=NAME";
 
 class SphereTable {
  public:

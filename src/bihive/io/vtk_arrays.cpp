@@ -33,7 +33,7 @@ void add_columns(const PointArray& array, bool colour, std::vector<TableColumn>&
 }  // namespace
 
 Result<RawSpheres> spheres_of_arrays(const std::vector<double>& places, const std::vector<PointArray>& arrays,
-                                     const std::string& file) {
+                                     const std::string& file, const ColumnChoice& choice) {
   const std::size_t points = places.size() / 3;
   std::vector<TableColumn> columns{{"x", ColumnRole::x}, {"y", ColumnRole::y}, {"z", ColumnRole::z}};
   std::vector<const PointArray*> taken;
@@ -54,6 +54,7 @@ Result<RawSpheres> spheres_of_arrays(const std::vector<double>& places, const st
     add_columns(array, colour, columns);
     taken.push_back(&array);
   }
+  if (const std::string fault = choose_columns(choice, columns); !fault.empty()) return Error{fault, file, 0, 0, ""};
   SphereTable table(columns);
   if (const std::string fault = table.columns_fault(); !fault.empty()) return Error{fault, file, 0, 0, ""};
   if (colours_are_bytes) table.colours_are_bytes();

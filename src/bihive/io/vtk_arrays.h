@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/io/column_choice.h"
 #include "bihive/io/raw_spheres.h"
 
 namespace bihive {
@@ -21,6 +22,6 @@ struct PointArray {
 /// Spheres from the places (three numbers a point) and the arrays of as many points; others are left out. An array of
 /// one component has the role of its name, colours have three or four, others become name_1, name_2, ...
 Result<RawSpheres> spheres_of_arrays(const std::vector<double>& places, const std::vector<PointArray>& arrays,
-                                     const std::string& file);
+                                     const std::string& file, const ColumnChoice& choice);
 
 }  // namespace bihive

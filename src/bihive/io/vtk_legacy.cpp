@@ -40,12 +40,13 @@ std::optional<NumberType> vtk_type(std::string_view name) {
 
 class VtkReader {
  public:
-  VtkReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+  VtkReader(std::string_view bytes, const std::string& file, const ColumnChoice& choice)
+      : bytes_(bytes), file_(file), choice_(choice) {}
 
   Result<RawSpheres> read() {
     if (Status status = read_all(); !status) return status.error();
     if (!has_points_) return error("there are no POINTS in it", kHint);
-    return spheres_of_arrays(places_, arrays_, file_);
+    return spheres_of_arrays(places_, arrays_, file_, choice_);
   }
 
  private:
@@ -273,6 +274,7 @@ class VtkReader {
 
   std::string_view bytes_;
   const std::string& file_;
+  const ColumnChoice& choice_;
   std::size_t at_ = 0;
   std::int64_t line_ = 1;
   bool binary_ = false, has_points_ = false, of_points_ = false;
@@ -283,9 +285,10 @@ class VtkReader {
 
 }  // namespace
 
-Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame) {
+Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame,
+                                   const ColumnChoice& choice) {
   if (frame != 0) return no_such_frame(file, frame, 1);
-  return VtkReader(bytes, file).read();
+  return VtkReader(bytes, file, choice).read();
 }
 
 }  // namespace bihive

@@ -76,7 +76,8 @@ std::optional<NumberType> xml_type(std::string_view name) {
 
 class VtkXmlReader {
  public:
-  VtkXmlReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+  VtkXmlReader(std::string_view bytes, const std::string& file, const ColumnChoice& choice)
+      : bytes_(bytes), file_(file), choice_(choice) {}
 
   Result<RawSpheres> read() {
     if (Status status = find_arrays(); !status) return status.error();
@@ -113,7 +114,7 @@ class VtkXmlReader {
                      file_, 0, 0, ""};
     }
     if (!any) return Error{"there are no Points in it", file_, 0, 0, ""};
-    return spheres_of_arrays(places, arrays, file_);
+    return spheres_of_arrays(places, arrays, file_, choice_);
   }
 
  private:
@@ -367,6 +368,7 @@ class VtkXmlReader {
 
   std::string_view bytes_;
   const std::string& file_;
+  const ColumnChoice& choice_;
   std::vector<std::int64_t> points_of_piece_;
   std::vector<DataArray> arrays_;
   std::string_view appended_;
@@ -383,9 +385,10 @@ bool is_vtk_xml(std::string_view head) {
   return first != std::string_view::npos && head[first] == '<' && head.find("<VTKFile") != std::string_view::npos;
 }
 
-Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame) {
+Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file, std::int64_t frame,
+                                const ColumnChoice& choice) {
   if (frame != 0) return no_such_frame(file, frame, 1);
-  return VtkXmlReader(bytes, file).read();
+  return VtkXmlReader(bytes, file, choice).read();
 }
 
 }  // namespace bihive

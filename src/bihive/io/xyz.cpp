@@ -75,15 +75,19 @@ std::string columns_of(std::string_view properties, std::vector<TableColumn>& co
 }
 
 // The table that a frame's comment line describes.
-Result<SphereTable> table_of(const TextScanner& scanner) {
+Result<SphereTable> table_of(const TextScanner& scanner, const ColumnChoice& choice) {
   const auto properties = value_in(scanner.line(), "properties=");
   if (!properties) {
-    SphereTable table(plain_columns());
+    std::vector<TableColumn> plain = plain_columns();
+    if (const std::string fault = choose_columns(choice, plain); !fault.empty())
+      return scanner.line_error(fault, "name more columns by Properties=... on this line");
+    SphereTable table(plain);
     table.allow_more_fields();
     return table;
   }
   std::vector<TableColumn> columns;
   std::string fault = columns_of(*properties, columns);
+  if (fault.empty()) fault = choose_columns(choice, columns);
   SphereTable table(columns);
   if (fault.empty()) fault = table.columns_fault();
   if (!fault.empty()) return scanner.line_error(fault, "Properties needs pos:R:3");
@@ -157,7 +161,7 @@ Result<RawSpheres> read_xyz(TextScanner scanner, const FramePass& pass) {
       if (*count == 0) continue;
       return cut(0);
     }
-    Result<SphereTable> table = table_of(scanner);
+    Result<SphereTable> table = table_of(scanner, pass.columns);
     if (!table) return table.error();
     std::optional<Cell> cell;
     if (const auto lattice = value_in(scanner.line(), "lattice="); lattice && frames == frame) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bihive/io/data_path.h"
 #include "bihive/io/finish.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/colour_text.h"
@@ -286,6 +287,8 @@ class Extraction {
       return fail("/spheres", "a trajectory moves the spheres of a file, and these are in the document");
     if (!options_.assembly.empty())
       return fail("/spheres", "there is no assembly \"" + options_.assembly + "\": the spheres are in the document");
+    if (!options_.columns.empty())
+      return fail("/spheres", "there are no columns to choose: the spheres are in the document");
     // Go through all of them. A sphere without colour, opacity or material gets the default.
     const std::size_t n = values.size();
     RawSpheres raw;
@@ -386,12 +389,16 @@ class Extraction {
       need_version(2, "/spheres/assembly");
       if (options.assembly.empty()) options.assembly = value.at("assembly").get<std::string>();
     }
+    if (value.contains("columns")) {
+      need_version(2, "/spheres/columns");
+      if (options.columns.empty()) options.columns = value.at("columns").get<ColumnChoice>();
+    }
     take_cell(options);
     if (options.frame == 0) options.frame = value.value("frame", std::int64_t{0});
 
     const std::string path = beside(value.at("file").get<std::string>());
-    loaded_.files.push_back(path);
-    if (!options.trajectory.empty()) loaded_.files.push_back(options.trajectory);
+    loaded_.files.push_back(data_path(path).file);
+    if (!options.trajectory.empty()) loaded_.files.push_back(data_path(options.trajectory).file);
     Result<SphereFile> file = read_spheres(path, options);
     if (!file) return fail("/spheres/file", file.error().to_string());
 

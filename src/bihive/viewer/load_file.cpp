@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bihive/base/write_file.h"
+#include "bihive/io/data_path.h"
 #include "bihive/io/packed.h"
 #include "bihive/scene/scene_file.h"
 
@@ -20,10 +21,12 @@ bool must_be_read_whole(const std::string& path) {
 
 Result<LoadedFile> load_file(Viewer& viewer, const std::string& path, const ReadOptions& options,
                              std::int64_t whole_bytes) {
+  const DataPath named = data_path(path);
   std::error_code unknown;
-  const bool again = std::filesystem::is_regular_file(path, unknown);
-  const auto size = again ? static_cast<std::int64_t>(std::filesystem::file_size(path, unknown)) : 0;
-  if (again && !unknown && (!options.trajectory.empty() || size > whole_bytes) && !must_be_read_whole(path)) {
+  const bool again = std::filesystem::is_regular_file(named.file, unknown);
+  const auto size = again ? static_cast<std::int64_t>(std::filesystem::file_size(named.file, unknown)) : 0;
+  const bool in_parts = !options.trajectory.empty() || !named.inside.empty() || size > whole_bytes;
+  if (again && !unknown && in_parts && !must_be_read_whole(named.file)) {
     Result<std::shared_ptr<const Frames>> frames = open_frames(path, options);
     if (!frames) return frames.error();
     Result<SphereFile> first = (*frames)->read(options.frame);

@@ -2,6 +2,9 @@
 #include <cmath>
 #include <string>
 
+#include "bihive/io/arrays/array_file.h"
+#include "bihive/io/arrays/array_frames.h"
+#include "bihive/io/data_path.h"
 #include "bihive/io/trajectory.h"
 #include "bihive/io/trajectory/formats.h"
 #include "bihive/io/unpacked_file.h"
@@ -9,19 +12,24 @@
 namespace bihive {
 
 bool looks_like_trajectory(std::string_view first_bytes) {
-  return looks_like_dcd(first_bytes) || looks_like_xtc(first_bytes) || looks_like_trr(first_bytes);
+  return looks_like_hdf5(first_bytes) || looks_like_netcdf(first_bytes) || looks_like_dcd(first_bytes) ||
+         looks_like_xtc(first_bytes) || looks_like_trr(first_bytes);
 }
 
 Result<std::shared_ptr<const Trajectory>> open_trajectory(const std::string& path) {
   constexpr std::int64_t kLook = 128;
-  Result<RandomFile> file = open_unpacked(path);
+  const DataPath named = data_path(path);
+  Result<RandomFile> file = open_unpacked(named.file);
   if (!file) return file.error();
   const Result<std::string> first = file->read(0, std::min(kLook, file->size()));
   if (!first) return first.error();
+  if (looks_like_hdf5(*first) || looks_like_netcdf(*first))
+    return open_array_trajectory(std::move(*file), named.inside);
   if (looks_like_dcd(*first)) return open_dcd(std::move(*file));
   if (looks_like_xtc(*first)) return open_xtc(std::move(*file));
   if (looks_like_trr(*first)) return open_trr(std::move(*file));
-  return Error{"this is no trajectory in a known format", path, 0, 0, "known are DCD, XTC and TRR"};
+  return Error{"this is no trajectory in a known format", path, 0, 0,
+               "known are DCD, XTC, TRR, NetCDF of AMBER and H5MD"};
 }
 
 Error no_such_trajectory_frame(const Trajectory& trajectory, const std::string& path, std::int64_t frame) {

@@ -79,6 +79,10 @@ bool RandomFile::changed() const {
   return facts.st_size < size_ || (facts.st_size == size_ && time_written_ns(facts) != written_ns_);
 }
 
+int RandomFile::another_descriptor() const {
+  return file_ < 0 ? -1 : fcntl(file_, F_DUPFD_CLOEXEC, 0);
+}
+
 Result<std::string> RandomFile::read(std::int64_t place, std::int64_t count) const {
   if (Status status = check_range(place, count); !status) return status.error();
   try {

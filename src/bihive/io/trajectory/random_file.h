@@ -34,6 +34,8 @@ class RandomFile {
   /// Whether it is a file on the disk that became shorter or was written to since it was opened. One that only grew
   /// has the bytes that it had, as far as can be told from outside.
   bool changed() const;
+  /// A new descriptor of the same file, which the caller closes; below 0: the bytes are in memory.
+  int another_descriptor() const;
   /// `count` bytes from `place` on. Errors: the file ends before, it cannot be read, or there is no memory for them.
   Result<std::string> read(std::int64_t place, std::int64_t count) const;
   /// The same into memory of the caller.

@@ -1,0 +1,200 @@
+#include "bihive/io/arrays/array_frames.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bihive/io/arrays/array_file.h"
+#include "bihive/io/arrays/particle_layout.h"
+#include "bihive/io/named_arrays.h"
+#include "bihive/io/text_scanner.h"
+
+namespace bihive {
+namespace {
+
+Result<std::shared_ptr<const ArrayFile>> open_arrays(RandomFile file, const std::string& inside) {
+  const Result<std::string> head = file.read(0, std::min<std::int64_t>(8, file.size()));
+  if (!head) return head.error();
+  if (looks_like_hdf5(*head)) return open_hdf5(std::move(file));
+  if (!inside.empty())
+    return Error{"names of data sets are for HDF5 files, and this is none: " + quote(inside), file.path(), 0, 0, ""};
+  return open_netcdf(std::move(file));
+}
+
+bool is_amber(const ArrayFile& file) {
+  return file.text("/", "Conventions").value_or("").find("AMBER") != std::string::npos;
+}
+
+// Whether a group, or any (an empty name), holds places of H5MD.
+bool is_h5md(const ArrayFile& file, const std::string& group) {
+  return std::any_of(file.arrays().begin(), file.arrays().end(), [&](const ArrayFacts& array) {
+    if (!group.empty()) return array.name == group + "/position" || array.name == group + "/position/value";
+    return array.name.rfind("/particles/", 0) == 0 &&
+           (array.name.ends_with("/position") || array.name.ends_with("/position/value"));
+  });
+}
+
+std::string shape_of(const ArrayFacts& array) {
+  std::string text;
+  for (const std::int64_t length : array.lengths) text += (text.empty() ? "" : " x ") + std::to_string(length);
+  return array.name + " (" + (text.empty() ? "one number" : text) + ")";
+}
+
+std::string list_of_arrays(const ArrayFile& file) {
+  constexpr std::size_t kReadable = 200;
+  std::string list;
+  for (const ArrayFacts& array : file.arrays())
+    if (list.size() < kReadable) list += (list.empty() ? "" : ", ") + printable(shape_of(array));
+  return list.empty() ? "it has none of numbers" : "it has " + list;
+}
+
+class ParticleFrames : public RawFrames {
+ public:
+  ParticleFrames(std::shared_ptr<const ArrayFile> file, ParticleLayout layout, ColumnChoice choice)
+      : file_(std::move(file)), layout_(std::move(layout)), choice_(std::move(choice)) {}
+
+  Result<RawSpheres> read(std::int64_t frame) const override {
+    const std::int64_t frames = frame_count(layout_);
+    if (frame < 0 || frame >= frames) return no_such_frame(file_->path(), frame, frames);
+    return read_particles(*file_, layout_, frame, choice_);
+  }
+
+ private:
+  std::shared_ptr<const ArrayFile> file_;
+  ParticleLayout layout_;
+  ColumnChoice choice_;
+};
+
+class ArrayTrajectory : public Trajectory {
+ public:
+  ArrayTrajectory(std::shared_ptr<const ArrayFile> file, ParticleLayout layout)
+      : file_(std::move(file)), layout_(std::move(layout)) {}
+
+  std::string format() const override { return layout_.format; }
+  std::int64_t frame_count() const override { return bihive::frame_count(layout_); }
+  std::int64_t sphere_count() const override { return particle_count(layout_); }
+  Result<TrajectoryFrame> read(std::int64_t frame) const override {
+    if (frame < 0 || frame >= frame_count()) return no_such_frame(file_->path(), frame, frame_count());
+    return read_places(*file_, layout_, frame);
+  }
+
+ private:
+  std::shared_ptr<const ArrayFile> file_;
+  ParticleLayout layout_;
+};
+
+// Data sets that no convention names: columns, or one array of places. Those of three dimensions have frames.
+class DataSetFrames : public RawFrames {
+ public:
+  DataSetFrames(std::shared_ptr<const ArrayFile> file, std::vector<ArrayFacts> sets, ColumnChoice choice)
+      : file_(std::move(file)), sets_(std::move(sets)), choice_(std::move(choice)) {
+    for (const ArrayFacts& set : sets_)
+      if (set.lengths.size() == 3 && frames_ == 1) frames_ = set.lengths[0];
+  }
+
+  Result<RawSpheres> read(std::int64_t frame) const override {
+    if (frame < 0 || frame >= frames_) return no_such_frame(file_->path(), frame, frames_);
+    NamedArrays all{"HDF5", {}, "", "name one: FILE:/GROUP/NAME; " + list_of_arrays(*file_)};
+    for (const ArrayFacts& set : sets_) {
+      const bool moves = set.lengths.size() == 3;
+      std::vector<std::int64_t> begin(set.lengths.size(), 0), lengths = set.lengths;
+      if (moves) {
+        if (frame >= lengths[0]) {
+          all.left_out += " " + set.name;
+          continue;
+        }
+        begin[0] = frame;
+        lengths[0] = 1;
+      }
+      Result<std::vector<double>> values = file_->read(set, begin, lengths);
+      if (!values) return values.error();
+      if (moves) lengths.erase(lengths.begin());
+      all.arrays.push_back({set.name.substr(set.name.rfind('/') + 1), std::move(lengths), std::move(*values)});
+    }
+    Result<RawSpheres> spheres = spheres_of_named_arrays(all, file_->path(), choice_);
+    if (spheres) spheres->frames = frames_;
+    return spheres;
+  }
+
+ private:
+  std::shared_ptr<const ArrayFile> file_;
+  std::vector<ArrayFacts> sets_;
+  ColumnChoice choice_;
+  std::int64_t frames_ = 1;
+};
+
+// The data sets of one to three dimensions directly in a group.
+std::vector<ArrayFacts> sets_in(const ArrayFile& file, const std::string& group) {
+  std::vector<ArrayFacts> sets;
+  for (const ArrayFacts& array : file.arrays()) {
+    if (array.name.rfind(group + "/", 0) != 0 || array.name.find('/', group.size() + 1) != std::string::npos) continue;
+    if (!array.lengths.empty() && array.lengths.size() <= 3) sets.push_back(array);
+  }
+  return sets;
+}
+
+Result<std::vector<ArrayFacts>> chosen_sets(const ArrayFile& file, const std::string& inside) {
+  if (const ArrayFacts* const set = file.find(inside)) {
+    if (set->lengths.size() < 2 || set->lengths.size() > 3)
+      return Error{
+          "the data set " + quote(shape_of(*set)) + " has no rows of places", file.path(), 0, 0,
+          "two dimensions are places, three are frames of places; name the group to take its data sets as columns"};
+    return std::vector<ArrayFacts>{*set};
+  }
+  std::vector<ArrayFacts> sets = sets_in(file, inside);
+  if (sets.empty() && inside.empty() && file.arrays().size() == 1) return chosen_sets(file, file.arrays().front().name);
+  if (!sets.empty()) return sets;
+  const std::string what = inside.empty() ? "the HDF5 file has no data sets in its first group"
+                                          : "there is no data set and no group of data sets " + quote(inside);
+  return Error{what, file.path(), 0, 0, "name one: FILE:/GROUP/NAME; " + list_of_arrays(file)};
+}
+
+// "group/" and "/group" are the same.
+std::string bare_name(std::string name) {
+  while (!name.empty() && name.back() == '/') name.pop_back();
+  return name;
+}
+
+// Places alone, as a trajectory has them.
+bool lacks_atoms(const ParticleLayout& layout) {
+  return std::all_of(layout.columns.begin(), layout.columns.end(), [](const ParticleColumn& column) {
+    return column.name == "velocities" || column.name == "forces";
+  });
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const RawFrames>> open_array_frames(RandomFile file, const std::string& inside,
+                                                           const ColumnChoice& choice) {
+  const Result<std::shared_ptr<const ArrayFile>> arrays = open_arrays(std::move(file), inside);
+  if (!arrays) return arrays.error();
+  const ArrayFile& opened = **arrays;
+  const std::string name = bare_name(inside);
+  const bool is_hdf5 = opened.arrays().empty() || opened.arrays().front().name[0] == '/';
+  if (is_h5md(opened, name)) {
+    Result<ParticleLayout> layout = h5md_layout(opened, name);
+    if (!layout) return layout.error();
+    return std::shared_ptr<const RawFrames>(std::make_shared<ParticleFrames>(*arrays, std::move(*layout), choice));
+  }
+  if (name.empty() && (!is_hdf5 || is_amber(opened))) {
+    Result<ParticleLayout> layout = amber_layout(opened);
+    if (!layout) return layout.error();
+    if (lacks_atoms(*layout))
+      return Error{"this is a trajectory of AMBER (NetCDF), which is read only together with a file of its atoms",
+                   opened.path(), 0, 0, "give that file first, as in 'bihive render ATOMS.pdb FILE'"};
+    return std::shared_ptr<const RawFrames>(std::make_shared<ParticleFrames>(*arrays, std::move(*layout), choice));
+  }
+  Result<std::vector<ArrayFacts>> sets = chosen_sets(opened, name);
+  if (!sets) return sets.error();
+  return std::shared_ptr<const RawFrames>(std::make_shared<DataSetFrames>(*arrays, std::move(*sets), choice));
+}
+
+Result<std::shared_ptr<const Trajectory>> open_array_trajectory(RandomFile file, const std::string& inside) {
+  const Result<std::shared_ptr<const ArrayFile>> arrays = open_arrays(std::move(file), inside);
+  if (!arrays) return arrays.error();
+  const std::string name = bare_name(inside);
+  Result<ParticleLayout> layout = is_h5md(**arrays, name) ? h5md_layout(**arrays, name) : amber_layout(**arrays);
+  if (!layout) return layout.error();
+  return std::shared_ptr<const Trajectory>(std::make_shared<ArrayTrajectory>(*arrays, std::move(*layout)));
+}
+
+}  // namespace bihive

@@ -1,0 +1,23 @@
+// Frames and trajectories of files that hold arrays: H5MD, AMBER's NetCDF, and any data sets of HDF5.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bihive/base/result.h"
+#include "bihive/io/column_choice.h"
+#include "bihive/io/raw_frames.h"
+#include "bihive/io/trajectory.h"
+#include "bihive/io/trajectory/random_file.h"
+
+namespace bihive {
+
+/// The frames of an HDF5 or NetCDF file. `inside`: a group or a data set of HDF5; empty: what the file has. Errors: no
+/// such data set; none that could be places; places without anything else of the atoms (AMBER).
+Result<std::shared_ptr<const RawFrames>> open_array_frames(RandomFile file, const std::string& inside,
+                                                           const ColumnChoice& choice);
+
+/// Its places as a trajectory: H5MD, AMBER's NetCDF.
+Result<std::shared_ptr<const Trajectory>> open_array_trajectory(RandomFile file, const std::string& inside);
+
+}  // namespace bihive
