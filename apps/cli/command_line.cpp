@@ -557,7 +557,8 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
   command.add_option("--values", options.values, "Other values to compare with: DIR/EXPERIMENT/values.json")
       ->type_name("DIR");
   command
-      .add_option("--device", options.devices, "A run or frames shown, saved by the page on another device;\nmay come several times")
+      .add_option("--device", options.devices,
+                  "A run or frames shown, saved by the page on another device;\nmay come several times")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_option("--against", options.against, "results.json of an older run: the report says what changed")

@@ -32,7 +32,7 @@ struct Request {
   std::optional<ViewFrom> side;
   std::string settings = "{}";
   std::string look = "{}";
-  std::string screenshot;  ///< not empty: a PNG of the settled window is written there, and the program ends
+  std::string screenshot;    ///< not empty: a PNG of the settled window is written there, and the program ends
   std::string shown_frames;  ///< not empty: frames shown a second are written there as JSON, and the program ends
   double seconds = 2;        ///< of each such measurement
 };

@@ -29,15 +29,14 @@ std::string processor_name() {
 // What draws the window itself: with software, it takes time from the frames.
 std::string device_words(const Gl& gl) {
   const auto* const renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
-  return processor_name() + ", vectors: " + std::string(active_target()) +
-         "; the window by " + (renderer == nullptr ? "an unknown OpenGL" : renderer);
+  return processor_name() + ", vectors: " + std::string(active_target()) + "; the window by " +
+         (renderer == nullptr ? "an unknown OpenGL" : renderer);
 }
 
 }  // namespace
 
 Result<std::string> measure_shown_frames(double seconds) {
-  const Result<StatedValues> values =
-      StatedValues::parse(builtin_values_figure_4_4(), "thesis/figure-4.4/values.json");
+  const Result<StatedValues> values = StatedValues::parse(builtin_values_figure_4_4(), "thesis/figure-4.4/values.json");
   if (!values) return values.error();
   Result<ShownFramesPlan> plan = ShownFramesPlan::from_values(*values);
   if (!plan) return plan.error();

@@ -192,6 +192,12 @@ class Figure44(ProgramTest):
             found = self.findings(self.with_frames(self.frames([90, 90, 90], rounds)))
             self.assertEqual(found["scenario2.gain_percent.best"][0], verdict, rounds)
 
+    def test_a_tree_slower_than_none_is_decided_by_quartiles(self):
+        # The slowest tree is that of one leaf: 50 ms a frame.
+        for brute, verdict in [([100] * 3, "differs"), ([40] * 3, "agrees"), ([48, 55, 60], "undecided")]:
+            found = self.findings(self.with_frames(self.frames([20, 20, 20], [10, 10, 10], brute)))
+            self.assertEqual(found["worse_than_none"][0], verdict, brute)
+
     def test_the_winner_is_decided_by_quartiles(self):
         changes = dict(winner__wins=4, winner__configurations=4)
         for tree1, wins, verdict in [

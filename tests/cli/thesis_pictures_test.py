@@ -179,6 +179,7 @@ class Pictures(ProgramTest):
                 ("red.ambient", 0.4, "red.ambient"),
                 ("cube.high", 19.0, "scenario1.cube"),
                 ("cube.low", -21.0, "scenario1.cube"),
+                ("scenario1.spacing_difference", 0.5, "scenario1.spacing"),
                 ("scenario2.clusters", 7, "scenario2.clusters"),
                 ("scenario3.clustered_share", 0.4, "scenario3.clustered_share"),
             ],

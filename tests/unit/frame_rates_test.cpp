@@ -143,7 +143,8 @@ TEST(MeasuredRate, IsOfTheMedianRound) {
 TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
   FrameRateRun run(small_plan(), {});
   while (!run.finished()) ASSERT_TRUE(run.step());
-  const auto json = nlohmann::json::parse(frame_rates_json(run, stated_values().value(), "cpu", {"a \"device\" \xff", {{"browser", "a browser"}, {"gpu", "a processor"}}}));
+  const auto json = nlohmann::json::parse(frame_rates_json(
+      run, stated_values().value(), "cpu", {"a \"device\" \xff", {{"browser", "a browser"}, {"gpu", "a processor"}}}));
   EXPECT_EQ(json["engine"], "cpu");
   EXPECT_EQ(json["browser"], "a browser");
   EXPECT_EQ(json["gpu"], "a processor");

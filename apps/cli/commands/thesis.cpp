@@ -232,7 +232,8 @@ void print_summary(const std::vector<ReportSection>& sections, const std::vector
     print(text + "\n");
   }
   for (const ReportFront& front : fronts)
-    if ((front.id == "verdicts" || front.id == "against") && !front.paragraphs.empty()) print(front.paragraphs.back() + "\n");
+    if ((front.id == "verdicts" || front.id == "against") && !front.paragraphs.empty())
+      print(front.paragraphs.back() + "\n");
   print(escaped(report) + "\n");
 }
 

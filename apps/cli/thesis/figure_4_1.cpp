@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -66,6 +68,20 @@ int occupied_corners(const SphereSet& spheres, const Values& values) {
   return static_cast<int>(corners.size());
 }
 
+// The least and the largest distance between neighbouring rows of spheres, over width, height and depth.
+std::pair<double, double> spacing(const SphereSet& spheres) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::set<double> rows;
+    for (std::int64_t id = 0; id < spheres.size(); ++id) rows.insert(spheres.centre(id)[axis]);
+    for (auto row = rows.begin(); std::next(row) != rows.end(); ++row) {
+      least = std::min(least, *std::next(row) - *row);
+      most = std::max(most, *std::next(row) - *row);
+    }
+  }
+  return {least, most};
+}
+
 // The share of the spheres that do not stand in rows.
 double clustered_share(const SphereSet& spheres) {
   std::map<float, int> rows;
@@ -117,6 +133,8 @@ Json draw_scenario(const StepContext& context, std::int64_t number) {
               {"high", std::max({bounds.hi.x, bounds.hi.y, bounds.hi.z})},
               {"clustered_share", clustered_share(scene.spheres)},
               {"scene", scene_facts(scene)}};
+  const auto [least, most] = spacing(scene.spheres);
+  result["spacing"] = {least, most};
   const int corners = occupied_corners(scene.spheres, values);
   result["clusters"] = corners;
   return result;
@@ -170,6 +188,12 @@ void add_places(Statements& statements, const Values& values, std::int64_t numbe
   const auto count = result.at("spheres").get<std::int64_t>(), seen = result.at("spheres_in_view").get<std::int64_t>();
   statements.add(name + ".visible", scenario + "all primitives are visible", "all",
                  fmt::format("{} of {}", seen, count), verdict_if(seen == count));
+  if (number == 1 && values.has("scenario1.spacing_difference")) {
+    const double least = result.at("spacing").at(0).get<double>(), most = result.at("spacing").at(1).get<double>();
+    statements.add("scenario1.spacing", scenario + "spacing across width, height and depth",
+                   {values, "scenario1.spacing_difference"}, fmt::format("{:.4f} to {:.4f}", least, most),
+                   verdict_if(std::abs(most - least - values.number("scenario1.spacing_difference")) <= rounding));
+  }
   if (number == 2) {
     const auto clusters = result.at("clusters").get<std::int64_t>();
     statements.add("scenario2.clusters", scenario + "smaller cubes in the corners, with all spheres",

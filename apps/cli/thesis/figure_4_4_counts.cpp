@@ -274,10 +274,10 @@ class CountsPart {
     const std::int64_t prims = values_.integer("winner.max_prims");
     Statements statements(
         fmt::format("The text's reason for Scenario {}: the deviation of the spheres per leaf is high", claimed),
-        fmt::format(
-            "With MAX_PRIMS {}, over the leaves of a tree; means over seeds. The text says that it is \"quite high\" and "
-            "gives no number: we take that as the highest of the scenarios.",
-            prims));
+        fmt::format("With MAX_PRIMS {}, over the leaves of a tree; means over seeds. The text says that it is \"quite "
+                    "high\" and "
+                    "gives no number: we take that as the highest of the scenarios.",
+                    prims));
     for (const std::int64_t spheres : values_.integers("spheres_list")) {
       double here = -1, elsewhere = -1;
       std::vector<std::string> ours;

@@ -20,7 +20,8 @@ namespace {
 constexpr double kStable = 0.10;
 // Behind the rules of the engines that are not the text's.
 const char* const kOtherEngine =
-    " The text says this of its own tree, in its own program. That this engine behaves alike is our inference, so no row "
+    " The text says this of its own tree, in its own program. That this engine behaves alike is our inference, so no "
+    "row "
     "agrees with the text or differs from it.";
 
 std::string fps_text(double fps) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "bihive/thesis/frame_rates_report.h"
@@ -261,6 +262,7 @@ class Judge {
       if (only_rises) sweet_spot(times);
     }
     convergence();
+    worse_than_none();
   }
 
   // "great possibility exists that BIH 16 actually represents the sweet spot": among all values up to n.
@@ -290,6 +292,31 @@ class Judge {
       add(kCurves, "converges", "With MAX_PRIMS = n, one leaf, the tree is as fast as brute force",
           {fmt::format("{} to {} times", range[0], range[1]), ValueKind::inferred},
           fmt::format("{:.2f} to {:.2f} times in the configurations", low, high), verdict);
+  }
+
+  // "one might even experience performance that is worse than if compared to not using the data structure": the slowest
+  // tree of any MAX_PRIMS beside brute force.
+  void worse_than_none() {
+    if (!complete()) return;
+    std::optional<Quartiles> slowest;
+    std::string which;
+    bool undecided = false, worse = false;
+    for (const auto& [key, times] : times_)
+      for (const auto& [prims, ms] : times.trees) {
+        const Quartiles ratio = times_as_fast(ms, times.brute);
+        worse = worse || ratio.upper < 1;
+        undecided = undecided || ratio.lower <= 1;
+        if (slowest && ratio.median >= slowest->median) continue;
+        slowest = ratio;
+        which = fmt::format("{}, {} spheres, Scenario {}", tree_name(prims), key.second, key.first);
+      }
+    if (!slowest) return;
+    add(kCurves, "worse_than_none", "With some MAX_PRIMS a tree is slower than brute force",
+        {"slower, somewhere", ValueKind::inferred},
+        fmt::format("at least {} times as fast: {}", quartiles_text(*slowest, 2), which),
+        worse       ? Verdict::agrees
+        : undecided ? Verdict::undecided
+                    : Verdict::differs);
   }
 
   void extremes() {
@@ -382,12 +409,12 @@ std::vector<Judgement> judge_frame_rates(const EngineTimes& times, const Values&
 
 std::vector<std::pair<std::string, std::string>> judgement_tables() {
   return {
-      {kGains,
-       fmt::format("The gain is the frame rate of the best tree with one of the thesis's MAX_PRIMS over brute "
-                   "force's, less 1: the median over the rounds, and the quartiles. The percentages are the "
-                   "text's. That the speed-up (1 + gain / 100) should lie within a factor of {} of them on "
-                   "another processor with another program is our inference. \"Which\" agrees if no other configuration's quartiles reach as far.",
-                   kSpeedUpFactor)},
+      {kGains, fmt::format("The gain is the frame rate of the best tree with one of the thesis's MAX_PRIMS over brute "
+                           "force's, less 1: the median over the rounds, and the quartiles. The percentages are the "
+                           "text's. That the speed-up (1 + gain / 100) should lie within a factor of {} of them on "
+                           "another processor with another program is our inference. \"Which\" agrees if no other "
+                           "configuration's quartiles reach as far.",
+                           kSpeedUpFactor)},
       {kWinners,
        "A tree wins where no other tree's quartiles of the ratio to it reach 1. Agrees only if the number of wins is "
        "the same; undecided if it may be."},

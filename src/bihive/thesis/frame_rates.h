@@ -45,8 +45,8 @@ struct FrameRatePlan {
   FrameRatePlan quickly() const;
 
   /// The largest pictures, a whole part of this plan's in width and height, with which the whole run takes about
-  /// `seconds` or less on this engine; at least an eighth. A few small frames by brute force are measured for that. Then
-  /// the run ends also on a slow graphics processor.
+  /// `seconds` or less on this engine; at least an eighth. A few small frames by brute force are measured for that.
+  /// Then the run ends also on a slow graphics processor.
   Result<FrameRatePlan> within(double seconds, const FrameEngine& engine) const;
 
   int configurations() const;

@@ -48,7 +48,8 @@ void ShownFramesPlan::measure_for(double each_seconds) {
 ShownFrames::ShownFrames(ShownFramesPlan plan) : plan_(std::move(plan)) {
   for (const std::int64_t scenario : plan_.scenarios)
     for (const std::int64_t spheres : plan_.spheres)
-      for (const std::optional<std::int64_t>& max_prims : {std::optional<std::int64_t>(), std::optional(plan_.max_prims)})
+      for (const std::optional<std::int64_t>& max_prims :
+           {std::optional<std::int64_t>(), std::optional(plan_.max_prims)})
         for (const bool turning : {false, true}) rates_.push_back({scenario, spheres, max_prims, turning, 0, 0});
 }
 

@@ -27,7 +27,7 @@ struct ShownFramesPlan {
   std::uint64_t seed = 1;
   int width_px = 0, height_px = 0;
   int recursion = 1;
-  int threads = 0;              ///< 0: all
+  int threads = 0;               ///< 0: all
   double seconds = 2;            ///< of one measurement, at least: the last frame ends it; > 0
   double warm_up_seconds = 0.3;  ///< before it; these frames do not count
 
