@@ -39,8 +39,9 @@ inline std::vector<SphereAtDistance> nearest_of_every_sphere(const SphereSet& sp
         sphere_distance(point * spheres.scale(), spheres.stored_centre(id), spheres.stored_radius(id), to);
     if (distance <= limit * spheres.scale()) found.emplace_back(distance, id);
   }
-  std::sort(found.begin(), found.end());
-  if (static_cast<std::int64_t>(found.size()) > most) found.resize(static_cast<std::size_t>(most));
+  const auto kept = std::min(most, static_cast<std::int64_t>(found.size()));
+  std::partial_sort(found.begin(), found.begin() + kept, found.end());
+  found.resize(static_cast<std::size_t>(kept));
   for (SphereAtDistance& one : found) one.first *= spheres.inverse_scale();
   return found;
 }
