@@ -80,6 +80,7 @@ TEST(PointQueries, NothingToAskAndNothingToFind) {
   const auto none = tree_of({});
   const auto one = tree_of({{0, 0, 0, 1}});
   EXPECT_TRUE(nearest_spheres(*one, {}, 3)->distance.empty());
+  EXPECT_TRUE(nearest_spheres(*one, PointSpan::rows(nullptr, 0))->sphere_id.empty());
   EXPECT_THAT(spheres_containing(*one, {})->begin, ElementsAre(0));
   const double point[] = {0, 0, 0};
   EXPECT_THAT(nearest_spheres(*none, PointSpan::rows(point, 1), 2)->sphere_id, ElementsAre(kNothing, kNothing));

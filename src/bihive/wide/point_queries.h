@@ -30,8 +30,10 @@ struct PointSpan {
   const double* axis[3] = {};
   std::int64_t stride = 1;
 
-  /// x, y, z of one point after the other.
-  static PointSpan rows(const double* xyz, std::int64_t count) { return {count, {xyz, xyz + 1, xyz + 2}, 3}; }
+  /// x, y, z of one point after the other. Null only if there is none.
+  static PointSpan rows(const double* xyz, std::int64_t count) {
+    return count == 0 ? PointSpan{} : PointSpan{count, {xyz, xyz + 1, xyz + 2}, 3};
+  }
 
   Vec3d at(std::int64_t i) const { return {axis[0][i * stride], axis[1][i * stride], axis[2][i * stride]}; }
 };
