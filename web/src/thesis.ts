@@ -193,15 +193,16 @@ export class ThesisDialog {
 
   private async save_png(): Promise<void> {
     try {
-      const { engine, device, drift, configurations, ...size } = JSON.parse(this.result) as PictureSize & {
+      const { engine, device, rounds, drift, configurations, ...size } = JSON.parse(this.result) as PictureSize & {
         engine: string;
         device: string;
+        rounds: number;
         drift: number;
         configurations: Rate[];
       };
       const heading = `bihive: Figure 4.4 by the ${engine.toUpperCase()} engine, ${pixels(size)}`;
       const drifted = `Last round over first: ${drift < 1 ? '−' : '+'}${Math.abs(100 * (drift - 1)).toFixed(1)} % time`;
-      const about = [device, drifted, ...rate_lines(configurations)];
+      const about = [device, ...(rounds > 1 ? [drifted] : []), ...rate_lines(configurations)];
       save(await charts_as_png(this.charts, heading, about, png_width), `${this.file}.png`);
     } catch (error) {
       fail((error as Error).message);
