@@ -43,7 +43,7 @@ class Columns(ProgramTest):
         self.write("old.json", json.dumps({"bihive_scene": 1, "spheres": {"file": "a.csv", "columns": columns}}))
         self.assertIn("/spheres/columns", self.fail_input("info", "old.json"))
         self.write("bad.json", json.dumps({"bihive_scene": 2, "spheres": {"file": "a.csv", "columns": {"x": 1}}}))
-        self.assertIn("/spheres/columns/x", self.fail_input("info", "bad.json"))
+        self.assertIn("/spheres/columns: expected an object of texts", self.fail_input("info", "bad.json"))
         self.write("inline.json", json.dumps({"bihive_scene": 2, "spheres": [[0, 0, 0, 1]]}))
         self.assertIn("columns", self.fail_input("info", "inline.json", "--columns", "x=1"))
 
@@ -75,7 +75,7 @@ class DataSets(ProgramTest):
         # The file is never an output.
         shutil.copy(self.path("sets.h5"), self.path("sets.png"))
         before = os.stat(self.path("sets.png")).st_size
-        self.fail_usage("render", "sets.png:/run/xyz", "-o", "sets.png", "--size", "16x16")
+        self.fail_input("render", "sets.png:/run/xyz", "-o", "sets.png", "--size", "16x16")
         self.assertEqual(os.stat(self.path("sets.png")).st_size, before)
 
     def test_trajectories(self):
