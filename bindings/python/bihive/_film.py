@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import os
-import shutil
-import subprocess
-import tempfile
-from fractions import Fraction
-from typing import Any, Iterable, Iterator, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Optional, Sequence, Union
 
 import numpy as np
 
@@ -20,6 +16,10 @@ from ._progress import Bar
 from ._render import Camera, Progress, draw, picture_words, style_text
 from ._spheres import Spheres, check_readable
 
+# Films alone need these, and they would take half of the time of an import of this package.
+if TYPE_CHECKING:
+    from fractions import Fraction
+
 __all__ = ["film"]
 
 _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
@@ -29,6 +29,8 @@ _OF_PROGRAM = ["frames", "pictures", "turntable", "camera_keys", "colour_range",
 
 def _program() -> str:
     """The program `bihive`: as BIHIVE says, in the folder of the build or of the installation, or in PATH."""
+    import shutil
+
     here = os.path.dirname(os.path.abspath(__file__))
     places = [os.environ.get("BIHIVE", ""), os.path.join(here, "bin", "bihive")]
     places += [os.path.join(here, *[".."] * up, tail) for up in (2, 4, 5) for tail in ("bihive", os.path.join("bin", "bihive"))]
@@ -45,6 +47,8 @@ def _program() -> str:
 
 
 def _film_of_file(source: str, path: str, words: list[str], progress: Progress) -> None:
+    import subprocess
+
     from ._errors import in_python
 
     command = [_program(), "film", "-o", path, *words, "--", source]
@@ -86,6 +90,8 @@ def _frames_of(source: Any, atoms: Any, frames: Union[slice, Sequence[int], None
 
 
 def _rate(fps: Any) -> Fraction:
+    from fractions import Fraction
+
     try:
         rate = Fraction(fps).limit_denominator(1001) if isinstance(fps, float) else Fraction(fps)
     except (TypeError, ValueError, ZeroDivisionError):
@@ -99,6 +105,10 @@ class _Ffmpeg:
     """ffmpeg that encodes pictures into a file beside the film, which gets its name when it is whole."""
 
     def __init__(self, path: str, size: tuple[int, int], rate: Fraction) -> None:
+        import shutil
+        import subprocess
+        import tempfile
+
         program = shutil.which("ffmpeg")
         if program is None:
             raise MissingError("films are encoded by the program ffmpeg, which is not in PATH", hint="install ffmpeg")

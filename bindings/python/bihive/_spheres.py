@@ -364,7 +364,7 @@ def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     cannot be used. Warnings of the reader are given as InputWarning.
 
     >>> read("demo")
-    <bihive.Spheres: 1631 spheres from demo (PDB), element, occupancy, b_factor, resid, record, name, chain, resname>
+    <bihive.Spheres: 1631 spheres from demo (PDB), element, occupancy, b_factor, resid, record, chain, resname, name>
     """
     text = check_readable(path)
     core = _bihive.read(words_of(options, _READING) + ["--", text])

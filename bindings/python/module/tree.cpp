@@ -27,10 +27,11 @@ namespace py = pybind11;
 namespace bihive::python {
 namespace {
 
-// Rays in a piece of work: many, because scattered rays are sorted within a piece; few enough that each thread has
-// several, and that Ctrl-C is seen soon.
+// Rays in a piece of work. Neighbours in blocks take little time each, so that each thread may have several pieces.
+// Scattered rays are sorted within a piece: the more the better, but Ctrl-C is seen between two pieces alone.
 constexpr std::int64_t kFewestRays = 16384;
-constexpr std::int64_t kMostRays = 131072;
+constexpr std::int64_t kMostRaysInBlocks = 131072;
+constexpr std::int64_t kMostScatteredRays = 524288;
 constexpr std::int64_t kPiecesPerThread = 4;
 // Brute force tests in a piece: well below a second.
 constexpr std::int64_t kMostTests = std::int64_t{1} << 25;
@@ -106,17 +107,18 @@ RayPiece& piece_of_thread() {
   return piece;
 }
 
-std::int64_t rays_per_piece(const RayTree& tree, std::int64_t rays) {
+std::int64_t rays_per_piece(const RayTree& tree, std::int64_t rays, RayOrder order) {
   const std::int64_t spheres = std::max<std::int64_t>(1, tree.spheres->file.spheres.size());
   if (is_brute(tree.tracer->engine())) return std::clamp<std::int64_t>(kMostTests / spheres, 1, kFewestRays);
   const std::int64_t workers = tree.threads > 0 ? tree.threads : hardware_threads();
-  return std::clamp(rays / (workers * kPiecesPerThread), kFewestRays, kMostRays);
+  if (order == RayOrder::any) return std::clamp((rays + workers - 1) / workers, kFewestRays, kMostScatteredRays);
+  return std::clamp(rays / (workers * kPiecesPerThread), kFewestRays, kMostRaysInBlocks);
 }
 
 // Calls trace(span, first ray) for all pieces of the rays. Python's lock is held before and after, not meanwhile.
 template <class Trace>
-void trace_in_pieces(const RayTree& tree, const RayArrays& rays, const Trace& trace) {
-  const std::int64_t most = rays_per_piece(tree, rays.count);
+void trace_in_pieces(const RayTree& tree, const RayArrays& rays, RayOrder order, const Trace& trace) {
+  const std::int64_t most = rays_per_piece(tree, rays.count, order);
   const std::int64_t pieces = (rays.count + most - 1) / most;
   SignalWatch watch;
   std::atomic<bool> no_memory{false};
@@ -165,8 +167,9 @@ py::tuple closest(const RayTree& tree, const py::array& origin, const py::array&
   py::array_t<double> t(rays.count);
   py::array_t<std::int64_t> id(rays.count);
   const HitSpan hits{t.mutable_data(), id.mutable_data()};
-  trace_in_pieces(tree, rays, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-    tree.tracer->closest_hits(span, order_of(in_blocks), hits.part(first));
+  const RayOrder order = order_of(in_blocks);
+  trace_in_pieces(tree, rays, order, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
+    tree.tracer->closest_hits(span, order, hits.part(first));
   });
   return py::make_tuple(t, id);
 }
@@ -179,8 +182,9 @@ py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const p
   py::array_t<bool> hidden(rays.count);
   static_assert(sizeof(bool) == sizeof(std::uint8_t));
   auto* const to = reinterpret_cast<std::uint8_t*>(hidden.mutable_data());
-  trace_in_pieces(tree, rays, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-    tree.tracer->occluded(span, order_of(in_blocks), to + first);
+  const RayOrder order = order_of(in_blocks);
+  trace_in_pieces(tree, rays, order, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
+    tree.tracer->occluded(span, order, to + first);
   });
   return hidden;
 }
@@ -194,9 +198,9 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
   if (wide == nullptr || tree.tracer->has_images())
     cli::fail_usage("all_hits needs the wide engine, and spheres without copies", "leave out engine");
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
-  const std::int64_t most = rays_per_piece(tree, rays.count);
+  const std::int64_t most = rays_per_piece(tree, rays.count, RayOrder::blocks);
   std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
-  trace_in_pieces(tree, rays, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
+  trace_in_pieces(tree, rays, RayOrder::blocks, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
     std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
     all_hits(*wide, span, found);
     for (RayHit& hit : found) hit.ray += first;
