@@ -219,8 +219,8 @@ void App::on_character(unsigned character) {
   put(0x80 | (character & 0x3F));
 }
 
-// The pointer's place at this event: ImGui knows the place at the last frame only, and GLFW the place now. So the overlay
-// is asked for its rectangle, and not ImGui whether the pointer is over it.
+// The pointer's place at this event: ImGui knows the place at the last frame only, and GLFW the place now. So the
+// overlay is asked for its rectangle, and not ImGui whether the pointer is over it.
 bool App::over_picture() const {
   const bool over_message = (asked_file_ || !message_.empty()) && x_ >= overlay_min_.x && x_ < overlay_max_.x &&
                             y_ >= overlay_min_.y && y_ < overlay_max_.y;

@@ -99,7 +99,7 @@ class App {
 
   enum class Drag { none, orbit, pan };
   Drag drag_ = Drag::none;
-  double x_ = 0, y_ = 0;  // of the pointer
+  double x_ = 0, y_ = 0;                                // of the pointer
   ImVec2 overlay_min_ = {0, 0}, overlay_max_ = {0, 0};  // the message or the prompt, as last drawn, in ImGui's units
 };
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "bihive/io/frames.h"
 #include "bihive/thesis/frame_rates.h"
 #include "bihive/thesis/shown_frames.h"
-#include "bihive/io/frames.h"
 #include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
 
@@ -62,7 +62,8 @@ class Page {
   /// "tones": [names]}
   std::string choices() const;
   std::string look() const;
-  /// {"counts": [spheres of each row], "coloured_by": [{"attribute", "range": [min, max]}]}; categories have no range. An error has {"row": the row to blame, or -1} besides.
+  /// {"counts": [spheres of each row], "coloured_by": [{"attribute", "range": [min, max]}]}; categories have no range.
+  /// An error has {"row": the row to blame, or -1} besides.
   std::string set_look(const std::string& changes);
 
   // The graphics processor: WebGL2's current context.
