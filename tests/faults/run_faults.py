@@ -88,7 +88,7 @@ FOLDER = {"thesis": ("out/",), "film": ("a.y4m.part/", "a.y4m.json"), "film-sequ
 # Asio hands a signal on through a pipe of its own. Where every write fails, none arrives, so nothing but SIGKILL ends it.
 EXCEPT = {"web": {"write+"}}
 # Left out by --short: they go the way of others, or have many calls.
-ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis"}
+ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis", "film-sequence"}
 MOST = {"thesis": 100}  # of calls of a kind, of which there are too many
 
 # In this order; those with + let all later calls fail too.
