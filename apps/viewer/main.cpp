@@ -2,10 +2,13 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <utility>
 
+#include "../shared/last_line.h"
 #include "app.h"
+#include "bihive/base/readable.h"
 #include "bihive/base/write_file.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/viewer/load_file.h"
@@ -17,8 +20,19 @@ namespace {
 
 enum ExitCode : int { kSuccess = 0, kBadInput = 1, kBadUsage = 2, kEnvironment = 3 };
 
+// Before the shared libraries make their variables, some of which need memory. The window leaves no unfinished file.
+void prepare() {
+  end_in_one_line(nullptr);
+}
+__attribute__((section(".preinit_array"), used)) void (*const kFirst)() = prepare;
+
+// File names and other texts of users may hold anything.
+void say(const char* kind, const std::string& text) {
+  std::fprintf(stderr, "bihive: %s: %s\n", kind, escaped(text).c_str());
+}
+
 int fail(const Error& error, ExitCode code) {
-  std::fprintf(stderr, "bihive: error: %s\n", error.to_string().c_str());
+  say("error", error.to_string());
   return code;
 }
 
@@ -58,8 +72,7 @@ int run(int argc, char** argv) {
   Viewer viewer;
   Result<LoadedFile> file = load(viewer, *request);
   if (!file) return fail(file.error(), kBadInput);
-  for (const std::string& warning : file->facts.warnings)
-    std::fprintf(stderr, "bihive: warning: %s\n", warning.c_str());
+  for (const std::string& warning : file->facts.warnings) say("warning", warning);
   if (const Status status = choose(viewer, *request); !status) return fail(status.error(), kBadUsage);
   App app(viewer, *request, std::move(file->frames));
   if (const Status status = app.open(); !status) return fail(status.error(), kEnvironment);
@@ -73,7 +86,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return bihive::window::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    bihive::say_without_memory(bihive::kNoMemory);
   } catch (const std::exception& error) {
-    return bihive::window::fail({error.what(), "", 0, 0, ""}, bihive::window::kBadInput);
+    bihive::say_without_memory(error.what());
   }
+  return bihive::window::kBadInput;
 }

@@ -49,6 +49,15 @@ class Sizes(ProgramTest):
             self.assertIn("BIHIVE_MEMORY allows 200 MB", err)
             self.assertLess(bytes_used, 450e6, name)
 
+    def test_an_input_without_end(self):
+        """What is read, and the room that it moves into, stay below the limit together."""
+        code, out, err, bytes_used = self.peak("info", "/dev/zero", BIHIVE_MEMORY="120000000")
+        self.assertEqual((code, out), (1, ""))
+        self.assert_one_error_line(err)
+        self.assertIn("/dev/zero: what is read would take about", err)
+        self.write("one.txt", "0 0 0 1\n")
+        self.assertLess(bytes_used - self.peak("info", "one.txt")[3], 125e6)
+
     def test_rows_are_counted(self):
         """What fits as text need not fit as numbers."""
         self.write("many.txt", "0 0 0 1\n" * 2000000)

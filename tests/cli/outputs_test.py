@@ -250,13 +250,16 @@ class Names(OutputTest):
         self.write(raw, XYZ)
         self.rays()
         for name in [self.HOSTILE, raw]:
+            self.write(name + "bad", "no spheres")
             commands = [["info", name], ["info", name, "--attributes"], ["stats", name], ["select", name, "all"],
                         ["render", name, "-o", name + ".png", *SMALL], ["scene", "four-spheres", "-o", name + ".json"],
                         ["trace", name, "--rays", "rays.npy", "--t", name + "t", "--id", name + "i"],
                         ["info", name + "missing"], ["render", name, "-o", name], ["frobnicate" + name],
                         ["render", name, "-o", "a.png", "--view", name], ["select", name, "name " + name],
                         ["render", name, "-o", name + ".png", "--style", name],
-                        ["thesis", "figure-4.1", "--out", "r", "--values", name]]
+                        ["thesis", "figure-4.1", "--out", "r", "--values", name], ["convert", name, "-o", name + ".csv"],
+                        ["film", name, "-o", name + ".y4m", "--pictures", "1", *SMALL], ["film", name, "-o", name],
+                        ["view", name + "missing"], ["view", name + "bad"], ["view", name, "--screenshot", name + "/a.png"], ["web", name + "missing"]]
             for command in commands:
                 done = self.binary(*command)
                 with self.subTest(command):

@@ -325,6 +325,7 @@ class Refuses(WebTest):
         self.start()
         for head in ["HEAD / HTTP/1.1\r\n\r\n", "HEAD / HTTP/1.1\r\nHost: evil.example\r\n\r\n", "HEAD /none HTTP/1.1\r\nHost: localhost\r\n\r\n",
                      "HEAD / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n\r\n", "HEAD /%zz HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                     "HEAD / HTTP/9.9\r\nHost: localhost\r\n\r\n", "HEAD /\r\n\r\n",
                      "HEAD / HTTP/1.1\r\nHost: localhost\r\nX: " + "x" * 20000 + "\r\n\r\n"]:
             with socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE_S) as connection:
                 connection.sendall(head.encode())

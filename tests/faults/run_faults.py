@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Lets each call of a program fail in turn, and judges what the program makes of it.
 
-Usage: run_faults.py [--most N] [--short] [--jobs J] [--command NAME...] [--kind KIND...] BIHIVE FAULTS_LIBRARY
+Usage: run_faults.py BIHIVE FAULTS_LIBRARY [--most N] [--short] [--jobs J] [--command NAME...] [--kind KIND...]
 
 For each command and each kind of call (faults.cpp) it runs the program again and again: the first call fails, then the second,
 until a run meets no fault. With --most N it takes N of these calls, evenly spread.
@@ -12,8 +12,8 @@ A run is right if
   - stderr is empty, or with exit code 1 or 3 one line of error, after warnings at most;
   - with exit code 0 the outputs are the bytes of a run without faults; otherwise all of them are these, or all are the old
     files (absent, or those of a previous run);
-  - no other file has come, gone or changed, and no descriptor is open at the end. `thesis` goes on where it stopped: its
-    folder may hold what is done, each file whole.
+  - no other file has come, gone or changed, and no descriptor is open at the end. `thesis` and `film` go on where they
+    stopped: their folders may hold what is done, each file whole.
 With --short, commands that resemble others are left out. With --most, commands that write no file have half as many calls fail, at least one of each kind.
 Prints a line for each run that is not, a table, and ends with exit code 1 if there is one.
 """
@@ -64,8 +64,11 @@ COMMANDS = {
     "convert-csv": (["convert", "in.pdb", "-o", "a.csv", "--select", "element C"], ["a.csv"]),
     "convert-scene": (["convert", "in.cif", "-o", "a.json"], ["a.json"]),
     "convert-stream": (["convert", "water.gsd", "-o", "-", "--format", "extxyz"], []),
+    "film": (["film", "in.xyz", *SMALL, "--pictures", "3", "--turntable", "90", "-o", "a.y4m"], ["a.y4m"]),
+    "film-sequence": (["film", "in.xyz", *SMALL, "--pictures", "2", "--turntable", "90", "-o", "out/%d.png"], []),
     "web": (["web", "in.pdb", "--no-browser", "--json", "--port", "0"], []),
     "view": (["view", "in.xyz"], []),
+    "window": (["view", "in.xyz"], []),
     "thesis": (["thesis", "figure-4.1", "--quick", "--threads", "2", "--out", "out"], []),
     "select": (["select", "in.pdb", "within 3 of (name CA and not chain B) or index 0..1"], []),
     "stats": (["stats", "in.xyz", "--json"], []),
@@ -75,16 +78,17 @@ COMMANDS = {
     "missing": (["info", "missing.xyz"], []),
     "version": (["--version"], []),
 }
-WHOLE = "styles"  # of this command every allocation fails
+WHOLE = "styles"  # of this command every allocation fails; `window` is another program
 OF_ITS_OWN = 100  # allocations of --version that other commands need not have
 # These end so without a fault, and may with one. Here is no screen for a window.
-EXPECTED = {"usage": 2, "missing": 1, "view": 3}
-FOLDER = {"thesis": "out/"}  # what it writes there is judged file by file
+EXPECTED = {"usage": 2, "missing": 1, "view": 3, "window": 3}
+WINDOW = {"view", "window"}  # they need bihive-view; of `view` the calls of bihive fail, of `window` those of bihive-view
+# What these leave is judged file by file: folders, and the film's description, which stands beside the film.
+FOLDER = {"thesis": ("out/",), "film": ("a.y4m.part/", "a.y4m.json"), "film-sequence": ("out/",)}
 # Asio hands a signal on through a pipe of its own. Where every write fails, none arrives, so nothing but SIGKILL ends it.
-# The window program has no handlers like those of bihive for lack of memory; docs/reliability.md says so.
-EXCEPT = {"web": {"write+"}, "view": {"malloc", "malloc+"}}
+EXCEPT = {"web": {"write+"}}
 # Left out by --short: they go the way of others, or have many calls.
-ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis"}
+ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis", "film-sequence"}
 MOST = {"thesis": 100}  # of calls of a kind, of which there are too many
 
 # In this order; those with + let all later calls fail too.
@@ -129,7 +133,10 @@ def inputs():
 
 
 def is_whole(name, data):
-    """Whether a file of the thesis's report is no part of one."""
+    """Whether a file of the thesis's report, or of a film, is no part of one. The next run of `film` cuts off what stands
+    behind the last whole picture of its .y4m."""
+    if name in ("a.y4m.part/lock", "a.y4m.part/film.y4m"):
+        return True
     ending = os.path.splitext(name)[1]
     if ending == ".json":
         try:
@@ -190,6 +197,19 @@ def run_program(name, words, folder, environment):
             return "no end", b"", ""
 
 
+def request_for_window(bihive, words, folder):
+    """What bihive passes to bihive-view. It looks for that beside itself first."""
+    copy, other = os.path.join(folder, "bihive"), os.path.join(folder, "bihive-view")
+    shutil.copy(bihive, copy)
+    with open(other, "w") as file:
+        file.write("#!/bin/sh\nprintf %s \"$1\"\n")
+    os.chmod(other, 0o755)
+    with open(os.path.join(folder, "in.xyz"), "w") as file:
+        file.write(XYZ)
+    done = subprocess.run([copy, *words], cwd=folder, capture_output=True, text=True, check=True)
+    return done.stdout
+
+
 class Case:
     """One command in folders of its own."""
 
@@ -201,6 +221,10 @@ class Case:
                       if file == "in.xyz" or file in self.words or (name == "web" and file.startswith("page/"))}
         self.prepared = lambda folder: None
         self.top = tempfile.mkdtemp(prefix="bihive_faults_")
+        if name == "window":
+            with tempfile.TemporaryDirectory(prefix="bihive_faults_") as folder:
+                self.words = [request_for_window(self.program, self.words, folder)]
+            self.program = beside(self.program, "bihive-view")
         clean = self.run("", 0)
         expected = EXPECTED.get(name, 0)
         if clean["code"] != expected:
@@ -266,7 +290,7 @@ class Case:
         if not all(is_new) and not all(is_old):
             wrong.append("outputs are neither whole nor as before")
         others = {name: data for name, data in files.items() if name not in self.outputs}
-        for name in [name for name in others if name.startswith(FOLDER.get(self.name, "//"))]:
+        for name in [name for name in others if name.startswith(FOLDER.get(self.name, ("//",)))]:
             if not is_whole(name, others.pop(name)):
                 wrong.append(f"a part of {name}")
         # Where removing is what fails, something stays.
@@ -278,6 +302,10 @@ class Case:
 
     def close(self):
         shutil.rmtree(self.top)
+
+
+def beside(program, name):
+    return os.path.join(os.path.dirname(os.path.abspath(program)), name)
 
 
 def leftovers(options):
@@ -304,7 +332,7 @@ def leftovers(options):
 def step(case, kind, most, pool, jobs):
     """Lets calls of a kind fail: each until a run meets no fault, or so many of them. (runs, texts of wrong ones)"""
     # The part of all commands before they look at their words is tried once, by one of them.
-    before = case.shared if kind.startswith("malloc") and case.name != WHOLE else 0
+    before = case.shared if kind.startswith("malloc") and case.name not in (WHOLE, "window") else 0
     if most and not case.outputs:
         most = max(1, most // 2)
     most = min(most, MOST[case.name]) if most and case.name in MOST else most or MOST.get(case.name, 0)
@@ -350,9 +378,8 @@ def main():
         for name in options.command:
             if options.short and name in ALIKE:
                 continue
-            beside = os.path.dirname(os.path.abspath(options.bihive))
-            if name == "view" and not os.path.exists(os.path.join(beside, "bihive-view")):
-                print("view: left out, bihive-view was not built")
+            if name in WINDOW and not os.path.exists(beside(options.bihive, "bihive-view")):
+                print(f"{name}: left out, bihive-view was not built")
                 continue
             for nameless in [True, False] if COMMANDS[name][1] else [True]:
                 case = Case(options, name, nameless, shared)

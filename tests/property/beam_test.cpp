@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -11,6 +13,8 @@
 
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
+#include "bihive/geometry/sphere.h"
+#include "bihive/math/rng.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/wide_builder.h"
@@ -128,6 +132,76 @@ TEST(Beam, EveryBlockIsAnsweredAsByTheReference) {
     keep_lines_only(lines);
     check(world, "camera", spheres, **tree, camera.span());
     check(world, "lines", spheres, **tree, lines.span());
+    check(world, "shadow", spheres, **tree, shadow.span());
+    check(world, "parallel", spheres, **tree, parallel.span());
+    check(world, "any", spheres, **tree, any.span());
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+// Gives some of the rays segments that end where they begin, lie behind the origin, reach as far as numbers do, or are
+// none at all. Most begin or end at a root of the ray's own line.
+class HostileSegments {
+ public:
+  HostileSegments(const SphereSet& spheres, std::uint64_t seed) : spheres_(spheres), rng_(seed) {}
+
+  void give(RayBatch& rays) {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < rays.t_min.size(); ++i) {
+      // Of a block none, some or nearly all.
+      if (rng_.next_below(8) >= i / 64 % 4 * 3) continue;
+      const double t = some_root(rays.span().at(static_cast<std::int64_t>(i)));
+      const double beyond = std::nextafter(t, rng_.next_below(2) == 0 ? kInf : -kInf);
+      const double largest = std::numeric_limits<double>::max();
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      const double segments[][2] = {{t, t},      {beyond, beyond}, {t, beyond},   {beyond, t},    {-kInf, t},
+                                    {t, kInf},   {-kInf, kInf},    {-kInf, -0.0}, {-0.0, t},      {0, -0.0},
+                                    {nan, t},    {t, nan},         {kInf, kInf},  {-kInf, -kInf}, {-largest, largest},
+                                    {5e-324, t}, {-525.7, -525.7}, {0, beyond}};
+      const double* const segment = segments[rng_.next_below(std::size(segments))];
+      rays.t_min[i] = segment[0];
+      rays.t_max[i] = segment[1];
+      if (rng_.next_below(8) == 0) rays.inside[i] ^= 1;
+    }
+  }
+
+ private:
+  const SphereSet& spheres_;
+  SplitMix64 rng_;
+
+  double some_root(Ray ray) {
+    ray.t_min = -std::numeric_limits<double>::infinity();
+    ray.t_max = std::numeric_limits<double>::infinity();
+    std::vector<RayHit> all;
+    add_all_hits(spheres_, ray, 0, all);
+    if (all.empty()) return test::uniform(rng_, -1000, 1000);
+    const RayHit hit = all[static_cast<std::size_t>(rng_.next_below(all.size()))];
+    const SphereRoots roots = sphere_roots(ScaledRay(ray, spheres_), spheres_.stored_centre(hit.sphere_id),
+                                           spheres_.stored_radius(hit.sphere_id));
+    return rng_.next_below(2) == 0 ? roots.t_near : roots.t_far;
+  }
+};
+
+TEST(Beam, SegmentsOfEveryKindAreAnsweredAsByTheReference) {
+  std::uint64_t seed = 900;
+  int number = 0;
+  for (const test::World& world : worlds()) {
+    if (world.size() == 0 || !test::takes_set(number++)) continue;
+    const SphereSet spheres = test::sphere_set(world);
+    WideBuilder builder;
+    const auto tree = builder.build(spheres);
+    ASSERT_TRUE(tree.ok());
+    test::BlockRays maker(world, ++seed);
+    HostileSegments segments(spheres, seed);
+    RayBatch camera, shadow, parallel, any;
+    for (std::int64_t block = 0; block < kBlocks; ++block) {
+      maker.add_camera(camera);
+      maker.add_shadow(shadow);
+      maker.add_parallel(parallel);
+      maker.add_any(any);
+    }
+    for (RayBatch* rays : {&camera, &shadow, &parallel, &any}) segments.give(*rays);
+    check(world, "camera", spheres, **tree, camera.span());
     check(world, "shadow", spheres, **tree, shadow.span());
     check(world, "parallel", spheres, **tree, parallel.span());
     check(world, "any", spheres, **tree, any.span());

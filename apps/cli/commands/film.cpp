@@ -247,7 +247,13 @@ void run_film(const FilmOptions& asked) {
   CancellableSection::leave_if_cancelled();
   value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
   folder.take(plan, /*alone=*/!options.shard);
-  const std::unique_ptr<FilmSink> sink = open_sink(plan, options, kind, ffmpeg);
+  std::unique_ptr<FilmSink> sink;
+  try {
+    sink = open_sink(plan, options, kind, ffmpeg);
+  } catch (...) {
+    if (!options.shard && !folder.kept()) folder.leave_nothing();
+    throw;
+  }
   const std::vector<std::int64_t> wanted = wanted_pictures(plan, options);
   std::vector<std::int64_t> missing;
   for (const std::int64_t number : wanted)

@@ -42,6 +42,10 @@ class Y4mFilm final : public FilmSink {
     head_ = fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C444\n", plan.fixed.width_px, plan.fixed.height_px,
                         plan.asked.rate.pictures, plan.asked.rate.seconds);
     picture_bytes_ = std::int64_t{3} * plan.fixed.width_px * plan.fixed.height_px + 6;
+  }
+
+  /// Once, before all others. What fails here leaves no file open.
+  void begin() {
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) fail_of_system("cannot be written", path_, errno);
     keep_whole_pictures();
@@ -93,7 +97,9 @@ class Y4mFilm final : public FilmSink {
 }  // namespace
 
 std::unique_ptr<FilmSink> open_y4m(const FilmPlan& plan, const std::string& output) {
-  return std::make_unique<Y4mFilm>(plan, output);
+  auto film = std::make_unique<Y4mFilm>(plan, output);
+  film->begin();
+  return film;
 }
 
 }  // namespace bihive::cli

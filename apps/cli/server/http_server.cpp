@@ -119,8 +119,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return;  // the client has gone
     }
     // An answer to HEAD never has a body (RFC 9110, 9.3.2), an error neither.
-    if (parser_->get().method() == http::verb::head) answer_.send_content = false;
+    if (parser_->get().method() == http::verb::head || starts_with_head()) answer_.send_content = false;
     write_head();
+  }
+
+  // A first line that the parser refuses stays in the buffer; what it asks for shows there.
+  bool starts_with_head() const {
+    const beast::string_view bytes(static_cast<const char*>(buffer_.data().data()), buffer_.size());
+    return bytes.substr(0, 5) == "HEAD ";
   }
 
   void write_head() {

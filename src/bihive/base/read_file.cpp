@@ -16,6 +16,7 @@ namespace bihive {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
+constexpr std::size_t kLeastRoom = std::size_t{1} << 20;
 
 // Closes the file at the end of its life.
 class OwnDescriptor {
@@ -61,7 +62,8 @@ Result<std::string> read_open_file(int file, const std::string& name, bool* grew
     }
   }
 
-  // Read piece by piece, up to that size.
+  // Read piece by piece, up to that size. Where none is stated, room is made before it is needed, by a quarter at a
+  // time: while the bytes move into it, old and new room both take memory.
   std::string bytes;
   if (has_size) bytes.reserve(static_cast<std::size_t>(most));
   std::string piece(kPiece, '\0');
@@ -71,13 +73,16 @@ Result<std::string> read_open_file(int file, const std::string& name, bool* grew
         read_some(file, piece.data(), static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, left)));
     if (count < 0) return system_error("cannot be read", name, errno);
     if (count == 0) break;
-    bytes.append(piece, 0, static_cast<std::size_t>(count));
-    if (has_size) continue;
-    if (Status status = check_memory(static_cast<double>(bytes.size()), "what is read"); !status) {
-      Error error = status.error();
-      error.file = name;
-      return error;
+    if (!has_size && bytes.capacity() - bytes.size() < static_cast<std::size_t>(count)) {
+      const std::size_t room = std::max(kLeastRoom, bytes.size() / 4 * 5 + kPiece);
+      if (Status status = check_memory(static_cast<double>(bytes.size() + room), "what is read"); !status) {
+        Error error = status.error();
+        error.file = name;
+        return error;
+      }
+      bytes.reserve(room);
     }
+    bytes.append(piece, 0, static_cast<std::size_t>(count));
   }
   // One byte more tells whether it has grown.
   if (has_size && grew != nullptr && bytes.size() == most) {
