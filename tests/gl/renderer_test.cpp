@@ -95,6 +95,11 @@ TEST(GlRenderer, views_that_it_does_not_have) {
   EXPECT_FALSE(renderer.begin(scene.camera, settings).ok());
   settings.view = View::traversal;
   EXPECT_FALSE(renderer.begin(scene.camera, settings).ok());
+  settings = small();
+  settings.cell_lines.emplace();
+  const Status edges = renderer.begin(scene.camera, settings);
+  ASSERT_FALSE(edges.ok());
+  EXPECT_EQ(edges.error().message, "the graphics processor draws no edges of a cell");
   Camera camera;
   camera.look_at = camera.eye;
   EXPECT_FALSE(renderer.begin(camera, small()).ok());

@@ -55,7 +55,7 @@ struct Floor {
     const Surface surface = surface_at(scene, ray, scene_hit(scene, tracer, ray));
     std::int64_t rays = 0;
     const double seen =
-        ambient_visibility(scene, tracer, surface, DirectionSets(directions, 1).of_sample(0), distance, rays);
+        ambient_visibility(scene, tracer, surface, DirectionSets(directions, 1).of_sample(0), distance, rays).x;
     EXPECT_NEAR(static_cast<double>(rays), directions / 2.0, 2);
     return seen;
   }
@@ -107,7 +107,8 @@ TEST(AmbientOcclusion, the_plane_hides_half_of_a_spheres_side) {
   const Surface surface = surface_at(floor.scene, ray, scene_hit(floor.scene, floor.tracer, ray));
   std::int64_t rays = 0;
   const auto seen = [&](double distance) {
-    return ambient_visibility(floor.scene, floor.tracer, surface, DirectionSets(4096, 1).of_sample(0), distance, rays);
+    return ambient_visibility(floor.scene, floor.tracer, surface, DirectionSets(4096, 1).of_sample(0), distance, rays)
+        .x;
   };
   EXPECT_NEAR(seen(kNoLimit), 0.5, 0.005);
   EXPECT_EQ(seen(2.9), 1.0);

@@ -58,18 +58,18 @@ LightShare share_of(double radius, const std::vector<std::array<double, 4>>& sph
 
 TEST(SoftShadow, a_sphere_hides_its_share_of_the_disc) {
   // The light fills 0.1 of the distance to each side; a sphere on the axis fills a part of that.
-  EXPECT_EQ(share_of(100, {{50, 3, 0, 1}}).seen, 1);
-  EXPECT_NEAR(share_of(100, {{0, 500, 0, 25}}).seen, 1 - 0.25, 0.01);
-  EXPECT_NEAR(share_of(100, {{0, 500, 0, 40}}).seen, 1 - 0.64, 0.01);
-  EXPECT_EQ(share_of(100, {{0, 500, 0, 60}}).seen, 0);
+  EXPECT_EQ(share_of(100, {{50, 3, 0, 1}}).seen.x, 1);
+  EXPECT_NEAR(share_of(100, {{0, 500, 0, 25}}).seen.x, 1 - 0.25, 0.01);
+  EXPECT_NEAR(share_of(100, {{0, 500, 0, 40}}).seen.x, 1 - 0.64, 0.01);
+  EXPECT_EQ(share_of(100, {{0, 500, 0, 60}}).seen.x, 0);
   // A large sphere whose edge crosses the light's middle.
-  EXPECT_NEAR(share_of(100, {{5000, 500, 0, 5000 - 0.01}}).seen, 0.5, 0.03);
+  EXPECT_NEAR(share_of(100, {{5000, 500, 0, 5000 - 0.01}}).seen.x, 0.5, 0.03);
 }
 
 TEST(SoftShadow, without_anything_in_between_the_facing_is_the_mean_of_the_points) {
   const LightShare share = share_of(100, {{50, 3, 0, 1}});
   // The mean cosine over a disc of tangent 0.1: 1 - 0.1^2 / 4.
-  EXPECT_NEAR(share.facing, 1 - 0.0025, 0.0005);
+  EXPECT_NEAR(share.facing.x, 1 - 0.0025, 0.0005);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -71,6 +72,20 @@ TEST(Palette, TypesColourWhereThereAreNoElements) {
   ASSERT_EQ(spheres.attributes().colour.size(), 2u);
   EXPECT_EQ(spheres.attributes().colour[0], type_colour(3));
   EXPECT_EQ(spheres.attributes().colour[1], type_colour(-5));
+}
+
+TEST(Palette, SoftTypesAreGreyerAndDifferToo) {
+  const auto range = [](Vec3f c) { return std::max({c.x, c.y, c.z}) - std::min({c.x, c.y, c.z}); };
+  for (std::int32_t type = 1; type < 8; ++type) {
+    const Vec3f soft = type_colour(type, ElementScheme::soft);
+    EXPECT_LT(range(soft), 0.8F * range(type_colour(type))) << type;
+    EXPECT_GT(range(soft), 0.7F * range(type_colour(type))) << type;
+    EXPECT_NE(soft, type_colour(type + 1, ElementScheme::soft)) << type;
+  }
+  SphereSet spheres = two_spheres();
+  spheres.attributes().type = {1, 2};
+  colour_spheres(spheres, ElementScheme::soft);
+  EXPECT_EQ(spheres.attributes().colour[0], type_colour(1, ElementScheme::soft));
 }
 
 TEST(Palette, GivenColoursStay) {

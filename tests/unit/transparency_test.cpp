@@ -147,10 +147,64 @@ TEST(Transparency, mirrors_in_layers_send_few_rays) {
 TEST(Transparency, the_nearest_layer_comes_first) {
   const Scene scene =
       scene_of({{{0, 0, -4}, 1, 0.25F, {0, 1, 0}}, {{0, 0, 0}, 1, 0.5F, {1, 0, 0}}, {{0, 0, -8}, 1, 1, {0, 0, 1}}});
+  // What is behind the red layer has the tint (1, 1/2, 1/2), and behind the green one (3/4, 1, 3/4) too.
   const Vec3d light = light_along(scene, {0, 0, 10}, kAhead);
   EXPECT_EQ(light.x, 0.5);
-  EXPECT_EQ(light.y, 0.5 * 0.25);
-  EXPECT_EQ(light.z, 0.5 * 0.75);
+  EXPECT_EQ(light.y, (0.5 * 0.5) * 0.25);
+  EXPECT_EQ(light.z, (0.5 * 0.75) * (0.5 * 0.75));
+}
+
+TEST(Transparency, the_hue_tints_what_gets_through_and_the_share_alone_weakens_it) {
+  Material material;
+  material.transmissive = 0.5;
+  material.colour = {0.8, 0.4, 0};
+  EXPECT_EQ(passing_tint(material), (Vec3d{1, 0.75, 0.5}));
+  material.transmissive = 1;
+  EXPECT_EQ(passing_tint(material), (Vec3d{1, 1, 1}));
+  material.transmissive = 0;
+  EXPECT_EQ(passing_tint(material), (Vec3d{1, 0.5, 0}));
+  for (const double grey : {0.0, 0.3, 1.0}) {
+    material.colour = {grey, grey, grey};
+    EXPECT_EQ(passing_tint(material), (Vec3d{1, 1, 1})) << grey;
+  }
+}
+
+TEST(Transparency, shadows_and_occlusion_have_the_tint) {
+  // The ground under a red sphere of opacity 1/2.
+  Scene scene = scene_of({{{0, 3, 0}, 1, 0.5F, {1, 0, 0}}});
+  scene.plane = thesis_plane();
+  scene.plane->plane.point = {0, 0, 0};
+  scene.plane->checker.reset();
+  scene.plane->material = Material();
+  scene.plane->material.diffuse = 1;
+  scene.lights = {{{0, 100, 0}, {1, 1, 1}}};
+  EXPECT_EQ(light_along(scene, {3, 3, 0}, {-1, -1, 0}), (Vec3d{0.5, 0.25, 0.25}));
+
+  const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+  const Transparency parts = parts_of(scene);
+  Surface surface{};
+  surface.normal = {0, 1, 0};
+  surface.id = kPlane;
+  std::int64_t rays = 0;
+  EXPECT_EQ(ambient_visibility(scene, {tracer, parts.to_light.get()}, surface, {{0, 1, 0}, {1, 1, 0}},
+                               std::numeric_limits<double>::infinity(), rays),
+            (Vec3d{0.75, 0.625, 0.625}));
+  const LightPointSets points(64, 1);
+  PointLight light{{0, 100, 0}, {1, 1, 1}, 0.5};
+  const LightShare share = soft_light_share(light, {tracer, parts.to_light.get()}, surface, points.of_sample(0), rays);
+  EXPECT_EQ(share.seen, (Vec3d{0.5, 0.25, 0.25}));
+}
+
+TEST(Transparency, a_mirrored_ray_keeps_the_tint_of_what_it_passed) {
+  // A green layer before a mirror that shows the white background.
+  Scene scene = scene_of({{{0, 0, 5}, 1, 0.5F, {0, 1, 0}}, {{0, 0, 0}, 1, 1}});
+  scene.materials[0].ambient = 0;
+  scene.materials[0].reflective = 0.5;
+  scene.camera.eye = {0, 0, 100};
+  // The layer mirrors the background itself, and so does what is behind it, seen through it on the way.
+  const Vec3d light = light_along(scene, {0, 0, 10}, kAhead, 2);
+  EXPECT_EQ(light.y, 0.5 + 0.5 * 0.5 * 0.5);
+  EXPECT_EQ(light.x, 0.5 + 0.5 * 0.5 * 0.5 * (0.5 * 0.5));
 }
 
 TEST(Transparency, full_and_no_opacity) {
@@ -186,10 +240,10 @@ TEST(Transparency, shadows_and_occlusion_are_as_weak_as_the_sphere) {
     surface.normal = {0, 1, 0};
     surface.id = kPlane;
     std::int64_t rays = 0;
-    const double visibility = ambient_visibility(scene, {tracer, parts.to_light.get()}, surface,
-                                                 {{0, 1, 0}, {0, 1, 0.001F}, {1, 1, 0}, {-1, 1, 0}},
-                                                 std::numeric_limits<double>::infinity(), rays);
-    EXPECT_EQ(visibility, (2 + 2 * (1 - double(opacity))) / 4) << opacity;
+    const Vec3d visibility = ambient_visibility(scene, {tracer, parts.to_light.get()}, surface,
+                                                {{0, 1, 0}, {0, 1, 0.001F}, {1, 1, 0}, {-1, 1, 0}},
+                                                std::numeric_limits<double>::infinity(), rays);
+    EXPECT_EQ(visibility.x, (2 + 2 * (1 - double(opacity))) / 4) << opacity;
   }
 }
 
@@ -226,7 +280,7 @@ TEST(Transparency, a_ray_leaves_all_spheres_that_are_equal) {
     Ray ray;
     ray.origin = to_float(outward);
     ray.direction = to_float(outward + 0.5 * Vec3d{outward.y, outward.z, outward.x});
-    for (ray.leaves = 0; ray.leaves < 3; ++ray.leaves) EXPECT_EQ(parts.to_eye->share(ray), 1.0);
+    for (ray.leaves = 0; ray.leaves < 3; ++ray.leaves) EXPECT_EQ(parts.to_eye->share(ray).x, 1.0);
   }
 }
 
@@ -276,7 +330,7 @@ TEST(Transparency, crossings_are_those_of_all_spheres) {
         EXPECT_EQ(found[i].id, expected[i].id);
         share = share * divided->passing(found[i].id);
       }
-      EXPECT_EQ(divided->share(ray), share);
+      EXPECT_EQ(divided->share(ray), (Vec3d{share, share, share}));
       EXPECT_EQ(divided->closest_opaque(ray).sphere_id, opaque.sphere_id);
       EXPECT_EQ(divided->closest_opaque(ray).t, opaque.t);
     }
@@ -335,7 +389,8 @@ TEST(Transparency, a_transparent_picture_shows_what_gets_through) {
   const Film film = render(scene, tracer, settings).value().film;
   EXPECT_EQ(film.coverage[0], 0.75F);
   EXPECT_FLOAT_EQ(film.radiance[0].x, static_cast<float>(0.5 / 0.75));
-  EXPECT_FLOAT_EQ(film.radiance[0].y, static_cast<float>(0.25 / 0.75));
+  // The green sphere is seen through the red one.
+  EXPECT_FLOAT_EQ(film.radiance[0].y, static_cast<float>(0.25 * 0.5 / 0.75));
   EXPECT_EQ(film.radiance[0].z, 0);
 }
 

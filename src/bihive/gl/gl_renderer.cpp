@@ -121,6 +121,8 @@ class GlRenderer::Implementation {
                    "choose an engine with a tree"};
     if (settings.adaptive_samples && settings.view == View::shaded)
       return Error{"the graphics processor draws no adaptive samples", "", 0, 0, "choose a number of samples"};
+    if (settings.cell_lines && settings.view == View::shaded)
+      return Error{"the graphics processor draws no edges of a cell", "", 0, 0, "choose an engine of the CPU"};
     if (settings.transparent && settings.view == View::traversal)
       return Error{"this view of the tree has no transparent background", "", 0, 0, "choose another view"};
     const Result<CameraUniforms> at =

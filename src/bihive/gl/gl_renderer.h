@@ -47,8 +47,8 @@ class GlRenderer {
   Status set_lights(const Scene& scene);
 
   /// Starts a picture. Settings as for render() (render/renderer.h) without `threads`. Errors: View::tree,
-  /// View::traversal without a tree or on a transparent background, and in View::shaded adaptive samples. A scene must
-  /// have been set.
+  /// View::traversal without a tree or on a transparent background, and in View::shaded adaptive samples and edges of a
+  /// cell. A scene must have been set.
   Status begin(const Camera& camera, const RenderSettings& settings);
 
   /// Draws tiles until about `budget_ms` have passed, at least one tile. Waits until the graphics processor has drawn

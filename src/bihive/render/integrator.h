@@ -38,7 +38,7 @@ class Integrator {
   /// the rays that hit nothing come first and add weight x background; then come the surfaces of all rays. Both follow
   /// the order of the parents, the reflected ray of a parent before the transmitted one.
   /// Transparent spheres (OpacityRule::once) that a ray crosses are surfaces of its own generation, the nearest first.
-  /// Each multiplies the ray's weight for what is behind it.
+  /// Each multiplies the ray's weight and tint for what is behind it. Light counts times weight times tint.
   /// `sample`: the number of the ray in its pixel.
   Vec3d radiance(const Ray& primary, std::int64_t sample = 0);
 
@@ -47,15 +47,18 @@ class Integrator {
   const RenderCounts& rays() const { return rays_; }
 
  private:
+  // The share of light along the ray, and the colour of what lies on its way to the eye.
   struct WeightedRay {
     Ray ray;
     double weight;
+    Vec3d tint;
   };
-  // A surface that a ray of the generation meets, and the weight with which it gets there.
+  // A surface that a ray of the generation meets, and the weight and tint with which it gets there.
   struct WeightedHit {
     std::size_t ray;
     SceneHit hit;
     double weight;
+    Vec3d tint;
   };
 
   void find_hits(std::size_t ray, Vec3d& sum);

@@ -38,7 +38,7 @@ struct LightOffset {
 };
 
 // What arrives at the place from the light, which lies at t = 1?
-double arriving(const LightPaths& paths, const Surface& surface, Vec3d offset, std::int64_t& shadow_rays) {
+Vec3d arriving(const LightPaths& paths, const Surface& surface, Vec3d offset, std::int64_t& shadow_rays) {
   Ray shadow = ray_from(surface, offset, surface.from_inside);
   shadow.t_max = 1;
   ++shadow_rays;
@@ -47,6 +47,10 @@ double arriving(const LightPaths& paths, const Surface& surface, Vec3d offset, s
 
 double in_bands(double facing, int bands) {
   return std::floor(facing * bands + 0.5) / bands;
+}
+
+Vec3d in_bands(Vec3d facing, int bands) {
+  return {in_bands(facing.x, bands), in_bands(facing.y, bands), in_bands(facing.z, bands)};
 }
 
 // The colour of a highlight in white light.
@@ -61,9 +65,9 @@ Vec3d mirrored(const Surface& surface) {
 
 }  // namespace
 
-double ambient_visibility(const Scene& scene, const LightPaths& paths, const Surface& surface,
-                          const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays) {
-  double seen = 0;
+Vec3d ambient_visibility(const Scene& scene, const LightPaths& paths, const Surface& surface,
+                         const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays) {
+  Vec3d seen;
   double in_front = 0;
   for (const Vec3f& direction : directions) {
     const double facing = dot(surface.normal, to_double(direction));
@@ -75,17 +79,17 @@ double ambient_visibility(const Scene& scene, const LightPaths& paths, const Sur
     if (scene.plane && plane_hit(ray, scene.plane->plane) < kInfinity) continue;
     seen = seen + facing * paths.share(ray);
   }
-  return in_front > 0 ? seen / in_front : 1;
+  return in_front > 0 ? seen / in_front : Vec3d{1, 1, 1};
 }
 
 LightShare soft_light_share(const PointLight& light, const LightPaths& paths, const Surface& surface,
                             const std::vector<Vec3d>& points, std::int64_t& shadow_rays) {
-  double facing = 0;
-  double seen = 0;
+  Vec3d facing;
+  Vec3d seen;
   for (const Vec3d& point : points) {
     const LightOffset to_point(light.position + light.radius * point, surface);
     if (!to_point.in_front()) continue;
-    const double share = arriving(paths, surface, to_point.offset, shadow_rays);
+    const Vec3d share = arriving(paths, surface, to_point.offset, shadow_rays);
     facing = facing + to_point.facing() * share;
     seen = seen + share;
   }
@@ -94,7 +98,7 @@ LightShare soft_light_share(const PointLight& light, const LightPaths& paths, co
 }
 
 Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,
-                  const std::vector<Vec3d>* light_points, double visibility, std::int64_t& shadow_rays) {
+                  const std::vector<Vec3d>* light_points, Vec3d visibility, std::int64_t& shadow_rays) {
   const Material& material = surface.material;
   const double cosine = -dot(surface.incoming, surface.normal);
   Vec3d diffuse;
@@ -102,14 +106,14 @@ Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& su
   for (const PointLight& light : scene.lights) {
     // Leave out lights behind the surface, and lights of which nothing arrives.
     const LightOffset centre(light.position, surface);
-    LightShare share{0, 1};
+    LightShare share{{}, {1, 1, 1}};
     if (shadows && light_points != nullptr && light.radius > 0) {
       share = soft_light_share(light, paths, surface, *light_points, shadow_rays);
-      if (share.seen == 0) continue;
+      if (share.seen == Vec3d{}) continue;
     } else {
       if (!centre.in_front()) continue;
       if (shadows) share.seen = arriving(paths, surface, centre.offset, shadow_rays);
-      if (share.seen == 0) continue;
+      if (share.seen == Vec3d{}) continue;
       share.facing = centre.facing() * share.seen;
     }
     if (material.bands > 0) share.facing = in_bands(share.facing, material.bands);
@@ -121,7 +125,7 @@ Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& su
     if (highlight > 0)
       specular = specular + (material.specular * share.seen * shading_power(highlight, material.power)) * light.colour;
   }
-  const double strength = material.ambient * visibility;
+  const Vec3d strength = material.ambient * visibility;
   const Vec3d ambient = strength * scene.ambient_light;
   if (material.tint > 0) specular = specular * tinted(material);
   Vec3d light = ambient + diffuse;

@@ -12,15 +12,15 @@
 namespace bihive {
 
 /// The share of its surroundings that a place sees, 0 to 1: the mean over the directions in front of the surface,
-/// weighted by their cosine, of what arrives along them from `distance` (LightPaths; nothing through the plane). Adds
-/// the traced rays to the count.
-double ambient_visibility(const Scene& scene, const LightPaths& paths, const Surface& surface,
-                          const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays);
+/// weighted by their cosine, of what arrives along them from `distance` (LightPaths; nothing through the plane), for
+/// each colour. Adds the traced rays to the count.
+Vec3d ambient_visibility(const Scene& scene, const LightPaths& paths, const Surface& surface,
+                         const std::vector<Vec3f>& directions, double distance, std::int64_t& ambient_rays);
 
 /// How much of a light reaches a place.
 struct LightShare {
-  double facing;  ///< N.L; of a light with a radius: the mean over its points, each times what arrives from it
-  double seen;    ///< mean over the light's points of what arrives from them, 0 from behind the surface
+  Vec3d facing;  ///< N.L; of a light with a radius: the mean over its points, each times what arrives from it
+  Vec3d seen;    ///< mean over the light's points of what arrives from them, 0 from behind the surface
 };
 
 /// Of a light with a radius. `points`: of the ball of radius 1, at least one. Adds the traced shadow rays to the count.
@@ -33,7 +33,7 @@ LightShare soft_light_share(const PointLight& light, const LightPaths& paths, co
 /// radius or there are no shadows; else a light with a radius gives the mean of its points to the diffuse term, and its
 /// share to its centre's highlight.
 Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,
-                  const std::vector<Vec3d>* light_points, double visibility, std::int64_t& shadow_rays);
+                  const std::vector<Vec3d>* light_points, Vec3d visibility, std::int64_t& shadow_rays);
 
 /// The mirrored ray.
 Ray reflected_ray(const Surface& surface);

@@ -17,13 +17,24 @@ bool any_passes(const std::vector<double>& passing) {
 
 }  // namespace
 
+Vec3d passing_tint(const Material& material) {
+  const Vec3d colour = material.colour;
+  const double largest = std::max(std::max(colour.x, colour.y), colour.z);
+  if (!(largest > 0)) return {1, 1, 1};
+  const double stopped = 1 - std::min(material.transmissive, 1.0);
+  const auto of = [=](double channel) { return 1 - stopped * (1 - std::max(channel, 0.0) / largest); };
+  return {of(colour.x), of(colour.y), of(colour.z)};
+}
+
 Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(const SphereSet& spheres,
                                                                              std::vector<double> passing, Engine engine,
                                                                              int threads,
-                                                                             std::shared_ptr<const CutSet> cuts) {
+                                                                             std::shared_ptr<const CutSet> cuts,
+                                                                             std::vector<Vec3d> tints) {
   try {
     auto made = std::make_shared<TransparentSpheres>();
     made->passing_ = std::move(passing);
+    made->tints_ = std::move(tints);
     std::vector<std::int64_t> opaque, transparent;
     for (std::int64_t id = 0; id < spheres.size(); ++id) (made->passing(id) > 0 ? transparent : opaque).push_back(id);
     auto part = std::make_shared<PartTracer>();
@@ -47,13 +58,17 @@ void TransparentSpheres::find_crossings(const Ray& ray, std::vector<Crossing>& f
   transparent_->all_hits(ray, found);
 }
 
-double TransparentSpheres::share(const Ray& ray) const {
-  if (opaque_->occluded(ray)) return 0;
+Vec3d TransparentSpheres::share(const Ray& ray) const {
+  if (opaque_->occluded(ray)) return {};
   static thread_local std::vector<Crossing> crossings;
   find_crossings(ray, crossings);
   double share = 1;
-  for (const Crossing& crossing : crossings) share = share * passing(crossing.id);
-  return share;
+  Vec3d tint_of_all{1, 1, 1};
+  for (const Crossing& crossing : crossings) {
+    share = share * passing(crossing.id);
+    tint_of_all = tint_of_all * tint(crossing.id);
+  }
+  return share * tint_of_all;
 }
 
 void TransparentSpheres::closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
@@ -73,16 +88,20 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engi
   if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
   const auto count = static_cast<std::size_t>(scene.spheres.size());
   std::vector<double> to_eye(count), to_light(count);
+  std::vector<Vec3d> tints;
   for (std::size_t i = 0; i < count; ++i) {
     const Material material = material_of(scene, static_cast<std::int64_t>(i));
     if (is_passed_straight(material)) to_eye[i] = std::min(material.transmissive, 1.0);
     to_light[i] = std::min(material.transmissive, 1.0);
+    const Vec3d tint = to_light[i] > 0 ? passing_tint(material) : Vec3d{1, 1, 1};
+    if (tints.empty() && tint != Vec3d{1, 1, 1}) tints.assign(count, {1, 1, 1});
+    if (!tints.empty()) tints[i] = tint;
   }
 
   const bool alike = to_eye == to_light;
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   const auto divide = [&](std::vector<double>& passing) {
-    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts);
+    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints);
   };
   if (any_passes(to_light)) {
     Result<std::shared_ptr<const TransparentSpheres>> divided = divide(to_light);

@@ -8,7 +8,9 @@
 #include "bihive/base/result.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/math/vec3.h"
 #include "bihive/render/tracer.h"
+#include "bihive/scene/material.h"
 #include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/scene.h"
 
@@ -16,6 +18,11 @@ namespace bihive {
 
 class CutSet;
 class PartTracer;
+
+/// The colour that the light gets which goes straight through: white if all of it does, and the nearer to the hue of
+/// the material, the less does. One channel is always 1, so that the transmissive share alone says how much gets
+/// through; grey and black give white.
+Vec3d passing_tint(const Material& material);
 
 /// Where a ray crosses a transparent sphere first: `t` of geometry/sphere.h. So a ray crosses a sphere once, on its way
 /// in or, if it starts inside, on its way out; the sphere that it leaves outward it does not cross.
@@ -32,17 +39,18 @@ class TransparentSpheres {
   TransparentSpheres(const TransparentSpheres&) = delete;
   TransparentSpheres& operator=(const TransparentSpheres&) = delete;
 
-  /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for that
-  /// engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. The spheres
-  /// must outlive it. Error: not enough memory for a tree.
+  /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for
+  /// that engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. `tints`:
+  /// the colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. The spheres must
+  /// outlive it. Error: not enough memory for a tree.
   static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
                                                                   Engine engine, int threads,
-                                                                  std::shared_ptr<const CutSet> cuts = nullptr);
+                                                                  std::shared_ptr<const CutSet> cuts = nullptr,
+                                                                  std::vector<Vec3d> tints = {});
 
-  double passing(std::int64_t id) const {
-    const auto i = static_cast<std::size_t>(id);
-    return passing_[i < passing_.size() ? i : i % passing_.size()];
-  }
+  double passing(std::int64_t id) const { return passing_[stored(id)]; }
+  bool has_tints() const { return !tints_.empty(); }
+  Vec3d tint(std::int64_t id) const { return has_tints() ? tints_[stored(id)] : Vec3d{1, 1, 1}; }
   /// The share that a surface does not let through; 1 of the plane.
   double stopping(std::int64_t id) const { return id >= 0 ? 1 - passing(id) : 1; }
   bool is_transparent(std::int64_t id) const { return id >= 0 && passing(id) > 0; }
@@ -51,8 +59,8 @@ class TransparentSpheres {
   /// All crossings of the ray's segment, by t and then by id.
   void find_crossings(const Ray& ray, std::vector<Crossing>& found) const;
   /// What arrives at the ray's end: 0 behind an opaque sphere, else the product of what the crossed spheres let
-  /// through, in the order of the crossings.
-  double share(const Ray& ray) const;
+  /// through, in the order of the crossings, times the product of their tints.
+  Vec3d share(const Ray& ray) const;
 
   /// Many rays at a time. Each ray's answer goes to its place, all crossings to one list: by ray, t and id. hides: 1
   /// behind an opaque sphere.
@@ -61,7 +69,13 @@ class TransparentSpheres {
   void find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
  private:
+  std::size_t stored(std::int64_t id) const {
+    const auto i = static_cast<std::size_t>(id);
+    return i < passing_.size() ? i : i % passing_.size();
+  }
+
   std::vector<double> passing_;
+  std::vector<Vec3d> tints_;  // empty: all are white
   std::shared_ptr<const PartTracer> opaque_, transparent_;
 };
 
@@ -83,9 +97,9 @@ class LightPaths {
              const TransparentSpheres* transparent = nullptr)
       : tracer_(tracer), transparent_(transparent) {}
 
-  double share(const Ray& ray) const {
+  Vec3d share(const Ray& ray) const {
     if (transparent_ != nullptr) return transparent_->share(ray);
-    return tracer_.occluded(ray) ? 0 : 1;
+    return tracer_.occluded(ray) ? Vec3d{} : Vec3d{1, 1, 1};
   }
 
  private:

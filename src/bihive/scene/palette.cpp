@@ -67,6 +67,15 @@ std::array<Vec3f, kElements> soft_colours(std::array<Vec3f, kElements> colours) 
   return colours;
 }
 
+// Large areas of one type would be shrill.
+std::array<Vec3f, kTypes> soft_types(std::array<Vec3f, kTypes> colours) {
+  for (Vec3f& colour : colours) {
+    const float luminance = 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z;
+    for (int channel = 0; channel < 3; ++channel) colour[channel] = 0.78f * colour[channel] + 0.22f * luminance;
+  }
+  return colours;
+}
+
 }  // namespace
 
 Vec3f element_colour(int atomic_number, ElementScheme scheme) {
@@ -76,8 +85,10 @@ Vec3f element_colour(int atomic_number, ElementScheme scheme) {
   return (scheme == ElementScheme::jmol ? jmol : soft)[known ? static_cast<std::size_t>(atomic_number) : 0];
 }
 
-Vec3f type_colour(std::int32_t type) {
-  static const std::array<Vec3f, kTypes> colours = linear_colours(kTypeColours);
+Vec3f type_colour(std::int32_t type, ElementScheme scheme) {
+  static const std::array<Vec3f, kTypes> bright = linear_colours(kTypeColours);
+  static const std::array<Vec3f, kTypes> soft = soft_types(bright);
+  const std::array<Vec3f, kTypes>& colours = scheme == ElementScheme::jmol ? bright : soft;
   const std::int64_t remainder = (std::int64_t{type} - 1) % kTypes;
   return colours[static_cast<std::size_t>(remainder < 0 ? remainder + kTypes : remainder)];
 }
@@ -93,7 +104,7 @@ std::string_view colour_spheres(SphereSet& spheres, ElementScheme scheme) {
   }
   if (attributes.type.empty()) return "";
   attributes.colour.resize(n);
-  for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = type_colour(attributes.type[i]);
+  for (std::size_t i = 0; i < n; ++i) attributes.colour[i] = type_colour(attributes.type[i], scheme);
   return "type";
 }
 

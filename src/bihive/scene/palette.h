@@ -10,15 +10,17 @@
 
 namespace bihive {
 
-/// jmol: the bright colours that chemists know. soft: calmer ones for printing.
+/// Colours of elements, and of types where there are none. jmol: the bright colours that chemists know. soft: calmer
+/// ones for printing.
 enum class ElementScheme { jmol, soft };
 inline const Names<ElementScheme> kElementSchemes{{"jmol", ElementScheme::jmol}, {"soft", ElementScheme::soft}};
 
 /// Linear RGB of a chemical element by atomic number (0 or unknown: pink).
 Vec3f element_colour(int atomic_number, ElementScheme scheme = ElementScheme::jmol);
 
-/// Linear RGB of a particle type: different for neighbouring numbers, the same again after eight. Any integer.
-Vec3f type_colour(std::int32_t type);
+/// Linear RGB of a particle type: different for neighbouring numbers, the same again after eight. Any integer. jmol:
+/// the colours of the map okabe-ito; soft: greyer ones.
+Vec3f type_colour(std::int32_t type, ElementScheme scheme = ElementScheme::jmol);
 
 /// Fills the colour attribute if it is empty: from elements if there are any, else from types. Without both it stays
 /// empty. Returns the attribute that it took ("element", "type"), or an empty text.

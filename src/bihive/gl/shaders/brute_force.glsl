@@ -8,8 +8,8 @@ Hit test_all_spheres(Ray ray, bool any_hit) {
     float t = sphere_hit(ray, stored_sphere(i));
 #ifdef LAYERS
     if (any_hit) {
-      if (t < kNever) light_passed *= passing(i).y;
-      if (light_passed == 0.0) return best;
+      if (t < kNever) light_passed *= arriving_behind(i);
+      if (light_passed == vec3(0.0)) return best;
       continue;
     }
 #endif

@@ -24,6 +24,7 @@ Light radiance(Ray primary, bool lit) {
   vec3 pending_origin[PENDING_RAYS];
   vec3 pending_direction[PENDING_RAYS];
   float pending_weight[PENDING_RAYS];
+  vec3 pending_tint[PENDING_RAYS];
   int pending_leaves[PENDING_RAYS];
   int pending_depth[PENDING_RAYS];  // negative: inside
 #ifdef LAYERS
@@ -35,6 +36,7 @@ Light radiance(Ray primary, bool lit) {
   Light light = Light(vec3(0.0), 0, 0, kNever, 1.0);
   Ray ray = primary;
   float weight = 1.0;
+  vec3 tint = vec3(1.0);  // of what lies between the ray and the eye
   int depth = kPrimary;
   for (;;) {
     bool goes_on = false;
@@ -49,14 +51,14 @@ Light radiance(Ray primary, bool lit) {
       light.passing = weight;
     }
     if (hit.sphere == kNothing) {
-      if (first_slice && !(without_background && depth == kPrimary)) light.radiance += weight * background;
+      if (first_slice && !(without_background && depth == kPrimary)) light.radiance += weight * tint * background;
     } else {
       light.deepest_hit = max(light.deepest_hit, depth);
       Surface surface = surface_at(ray, hit);
       if (lit) {
         int level = faintest_ray > 0.0 ? faint_level(weight * (1.0 - through)) : 0;
-        float visibility = ambient_visibility(surface, level, light.other_rays);
-        light.radiance += weight * local_light(surface, shadows, level, visibility, light.other_rays);
+        vec3 visibility = ambient_visibility(surface, level, light.other_rays);
+        light.radiance += weight * tint * local_light(surface, shadows, level, visibility, light.other_rays);
       }
 
       // Follow the reflected light, and the transmitted light or the ray itself; a share of exactly 0 makes no ray, nor
@@ -67,6 +69,7 @@ Light radiance(Ray primary, bool lit) {
       bool reflects = deeper && reflected != 0.0 && reflected >= faintest_ray;
       bool transmits = through > 0.0 || (deeper && transmitted != 0.0 && transmitted >= faintest_ray);
       Ray mirror = ray;
+      vec3 tint_beyond = tint;
       if (reflects) {
         if (first_slice) ++light.other_rays;
         mirror = reflected_ray(surface);
@@ -75,6 +78,7 @@ Light radiance(Ray primary, bool lit) {
       if (transmits) {
 #ifdef LAYERS
         if (through > 0.0) {
+          tint_beyond *= passing_tint(hit.sphere, through);
           ray.t_passed = hit.t;
           ray.id_passed = int(sphere_id(hit.sphere));
         }
@@ -89,6 +93,7 @@ Light radiance(Ray primary, bool lit) {
           pending_origin[pending_count] = ray.origin;
           pending_direction[pending_count] = ray.direction;
           pending_weight[pending_count] = transmitted;
+          pending_tint[pending_count] = tint_beyond;
           pending_leaves[pending_count] = ray.leaves;
           pending_depth[pending_count] = ray.inside ? -its_depth : its_depth;
 #ifdef LAYERS
@@ -99,6 +104,7 @@ Light radiance(Ray primary, bool lit) {
         } else {
           depth = its_depth;
           weight = transmitted;
+          tint = tint_beyond;
         }
       }
       if (reflects) {
@@ -121,6 +127,7 @@ Light radiance(Ray primary, bool lit) {
     ray.id_passed = pending_id_passed[pending_count];
 #endif
     weight = pending_weight[pending_count];
+    tint = pending_tint[pending_count];
     depth = abs(pending_depth[pending_count]);
   }
   return light;

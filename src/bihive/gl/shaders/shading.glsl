@@ -39,7 +39,7 @@ vec3 mirrored(Surface surface) {
   return surface.incoming - (2.0 * dot(surface.incoming, surface.normal)) * surface.normal;
 }
 
-float in_bands(float facing, float bands) {
+vec3 in_bands(vec3 facing, float bands) {
   return floor(facing * bands + 0.5) / bands;
 }
 
@@ -49,13 +49,13 @@ vec3 tinted(Material material) {
 }
 
 // The part of the slice. Without AMBIENT_OCCLUSION everything is visible.
-float ambient_visibility(Surface surface, int level, inout int ambient_rays) {
+vec3 ambient_visibility(Surface surface, int level, inout int ambient_rays) {
 #ifdef AMBIENT_OCCLUSION
-  if (direction_begin == direction_end) return 0.0;
+  if (direction_begin == direction_end) return vec3(0.0);
   int count = asked_at_level(direction_count, level);
   int first = first_at_level(direction_count, direction_sets, direction_set, level);
   int end = direction_end * count / direction_count;
-  float seen = 0.0;
+  vec3 seen = vec3(0.0);
   for (int k = direction_begin * count / direction_count; k < end; ++k) {
     vec3 direction = texelFetch(directions, texel(first + k), 0).xyz;
     float facing = dot(surface.normal, direction);
@@ -75,7 +75,7 @@ float ambient_visibility(Surface surface, int level, inout int ambient_rays) {
     }
   if (in_front > 0.0) return seen / in_front;
 #endif
-  return first_slice ? 1.0 : 0.0;
+  return vec3(first_slice ? 1.0 : 0.0);
 }
 
 // A point of light as seen from a place.
@@ -94,7 +94,7 @@ LightOffset light_offset(vec3 point, Surface surface) {
   return LightOffset(to_light, distance, facing, distance > 0.0 && facing > 0.0);
 }
 
-vec3 local_light(Surface surface, bool shadows, int level, float visibility, inout int shadow_rays) {
+vec3 local_light(Surface surface, bool shadows, int level, vec3 visibility, inout int shadow_rays) {
   int soft_points = asked_at_level(light_point_count, level);
   int first_point = first_at_level(light_point_count, light_point_sets, light_point_set, level);
   vec3 diffuse = vec3(0.0);
@@ -107,8 +107,8 @@ vec3 local_light(Surface surface, bool shadows, int level, float visibility, ino
     // What arrives from it? Ask along the way to its centre, or to each of its points.
     bool soft = shadows && light.w > 0.0 && light_point_count > 0;
     int points = soft ? soft_points : 1;
-    float facing = 0.0;
-    float seen = 0.0;
+    vec3 facing = vec3(0.0);
+    vec3 seen = vec3(0.0);
     int begin = soft ? light_point_begin * points / light_point_count : min(light_point_begin, 1);
     int end = soft ? light_point_end * points / light_point_count : 1;
     for (int k = begin; k < end; ++k) {
@@ -118,7 +118,7 @@ vec3 local_light(Surface surface, bool shadows, int level, float visibility, ino
         to_point = light_offset(light.xyz + light.w * point, surface);
       }
       if (!to_point.in_front) continue;
-      float arriving = 1.0;
+      vec3 arriving = vec3(1.0);
       if (shadows) {
         Ray shadow = ray_from(surface, to_point.to_light, surface.from_inside);
         shadow.t_max = to_point.distance;
@@ -128,7 +128,7 @@ vec3 local_light(Surface surface, bool shadows, int level, float visibility, ino
       facing += to_point.facing * arriving;
       seen += arriving;
     }
-    if (seen == 0.0) continue;
+    if (seen == vec3(0.0)) continue;
     facing /= float(points);
     seen /= float(points);
     if (surface.material.bands > 0.0) facing = in_bands(facing, surface.material.bands);

@@ -4,7 +4,7 @@
 #include "sphere"
 
 #ifdef LAYERS
-float light_passed = 1.0;  // of the last ray that asked for light
+vec3 light_passed = vec3(1.0);  // of the last ray that asked for light
 #endif
 
 #ifdef TREE
@@ -30,12 +30,12 @@ bool occluded(Ray ray) {
 #endif
 
 // What arrives at the ray's end: 0 behind an opaque sphere, else the product of what the crossed spheres let through.
-float share(Ray ray) {
+vec3 share(Ray ray) {
 #ifdef LAYERS
-  light_passed = 1.0;
+  light_passed = vec3(1.0);
   occluded(ray);
   return light_passed;
 #else
-  return occluded(ray) ? 0.0 : 1.0;
+  return vec3(occluded(ray) ? 0.0 : 1.0);
 #endif
 }

@@ -9,6 +9,20 @@ vec2 passing(int sphere) {
   return texelFetch(looks, texel(4 * look + 3), 0).yz;
 }
 
+// The colour that a share gets which the sphere lets through. Twin of passing_tint().
+vec3 passing_tint(int sphere, float share) {
+  int look = int(texelFetch(sphere_info, texel(sphere), 0).y);
+  vec3 colour = texelFetch(looks, texel(4 * look), 0).xyz;
+  float largest = max(max(colour.x, colour.y), colour.z);
+  return largest > 0.0 ? 1.0 - (1.0 - share) * (1.0 - max(colour, 0.0) / largest) : vec3(1.0);
+}
+
+// Light that arrives behind a sphere, for rays that ask for light.
+vec3 arriving_behind(int sphere) {
+  float share = passing(sphere).y;
+  return share > 0.0 ? share * passing_tint(sphere, share) : vec3(0.0);
+}
+
 // Does a ray that sees go on behind this?
 bool is_layer(int sphere) {
   return sphere >= 0 && passing(sphere).x > 0.0;

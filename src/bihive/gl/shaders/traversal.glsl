@@ -96,14 +96,14 @@ Hit traverse(Ray ray, bool any_hit) {
         float t = sphere_hit(ray, stored_sphere(i));
 #ifdef LAYERS
         if (any_hit) {
-          if (t < kNever) light_passed *= passing(i).y;
+          if (t < kNever) light_passed *= arriving_behind(i);
           continue;
         }
 #endif
         if (is_nearer(ray, t, i, best_here)) best_here = Hit(t, i);
       }
 #ifdef LAYERS
-      if (any_hit && light_passed == 0.0) return best_here;
+      if (any_hit && light_passed == vec3(0.0)) return best_here;
 #endif
       if (any_hit && best_here.sphere != kNothing) return best_here;
       keep_nearer(ray, best, best_here);

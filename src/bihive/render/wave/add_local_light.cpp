@@ -56,7 +56,7 @@ HWY_INLINE void add_to_owners(Lanes3 light, const WaveSurfaces& surfaces, std::i
 }
 
 void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfaces,
-                               const steps::LightReceived& received, const double* visibility, WaveSums& sums) {
+                               const steps::LightReceived& received, const ColourRows& visibility, WaveSums& sums) {
   for (std::int64_t i = 0; i < surfaces.count; i += kLanes) {
     const LaneMask there = first_lanes(surfaces.count - i);
     SurfaceLanes surface;
@@ -66,9 +66,12 @@ void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfa
     surface.cosine = hn::Neg(dot(surface.incoming, surface.normal));
     surface.id = load(surfaces.id, i);
     surface.material_inside = load(surfaces.material_inside, i);
-    const Lanes3 light = local_light(scene, there, surface, received, i,
-                                     visibility == nullptr ? all(1) : hn::LoadU(Tag(), visibility + i));
-    add_to_owners(multiply(load(surfaces.weight, i), light), surfaces, i, sums);
+    const Lanes3 light =
+        local_light(scene, there, surface, received, i, visibility ? load(visibility, i) : all(Vec3d{1, 1, 1}));
+    const Lanes weight = load(surfaces.weight, i);
+    Lanes3 weights{weight, weight, weight};
+    if (HWY_UNLIKELY(surfaces.has_tints)) weights = multiply(weight, load(surfaces.tint, i));
+    add_to_owners(multiply(weights, light), surfaces, i, sums);
   }
 }
 
@@ -90,7 +93,7 @@ void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const Po
 }
 
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const LightReceived& received,
-                     const double* visibility, WaveSums& sums) {
+                     const ColourRows& visibility, WaveSums& sums) {
   ensure_target();
   HWY_DYNAMIC_DISPATCH(add_local_light_on_target)(scene, surfaces, received, visibility, sums);
 }

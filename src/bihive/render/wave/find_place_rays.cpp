@@ -67,7 +67,7 @@ HWY_EXPORT(find_light_rays_on_target);
 namespace steps {
 
 void gather_places(const WaveSurfaces& surfaces, const PlacesAlike& alike, PlaceWave& wave) {
-  wave.reset(surfaces.count);
+  wave.reset(surfaces.count, alike.channels);
   for (std::int64_t i = 0; i < surfaces.count; ++i) {
     if ((alike.first_sample + surfaces.owner[i]) % alike.samples % alike.sets != alike.set) continue;
     if (alike.level_of != nullptr && alike.level_of[i] != alike.level) continue;
@@ -84,8 +84,10 @@ void gather_places(const WaveSurfaces& surfaces, const PlacesAlike& alike, Place
 }
 
 void forget_sums(PlaceWave& wave) {
-  for (Column<double>* column : {&wave.in_front, &wave.seen, &wave.rays_seen})
-    std::fill_n(column->data(), wave.places, 0.0);
+  std::fill_n(wave.in_front.data(), wave.places, 0.0);
+  for (int channel = 0; channel < wave.channels; ++channel)
+    for (Columns3<double>* columns : {&wave.seen, &wave.rays_seen})
+      std::fill_n((*columns)[channel].data(), wave.places, 0.0);
 }
 
 void find_ambient_rays(Vec3f direction, PlaceWave& wave) {
@@ -99,12 +101,16 @@ void find_light_rays(Vec3d point, PlaceWave& wave) {
 }
 
 void add_visible(PlaceWave& wave) {
-  for (std::int64_t i = 0; i < wave.rays.count; ++i) {
-    if (wave.hidden[i] != 0) continue;
-    const std::int64_t place = wave.place[i];
-    const double share = wave.has_shares ? wave.share[i] : 1;
-    wave.seen[place] = wave.seen[place] + wave.facing[i] * share;
-    wave.rays_seen[place] = wave.rays_seen[place] + share;
+  for (int channel = 0; channel < wave.channels; ++channel) {
+    Column<double>& seen = wave.seen[channel];
+    Column<double>& rays_seen = wave.rays_seen[channel];
+    for (std::int64_t i = 0; i < wave.rays.count; ++i) {
+      if (wave.hidden[i] != 0) continue;
+      const std::int64_t place = wave.place[i];
+      const double share = wave.has_shares ? wave.share[channel][i] : 1;
+      seen[place] = seen[place] + wave.facing[i] * share;
+      rays_seen[place] = rays_seen[place] + share;
+    }
   }
 }
 

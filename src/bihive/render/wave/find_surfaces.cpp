@@ -40,8 +40,10 @@ HWY_INLINE void add_background(Vec3d background, const Wave& wave, std::int64_t 
   for (unsigned left = bits[0]; left != 0; left &= left - 1) {
     const int k = __builtin_ctz(left);
     const std::int64_t owner = wave.owner[i + k];
-    for (int channel = 0; channel < 3; ++channel)
-      sums.light[channel][owner] = sums.light[channel][owner] + weight[k] * background[channel];
+    for (int channel = 0; channel < 3; ++channel) {
+      const double share = wave.has_tints ? weight[k] * wave.tint[channel][i + k] : weight[k];
+      sums.light[channel][owner] = sums.light[channel][owner] + share * background[channel];
+    }
   }
 }
 
@@ -68,6 +70,7 @@ void find_surfaces_on_target(const WaveScene& wave_scene, const WavePart& part, 
     append(surface.incoming, surfaces.incoming);
     append(surface.normal, surfaces.normal);
     append(wave.starts_at_eye ? all(1) : load(wave.weight, i), surfaces.weight);
+    if (HWY_UNLIKELY(surfaces.has_tints)) append(load(wave.tint, i), surfaces.tint);
     append(wave.starts_at_eye ? counted_from(i) : load(wave.owner, i), surfaces.owner);
     append(surface.id, surfaces.id);
     append(surface.material_inside, surfaces.material_inside);

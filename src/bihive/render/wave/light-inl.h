@@ -48,6 +48,18 @@ HWY_INLINE LaneMask set_lanes(const std::uint8_t* bytes) {
   return lanes_of(hn::Ne(hn::Load(LongTag(), words), hn::Zero(LongTag())));
 }
 
+HWY_INLINE Lanes3 load(const ColourRows& rows, std::int64_t i) {
+  return {hn::LoadU(Tag(), rows.of[0] + i), hn::LoadU(Tag(), rows.of[1] + i), hn::LoadU(Tag(), rows.of[2] + i)};
+}
+
+HWY_INLINE Lanes3 kept(LaneMask mask, Lanes3 v) {
+  return {hn::IfThenElseZero(mask, v.x), hn::IfThenElseZero(mask, v.y), hn::IfThenElseZero(mask, v.z)};
+}
+
+HWY_INLINE LaneMask any_colour(Lanes3 v) {
+  return hn::Or(hn::Or(hn::Ne(v.x, all(0)), hn::Ne(v.y, all(0))), hn::Ne(v.z, all(0)));
+}
+
 /// The effects of materials, if the scene has any.
 struct EffectLanes {
   Lanes bands, tint, glow;
@@ -74,6 +86,9 @@ struct EffectLanes {
     const Lanes stepped = hn::Div(hn::Floor(hn::Add(hn::Mul(facing, bands), all(0.5))), bands);
     return hn::IfThenElse(hn::Gt(bands, all(0)), stepped, facing);
   }
+  HWY_INLINE Lanes3 in_bands(Lanes3 facing) const {
+    return {in_bands(facing.x), in_bands(facing.y), in_bands(facing.z)};
+  }
   HWY_INLINE Lanes3 with_glow(Lanes3 light) const {
     return choose(hn::Gt(glow, all(0)), add(light, Lanes3{glow, glow, glow}), light);
   }
@@ -87,7 +102,7 @@ struct EffectLanes {
 /// For the lanes `there`, at least one. `received`: of the surfaces from number `first` on. `visibility`: of
 /// ambient_visibility().
 HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const SurfaceLanes& surface,
-                              const steps::LightReceived& received, std::int64_t first, Lanes visibility) {
+                              const steps::LightReceived& received, std::int64_t first, Lanes3 visibility) {
   const MaterialLanes material = materials_of(wave_scene, there, surface.material_inside, surface.id);
   EffectLanes effects;
   if (HWY_UNLIKELY(wave_scene.has_effects)) effects = EffectLanes(wave_scene, there, surface.material_inside);
@@ -99,18 +114,18 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
     const LightLanes to_light(light.position, surface.origin, surface.normal);
     const LaneMask in_front = hn::And(to_light.in_front, there);
     LaneMask lit = in_front;
-    Lanes seen = all(1);
-    Lanes soft_facing = all(0);
-    const bool soft = received.facing != nullptr && light.radius > 0;
+    Lanes3 seen = all(Vec3d{1, 1, 1});
+    Lanes3 soft_facing = all(Vec3d{});
+    const bool soft = received.facing && light.radius > 0;
     // Leave out lights behind the surface or behind a sphere.
     if (soft) {
-      soft_facing = hn::LoadU(Tag(), received.facing + soft_at);
-      seen = hn::LoadU(Tag(), received.seen + soft_at);
+      soft_facing = load(received.facing, soft_at);
+      seen = load(received.seen, soft_at);
       soft_at += received.surfaces;
-      lit = hn::And(there, hn::Ne(seen, all(0)));
+      lit = hn::And(there, any_colour(seen));
     } else if (received.hidden != nullptr) {
       lit = hn::AndNot(set_lanes(received.hidden + hidden_at), lit);
-      if (HWY_UNLIKELY(received.share != nullptr)) seen = hn::LoadU(Tag(), received.share + hidden_at);
+      if (HWY_UNLIKELY(bool(received.share))) seen = load(received.share, hidden_at);
     }
     hidden_at += received.surfaces;
     if (none(lit)) continue;
@@ -119,21 +134,21 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
     const Lanes3 colour = all(light.colour);
     const Lanes nearness = to_light.nearness();
     const Lanes facing = hn::IfThenElseZero(hn::And(lit, in_front), hn::Mul(to_light.towards, nearness));
-    Lanes received_facing = soft ? hn::IfThenElseZero(lit, soft_facing) : facing;
-    if (HWY_UNLIKELY(received.share != nullptr) && !soft) received_facing = hn::Mul(facing, seen);
+    Lanes3 received_facing = soft ? kept(lit, soft_facing) : Lanes3{facing, facing, facing};
+    if (HWY_UNLIKELY(bool(received.share)) && !soft) received_facing = multiply(facing, seen);
     if (HWY_UNLIKELY(wave_scene.has_effects)) received_facing = effects.in_bands(received_facing);
-    diffuse = add(diffuse, multiply(hn::Mul(material.diffuse, received_facing), colour));
+    diffuse = add(diffuse, multiply(multiply(material.diffuse, received_facing), colour));
     const Lanes highlight = hn::Add(hn::Mul(hn::Mul(all(2), facing), surface.cosine),
                                     hn::Mul(dot(to_light.offset, surface.incoming), nearness));
     const LaneMask glossy =
         hn::And(hn::And(hn::And(lit, in_front), hn::Gt(highlight, all(0))), has_highlight(material));
     if (none(glossy)) continue;
-    const Lanes strength =
-        hn::Mul(hn::Mul(material.specular, seen), shading_power_of(glossy, highlight, material.power));
-    specular = add(specular, multiply(hn::IfThenElseZero(glossy, strength), colour));
+    const Lanes power = shading_power_of(glossy, highlight, material.power);
+    const Lanes3 strength = multiply(power, multiply(material.specular, seen));
+    specular = add(specular, multiply(kept(glossy, strength), colour));
   }
   if (HWY_UNLIKELY(wave_scene.has_effects)) specular = effects.tinted(specular, material.colour);
-  const Lanes strength = hn::Mul(material.ambient, visibility);
+  const Lanes3 strength = multiply(material.ambient, visibility);
   Lanes3 light = add(multiply(strength, all(wave_scene.scene->ambient_light)), diffuse);
   if (HWY_UNLIKELY(wave_scene.has_effects)) light = effects.with_glow(light);
   return add(multiply(material.colour, light), specular);

@@ -74,6 +74,8 @@ HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMa
         next.direction[axis][at] = static_cast<float>(one.direction[axis][k]);
       }
       next.weight[at] = one.weight[k];
+      for (int channel = 0; next.has_tints && channel < 3; ++channel)
+        next.tint[channel][at] = surfaces.tint[channel][i + k];
       next.owner[at] = surfaces.owner[i + k];
       next.leaves[at] = surfaces.id[i + k];
       next.inside[at] = static_cast<std::uint8_t>(one.inside[k]);
@@ -125,6 +127,7 @@ steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surf
     append(load(surfaces.origin, i), next.origin);
     append(ray.direction, next.direction);
     append(ray.weight, next.weight);
+    if (HWY_UNLIKELY(next.has_tints)) append(load(surfaces.tint, i), next.tint);
     append(load(surfaces.owner, i), next.owner);
     append(id, next.leaves);
     append(ray.inside, next.inside);

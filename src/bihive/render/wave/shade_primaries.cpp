@@ -45,7 +45,8 @@ HWY_INLINE void shade_primaries_from(const WaveScene& scene, const WavePart& par
     Lanes3 light = background;
     if (!none(found)) {
       const SurfaceLanes surface = surfaces_at(scene, found, wave, i, rays);
-      light = choose(found, add(all(Vec3d{}), local_light(scene, found, surface, {}, 0, all(1))), background);
+      light =
+          choose(found, add(all(Vec3d{}), local_light(scene, found, surface, {}, 0, all(Vec3d{1, 1, 1}))), background);
     }
     hn::StoreU(light.x, Tag(), red + i);
     hn::StoreU(light.y, Tag(), green + i);

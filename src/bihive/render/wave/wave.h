@@ -79,13 +79,17 @@ struct Wave : RayColumns {
   bool starts_at_eye = false;
   bool has_one_origin = false;  ///< all rays start at the same point
   Column<double> weight;        ///< share of the light along the ray
+  bool has_tints = false;
+  Columns3<double> tint;  ///< colour of what lies between the ray and the eye; white and unused unless has_tints
   Column<std::int64_t> owner;
 
-  void reset(std::int64_t n) {
+  void reset(std::int64_t n, bool with_tints = false) {
     RayColumns::reset(n);
     starts_at_eye = false;
     has_one_origin = false;
+    has_tints = with_tints;
     weight.reserve(n);
+    if (has_tints) tint.reserve(n);
     owner.reserve(n);
   }
 
@@ -126,11 +130,15 @@ struct WaveSurfaces {
   Columns3<float> origin;
   Columns3<double> incoming, normal;
   Column<double> weight;
+  bool has_tints = false;  ///< of their rays
+  Columns3<double> tint;
   Column<std::int64_t> owner, id;
   Column<std::int64_t> material_inside;  ///< 2 x position in WaveScene::materials + (1 if inside a sphere)
 
-  void reset(std::int64_t n) {
+  void reset(std::int64_t n, bool with_tints) {
     count = 0;
+    has_tints = with_tints;
+    if (has_tints) tint.reserve(n);
     origin.reserve(n);
     incoming.reserve(n);
     normal.reserve(n);
@@ -141,19 +149,33 @@ struct WaveSurfaces {
   }
 };
 
+/// A number for each colour, of many places. Where transparent spheres do not colour the light that passes them, the
+/// three rows are one and the same.
+struct ColourRows {
+  const double* of[3] = {nullptr, nullptr, nullptr};
+
+  ColourRows() = default;
+  /// `channels`: 3, or 1 if only the first column is filled.
+  ColourRows(const Columns3<double>& columns, int channels)
+      : of{columns[0].data(), columns[channels > 1 ? 1 : 0].data(), columns[channels > 1 ? 2 : 0].data()} {}
+  explicit operator bool() const { return of[0] != nullptr; }
+};
+
 /// Rays from surfaces towards one light, which is at t = 1.
 struct ShadowWave : RayColumns {
   Column<double> t_max;
   Column<std::int64_t> surface;  ///< the number of the ray's surface
   Column<std::uint8_t> hidden;
-  Column<double> share;  ///< what of the light arrives; only where there are transparent spheres
+  /// What of the light arrives, only where there are transparent spheres: in three colours, or the first column alone.
+  Columns3<double> share;
 
-  void reset(std::int64_t n) {
+  /// `channels`: 3 or 1.
+  void reset(std::int64_t n, int channels) {
     RayColumns::reset(n);
     t_max.reserve(n);
     surface.reserve(n);
     hidden.reserve(n);
-    share.reserve(n);
+    for (int channel = 0; channel < channels; ++channel) share[channel].reserve(n);
   }
 
   RaySpan span() const {
@@ -170,22 +192,28 @@ struct PlaceWave {
   Columns3<double> normal;
   Column<std::int64_t> id, inside, surface;  ///< `surface`: its number in WaveSurfaces
   /// Sums so far: of the facings of all rays, of those that nothing hides, and the number of these rays; the last two
-  /// with each ray times its share.
-  Column<double> in_front, seen, rays_seen;
+  /// with each ray times its share, in `channels` colours.
+  Column<double> in_front;
+  Columns3<double> seen, rays_seen;
+  int channels = 1;
 
   RayColumns rays;
   Column<double> facing;
   Column<std::int64_t> place;  ///< of each ray
   Column<std::uint8_t> hidden;
   bool has_shares = false;  ///< else the share of each ray is 1
-  Column<double> share;
+  Columns3<double> share;
 
-  void reset(std::int64_t n) {
+  /// `in_colours`: 3 or 1.
+  void reset(std::int64_t n, int in_colours) {
     places = 0;
+    channels = in_colours;
     origin.reserve(n);
     normal.reserve(n);
     for (Column<std::int64_t>* column : {&id, &inside, &surface, &place}) column->reserve(n);
-    for (Column<double>* column : {&in_front, &seen, &rays_seen, &facing, &share}) column->reserve(n);
+    for (Column<double>* column : {&in_front, &facing}) column->reserve(n);
+    for (int channel = 0; channel < channels; ++channel)
+      for (Columns3<double>* columns : {&seen, &rays_seen, &share}) (*columns)[channel].reserve(n);
     rays.reset(n);
     hidden.reserve(n);
   }
@@ -223,6 +251,7 @@ struct PlacesAlike {
   std::int64_t first_sample, samples, set, sets;
   int level = 0;
   const std::uint8_t* level_of = nullptr;  ///< of each surface; null: 0
+  int channels = 1;                        ///< of PlaceWave
 };
 void gather_places(const WaveSurfaces& surfaces, const PlacesAlike& alike, PlaceWave& wave);
 
@@ -244,15 +273,14 @@ void add_visible(PlaceWave& wave);
 struct LightReceived {
   std::int64_t surfaces = 0;             ///< entries of a row
   const std::uint8_t* hidden = nullptr;  ///< a row for each light, 1 if a sphere hides the light; null: no shadows
-  const double* share = nullptr;         ///< a row for each light, what arrives of one that is not hidden; null: all
-  /// A row for each light with a radius, of LightShare; null: no shadows, or no light has a radius.
-  const double* facing = nullptr;
-  const double* seen = nullptr;
+  ColourRows share;                      ///< a row for each light, what arrives of one that is not hidden; none: all
+  /// A row for each light with a radius, of LightShare; none: no shadows, or no light has a radius.
+  ColourRows facing, seen;
 };
 
-/// Adds local_light() times weight to the owners. `visibility`: of each surface; null: 1.
+/// Adds local_light() times weight and tint to the owners. `visibility`: of each surface; none: 1.
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const LightReceived& received,
-                     const double* visibility, WaveSums& sums);
+                     const ColourRows& visibility, WaveSums& sums);
 
 /// Both steps at once for at least one primary ray, without secondary rays and without shadows: the light that
 /// find_surfaces() and add_local_light() bring to the owners. The owners must have received nothing yet.

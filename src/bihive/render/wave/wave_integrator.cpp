@@ -133,12 +133,14 @@ void WaveIntegrator::put_layers(const WavePart& rays, const CrossingBuffers& fou
   const auto most = static_cast<std::int64_t>(found.first[static_cast<std::size_t>(end)] -
                                               found.first[static_cast<std::size_t>(first)]) +
                     end - first;
-  layers.reset(most);
+  layers.reset(most, to_eye()->has_tints());
   buffers.t.reserve(most);
   buffers.id.reserve(most);
   for (std::int64_t k = first; k < end; ++k) {
     const std::int64_t from = rays.first + k;
     double weight = wave.starts_at_eye ? 1 : wave.weight[from];
+    Vec3d tint{1, 1, 1};
+    for (int channel = 0; wave.has_tints && channel < 3; ++channel) tint[channel] = wave.tint[channel][from];
     const auto add = [&](double t, std::int64_t id) {
       const std::int64_t to = layers.count++;
       for (int axis = 0; axis < 3; ++axis) {
@@ -148,6 +150,7 @@ void WaveIntegrator::put_layers(const WavePart& rays, const CrossingBuffers& fou
       layers.leaves[to] = wave.starts_at_eye ? kNothing : wave.leaves[from];
       layers.inside[to] = wave.starts_at_eye ? 0 : wave.inside[from];
       layers.weight[to] = weight;
+      for (int channel = 0; layers.has_tints && channel < 3; ++channel) layers.tint[channel][to] = tint[channel];
       layers.owner[to] = wave.starts_at_eye ? from : wave.owner[from];
       buffers.t[to] = t;
       buffers.id[to] = id;
@@ -156,6 +159,7 @@ void WaveIntegrator::put_layers(const WavePart& rays, const CrossingBuffers& fou
          ++c) {
       add(found.crossings[c].t, found.crossings[c].sphere_id);
       weight = weight * to_eye()->passing(found.crossings[c].sphere_id);
+      tint = tint * to_eye()->tint(found.crossings[c].sphere_id);
     }
     if (depth == 1 && !passing_.empty()) passing_[static_cast<std::size_t>(from)] = weight;
     // The background behind what a primary ray crosses is left out where the picture gets opacity instead.
@@ -173,15 +177,15 @@ void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffer
   // Shade all surfaces, and follow the reflected and the transmitted light.
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
-  if (next != nullptr) next->reset(2 * rays.count());
+  if (next != nullptr) next->reset(2 * rays.count(), rays.wave->has_tints);
   if (rays.wave->starts_at_eye && last && settings_.light && !with_shadows() && !with_ambient() && !settings_.depth) {
     steps::shade_primaries(scene_, rays, buffers.t.data(), buffers.id.data(), buffers.sums);
     buffers.sums.empty = false;
     return;
   }
   const bool of_generation = with_shadows() || with_ambient();
-  buffers.surfaces.reset(of_generation ? rays.count() : 0);
-  if (with_shadows()) buffers.shadows.reset(rays.count());
+  buffers.surfaces.reset(of_generation ? rays.count() : 0, rays.wave->has_tints);
+  if (with_shadows()) buffers.shadows.reset(rays.count(), channels());
   for (std::int64_t first = rays.first; first < rays.last;) {
     const WavePart part{rays.wave, first, end_of_part(*rays.wave, first, rays.last, kRaysShadedAtOnce)};
     shade(part, depth, HitSpan{buffers.t.data(), buffers.id.data()}.part(first - rays.first), next, buffers);
@@ -193,15 +197,16 @@ void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffer
     if (with_shadows()) find_soft_shadows(depth, buffers);
     if (with_ambient()) find_visibility(depth, buffers);
     if (cancelled()) return;
-    steps::LightReceived received{buffers.surfaces.count, nullptr, nullptr, nullptr, nullptr};
+    steps::LightReceived received;
+    received.surfaces = buffers.surfaces.count;
     if (with_shadows()) received.hidden = buffers.hidden.data();
-    if (with_shadows() && to_light() != nullptr) received.share = buffers.share.data();
+    if (with_shadows() && to_light() != nullptr) received.share = ColourRows(buffers.share, channels());
     if (with_shadows() && settings_.light_points != nullptr) {
-      received.facing = buffers.light_facing.data();
-      received.seen = buffers.light_seen.data();
+      received.facing = ColourRows(buffers.light_facing, channels());
+      received.seen = ColourRows(buffers.light_seen, channels());
     }
-    steps::add_local_light(scene_, buffers.surfaces, received, with_ambient() ? buffers.visibility.data() : nullptr,
-                           buffers.sums);
+    steps::add_local_light(scene_, buffers.surfaces, received,
+                           with_ambient() ? ColourRows(buffers.visibility, channels()) : ColourRows(), buffers.sums);
   }
   buffers.sums.empty = false;
 
@@ -223,7 +228,7 @@ void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffer
 void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers) {
   // Shadows and ambient occlusion need the surfaces of the whole generation.
   WaveSurfaces& surfaces = buffers.surfaces;
-  if (!with_shadows() && !with_ambient()) surfaces.reset(rays.count());
+  if (!with_shadows() && !with_ambient()) surfaces.reset(rays.count(), rays.wave->has_tints);
   const std::int64_t known = surfaces.count;
   steps::find_surfaces(scene_, rays, hits.t, hits.sphere_id, surfaces, buffers.sums);
   if (settings_.depth)
@@ -233,7 +238,7 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
     const std::vector<PointLight>& lights = scene_.scene->lights;
     if (!lights.empty() && !is_soft(lights[0])) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
   } else if (settings_.light && !with_ambient()) {
-    steps::add_local_light(scene_, surfaces, {}, nullptr, buffers.sums);
+    steps::add_local_light(scene_, surfaces, {}, {}, buffers.sums);
   }
   if (next == nullptr) return;
   const steps::SentOn sent = steps::send_on(scene_, surfaces, known, *next);
@@ -253,7 +258,8 @@ void WaveIntegrator::find_levels(WaveBuffers& buffers) const {
 }
 
 steps::PlacesAlike WaveIntegrator::alike(int set, int sets, int level, const WaveBuffers& buffers) const {
-  return {first_sample_, settings_.samples_per_pixel, set, sets, level, levels() > 1 ? buffers.level.data() : nullptr};
+  return {first_sample_, settings_.samples_per_pixel, set, sets, level, levels() > 1 ? buffers.level.data() : nullptr,
+          channels()};
 }
 
 void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
@@ -262,14 +268,16 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   const std::int64_t all = surfaces * static_cast<std::int64_t>(lights.size());
   buffers.hidden.reserve(all);
   std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
-  if (to_light() != nullptr) buffers.share.reserve(all);
-  if (to_light() != nullptr) std::fill_n(buffers.share.data(), all, 1.0);
+  for (int channel = 0; to_light() != nullptr && channel < channels(); ++channel) {
+    buffers.share[channel].reserve(all);
+    std::fill_n(buffers.share[channel].data(), all, 1.0);
+  }
   ShadowWave& shadows = buffers.shadows;
   for (std::size_t l = 0; l < lights.size(); ++l) {
     if (is_soft(lights[l])) continue;
     // The shadow rays towards the first light exist already.
     if (l > 0) {
-      shadows.reset(surfaces);
+      shadows.reset(surfaces, channels());
       steps::find_shadow_rays(buffers.surfaces, 0, lights[l], shadows);
     }
     rays_.shadow += shadows.count;
@@ -279,11 +287,13 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
     const std::int64_t step = tracer_.engine() == Engine::wide ? shadows.count : kRaysBetweenLooks;
     for (std::int64_t i = 0; i < shadows.count && !cancelled(); i += step)
       ask_for_light(shadows.span().part(i, std::min(step, shadows.count - i)), order, shadows.hidden.data() + i,
-                    shadows.share.data() + i);
+                    shadows.share, i);
     const std::int64_t row = static_cast<std::int64_t>(l) * surfaces;
     for (std::int64_t i = 0; i < shadows.count; ++i) buffers.hidden[row + shadows.surface[i]] = shadows.hidden[i];
     if (to_light() == nullptr) continue;
-    for (std::int64_t i = 0; i < shadows.count; ++i) buffers.share[row + shadows.surface[i]] = shadows.share[i];
+    for (int channel = 0; channel < channels(); ++channel)
+      for (std::int64_t i = 0; i < shadows.count; ++i)
+        buffers.share[channel][row + shadows.surface[i]] = shadows.share[channel][i];
   }
 }
 
@@ -296,8 +306,10 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
   for (const PointLight& light : scene_.scene->lights)
     if (is_soft(light)) lights.push_back(&light);
   const std::int64_t all = surfaces.count * static_cast<std::int64_t>(lights.size());
-  buffers.light_facing.reserve(all);
-  buffers.light_seen.reserve(all);
+  for (int channel = 0; channel < channels(); ++channel) {
+    buffers.light_facing[channel].reserve(all);
+    buffers.light_seen[channel].reserve(all);
+  }
   PlaceWave& wave = buffers.places;
   for (int n = 0; n < points.count() * levels(); ++n) {
     const int set = n % points.count();
@@ -316,10 +328,11 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
         steps::add_visible(wave);
       }
       const std::int64_t row = static_cast<std::int64_t>(l) * surfaces.count;
-      for (std::int64_t k = 0; k < wave.places; ++k) {
-        buffers.light_facing[row + wave.surface[k]] = wave.seen[k] / count;
-        buffers.light_seen[row + wave.surface[k]] = wave.rays_seen[k] / count;
-      }
+      for (int channel = 0; channel < channels(); ++channel)
+        for (std::int64_t k = 0; k < wave.places; ++k) {
+          buffers.light_facing[channel][row + wave.surface[k]] = wave.seen[channel][k] / count;
+          buffers.light_seen[channel][row + wave.surface[k]] = wave.rays_seen[channel][k] / count;
+        }
     }
   }
 }
@@ -329,7 +342,7 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
   const WaveSurfaces& surfaces = buffers.surfaces;
   const AmbientRays& ambient = *settings_.ambient;
   PlaceWave& wave = buffers.places;
-  buffers.visibility.reserve(surfaces.count);
+  for (int channel = 0; channel < channels(); ++channel) buffers.visibility[channel].reserve(surfaces.count);
   for (int n = 0; n < ambient.sets.count() * levels(); ++n) {
     const int set = n % ambient.sets.count();
     const int level = n / ambient.sets.count();
@@ -346,13 +359,17 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
             wave.hidden[i] = 1;
       steps::add_visible(wave);
     }
-    for (std::int64_t k = 0; k < wave.places; ++k)
-      buffers.visibility[wave.surface[k]] = wave.in_front[k] > 0 ? wave.seen[k] / wave.in_front[k] : 1;
+    for (int channel = 0; channel < channels(); ++channel)
+      for (std::int64_t k = 0; k < wave.places; ++k)
+        buffers.visibility[channel][wave.surface[k]] =
+            wave.in_front[k] > 0 ? wave.seen[channel][k] / wave.in_front[k] : 1;
   }
 }
 
-// What of the light arrives at the ends of rays? `share` is written only where there are transparent spheres.
-void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, double* share) const {
+// What of the light arrives at the ends of rays? The shares, from number `first` on, are written only where there are
+// transparent spheres.
+void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, Columns3<double>& share,
+                                   std::int64_t first) const {
   if (to_light() == nullptr) return tracer_.occluded(rays, order, hidden);
   static thread_local std::vector<double> ends;
   static thread_local std::vector<RayHit> crossings;
@@ -367,10 +384,20 @@ void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uin
   RaySpan open = rays;
   open.t_max = ends.data();
   to_light()->find_crossings(open, order, crossings);
-  std::fill_n(share, rays.count, 1.0);
-  for (const RayHit& hit : crossings) share[hit.ray] = share[hit.ray] * to_light()->passing(hit.sphere_id);
-  for (std::int64_t i = 0; i < rays.count; ++i)
-    if (share[i] == 0) hidden[i] = 1;
+  for (int channel = 0; channel < channels(); ++channel) std::fill_n(share[channel].data() + first, rays.count, 1.0);
+  for (std::size_t i = 0; i < crossings.size();) {
+    // The crossings of one ray.
+    const std::int64_t ray = crossings[i].ray;
+    double passed = 1;
+    Vec3d tint{1, 1, 1};
+    for (; i < crossings.size() && crossings[i].ray == ray; ++i) {
+      passed = passed * to_light()->passing(crossings[i].sphere_id);
+      tint = tint * to_light()->tint(crossings[i].sphere_id);
+    }
+    const Vec3d arriving = passed * tint;
+    for (int channel = 0; channel < channels(); ++channel) share[channel][first + ray] = arriving[channel];
+    if (arriving == Vec3d{}) hidden[ray] = 1;
+  }
 }
 
 // Which rays of the places does a sphere hide before t = limit? Returns these rays.
@@ -385,7 +412,7 @@ RaySpan WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffe
   const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
   const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
   for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
-    ask_for_light(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i, wave.share.data() + i);
+    ask_for_light(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i, wave.share, i);
   wave.has_shares = to_light() != nullptr;
   return rays;
 }

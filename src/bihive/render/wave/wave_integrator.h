@@ -37,11 +37,12 @@ struct WaveBuffers {
   WaveSurfaces surfaces;
   ShadowWave shadows;
   Column<std::uint8_t> hidden;
-  Column<double> share;
+  Columns3<double> share;
   PlaceWave places;
   Column<std::uint8_t> level;  ///< faint_level() of each surface; only where spheres are passed straight
-  Column<double> visibility, limits;
-  Column<double> light_facing, light_seen;  ///< of LightReceived
+  Column<double> limits;
+  Columns3<double> visibility;
+  Columns3<double> light_facing, light_seen;  ///< of LightReceived
   WaveSums sums;
   Column<double> x, y, lens_x, lens_y;  ///< of primary rays
 
@@ -114,13 +115,16 @@ class WaveIntegrator {
   void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);
   RaySpan trace_places(int depth, double limit, WaveBuffers& buffers);
-  void ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, double* share) const;
+  void ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, Columns3<double>& share,
+                     std::int64_t first) const;
   const TransparentSpheres* to_eye() const {
     return settings_.transparency != nullptr ? settings_.transparency->to_eye.get() : nullptr;
   }
   const TransparentSpheres* to_light() const {
     return settings_.transparency != nullptr ? settings_.transparency->to_light.get() : nullptr;
   }
+  // Columns of what arrives from lights and surroundings: colours, if transparent spheres colour it.
+  int channels() const { return to_light() != nullptr && to_light()->has_tints() ? 3 : 1; }
   bool is_soft(const PointLight& light) const { return settings_.light_points != nullptr && light.radius > 0; }
   bool with_shadows() const { return settings_.light && settings_.shadows; }
   bool with_ambient() const { return settings_.light && settings_.ambient != nullptr; }
