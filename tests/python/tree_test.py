@@ -92,12 +92,18 @@ class Queries(unittest.TestCase):
         for o, d in [
             (origin.astype(float), direction),
             (np.asfortranarray(origin), direction[::-1][::-1]),
+            (np.asfortranarray(origin), np.asfortranarray(direction)),
             (wide[:, 0:6:2], wide[:, 1:7:2]),
             (origin.astype(">f4"), direction.astype(">f8")),
             (origin.tolist(), memoryview(np.ascontiguousarray(direction))),
         ]:
             for one, other in zip(self.tree.closest(o, d), expected):
                 np.testing.assert_array_equal(one, other)
+        # Of rays that lie as the engine has them, each piece begins at its own place.
+        many = [np.asfortranarray(np.tile(array, (70, 1))) for array in (origin, direction)]
+        limits = {"t_min": np.zeros(70_000), "t_max": np.full(70_000, np.inf)}
+        for one, other in zip(self.tree.closest(*many, **limits, order="blocks"), expected):
+            np.testing.assert_array_equal(one, np.tile(other, 70))
         # One origin, or one direction, for all.
         one = self.tree.closest(origin[0], direction)
         many = self.tree.closest(np.tile(origin[0], (1000, 1)), direction)

@@ -11,6 +11,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,16 @@ void copy_part(const NumbersView& view, std::int64_t first, std::int64_t count, 
     copy_as<double>(view, first, count, to);
 }
 
+// The numbers where they lie, if they lie as a vector of T would; else null.
+template <class T>
+const T* as_vector(const NumbersView& view, std::int64_t first) {
+  constexpr auto kPrecision =
+      sizeof(T) == sizeof(float) ? NumbersView::Precision::binary32 : NumbersView::Precision::binary64;
+  const bool aligned = reinterpret_cast<std::uintptr_t>(view.first) % alignof(T) == 0;
+  if (view.precision != kPrecision || view.step_bytes != sizeof(T) || !aligned) return nullptr;
+  return static_cast<const T*>(view.first) + first;
+}
+
 // The rays of a piece as the engine reads them. Its memory is used again for the next piece.
 class RayPiece {
  public:
@@ -77,22 +88,19 @@ class RayPiece {
     const auto size = static_cast<std::size_t>(count);
     RaySpan span;
     span.count = count;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      batch_.origin[axis].resize(size);
-      batch_.direction[axis].resize(size);
-      copy_part(rays.origin[axis], first, count, batch_.origin[axis].data());
-      copy_part(rays.direction[axis], first, count, batch_.direction[axis].data());
-      span.origin[axis] = batch_.origin[axis].data();
-      span.direction[axis] = batch_.direction[axis].data();
-    }
-    const auto limit = [&](const std::optional<NumbersView>& view, std::vector<double>& kept) -> const double* {
-      if (!view) return nullptr;
+    const auto take_column = [&](const NumbersView& view, auto& kept) {
+      using T = typename std::decay_t<decltype(kept)>::value_type;
+      if (const T* const there = as_vector<T>(view, first)) return there;
       kept.resize(size);
-      copy_part(*view, first, count, kept.data());
-      return kept.data();
+      copy_part(view, first, count, kept.data());
+      return static_cast<const T*>(kept.data());
     };
-    span.t_min = limit(rays.t_min, batch_.t_min);
-    span.t_max = limit(rays.t_max, batch_.t_max);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      span.origin[axis] = take_column(rays.origin[axis], batch_.origin[axis]);
+      span.direction[axis] = take_column(rays.direction[axis], batch_.direction[axis]);
+    }
+    if (rays.t_min) span.t_min = take_column(*rays.t_min, batch_.t_min);
+    if (rays.t_max) span.t_max = take_column(*rays.t_max, batch_.t_max);
     if (rays.leaves != nullptr) span.leaves = rays.leaves + first;
     if (rays.inside != nullptr) span.inside = rays.inside + first;
     return span;
