@@ -91,8 +91,8 @@ class Packages(unittest.TestCase):
         self.assertIn("libtbb-dev", self.field("libbihive-dev", "Depends"))
         self.assertTrue(self.field("bihive", "Description").startswith("ray tracer for spheres"))
         copyright_text = (self.unpacked["bihive"] / "usr/share/doc/bihive/copyright").read_text()
-        for sentence in ("2026 bihive authors", "THE SOFTWARE IS PROVIDED", "Bitstream Vera", "CC0"):
-            self.assertIn(sentence, copyright_text)
+        for sentence in ("2026 bihive authors", "THE SOFTWARE IS PROVIDED", "names not containing either the words \"Bitstream\"", "CC0"):
+            self.assertIn(sentence, " ".join(copyright_text.split()))
         changes = gzip.decompress((self.unpacked["bihive"] / "usr/share/doc/bihive/changelog.Debian.gz").read_bytes()).decode()
         self.assertIn("Thu, 01 Jan 2026 00:00:00 +0000", changes)
 

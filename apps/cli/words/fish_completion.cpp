@@ -42,8 +42,8 @@ std::string fish_completion(const ProgramWords& words) {
       "complete -c bihive -f\n";
   for (const OptionWords& option : words.program.options) text += option_line("__fish_use_subcommand", option);
   for (const CommandWords& command : words.commands)
-    text += "complete -c bihive -n '__fish_use_subcommand' -a " + command.name + " -d " + fish_quoted(command.help) +
-            "\n";
+    text +=
+        "complete -c bihive -n '__fish_use_subcommand' -a " + command.name + " -d " + fish_quoted(command.help) + "\n";
   for (const CommandWords& command : words.commands) {
     const std::string condition = "__fish_seen_subcommand_from " + command.name;
     for (const OptionWords& option : command.options) {

@@ -70,8 +70,7 @@ OptionWords read_option(const CLI::Option& option, const std::string& command) {
   words.required = option.get_required();
   words.takes_value = option.get_items_expected_max() > 0;
   words.repeatable = option.get_expected_max() > 1 || option.get_trigger_on_parse();
-  words.candidates =
-      words.place.empty() ? candidates_of_type(words.type) : candidates_of_place(words.place, command);
+  words.candidates = words.place.empty() ? candidates_of_type(words.type) : candidates_of_place(words.place, command);
   return words;
 }
 
@@ -112,7 +111,8 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     if (what == "zsh") text = zsh_completion(program);
     if (what == "fish") text = fish_completion(program);
   }
-  if (text.empty()) fail_usage("bihive describe knows: commands, man [COMMAND], bash, zsh, fish", "see docs/packages.md");
+  if (text.empty())
+    fail_usage("bihive describe knows: commands, man [COMMAND], bash, zsh, fish", "see docs/packages.md");
   return text;
 }
 

@@ -38,8 +38,11 @@ std::string specifications(const OptionWords& option) {
     text += "'";
   }
   if (option.place.empty()) return text;
-  return text + " \\\n        '" + (option.repeatable ? "*:" : option.required ? ":" : "::") + option.place + ":" +
-         action_of(option.candidates) + "'";
+  return text + " \\\n        '" +
+         (option.repeatable ? "*:"
+          : option.required ? ":"
+                            : "::") +
+         option.place + ":" + action_of(option.candidates) + "'";
 }
 
 }  // namespace
