@@ -9,9 +9,12 @@ is right.
 import json
 import os
 import pathlib
+import shlex
+import shutil
 import subprocess
 import sys
 import urllib.request
+import xml.etree.ElementTree
 
 PREFIX = pathlib.Path(sys.argv[1]).resolve()
 PAGE = PREFIX / "share/bihive/web"
@@ -75,6 +78,50 @@ def test_page():
         server.wait()
 
 
-for test in (test_help, test_window, test_page):
+def test_manual_and_completion():
+    """Manual pages for every command, completions, and what a desktop wants to know."""
+    share = PREFIX / "share"
+    for command in bihive("describe", "commands").split():
+        page = (share / f"man/man1/bihive-{command}.1").read_text()
+        assert page == bihive("describe", "man", command), command
+    assert (share / "man/man1/bihive.1").read_text() == bihive("describe", "man")
+    for shell, place in (
+        ("bash", "bash-completion/completions/bihive"),
+        ("zsh", "zsh/site-functions/_bihive"),
+        ("fish", "fish/vendor_completions.d/bihive.fish"),
+    ):
+        assert (share / place).read_text() == bihive("describe", shell), shell
+
+
+def test_desktop():
+    """The desktop file starts the window, and each type that it names is a type of the database's."""
+    share = PREFIX / "share"
+    if not (PREFIX / "bin/bihive-view").exists():
+        return
+    desktop = share / "applications/bihive.desktop"
+    values = dict(line.split("=", 1) for line in desktop.read_text().splitlines() if "=" in line)
+    # Two layers of quotes: those of the file's values, then those of command lines.
+    words = shlex.split(values["Exec"].replace("\\\\", "\\"))
+    words = [word.replace("\\$", "$") for word in words]  # shlex leaves this one, shells and desktops do not
+    assert words[-1] == "%f", words
+    for files, expected in (([], "view demo"), (["a b.pdb"], "view a b.pdb")):
+        script = "bihive() { echo \"$@\"; }; " + words[2].replace("exec ", "")
+        said = subprocess.run([*words[:2], script, *words[3:-1], *files], capture_output=True, text=True, check=True)
+        assert said.stdout == expected + "\n", (files, said.stdout)
+    types = xml.etree.ElementTree.parse(share / "mime/packages/bihive-types.xml").getroot()
+    named = {element.get("type") for element in types}
+    assert set(values["MimeType"].rstrip(";").split(";")) == named, named
+    assert (share / f"icons/hicolor/scalable/apps/{values['Icon']}.svg").exists()
+    if shutil.which("desktop-file-validate"):
+        said = subprocess.run(["desktop-file-validate", desktop], capture_output=True, text=True)
+        assert (said.returncode, said.stdout + said.stderr) == (0, ""), said
+    if shutil.which("update-mime-database"):
+        said = subprocess.run(["update-mime-database", share / "mime"], capture_output=True, text=True)
+        assert said.returncode == 0 and "rror" not in said.stderr, said
+        globs = (share / "mime/globs2").read_text()
+        assert ":chemical/x-pdb:*.pdb" in globs and ":application/x-gsd:*.gsd" in globs, globs
+
+
+for test in (test_help, test_window, test_page, test_manual_and_completion, test_desktop):
     test()
     print(f"{test.__name__}: passed")

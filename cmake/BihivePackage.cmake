@@ -1,0 +1,74 @@
+# `cpack` (make package): Debian packages, one a component, and an archive for any Linux. What is installed belongs to one
+# of these components:
+#   bihive          the programs, the library for C, the page, manual pages, completions, desktop files
+#   libbihive-dev   the library, its headers, bihive.h, CMake and pkg-config files
+#   python          the Python package, where it is built: python3-bihive
+#   license         LICENSE, for plain installations and the archive; Debian packages have a copyright file of their own
+
+set(BIHIVE_PACKAGE_MAINTAINER "bihive authors <bihive@bihive.invalid>" CACHE STRING "Who answers for the Debian packages: Name <address>")
+
+set(CPACK_PACKAGE_NAME bihive)
+set(CPACK_PACKAGE_VENDOR "bihive authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "ray tracer for spheres: molecules, particles, points")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_GENERATOR "DEB;TGZ")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+                                                WORLD_EXECUTE)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package/finish.cmake)
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package/choose_components.cmake)
+# For these scripts.
+set(CPACK_BIHIVE_SOURCE ${PROJECT_SOURCE_DIR})
+
+# The archive: everything in one.
+set(CPACK_ARCHIVE_COMPONENT_INSTALL OFF)
+set(CPACK_SYSTEM_NAME ${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+
+# Debian packages.
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${BIHIVE_PACKAGE_MAINTAINER})
+set(CPACK_BIHIVE_MAINTAINER ${BIHIVE_PACKAGE_MAINTAINER})
+set(CPACK_DEBIAN_BIHIVE_PACKAGE_NAME bihive)
+set(CPACK_DEBIAN_BIHIVE_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_BIHIVE_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_BIHIVE_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, fonts-dejavu-core")
+set(CPACK_DEBIAN_BIHIVE_PACKAGE_SUGGESTS "ffmpeg, libhdf5-103-1")
+set(CPACK_COMPONENT_BIHIVE_DESCRIPTION
+    "bihive draws molecules, particle simulations and point sets: pictures, films,
+a window that turns them, and a page for the browser. It reads the files of
+structural biology, materials science and simulation, and it measures and
+draws the trees behind its pictures. Double precision decides every hit, and
+every machine computes the same bits.")
+set(CPACK_DEBIAN_LIBBIHIVE-DEV_PACKAGE_NAME libbihive-dev)
+set(CPACK_DEBIAN_LIBBIHIVE-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBBIHIVE-DEV_PACKAGE_SHLIBDEPS OFF)
+set(needed libfmt-dev libhwy-dev libpng-dev zlib1g-dev)
+if(NOT BIHIVE_OWN_POOL)
+  list(APPEND needed libtbb-dev)
+endif()
+if(BIHIVE_HAS_OPENEXR)
+  list(APPEND needed libopenexr-dev)
+endif()
+if("zstd" IN_LIST BIHIVE_LIBRARY_DEPENDENCIES)
+  list(APPEND needed libzstd-dev)
+endif()
+if(BUILD_SHARED_LIBS OR BIHIVE_BUILD_C)
+  list(APPEND needed "bihive (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+endif()
+list(JOIN needed ", " CPACK_DEBIAN_LIBBIHIVE-DEV_PACKAGE_DEPENDS)
+set(CPACK_COMPONENT_LIBBIHIVE-DEV_DESCRIPTION
+    "The C++ library behind bihive: closest hits, shadow rays and all hits of rays
+among spheres, readers of molecules and particles, and pictures. This package
+holds the library, its headers, and the files by which CMake and pkg-config
+find it.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-bihive)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "The Python package bihive: arrays of NumPy in, pictures and hits of rays out.")
+include(CPack)
