@@ -155,6 +155,89 @@ class Queries(unittest.TestCase):
         self.assertEqual(hits.begin[-1], len(hits.t))
         np.testing.assert_array_equal(np.diff(hits.begin) > 0, ids >= 0)
 
+    def distances(self, points, to="surface"):
+        """From each point to each sphere, by the sums that the engine states."""
+        between = self.xyz[None].astype(np.float64) - points[:, None]
+        made = np.sqrt(between[..., 0] ** 2 + between[..., 1] ** 2 + between[..., 2] ** 2)
+        return made - self.radius[None] if to == "surface" else made
+
+    def test_nearest_beside_numpy(self):
+        points = RNG.normal(size=(4000, 3)) * 2
+        for to in ["surface", "centre"]:
+            all_distances = self.distances(points, to)
+            order = np.argsort(all_distances, axis=1, kind="stable")[:, :5]
+            expected = np.take_along_axis(all_distances, order, axis=1)
+            distance, ids = self.tree.nearest(points, 5, to=to)
+            self.assertEqual((distance.shape, ids.dtype), ((4000, 5), np.int64))
+            np.testing.assert_array_equal(ids, order)
+            np.testing.assert_allclose(distance, expected, rtol=1e-12, atol=1e-12)
+            one, first = self.tree.nearest(points, to=to)
+            np.testing.assert_array_equal(one, distance[:, 0])
+            np.testing.assert_array_equal(first, ids[:, 0])
+            limited, few = self.tree.nearest(points, 5, within=0.3, to=to)
+            np.testing.assert_array_equal(limited, np.where(distance <= 0.3, distance, np.inf))
+            np.testing.assert_array_equal(few, np.where(distance <= 0.3, ids, -1))
+
+    def test_within_contains_overlaps(self):
+        points = RNG.normal(size=(3000, 3))
+        all_distances = self.distances(points)
+        limits = RNG.random(3000) * 0.4
+        for near, inside in [
+            (self.tree.within(points, limits), all_distances <= limits[:, None]),
+            (self.tree.overlaps(points, limits), all_distances <= limits[:, None]),
+            (self.tree.contains(points), all_distances <= 0),
+            (self.tree.within(points, 0.5, to="centre"), self.distances(points, "centre") <= 0.5),
+        ]:
+            rows, ids = np.nonzero(inside)
+            self.assertGreater(len(ids), 100)
+            np.testing.assert_array_equal(near.id, ids)
+            np.testing.assert_array_equal(near.count, inside.sum(axis=1))
+            np.testing.assert_array_equal(np.repeat(np.arange(3000), near.count), rows)
+        near = self.tree.contains(points)
+        rows = np.repeat(np.arange(3000), near.count)
+        np.testing.assert_allclose(near.distance, all_distances[rows, near.id], rtol=0, atol=1e-12)
+
+    def test_points_of_a_selection_and_in_pieces(self):
+        points = RNG.normal(size=(140_000, 3))  # more than are asked between two looks for Ctrl-C
+        some = bh.Tree(self.spheres, select="charge > 0")
+        positive = np.flatnonzero(self.spheres["charge"] > 0)
+        distance, ids = some.nearest(points)
+        self.assertTrue(np.isin(ids, positive).all())
+        all_distances = self.distances(points[-500:])[:, positive]
+        np.testing.assert_array_equal(ids[-500:], positive[all_distances.argmin(axis=1)])
+        near = some.contains(points)
+        self.assertEqual((len(near.begin), near.begin[-1]), (140_001, len(near.id)))
+        self.assertTrue((np.diff(near.begin) >= 0).all() and np.isin(near.id, positive).all())
+        np.testing.assert_array_equal(near.count > 0, distance <= 0)
+
+    def test_few_points_and_few_spheres(self):
+        distance, ids = self.tree.nearest(np.zeros((0, 3)), 3)
+        self.assertEqual((distance.shape, ids.shape), ((0, 3), (0, 3)))
+        self.assertEqual(self.tree.contains(np.zeros((0, 3))).begin.tolist(), [0])
+        two = bh.Tree(bh.Spheres([[0.0, 0, 0], [5, 0, 0]], radius=1))
+        distance, ids = two.nearest([2, 0, 0], 3)
+        self.assertEqual((distance.tolist(), ids.tolist()), ([[1.0, 2.0, np.inf]], [[0, 1, -1]]))
+
+    def test_bad_points_name_the_argument(self):
+        p = np.zeros((4, 3))
+        for call, argument in [
+            (lambda: self.tree.nearest(np.zeros((4, 2))), "points"),
+            (lambda: self.tree.nearest(p, 0), "k"),
+            (lambda: self.tree.nearest(p, 1.5), "k"),
+            (lambda: self.tree.nearest(p, within=np.nan), "within"),
+            (lambda: self.tree.nearest(p, to="edge"), "to"),
+            (lambda: self.tree.within(p, [1, 2]), "limits"),
+            (lambda: self.tree.within(p, np.nan), "limits"),
+            (lambda: self.tree.overlaps(p, -1), "radii"),
+        ]:
+            with self.assertRaises(bh.UsageError) as caught:
+                call()
+            self.assertTrue(str(caught.exception).startswith(argument + ":"), caught.exception)
+        with self.assertRaisesRegex(bh.InputError, "point 2"):
+            self.tree.nearest([[0, 0, 0], [1, 0, 0], [np.nan, 0, 0]])
+        with self.assertRaisesRegex(bh.UsageError, "nearest needs the wide engine"):
+            bh.Tree(self.spheres, engine="reference").nearest(p)
+
     def test_errors_name_the_argument(self):
         o, d = np.zeros((4, 3)), np.ones((4, 3))
         for call, argument in [

@@ -21,7 +21,7 @@ from ._film import film
 from ._picture import Picture
 from ._render import render
 from ._spheres import Spheres, colour_map, read, select, stats
-from ._tree import Hits, Tree
+from ._tree import Hits, Near, Tree
 
 __all__ = [
     "Error",
@@ -31,6 +31,7 @@ __all__ = [
     "InputWarning",
     "Look",
     "MissingError",
+    "Near",
     "Orthographic",
     "Perspective",
     "Picture",

@@ -1,4 +1,4 @@
-"""Trees that answer what rays hit."""
+"""Trees that answer what rays hit, and which spheres are near points."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 from . import _bihive
 from ._adapt import spheres_of
 from ._arrays import one_each, vectors, whole_numbers
-from ._errors import bad_argument, found
+from ._errors import InputError, bad_argument, found
 from ._options import words_of
 from ._spheres import Spheres
 
-__all__ = ["Tree", "Hits"]
+__all__ = ["Tree", "Hits", "Near"]
 
 Array = np.ndarray[Any, Any]
 
@@ -29,6 +29,24 @@ class Hits(NamedTuple):
     t: Array
     id: Array
     begin: Array
+
+
+class Near(NamedTuple):
+    """The spheres near many points: by point, then by position.
+
+    begin: int64 (points + 1): the spheres of point i are those from begin[i] to before begin[i + 1]. id: int64, the sphere's
+    position. distance: float64, below 0 inside a sphere.
+    """
+
+    begin: Array
+    id: Array
+    distance: Array
+
+    @property
+    def count(self) -> Array:
+        """How many spheres each point has: int64 (points,)."""
+        made: Array = np.diff(self.begin)
+        return made
 
 
 class Tree:
@@ -144,6 +162,62 @@ class Tree:
         begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
         return Hits(ray, t, self._positions(ids), begin)
 
+    def nearest(
+        self, points: Any, k: int = 1, *, within: Optional[float] = None, to: str = "surface"
+    ) -> tuple[Array, Array]:
+        """The k nearest spheres of each point: distances, float64, inf where there are fewer; and positions, int64, -1 there.
+
+        points: shape (n, 3), or (3,) for one; float64 decides. Finite, and at most 3.4e38 in size.
+        k: at least 1. Both answers have shape (n,) for k = 1, else (n, k), ordered by distance, then position.
+        within: only spheres at a distance of at most this; None: any.
+        to: "surface" (below 0 inside a sphere), or "centre".
+
+        Other Python threads run meanwhile, and Ctrl-C ends it. Error: InputError for a point that is not finite.
+
+        >>> tree = Tree(Spheres([[0.0, 0, 0], [5, 0, 0]], radius=1))
+        >>> distance, i = tree.nearest([[2, 0, 0], [5, 0, 0.5]])
+        >>> distance.tolist(), i.tolist()
+        ([1.0, -0.5], [0, 1])
+        """
+        if isinstance(k, bool) or not isinstance(k, (int, np.integer)) or k < 1:
+            raise bad_argument("k", f"expected a whole number of at least 1, found {found(k)}")
+        most = np.inf if within is None else float(one_each("within", within, 1)[0])
+        if np.isnan(most):
+            raise bad_argument("within", "expected a number, found NaN")
+        distance, ids = self._core.nearest(_points(points), int(k), most, _to_centre(to))
+        ids = self._positions(ids)
+        return (distance[:, 0], ids[:, 0]) if k == 1 else (distance, ids)
+
+    def within(self, points: Any, limits: Any, *, to: str = "surface") -> Near:
+        """Every sphere at a distance of at most `limits` from each point: one number, or shape (n,).
+
+        points, to: as those of nearest(). To the surface, a limit of 0 gives the spheres that contain the point, and r those
+            that share a point with the ball of radius r around it.
+        """
+        where = _points(points)
+        most = one_each("limits", limits, where.shape[0]).astype(np.float64)
+        if np.isnan(most).any():
+            raise bad_argument("limits", "expected numbers, found NaN")
+        begin, ids, distance = self._core.within(where, np.ascontiguousarray(most), _to_centre(to))
+        return Near(begin, self._positions(ids), distance)
+
+    def contains(self, points: Any) -> Near:
+        """Every sphere that contains each point, its surface included. points: as those of nearest().
+
+        >>> tree = Tree(Spheres([[0.0, 0, 0], [1, 0, 0]], radius=1))
+        >>> tree.contains([[0.5, 0, 0], [2, 0, 0], [3, 0, 0]]).count.tolist()
+        [2, 1, 0]
+        """
+        return self.within(points, 0.0)
+
+    def overlaps(self, points: Any, radii: Any) -> Near:
+        """Every sphere that shares a point with the ball of radius `radii` (one number, or shape (n,)) around each point."""
+        where = _points(points)
+        sizes = one_each("radii", radii, where.shape[0])
+        if sizes.size > 0 and not (np.isfinite(sizes).all() and (sizes >= 0).all()):
+            raise bad_argument("radii", "expected finite numbers of at least 0")
+        return self.within(where, sizes)
+
     def _positions(self, ids: Array) -> Array:
         """Positions among all spheres, of positions in the part that counts."""
         if self._ids is None or len(self._ids) == 0:
@@ -189,6 +263,22 @@ class Tree:
             left,
             into,
         )
+
+
+def _points(points: Any) -> Array:
+    made: Array = np.ascontiguousarray(np.atleast_2d(vectors("points", points)), dtype=np.float64)
+    bad = ~(np.abs(made) <= np.finfo(np.float32).max).all(axis=1)
+    if bad.any():
+        first = int(bad.argmax())
+        message = f"points: point {first} must be finite and at most 3.4e38 in size, found {made[first].tolist()}"
+        raise InputError(message, argument="points")
+    return made
+
+
+def _to_centre(to: str) -> bool:
+    if to not in ("surface", "centre"):
+        raise bad_argument("to", f"expected 'surface' or 'centre', found {found(to)}")
+    return to == "centre"
 
 
 def _in_blocks(order: str) -> bool:

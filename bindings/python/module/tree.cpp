@@ -18,9 +18,7 @@
 #include "arrays.h"
 #include "bihive/base/parallel.h"
 #include "bihive/render/memory.h"
-#include "bihive/render/tracer.h"
 #include "errors.h"
-#include "spheres.h"
 #include "waiting.h"
 
 namespace py = pybind11;
@@ -36,12 +34,6 @@ constexpr std::int64_t kMostScatteredRays = 524288;
 constexpr std::int64_t kPiecesPerThread = 4;
 // Brute force tests in a piece: well below a second.
 constexpr std::int64_t kMostTests = std::int64_t{1} << 25;
-
-struct RayTree {
-  SharedSpheres spheres;
-  std::optional<Tracer> tracer;
-  int threads = 0;
-};
 
 // Columns of Python's arrays, each of `count` numbers. `leaves` and `inside` are null or contiguous.
 struct RayArrays {
@@ -202,15 +194,13 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
                     const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                     const std::optional<py::array_t<std::int64_t>>& leaves,
                     const std::optional<py::array_t<std::uint8_t>>& inside) {
-  const WideTree* const wide = tree.tracer->wide_tree();
-  if (wide == nullptr || tree.tracer->has_images())
-    cli::fail_usage("all_hits needs the wide engine, and spheres without copies", "leave out engine");
+  const WideTree& wide = wide_tree_for(tree, "all_hits");
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
   const std::int64_t most = rays_per_piece(tree, rays.count, RayOrder::blocks);
   std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
   trace_in_pieces(tree, rays, RayOrder::blocks, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
     std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
-    all_hits(*wide, span, found);
+    all_hits(wide, span, found);
     for (RayHit& hit : found) hit.ray += first;
   });
   std::size_t count = 0;
@@ -254,13 +244,21 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
 
 }  // namespace
 
+const WideTree& wide_tree_for(const RayTree& tree, const char* query) {
+  const WideTree* const wide = tree.tracer->wide_tree();
+  if (wide == nullptr || tree.tracer->has_images())
+    cli::fail_usage(std::string(query) + " needs the wide engine, and spheres without copies", "leave out engine");
+  return *wide;
+}
+
 void bind_trees(py::module_& module) {
-  py::class_<RayTree, std::shared_ptr<RayTree>>(module, "Tree")
-      .def("__len__", [](const RayTree& tree) { return tree.spheres->file.spheres.size(); })
+  TreeClass tree_class(module, "Tree");
+  tree_class.def("__len__", [](const RayTree& tree) { return tree.spheres->file.spheres.size(); })
       .def_property_readonly("build_ms", [](const RayTree& tree) { return tree.tracer->build_ms(); })
       .def("closest", closest)
       .def("occluded", occluded)
       .def("all_hits", every_hit);
+  bind_points(tree_class);
   module.def("build_tree",
              [](const std::shared_ptr<Spheres>& spheres, const std::optional<std::vector<std::int64_t>>& part,
                 const std::vector<std::string>& words) { return build_tree(spheres, part, words); });

@@ -1,11 +1,33 @@
-// Trees that answer what rays of arrays hit.
+// Trees that answer what rays of arrays hit, and which spheres are near points.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
+#include <optional>
+
+#include "bihive/render/tracer.h"
+#include "spheres.h"
+
 namespace bihive::python {
+
+/// A tree of the engine that its options named, and the spheres of which it was made.
+struct RayTree {
+  SharedSpheres spheres;
+  std::optional<Tracer> tracer;
+  int threads = 0;
+};
+
+using TreeClass = pybind11::class_<RayTree, std::shared_ptr<RayTree>>;
 
 /// Adds Tree to the module.
 void bind_trees(pybind11::module_& module);
+
+/// Adds the queries about points to Tree (points.cpp).
+void bind_points(TreeClass& tree);
+
+/// The wide tree, which alone answers every query. Fails by the name of the query where there is none, or where copies
+/// along a cell would be left out.
+const WideTree& wide_tree_for(const RayTree& tree, const char* query);
 
 }  // namespace bihive::python

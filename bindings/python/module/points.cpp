@@ -1,0 +1,87 @@
+// The queries of bihive/wide/point_queries.h for arrays of points.
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "bihive/wide/point_queries.h"
+#include "errors.h"
+#include "tree.h"
+#include "waiting.h"
+
+namespace py = pybind11;
+
+namespace bihive::python {
+namespace {
+
+/// Points between two looks for Ctrl-C: some tenths of a second.
+constexpr std::int64_t kPointsBetweenLooks = 65536;
+
+using Points = py::array_t<double, py::array::c_style>;  // (n, 3)
+
+PointOptions options_of(const RayTree& tree, bool to_centre) {
+  PointOptions options;
+  options.to = to_centre ? DistanceTo::centre : DistanceTo::surface;
+  options.threads = tree.threads;
+  return options;
+}
+
+// Calls answer(points of the piece, first point) piece by piece, until Ctrl-C.
+template <class Answer>
+void answer_in_pieces(const Points& points, const Answer& answer) {
+  const double* const xyz = points.data();
+  const std::int64_t count = points.shape(0);
+  wait_for(
+      [&](Work& work) {
+        for (std::int64_t first = 0; first < count && !work.cancel.cancelled(); first += kPointsBetweenLooks)
+          answer(PointSpan::rows(xyz + 3 * first, std::min(kPointsBetweenLooks, count - first)), first);
+      },
+      py::none());
+}
+
+// Distances and positions, (n, k) each.
+py::tuple nearest(const RayTree& tree, const Points& points, std::int64_t k, double within, bool to_centre) {
+  const WideTree& wide = wide_tree_for(tree, "nearest");
+  py::array_t<double> distance({points.shape(0), static_cast<py::ssize_t>(k)});
+  py::array_t<std::int64_t> id({points.shape(0), static_cast<py::ssize_t>(k)});
+  double* const to_distance = distance.mutable_data();
+  std::int64_t* const to_id = id.mutable_data();
+  answer_in_pieces(points, [&](const PointSpan& span, std::int64_t first) {
+    const NearestSpheres found = value_of(nearest_spheres(wide, span, k, within, options_of(tree, to_centre)));
+    std::copy(found.distance.begin(), found.distance.end(), to_distance + first * k);
+    std::copy(found.sphere_id.begin(), found.sphere_id.end(), to_id + first * k);
+  });
+  return py::make_tuple(distance, id);
+}
+
+// For each point the place where its spheres begin, and the end of all; positions; distances.
+py::tuple within(const RayTree& tree, const Points& points, const Points& limits, bool to_centre) {
+  const WideTree& wide = wide_tree_for(tree, "within");
+  SphereLists all;
+  all.begin.push_back(0);
+  answer_in_pieces(points, [&](const PointSpan& span, std::int64_t first) {
+    const SphereLists some = value_of(spheres_within(wide, span, limits.data() + first, options_of(tree, to_centre)));
+    const auto before = static_cast<std::int64_t>(all.sphere_id.size());
+    for (std::size_t i = 1; i < some.begin.size(); ++i) all.begin.push_back(before + some.begin[i]);
+    all.sphere_id.insert(all.sphere_id.end(), some.sphere_id.begin(), some.sphere_id.end());
+    all.distance.insert(all.distance.end(), some.distance.begin(), some.distance.end());
+  });
+  const auto size = static_cast<py::ssize_t>(all.sphere_id.size());
+  const auto places = static_cast<py::ssize_t>(all.begin.size());
+  return py::make_tuple(array_from(std::move(all.begin), {places}), array_from(std::move(all.sphere_id), {size}),
+                        array_from(std::move(all.distance), {size}));
+}
+
+}  // namespace
+
+void bind_points(TreeClass& tree) {
+  tree.def("nearest", nearest).def("within", within);
+}
+
+}  // namespace bihive::python
