@@ -93,6 +93,17 @@ class SameBits(ProgramTest):
         s = bh.read(self.path("cell.extxyz"))
         self.assert_same("cell.extxyz", ["--replicate", "2x3x1", "--cell"], s, replicate=(2, 3, 1), cell=True)
 
+    def test_columns_and_parts_of_files(self):
+        self.write("table.csv", "px,py,pz,size,mass\n0,0,0,1,2\n3,0,0,2,4\n0,4,1,1,6\n")
+        columns = {"x": "px", "y": "py", "z": "pz", "r": "size"}
+        self.assert_same("table.csv", ["--columns", "x=px,y=py,z=pz,r=size"], columns=columns)
+        s = bh.read(self.path("table.csv"), columns={"x": 1, "y": 2, "z": 3, "r": 4})
+        self.assertEqual((s.xyz.tolist(), s.radius.tolist()), ([[0, 0, 0], [3, 0, 0], [0, 4, 1]], [1, 2, 1]))
+        with self.assertRaises(bh.Error):
+            bh.read(self.path("table.csv"), columns={"x": "absent"})
+        with self.assertRaises(bh.FileError):
+            bh.read(self.path("absent.h5") + ":/points")
+
     def test_styles_of_ones_own(self):
         keys = {"material": "metal", "background": "black", "picture": {"shadows": False}}
         self.write("own.json", '{"bihive_style": 1, "material": "metal", "background": "black", "picture": {"shadows": false}}')

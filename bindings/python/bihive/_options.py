@@ -18,7 +18,8 @@ SWITCHES = ["shadows", "ao"]
 VALUES = [
     "crop view samples recursion style ao_distance ao_directions light_points opacity_rule fog exposure tone transfer",
     "background bits dpi view_from eye look_at up fov projection turn zoom aperture focus engine max_prims max_depth",
-    "threads count seed radius radius_scale assembly frame trajectory cell_vectors cell_origin outline element_colours",
+    "threads count seed radius radius_scale columns assembly frame trajectory cell_vectors cell_origin outline",
+    "element_colours",
     "nan_colour title title_values length_unit",
 ]
 ONE_VALUE = " ".join(VALUES).split()
@@ -51,9 +52,11 @@ def flat(value: Iterable[Any]) -> Iterable[Any]:
 
 
 def value_word(name: str, value: Any, between: str = ",") -> str:
-    """One value as text: texts and paths as they are, numbers, or several numbers."""
+    """One value as text: texts and paths as they are, numbers, several numbers, or parts and their values."""
     if isinstance(value, str):
         return value
+    if isinstance(value, Mapping):
+        return between.join(f"{part}={value_word(name, one)}" for part, one in value.items())
     if isinstance(value, os.PathLike):
         return os.fspath(value)  # type: ignore[no-any-return]
     if hasattr(value, "__iter__") and getattr(value, "ndim", 1) > 0:

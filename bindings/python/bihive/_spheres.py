@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from typing import Any, Iterator, Mapping, Optional, Union
 
@@ -20,7 +21,7 @@ _BUILT_IN = ["demo", "scenario1", "scenario2", "scenario3", "four-spheres"]
 _MAPS = ["viridis", "magma", "cividis", "coolwarm", "okabe-ito"]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
 _READING = ["radius", "radius_scale", "assembly", "frame", "trajectory", "cell_vectors", "cell_origin", "recenter"]
-_READING += ["wrap", "unwrap", "count", "seed"]
+_READING += ["wrap", "unwrap", "columns", "count", "seed"]
 
 
 def _bytes_on_screen(colours: Array) -> Array:
@@ -350,15 +351,17 @@ def check_readable(path: Union[str, os.PathLike[str]]) -> str:
         with open(text, "rb"):
             pass
     except OSError as error:
-        raise FileError(error.errno or 0, error.strerror or str(error), text) from None
+        # FILE:/NAME is a part of a file (HDF5).
+        if not any(os.path.exists(text[: found_at.start()]) for found_at in re.finditer(":/", text)):
+            raise FileError(error.errno or 0, error.strerror or str(error), text) from None
     return text
 
 
 def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     """The spheres of a file of any format that ``bihive render`` reads, or of a built-in name ("demo").
 
-    options: frame (from 0), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, cell_vectors, cell_origin;
-    of built-in scenarios count and seed.
+    options: frame (from 0), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, cell_vectors, cell_origin,
+    columns (a dict such as {"x": "px", "r": 5}: names or places of columns); of built-in scenarios count and seed.
 
     Raises FileError (an OSError) if the file cannot be opened, InputError (a ValueError) with file and line if its content
     cannot be used. Warnings of the reader are given as InputWarning.
