@@ -12,7 +12,6 @@
 #include "film/film_plan.h"
 #include "server/addresses.h"
 #include "support/failure.h"
-#include "words/read_program_words.h"
 
 namespace bihive::cli {
 namespace {
@@ -588,7 +587,7 @@ std::string version_text() {
 }
 
 // `with_film`: the words of a film stand among them.
-Request parse_words(int argc, const char* const* argv, bool with_film) {
+Request parse_words(int argc, const char* const* argv, bool with_film, const Describe& describe) {
   CLI::App app("bihive: ray tracing of spheres on a bounding interval hierarchy", "bihive");
   app.set_version_flag("--version", version_text());
   app.get_formatter()->column_width(34);
@@ -621,7 +620,8 @@ Request parse_words(int argc, const char* const* argv, bool with_film) {
   add_thesis(app, thesis, request);
   add_web(app, web, request);
   // Manual pages and completions, for the build: --help does not list it.
-  if (argc > 1 && std::string(argv[1]) == "describe") return HelpText{describe(app, {argv + 2, argv + argc}), true};
+  if (describe && argc > 1 && std::string(argv[1]) == "describe")
+    return HelpText{describe(app, {argv + 2, argv + argc}), true};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -650,8 +650,8 @@ Request parse_words(int argc, const char* const* argv, bool with_film) {
 
 }  // namespace
 
-Request parse_command_line(int argc, const char* const* argv) {
-  Request request = parse_words(argc, argv, /*with_film=*/false);
+Request parse_command_line(int argc, const char* const* argv, const Describe& describe) {
+  Request request = parse_words(argc, argv, /*with_film=*/false, describe);
   const RenderOptions* const render = std::get_if<RenderOptions>(&request);
   if (render == nullptr) return request;
   if (render->film.empty()) {
@@ -664,7 +664,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   words.reserve(words.size() + plan.asked.options.size() + static_cast<std::size_t>(argc));
   for (const std::string& word : plan.asked.options) words.push_back(word.c_str());
   words.insert(words.end(), argv + 2, argv + argc);
-  return parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/true);
+  return parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/true, {});
 }
 
 }  // namespace bihive::cli

@@ -4,8 +4,13 @@
 #include <functional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "commands/commands.h"
+
+namespace CLI {
+class App;
+}
 
 namespace bihive::cli {
 
@@ -18,7 +23,11 @@ using Request =
     std::variant<HelpText, RenderOptions, FilmOptions, ViewOptions, StatsOptions, TraceOptions, SceneOptions,
                  InfoOptions, SelectOptions, ConvertOptions, StylesOptions, ThesisOptions, WebOptions>;
 
-/// Fails with kBadUsage on any word that is unknown, missing, repeated or out of range.
-Request parse_command_line(int argc, const char* const* argv);
+/// The text of `bihive describe WORDS...`, from the description of the command line (words/read_program_words.h).
+using Describe = std::function<std::string(const CLI::App& app, const std::vector<std::string>& words)>;
+
+/// Fails with kBadUsage on any word that is unknown, missing, repeated or out of range. Without `describe` there is no
+/// such command: only the program knows the words of all experiments.
+Request parse_command_line(int argc, const char* const* argv, const Describe& describe = {});
 
 }  // namespace bihive::cli

@@ -15,6 +15,7 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
+#include "words/read_program_words.h"
 
 namespace bihive::cli {
 namespace {
@@ -62,7 +63,7 @@ int run(int argc, const char* const* argv) {
     fill_closed_streams();
     handle_signals();
     if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
-    const int code = std::visit(Run{}, parse_command_line(argc, argv));
+    const int code = std::visit(Run{}, parse_command_line(argc, argv, describe));
     finish_output();
     return code;
   } catch (const Failure& failure) {
