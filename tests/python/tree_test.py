@@ -191,10 +191,10 @@ class Queries(unittest.TestCase):
             rows, ids = np.nonzero(inside)
             self.assertGreater(len(ids), 100)
             np.testing.assert_array_equal(near.id, ids)
-            np.testing.assert_array_equal(near.count, inside.sum(axis=1))
-            np.testing.assert_array_equal(np.repeat(np.arange(3000), near.count), rows)
+            np.testing.assert_array_equal(near.counts, inside.sum(axis=1))
+            np.testing.assert_array_equal(np.repeat(np.arange(3000), near.counts), rows)
         near = self.tree.contains(points)
-        rows = np.repeat(np.arange(3000), near.count)
+        rows = np.repeat(np.arange(3000), near.counts)
         np.testing.assert_allclose(near.distance, all_distances[rows, near.id], rtol=0, atol=1e-12)
 
     def test_points_of_a_selection_and_in_pieces(self):
@@ -208,7 +208,7 @@ class Queries(unittest.TestCase):
         near = some.contains(points)
         self.assertEqual((len(near.begin), near.begin[-1]), (140_001, len(near.id)))
         self.assertTrue((np.diff(near.begin) >= 0).all() and np.isin(near.id, positive).all())
-        np.testing.assert_array_equal(near.count > 0, distance <= 0)
+        np.testing.assert_array_equal(near.counts > 0, distance <= 0)
 
     def test_few_points_and_few_spheres(self):
         distance, ids = self.tree.nearest(np.zeros((0, 3)), 3)

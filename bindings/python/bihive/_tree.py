@@ -43,7 +43,7 @@ class Near(NamedTuple):
     distance: Array
 
     @property
-    def count(self) -> Array:
+    def counts(self) -> Array:
         """How many spheres each point has: int64 (points,)."""
         made: Array = np.diff(self.begin)
         return made
@@ -205,7 +205,7 @@ class Tree:
         """Every sphere that contains each point, its surface included. points: as those of nearest().
 
         >>> tree = Tree(Spheres([[0.0, 0, 0], [1, 0, 0]], radius=1))
-        >>> tree.contains([[0.5, 0, 0], [2, 0, 0], [3, 0, 0]]).count.tolist()
+        >>> tree.contains([[0.5, 0, 0], [2, 0, 0], [3, 0, 0]]).counts.tolist()
         [2, 1, 0]
         """
         return self.within(points, 0.0)
