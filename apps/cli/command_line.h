@@ -8,7 +8,7 @@
 
 #include "commands/commands.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): a library's
 class App;
 }
 

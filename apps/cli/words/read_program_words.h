@@ -6,7 +6,7 @@
 
 #include "words/program_words.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): a library's
 class App;
 }
 
