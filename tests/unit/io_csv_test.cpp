@@ -48,8 +48,10 @@ TEST(PlainText, NamesLineAndColumnOfAFault) {
   EXPECT_EQ(error_of("1 2 3 inf\n", "a.txt"), "a.txt:1:7: radius is not finite: 'inf'");
   EXPECT_EQ(error_of("1 2 3 1\n1 2 3\n", "a.txt"), "a.txt:2: expected 4 columns (x y z radius) but found 3");
   EXPECT_EQ(error_of("1 2 3\n1 2 3 4\n", "a.txt"), "a.txt:2:7: expected 3 columns (x y z) but found one more: '4'");
-  EXPECT_EQ(error_of("1 2 3 4 5\n", "a.txt"),
-            "a.txt:1: expected 'x y z' or 'x y z r' but found 5 columns; name the columns in a header line");
+  EXPECT_EQ(
+      error_of("1 2 3 4 5\n", "a.txt"),
+      "a.txt:1: expected 'x y z' or 'x y z r' but found 5 columns; name the columns in a header line, or say which "
+      "they are: --columns x=1,y=2,z=3");
   EXPECT_EQ(error_of("1;2,5;3\n", "a.csv"), "a.csv:1:3: expected a number for y but found '2,5'");
   EXPECT_EQ(error_of("# nothing\n\n", "a.txt"), "a.txt:2: there is no line with numbers in it");
 }
@@ -146,12 +148,17 @@ TEST(Csv, NumbersLabelsInOrderOfAppearance) {
 
 TEST(Csv, NamesWhatIsWrongWithAHeader) {
   EXPECT_EQ(error_of("a,b,c\n1,2,3\n", "a.csv"),
-            "a.csv:1: expected columns x, y and z, but there is no x in the header 'a b c'");
-  EXPECT_EQ(error_of("x,y,z,X\n1,2,3,4\n", "a.csv"), "a.csv:1: expected one column x only in the header 'x y z X'");
+            "a.csv:1: expected columns x, y and z, but there is no x in the header 'a b c'; "
+            "say which columns they are: --columns x=NAME,y=NAME,z=NAME");
+  EXPECT_EQ(error_of("x,y,z,X\n1,2,3,4\n", "a.csv"),
+            "a.csv:1: expected one column x only in the header 'x y z X'; "
+            "say which columns they are: --columns x=NAME,y=NAME,z=NAME");
   EXPECT_EQ(error_of("x,y,z,r,radius\n1,2,3,4,5\n", "a.csv"),
-            "a.csv:1: expected one column for the radius or diameter only in the header 'x y z r radius'");
+            "a.csv:1: expected one column for the radius or diameter only in the header 'x y z r radius'; "
+            "say which columns they are: --columns x=NAME,y=NAME,z=NAME");
   EXPECT_EQ(error_of("x,y,z,red,blue\n1,2,3,4,5\n", "a.csv"),
-            "a.csv:1: expected red, green and blue once each, or none of them in the header 'x y z red blue'");
+            "a.csv:1: expected red, green and blue once each, or none of them in the header 'x y z red blue'; "
+            "say which columns they are: --columns x=NAME,y=NAME,z=NAME");
   EXPECT_EQ(error_of("x,y,z\n", "a.csv"), "a.csv: there are no spheres in it (read as CSV)");
   std::string wide = "x,y,z";
   for (int i = 0; i < 2000; ++i) wide += ",c" + std::to_string(i);

@@ -187,7 +187,8 @@ TEST(NpySpheres, TakeThreeOrFourColumns) {
 
 TEST(NpySpheres, NameAWrongShapeAndAWrongNumber) {
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>(10), {2, 5}), "a.npy"),
-            "a.npy: the NPY array's shape is (2, 5); expected (n, 3) for x, y, z or (n, 4) for x, y, z, radius");
+            "a.npy: the NPY array's shape is (2, 5); expected (n, 3) for x, y, z or (n, 4) for x, y, z, radius; say "
+            "which columns these are: --columns x=1,y=2,z=3");
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>(4), {4}), "a.npy"),
             "a.npy: the NPY array's shape is (4,); expected (n, 3) for x, y, z or (n, 4) for x, y, z, radius");
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>{}, {0, 3}), "a.npy"),

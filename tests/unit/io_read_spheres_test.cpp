@@ -171,7 +171,8 @@ TEST(ReadSpheres, NamesWhatItCannotRead) {
       "(.gsd), "
       "LAMMPS dump (.dump .lammpstrj) and data (.lmp .lammps), POSCAR and XDATCAR (.poscar .vasp), SDF and MOL (.sdf "
       ".mol), MOL2 (.mol2), PLY (.ply), PCD (.pcd), VTK (.vtk .vtp .vtu .vts), CSV or plain 'x y z r' (.csv .tsv .txt "
-      ".dat), NPY and NPZ (.npy .npz), each also as .gz or .zst";
+      ".dat), NPY and NPZ (.npy .npz), HDF5 and H5MD (.h5 .hdf5 .h5md), NetCDF of LAMMPS and AMBER (.nc .ncdf), each "
+      "also as .gz or .zst";
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;

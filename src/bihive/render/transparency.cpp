@@ -7,6 +7,7 @@
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/part_tracer.h"
 #include "bihive/scene/clips.h"
+#include "bihive/scene/image_colours.h"
 
 namespace bihive {
 namespace {
@@ -26,15 +27,14 @@ Vec3d passing_tint(const Material& material) {
   return {of(colour.x), of(colour.y), of(colour.z)};
 }
 
-Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(const SphereSet& spheres,
-                                                                             std::vector<double> passing, Engine engine,
-                                                                             int threads,
-                                                                             std::shared_ptr<const CutSet> cuts,
-                                                                             std::vector<Vec3d> tints) {
+Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
+    const SphereSet& spheres, std::vector<double> passing, Engine engine, int threads,
+    std::shared_ptr<const CutSet> cuts, std::vector<Vec3d> tints, const Scene* of_images) {
   try {
     auto made = std::make_shared<TransparentSpheres>();
     made->passing_ = std::move(passing);
     made->tints_ = std::move(tints);
+    made->of_images_ = of_images;
     std::vector<std::int64_t> opaque, transparent;
     for (std::int64_t id = 0; id < spheres.size(); ++id) (made->passing(id) > 0 ? transparent : opaque).push_back(id);
     auto part = std::make_shared<PartTracer>();
@@ -56,6 +56,10 @@ Hit TransparentSpheres::closest_opaque(const Ray& ray) const {
 
 void TransparentSpheres::find_crossings(const Ray& ray, std::vector<Crossing>& found) const {
   transparent_->all_hits(ray, found);
+}
+
+Vec3d TransparentSpheres::tint_of_image(std::int64_t id) const {
+  return passing(id) > 0 ? passing_tint(material_of(*of_images_, id)) : Vec3d{1, 1, 1};
 }
 
 Vec3d TransparentSpheres::share(const Ray& ray) const {
@@ -88,7 +92,10 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engi
   if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
   const auto count = static_cast<std::size_t>(scene.spheres.size());
   std::vector<double> to_eye(count), to_light(count);
+  // Images may have a tint where the stored spheres have none.
+  const Scene* const of_images = ImageColours(scene).any() ? &scene : nullptr;
   std::vector<Vec3d> tints;
+  if (of_images != nullptr) tints.assign(count, {1, 1, 1});
   for (std::size_t i = 0; i < count; ++i) {
     const Material material = material_of(scene, static_cast<std::int64_t>(i));
     if (is_passed_straight(material)) to_eye[i] = std::min(material.transmissive, 1.0);
@@ -101,7 +108,7 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engi
   const bool alike = to_eye == to_light;
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   const auto divide = [&](std::vector<double>& passing) {
-    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints);
+    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints, of_images);
   };
   if (any_passes(to_light)) {
     Result<std::shared_ptr<const TransparentSpheres>> divided = divide(to_light);

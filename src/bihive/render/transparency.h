@@ -41,16 +41,22 @@ class TransparentSpheres {
 
   /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for
   /// that engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. `tints`:
-  /// the colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. The spheres must
-  /// outlive it. Error: not enough memory for a tree.
+  /// the colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. `of_images`: the scene,
+  /// if images have colours of their own (scene/image_colours.h); null: they have those of the stored spheres. The
+  /// spheres and that scene must outlive it. Error: not enough memory for a tree.
   static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
                                                                   Engine engine, int threads,
                                                                   std::shared_ptr<const CutSet> cuts = nullptr,
-                                                                  std::vector<Vec3d> tints = {});
+                                                                  std::vector<Vec3d> tints = {},
+                                                                  const Scene* of_images = nullptr);
 
   double passing(std::int64_t id) const { return passing_[stored(id)]; }
   bool has_tints() const { return !tints_.empty(); }
-  Vec3d tint(std::int64_t id) const { return has_tints() ? tints_[stored(id)] : Vec3d{1, 1, 1}; }
+  Vec3d tint(std::int64_t id) const {
+    if (!has_tints()) return {1, 1, 1};
+    if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size()) return tint_of_image(id);
+    return tints_[stored(id)];
+  }
   /// The share that a surface does not let through; 1 of the plane.
   double stopping(std::int64_t id) const { return id >= 0 ? 1 - passing(id) : 1; }
   bool is_transparent(std::int64_t id) const { return id >= 0 && passing(id) > 0; }
@@ -74,8 +80,11 @@ class TransparentSpheres {
     return i < passing_.size() ? i : i % passing_.size();
   }
 
+  Vec3d tint_of_image(std::int64_t id) const;
+
   std::vector<double> passing_;
-  std::vector<Vec3d> tints_;  // empty: all are white
+  std::vector<Vec3d> tints_;          // empty: all are white
+  const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
   std::shared_ptr<const PartTracer> opaque_, transparent_;
 };
 
