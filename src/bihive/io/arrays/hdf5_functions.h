@@ -55,6 +55,7 @@
 namespace bihive {
 
 struct Hdf5Functions {
+// NOLINTNEXTLINE(bugprone-macro-parentheses): it declares the name
 #define BIHIVE_HDF5_DECLARE(name) decltype(&::name) name = nullptr;
   BIHIVE_HDF5_FUNCTIONS(BIHIVE_HDF5_DECLARE)
 #undef BIHIVE_HDF5_DECLARE
