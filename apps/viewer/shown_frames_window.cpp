@@ -26,7 +26,7 @@ std::string processor_name() {
   return "unknown processor";
 }
 
-// What draws the window itself: with software, it takes time from the frames.
+// The driver that draws the window: a software one takes time from the frames.
 std::string device_words(const Gl& gl) {
   const auto* const renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
   return processor_name() + ", vectors: " + std::string(active_target()) + "; the window by " +

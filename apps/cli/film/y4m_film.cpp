@@ -44,7 +44,7 @@ class Y4mFilm final : public FilmSink {
     picture_bytes_ = std::int64_t{3} * plan.fixed.width_px * plan.fixed.height_px + 6;
   }
 
-  /// Once, before all others. What fails here leaves no file open.
+  /// Once, before all others. A failure here leaves no file open.
   void begin() {
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) fail_of_system("cannot be written", path_, errno);

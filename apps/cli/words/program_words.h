@@ -7,7 +7,7 @@
 
 namespace bihive::cli {
 
-/// What may stand in the place of a value, as far as a shell can offer it.
+/// The words that may stand in the place of a value, as far as a shell can offer them.
 struct Candidates {
   std::vector<std::string> words;  ///< "shaded", "tree"
   bool files = false;

@@ -1,4 +1,4 @@
-// A file that holds arrays of numbers under names: HDF5 or NetCDF. What the arrays mean is for others to say.
+// A file that holds arrays of numbers under names: HDF5 or NetCDF. Others know the meaning of the arrays.
 #pragma once
 
 #include <cstdint>

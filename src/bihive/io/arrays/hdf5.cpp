@@ -15,7 +15,7 @@
 namespace bihive {
 namespace {
 
-// What a file may hold: no simulation has more, and links may go round in circles.
+// Limits of a file: no simulation has more, and links may go round in circles.
 constexpr int kMostGroupsInGroups = 12;
 constexpr std::size_t kMostObjects = 20000;
 constexpr int kMostDimensions = 8;
