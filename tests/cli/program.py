@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import signal
 import struct
 import subprocess
 import tempfile
@@ -46,12 +47,15 @@ class ProgramTest(unittest.TestCase):
         return found
 
     def let_work(self, process, seconds):
-        """Waits until a program has used so much processor time: a busy machine takes longer."""
+        """Waits until a program has used so much processor time, as a busy machine takes longer, and handles Ctrl-C."""
         ticks = os.sysconf("SC_CLK_TCK")
+        interrupt = 1 << (signal.SIGINT - 1)
         while process.poll() is None:
             with open(f"/proc/{process.pid}/stat") as stat_file:
                 used = stat_file.read().rsplit(")", 1)[1].split()[11:13]
-            if sum(map(int, used)) >= seconds * ticks:
+            with open(f"/proc/{process.pid}/status") as status_file:
+                handled = [line for line in status_file if line.startswith("SigCgt:")]
+            if sum(map(int, used)) >= seconds * ticks and handled and int(handled[0].split()[1], 16) & interrupt:
                 return
             time.sleep(0.01)
 

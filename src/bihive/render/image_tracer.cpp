@@ -105,8 +105,9 @@ Vec3d ImageTracer::stored_shift(const Range& image) const {
 }
 
 std::int64_t ImageTracer::left_in(std::int64_t image, std::int64_t leaves) const {
+  if (leaves < 0) return kNothing;  // kNothing is too small to subtract from
   const std::int64_t id = leaves - image * whole_->size();
-  if (leaves < 0 || id < 0 || id >= whole_->size()) return kNothing;
+  if (id < 0 || id >= whole_->size()) return kNothing;
   return ids_.empty() ? id : part_of_[static_cast<std::size_t>(id)];
 }
 
