@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -23,12 +24,22 @@ namespace {
 constexpr double kSecondsPerPixel = 5e-9;
 // A quick run counts the rays of every so many rows and columns.
 constexpr int kQuickStride = 4;
+// Of a full run, which ends within ten minutes on two cores by them: quartiles need no more. The independence of the
+// scenario is by brute force alone, a second or more a frame.
+constexpr int kRounds = 7, kRoundsOfIndependence = 5;
 
 FrameRatePlan plan_of(const Settings& settings, const Values& values) {
   FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(values.stated()));
   plan.seed = settings.seed;
   plan.threads = settings.threads;
+  plan.rounds = kRounds;
   return settings.quick ? plan.with_small_pictures() : plan;
+}
+
+FrameRatePlan independence_plan_of(const Settings& settings, const Values& values) {
+  FrameRatePlan plan = plan_of(settings, values);
+  plan.rounds = std::min(plan.rounds, kRoundsOfIndependence);
+  return plan;
 }
 
 // Runs all rounds. The times of each rate, under the name that `name_of` gives. Empty if cancelled.
@@ -56,7 +67,7 @@ Json measure_configuration(const StepContext& context, const ComparedEngine& eng
 }
 
 Json measure_independence(const StepContext& context, const ComparedEngine& engine) {
-  const FrameRatePlan plan = plan_of(context.settings, context.values);
+  const FrameRatePlan plan = independence_plan_of(context.settings, context.values);
   Json by_spheres = Json::object();
   for (const std::int64_t spheres : plan.spheres) {
     by_spheres[fmt::format("spheres{}", spheres)] =
@@ -115,7 +126,9 @@ Json measure_balance(const StepContext& context) {
 
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   const FrameRatePlan plan = plan_of(settings, values);
-  const double seconds = (plan.rounds + 1) * kSecondsPerPixel * plan.width_px * plan.height_px;
+  const double round_seconds = kSecondsPerPixel * plan.width_px * plan.height_px;
+  const double seconds = (plan.rounds + 1) * round_seconds;
+  const double independence_seconds = (independence_plan_of(settings, values).rounds + 1) * round_seconds;
   std::vector<Step> steps;
   for (const std::int64_t scenario : plan.scenarios)
     steps.push_back({counts_step(scenario), settings.quick ? 0.5 : 8,
@@ -136,7 +149,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
              }});
         all_brute += brute;
       }
-    steps.push_back({independence_step(engine), seconds * all_brute, [engine](StepContext& context) {
+    steps.push_back({independence_step(engine), independence_seconds * all_brute, [engine](StepContext& context) {
                        return measure_on(
                            engine, [&](const ComparedEngine& opened) { return measure_independence(context, opened); });
                      }});
