@@ -218,16 +218,16 @@ class Report(ProgramTest):
         self.assertLess(report.index('class="banner busy"'), report.index("<nav"))
 
     def test_damaged_steps_are_run_again(self):
-        self.succeed("thesis", "section-d", "--quick", "--out", "out")
-        whole = self.step_files("out", "section-d")
+        self.succeed("thesis", "figure-4.2", "--quick", "--out", "out")
+        whole = self.step_files("out", "figure-4.2")
         for i, name in enumerate(whole):
-            path = "out/steps/section-d/" + name + ".json"
+            path = "out/steps/figure-4.2/" + name + ".json"
             step = json.loads(self.read(path))
             step["load"] = [{"seconds": "1"}, {}, None, 1][i % 4]
             self.write(path, json.dumps(step))
-        self.succeed("thesis", "section-d", "--quick", "--out", "out")
+        self.succeed("thesis", "figure-4.2", "--quick", "--out", "out")
         for name in whole:
-            self.assertIsInstance(json.loads(self.read("out/steps/section-d/" + name + ".json"))["load"]["seconds"], float)
+            self.assertIsInstance(json.loads(self.read("out/steps/figure-4.2/" + name + ".json"))["load"]["seconds"], float)
 
     def test_an_older_run_beside_a_new_one(self):
         run = ["thesis", "section-d", "figure-4.5", "--quick", "--out"]
@@ -270,7 +270,7 @@ class Report(ProgramTest):
         self.write("one.json", json.dumps(run))
         run["device"], run["configurations"] = "another", run["configurations"][:3]
         self.write("two.json", json.dumps({**run, "complete": False}))
-        self.succeed("thesis", "section-d", "--quick", "--out", "out", "--device", "one.json", "--device", "two.json")
+        self.succeed("thesis", "figure-4.2", "--quick", "--out", "out", "--device", "one.json", "--device", "two.json")
         devices, report = self.results("out")["devices"], self.report("out")
         self.assertEqual([each["device"] for each in devices], ["a <phone>", "another"])
         self.assertEqual([each["configurations"] for each in devices], [9, 1])
@@ -286,7 +286,7 @@ class Report(ProgramTest):
         run["configurations"][0]["max_prims"] = 0
         self.write("zero.json", json.dumps(run))
         for file in ("bad.json", "worse.json", "zero.json", "none.json"):
-            self.assertIn(file + ": ", self.fail_input("thesis", "section-d", "--quick", "--out", "bad", "--device", file))
+            self.assertIn(file + ": ", self.fail_input("thesis", "figure-4.2", "--quick", "--out", "bad", "--device", file))
         self.assertFalse(os.path.exists(self.path("bad")))
 
     def test_frames_on_a_screen_have_a_part_of_their_own(self):
@@ -299,7 +299,7 @@ class Report(ProgramTest):
         shown = {"experiment": "shown-frames", "by": "window", "device": "a <screen>", "width_px": 1136, "height_px": 640,
                  "seconds": 2.0, "threads": 2, "complete": True, "configurations": configurations}
         self.write("shown.json", json.dumps(shown))
-        self.succeed("thesis", "section-d", "--quick", "--out", "out", "--device", "shown.json")
+        self.succeed("thesis", "figure-4.2", "--quick", "--out", "out", "--device", "shown.json")
         results, report = self.results("out"), self.report("out")
         self.assertNotIn("devices", results)
         self.assertEqual(
@@ -313,7 +313,7 @@ class Report(ProgramTest):
         for name, value in [("frames", 0), ("seconds", 0), ("turning", 3)]:
             wrong = [{**configurations[0], name: value}]
             self.write("bad.json", json.dumps({**shown, "configurations": wrong}))
-            self.assertIn("bad.json: ", self.fail_input("thesis", "section-d", "--quick", "--out", "bad", "--device", "bad.json"))
+            self.assertIn("bad.json: ", self.fail_input("thesis", "figure-4.2", "--quick", "--out", "bad", "--device", "bad.json"))
 
     def test_an_older_run_that_is_none(self):
         self.write("bad.json", "{}")
@@ -329,14 +329,14 @@ class Report(ProgramTest):
             self.write(f"{i}.json", json.dumps({"bihive_results": 2, **document}))
             cases.append((f"{i}.json", wrong))
         for file, words in cases:
-            error = self.fail_input("thesis", "section-d", "--quick", "--out", "out", "--against", file)
+            error = self.fail_input("thesis", "figure-4.2", "--quick", "--out", "out", "--against", file)
             self.assertIn(file + ": ", error)
             self.assertIn(words, error)
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_older_runs_are_read_once_and_first(self):
         """A pipe gives its bytes once; and a run may replace the file that it is compared with."""
-        run = ["thesis", "section-d", "--quick", "--out", "out"]
+        run = ["thesis", "figure-4.2", "--quick", "--out", "out"]
         self.succeed(*run)
         older = self.read("out/results.json")
         read, write = os.pipe()
