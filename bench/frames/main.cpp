@@ -1,7 +1,9 @@
 // bihive-frames: how long whole pictures take, for docs/performance.md. Prints one JSON object.
 //   bihive-frames pictures THREADS REPETITIONS FOLDER   s1 s2 s3 at 1024 x 1024, depth 5, shadows; Tachyon in turn
-//   bihive-frames occlusion THREADS REPETITIONS FOLDER MOLECULE
+//   bihive-frames occlusion THREADS REPETITIONS FOLDER FILE
 //                                                       ambient occlusion: the molecule, a million spheres; Tachyon in
+//                                                       turn
+//   bihive-frames film THREADS REPETITIONS FOLDER FILE  a frame of a film, in the styles default and plain; Tachyon in
 //                                                       turn
 //   bihive-frames thesis THREADS REPETITIONS            the thesis's nine configurations of Figure 4.4
 //   bihive-frames rebuild THREADS REPETITIONS           spheres that move: a new tree for every frame
@@ -36,7 +38,7 @@ using nlohmann::ordered_json;
 
 struct Wish {
   int threads, repetitions;
-  std::string folder, molecule;
+  std::string folder, input;
 };
 
 ordered_json described(const Wish& wish) {
@@ -78,26 +80,48 @@ ordered_json pictures(const Wish& wish) {
   return json;
 }
 
+// The scene of a file in a style, as bihive gives it to any file.
+LoadedScene file_in_style(const std::string& path, const Style& style) {
+  const std::string bytes = cli::value_or_fail(read_file(path));
+  return cli::value_or_fail(load_scene(bytes, path, ReadOptions{}, LooksOfFile::apply, &style));
+}
+
+// The settings of a picture of the scene, which gets a camera before it, and the lights of the style around that.
+RenderSettings settings_before(const Style& style, int threads, Scene& scene) {
+  RenderSettings settings = settings_from(scene.picture);
+  settings.threads = threads;
+  scene.camera = frame_spheres(scene.spheres, ViewFrom::front, 30, settings.width_px, settings.height_px);
+  scene.lights = lights_around(style.lights, scene.camera);
+  return settings;
+}
+
 // Pictures in the default style. Of the 128 directions a place has some 64 before it, as many as Tachyon is told to ask
 // along. Both look to any distance. Tachyon throws hard shadows, and draws neither outlines nor fog.
 ordered_json occlusion(const Wish& wish) {
   const Style style = style_named(style_names().front()).value();
-  const std::string bytes = cli::value_or_fail(read_file(wish.molecule));
-  LoadedScene molecule =
-      cli::value_or_fail(load_scene(bytes, wish.molecule, ReadOptions{}, LooksOfFile::apply, &style));
+  LoadedScene molecule = file_in_style(wish.input, style);
   Scene million = *synthetic_scene("u1e6");
   million.plane.reset();
   apply_style(style, million);
 
   ordered_json json = described(wish);
   for (const auto& [name, scene] : {std::pair<std::string, Scene*>{"1tii", &molecule.scene}, {"u1e6", &million}}) {
-    RenderSettings settings = settings_from(scene->picture);
-    settings.threads = wish.threads;
+    RenderSettings settings = settings_before(style, wish.threads, *scene);
     settings.ambient_occlusion = AmbientOcclusion{};
     settings.ambient_occlusion->directions = 128;
-    scene->camera = frame_spheres(scene->spheres, ViewFrom::front, 30, settings.width_px, settings.height_px);
-    scene->lights = lights_around(style.lights, scene->camera);
     json["scenes"][name] = beside_tachyon(*scene, settings, name, wish);
+  }
+  return json;
+}
+
+// A frame of a film in two styles. Tachyon gets as many directions of ambient occlusion as bihive has before a surface.
+ordered_json film(const Wish& wish) {
+  ordered_json json = described(wish);
+  for (const char* name : {"default", "plain"}) {
+    const Style style = style_named(name).value();
+    LoadedScene frame = file_in_style(wish.input, style);
+    const RenderSettings settings = settings_before(style, wish.threads, frame.scene);
+    json["styles"][name] = beside_tachyon(frame.scene, settings, fmt::format("frame_{}", name), wish);
   }
   return json;
 }
@@ -170,17 +194,18 @@ int run(int argc, const char* const* argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   const Wish wish{argc > 2 ? std::atoi(argv[2]) : 0, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "",
                   argc > 5 ? argv[5] : ""};
-  const bool known = (what == "pictures" && argc == 5) || (what == "occlusion" && argc == 6) ||
+  const bool known = (what == "pictures" && argc == 5) || ((what == "occlusion" || what == "film") && argc == 6) ||
                      ((what == "thesis" || what == "rebuild") && argc == 4);
   if (!known || wish.threads < 1 || wish.repetitions < 1) {
     cli::say_error(
-        "usage: bihive-frames pictures THREADS REPETITIONS FOLDER | occlusion THREADS REPETITIONS FOLDER MOLECULE | "
+        "usage: bihive-frames pictures THREADS REPETITIONS FOLDER | occlusion|film THREADS REPETITIONS FOLDER FILE | "
         "thesis|rebuild THREADS REPETITIONS");
     return cli::kBadUsage;
   }
   try {
     const ordered_json json = what == "pictures"    ? pictures(wish)
                               : what == "occlusion" ? occlusion(wish)
+                              : what == "film"      ? film(wish)
                               : what == "thesis"    ? thesis(wish)
                                                     : rebuild(wish);
     cli::print(json.dump(2) + "\n");

@@ -417,6 +417,62 @@ def rebuild(report):
     return lines + table(heads, rows), {}
 
 
+def film_rows(runs):
+    rows = []
+    for run in runs:
+        facts = run["result"]
+        style = run["command"].split(" --style ")[1].split()[0]
+        parts = [number(facts[f"{part}_ms"] / facts["drawn"]) for part in ("read", "build", "trace", "write")]
+        rows.append([style, facts["drawn"], number(facts["pictures_per_s"]), *parts, number(facts["peak_memory_bytes"] / 1e6)])
+    return rows
+
+
+def film(report):
+    runs = {"film": [], "memory": [], "frames": [], "render": []}
+    for run in report["runs"]:
+        kind = run["command"].split("bihive")[1].split()[0]
+        if kind == "film":
+            kind = "memory" if "--frames" in run["command"] else "film"
+        runs["frames" if kind == "-frames" else kind].append(run)
+    beside = runs["frames"][0]["result"]
+    found = next(iter(beside["styles"].values()))
+    lines = [
+        "## Films",
+        "",
+        f"A Lennard-Jones melt of {found['spheres']:,} atoms, a LAMMPS dump with velocities, 1280 x 720 pixels, 4 samples each, to an MP4 file. Reading,",
+        "building, tracing and writing overlap; their milliseconds a picture stand apart. The last column is the peak of memory in MB.",
+        "",
+        *table(["style", "pictures", "pictures a second", "read", "build", "trace", "write", "MB"], film_rows(runs["film"])),
+        f"One picture of the same beside Tachyon, {beside['threads']} threads: milliseconds with the picture's bytes, and those that Tachyon prints for its",
+        "tracing. Tachyon throws hard shadows and draws neither outlines nor fog; with ambient occlusion it asks along as many directions.",
+        "",
+    ]
+    rows = [
+        [style, number(facts["all_ms"]), number(facts["tachyon_ms"]), f"**{times(facts['ratio'])}**"]
+        for style, facts in beside["styles"].items()
+    ]
+    lines += table(["style", "bihive", "Tachyon", "ratio"], rows)
+    lines += ["Memory does not grow with the length of a film (small pictures of a small melt):", ""]
+    rows = [[run["result"]["drawn"], number(run["result"]["peak_memory_bytes"] / 1e6)] for run in runs["memory"]]
+    lines += table(["pictures", "peak MB"], rows)
+    lines += [
+        "Large files from disk to a PNG file, 1280 x 720 pixels, 4 samples each, in the style `plain`: seconds of the whole program, and",
+        "milliseconds of its parts; medians. The last column is the peak of memory in bytes a sphere.",
+        "",
+    ]
+    by_file = {}
+    for run in runs["render"]:
+        by_file.setdefault(run["result"]["scene"].rsplit("/", 1)[-1], []).append(run)
+    rows = []
+    for name, some in by_file.items():
+        middle = sorted(some, key=lambda run: run["seconds"])[len(some) // 2]
+        facts = middle["result"]
+        parts = [number(facts[f"{part}_ms"]) for part in ("read", "build", "render", "write")]
+        peak = number(facts["peak_memory_bytes"] / facts["spheres"])
+        rows.append([f"`{name}`", f"{facts['spheres']:,}", number(middle["seconds"]), *parts, peak])
+    return lines + table(["file", "spheres", "seconds", "read", "build", "render", "write", "bytes a sphere"], rows), {}
+
+
 def is_node(run):
     return " node " in " " + run["command"]
 
@@ -519,6 +575,7 @@ SECTIONS = [
     ("growth", growth),
     ("huge", huge),
     ("rebuild", rebuild),
+    ("film", film),
     ("wasm", wasm),
     ("gpu", gpu),
     ("page", page),

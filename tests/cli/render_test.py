@@ -201,8 +201,9 @@ class Render(ProgramTest):
         self.assertGreater(said["rays"]["reflected"], 0)
         self.assertGreater(said["rays"]["transmitted"], 0)
         self.assertRegex(said["picture_hash"], r"\A[0-9a-f]{16}\Z")
-        for key in ["build_ms", "render_ms", "mray_per_s"]:
+        for key in ["read_ms", "build_ms", "render_ms", "write_ms", "mray_per_s"]:
             self.assertGreater(said[key], 0)
+        self.assertGreater(said["peak_memory_bytes"], 4e6)
 
     def test_text_is_one_line(self):
         said = self.succeed("render", "demo", "-o", "a.png", *SMALL)

@@ -168,6 +168,28 @@ class PerformancePageTest(unittest.TestCase):
         self.assertRegex(page, r"\| u1e6 .*\*\*8.50x\*\* \| 4x \| aim met \|")
         self.assertIn("19.1 million rays of ambient occlusion: 0.60 s,\nmedian of 3", page)
 
+    def test_films_their_memory_and_large_files(self):
+        def film(pictures, peak):
+            parts = {f"{part}_ms": ms * pictures for part, ms in (("read", 3), ("build", 4), ("trace", 50), ("write", 6))}
+            return {**parts, "drawn": pictures, "pictures_per_s": 18.0, "peak_memory_bytes": peak}
+
+        def picture(name, spheres):
+            parts = {"read_ms": 700, "build_ms": 80, "render_ms": 90, "write_ms": 30}
+            return {**parts, "scene": f"out/{name}", "spheres": spheres, "peak_memory_bytes": 50 * spheres}
+
+        facts = {"spheres": 108000, "all_ms": 200, "tachyon_ms": 900, "ratio": 4.5}
+        made = report("film", [film(200, 90e6), film(20, 31e6), {"threads": 2, "styles": {"plain": facts}}] + 3 * [picture("a.npy", 10**7)])
+        commands = ["bihive film a.dump -o a.mp4 --style plain --json", "bihive film b.dump --frames 0:20 --style plain", "bihive-frames film 2"]
+        for run, command in zip(made["runs"], [*commands, *3 * ["bihive render a.npy"]]):
+            run["command"] = f"build/{command}"
+        for run, seconds in zip(made["runs"][3:], (0.9, 1.2, 1.0)):
+            run["seconds"] = seconds
+        page = self.generate([made])
+        self.assertIn("| plain | 200 | 18.0 | 3.00 | 4.00 | 50.0 | 6.00 | 90.0 |", page)
+        self.assertIn("| plain | 200 | 900 | **4.50x** |", page)
+        self.assertIn("| 20 | 31.0 |", page)
+        self.assertIn("| `a.npy` | 10,000,000 | 1.00 | 700 | 80.0 | 90.0 | 30.0 | 50.0 |", page)
+
     def test_commands_and_charts(self):
         growth = [dict(result_of("u1e3", 2, 1), spheres=10**k, build_ms=10.0**k / 1e4) for k in (3, 4, 5)]
         page = self.generate([report("growth", growth), report("scenes", [result_of("s1", 1, 3)])])

@@ -1,7 +1,6 @@
 // bihive film: from a trajectory, or a camera that moves, to a film.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,17 +27,12 @@
 #include "support/interrupt.h"
 #include "support/messages.h"
 #include "support/outputs.h"
+#include "support/peak_memory.h"
 
 namespace bihive::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-double peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 // Refuses what contradicts the kind of the film, before anything is read.
 void check_film_options(const FilmOptions& options, FilmKind kind) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bihive/base/timer.h"
 #include "bihive/simd/target.h"
 #include "commands/choose_look.h"
 #include "commands/commands.h"
@@ -17,6 +18,7 @@
 #include "support/interrupt.h"
 #include "support/messages.h"
 #include "support/outputs.h"
+#include "support/peak_memory.h"
 
 namespace bihive::cli {
 namespace {
@@ -57,6 +59,7 @@ void run_render(const RenderOptions& asked) {
 
   // Load the scene and apply the user's options to it.
   const bool named = !options.style.name.empty();
+  const Timer reading;
   Style style = choose_style(options.style);
   if (options.fixed) fix_range(style, options.fixed->range_of_style);
   Input input = load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named);
@@ -65,9 +68,11 @@ void run_render(const RenderOptions& asked) {
   const Scene& scene = input.scene;
   const std::vector<Layer> layers = choose_layers(options, scene, settings);
   check_memory_of(engine, input, options, settings);
+  const double read_ms = reading.elapsed_ms();
 
   // Build, render, write.
   const Tracer tracer = value_or_fail(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
+  const Timer drawing;
   const ordered_json described = settings_json(options, settings, scene, layers);
   const std::unique_ptr<PictureFile> file =
       open_picture({options, scene, tracer, settings, layers, text_of(scene, described)});
@@ -82,6 +87,7 @@ void run_render(const RenderOptions& asked) {
     }
   }();
   value_or_fail(file->finish());
+  const double write_ms = drawing.elapsed_ms() - drawn.render_ms;
 
   // Print the report.
   const double mray_per_s = drawn.render_ms > 0 ? static_cast<double>(drawn.all_rays) / drawn.render_ms / 1000 : 0;
@@ -99,9 +105,12 @@ void run_render(const RenderOptions& asked) {
   ordered_json json = report_json(options, input, settings, engine, tracer, drawn);
   json["settings"] = described;
   json["rays"] = drawn.rays;
+  json["read_ms"] = read_ms;
   json["build_ms"] = tracer.build_ms();
   json["render_ms"] = drawn.render_ms;
+  json["write_ms"] = write_ms;
   json["mray_per_s"] = mray_per_s;
+  json["peak_memory_bytes"] = peak_memory_bytes();
   if (const auto hash = file->hash()) json["picture_hash"] = fmt::format("{:016x}", *hash);
   json["warnings"] = input.warnings;
   print(as_text(json, 2) + "\n");
