@@ -19,14 +19,30 @@ class Labels(ProgramTest):
         return png_pixels(self.read(output))
 
     def test_each_label_changes_its_corner_alone(self):
-        plain = self.picture("--colour-by", "charge", "--projection", "orthographic")
+        # A camera of one's own, so that labels get no room.
+        look = ["--colour-by", "charge", "--projection", "orthographic", "--eye", "0,0,20", "--look-at", "0,0,0"]
+        plain = self.picture(*look)
         corners = {"--title=Title": (80, 0, 160, 20), "--axes": (0, 100, 60, 160), "--scale-bar": (150, 130, 240, 160),
                    "--legend": (180, 20, 240, 140)}
         for option, (x0, y0, x1, y1) in corners.items():
-            labelled = self.picture("--colour-by", "charge", "--projection", "orthographic", option)
+            labelled = self.picture(*look, option)
             changed = [(x, y) for y in range(160) for x in range(240) if plain[y][x] != labelled[y][x]]
             self.assertGreater(len(changed), 30, option)
             self.assertTrue(all(x0 <= x < x1 and y0 <= y < y1 for x, y in changed), (option, min(changed), max(changed)))
+
+    def test_labels_that_would_cover_spheres_get_room(self):
+        """The legend moves the spheres to the left; a title that lies over nothing moves nothing."""
+        def camera(*options):
+            self.picture("--colour-by", "charge", "--projection", "orthographic", *options)
+            return json.loads(png_text(self.read("a.png"))["Settings"])["camera"]
+
+        free = camera()
+        self.assertEqual(camera("--title", "T"), free)
+        beside = camera("--legend")
+        self.assertGreater(beside["shorter_side"], free["shorter_side"])
+        self.assertGreater(beside["look_at"][0], free["look_at"][0])
+        own = ["--eye", "0,0,20", "--look-at", "0,0,0"]
+        self.assertEqual(camera("--legend", *own)["eye"], [0, 0, 20])
 
     def test_threads_and_crops_have_the_same_bits(self):
         whole = self.picture(*ALL, "--threads", "1")

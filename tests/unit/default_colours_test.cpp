@@ -1,6 +1,10 @@
 #include "bihive/scene/default_colours.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
 
 #include "bihive/scene/load_scene.h"
 
@@ -55,6 +59,36 @@ TEST(DefaultColours, a_style_may_take_another_attribute_or_none) {
   const Scene charged = loaded("x,y,z,r,charge\n0,0,0,1,-1\n1,0,5,1,1\n", "a.csv", &*style);
   EXPECT_EQ(charged.spheres.attributes().colour.at(1), map_colour(ColourMap::magma, 1, Transfer::srgb));
   EXPECT_TRUE(loaded(kPoints, "a.csv", &*style).spheres.attributes().colour.empty()) << "there is no charge";
+}
+
+// A PDB file of `atoms` carbon atoms, of which the first ones have chain A.
+std::string pdb_of(int atoms, int of_chain_a) {
+  std::string text;
+  for (int i = 0; i < atoms; ++i)
+    text +=
+        fmt::format("ATOM  {:5d}  CA  ALA {}{:4d}    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00           C\n", i % 99999 + 1,
+                    i < of_chain_a ? 'A' : 'B', i % 9999, 4.0 * (i % 100), 4.0 * (i / 100 % 100), 4.0 * (i / 10000));
+  return text + "END\n";
+}
+
+TEST(DefaultColours, large_molecules_are_coloured_by_chain) {
+  const auto coloured_by = [](const char* style, int atoms, int of_chain_a) {
+    const Scene scene = loaded(pdb_of(atoms, of_chain_a), "a.pdb", &*style_named(style));
+    EXPECT_EQ(scene.spheres.size(), atoms);
+    EXPECT_EQ(scene.coloured_by.size(), 1u);
+    return scene.coloured_by.at(0).attribute;
+  };
+  EXPECT_EQ(coloured_by("default", 20000, 10000), "element");
+  EXPECT_EQ(coloured_by("default", 20001, 10000), "chain");
+  EXPECT_EQ(coloured_by("plain", 20001, 10000), "element");
+  EXPECT_EQ(coloured_by("illustrative", 100, 75), "chain");
+  EXPECT_EQ(coloured_by("illustrative", 100, 76), "element") << "one chain has more than three quarters";
+  EXPECT_EQ(coloured_by("illustrative", 100, 100), "element") << "there is one chain";
+
+  const Scene scene = loaded(pdb_of(100, 50), "a.pdb", &*style_named("illustrative"));
+  const std::vector<Vec3f>& colours = scene.spheres.attributes().colour;
+  EXPECT_EQ(colours.front(), colours.at(49));
+  EXPECT_NE(colours.at(49), colours.at(50));
 }
 
 TEST(DefaultColours, scene_files_keep_theirs) {

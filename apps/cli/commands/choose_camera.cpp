@@ -1,9 +1,8 @@
 #include "commands/choose_camera.h"
 
-#include "bihive/render/tree_picture.h"
+#include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
-#include "bihive/scene/framing_cell.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -11,13 +10,6 @@ namespace {
 
 bool parallel(Vec3d a, Vec3d b) {
   return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
-}
-
-Camera framed(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings) {
-  return settings.view == View::tree ? frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px)
-         : settings.cell_lines
-             ? frame_with_cell(RemainingSpheres(scene).set(), side, lens, settings.width_px, settings.height_px)
-             : frame_spheres(RemainingSpheres(scene).set(), side, lens, settings.width_px, settings.height_px);
 }
 
 // A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
@@ -67,7 +59,8 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
     Side side = side_of(options.view_from.value_or(ViewFrom::front));
     if (options.turn && !user_places) side = turned(side, *options.turn);
     // From an eye of the user's own, the angle decides how much is seen.
-    camera = framed(input.scene, side, {camera.fov_deg, options.eye ? Projection::perspective : projection}, settings);
+    const Lens lens{camera.fov_deg, options.eye ? Projection::perspective : projection};
+    camera = frame_picture(input.scene, side, lens, settings, options.dots_per_inch);
   } else if (options.fov_deg) {
     camera.projection = Projection::perspective;
   }

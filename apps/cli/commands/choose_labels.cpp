@@ -24,8 +24,7 @@ void check_one(bool Labels::*label, bool asked_for, const std::string& option, c
 
 }  // namespace
 
-void choose_labels(const LabelOptions& options, const Scene& scene, RenderSettings& settings) {
-  Labels& labels = settings.labels;
+void take_labels(const LabelOptions& options, Labels& labels) {
   if (options.none) labels = {};
   labels.legend = labels.legend || options.legend;
   labels.scale_bar = labels.scale_bar || options.scale_bar;
@@ -34,6 +33,9 @@ void choose_labels(const LabelOptions& options, const Scene& scene, RenderSettin
   if (options.length_unit) labels.length_unit = options.length_unit;
   if (options.length_unit && !labels.scale_bar)
     fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
+}
+
+void leave_out_labels(const LabelOptions& options, const Scene& scene, RenderSettings& settings) {
   check_one(&Labels::legend, options.legend, "--legend", scene, settings);
   check_one(&Labels::scale_bar, options.scale_bar, "--scale-bar", scene, settings);
 }

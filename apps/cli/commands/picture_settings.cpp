@@ -119,13 +119,14 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   if (settings.transparent && shows_reference_tree(settings.view))
     fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
                "give a colour by --background, or choose another view");
+  take_labels(options.labels, settings.labels);
+  settings.labels.title = filled_title(settings.labels.title, options, input);
   scene.camera = options.fixed ? options.fixed->camera : choose_camera(input, options, settings);
   if (settings.adaptive_samples && scene.camera.aperture > 0)
     fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
                "give a number: --samples 64");
   apply_look(options.style, input);
-  choose_labels(options.labels, scene, settings);
-  settings.labels.title = filled_title(settings.labels.title, options, input);
+  leave_out_labels(options.labels, scene, settings);
   return settings;
 }
 

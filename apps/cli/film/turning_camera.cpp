@@ -5,23 +5,17 @@
 #include <optional>
 #include <vector>
 
+#include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/framing.h"
+#include "bihive/scene/framing_cell.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
 namespace {
 
 std::vector<Vec3d> corners_of_cell(const SphereSet& spheres, const RenderSettings& settings) {
-  std::vector<Vec3d> corners;
-  const std::optional<Cell>& cell = spheres.cell();
-  if (!settings.cell_lines || !cell) return corners;
-  const auto [a, b, c] = spheres.images().counts;
-  for (const double i : {0.0, double(a)})
-    for (const double j : {0.0, double(b)})
-      for (const double k : {0.0, double(c)})
-        corners.push_back(cell->origin + i * cell->vectors[0] + j * cell->vectors[1] + k * cell->vectors[2]);
-  return corners;
+  return settings.cell_lines ? cell_corners(spheres) : std::vector<Vec3d>();
 }
 
 }  // namespace
@@ -51,7 +45,9 @@ Camera camera_around(const Input& input, const Camera& camera, const RenderOptio
   const Vec3d offset = camera.eye - camera.look_at;
   const Side side{offset / length(offset), camera.up};
   const double fov_deg = options.fov_deg.value_or(input.scene.camera.fov_deg);
-  Camera around = frame_spheres(ball, side, {fov_deg, camera.projection}, settings.width_px, settings.height_px);
+  const Insets insets = insets_of_labels(input.scene, camera, settings, options.dots_per_inch);
+  Camera around =
+      frame_spheres(ball, side, {fov_deg, camera.projection}, settings.width_px, settings.height_px, insets);
   around = enlarged(around, options.zoom.value_or(1));
   around.aperture = camera.aperture;
   if (options.focus && std::holds_alternative<double>(*options.focus)) around.focus = camera.focus;

@@ -1,7 +1,10 @@
 // The last step of a picture: legend, scale bar, axes and title over its finished pixels.
 #pragma once
 
+#include <optional>
+
 #include "bihive/base/result.h"
+#include "bihive/image/canvas.h"
 #include "bihive/image/png_pixels.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
@@ -9,8 +12,19 @@
 namespace bihive {
 
 /// Error: the scale bar of a perspective picture, a legend where colours have no meaning or the view does not show
-/// them. Costs little: ask before the picture is made.
+/// them. Costs little: ask before the picture is made. `camera`: in place of the scene's.
 Status check_labels(const Scene& scene, const RenderSettings& settings);
+Status check_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+
+/// The labels of the settings without those that this picture cannot have.
+Labels possible_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+
+/// What each label covers of the picture, in pixels. Not there: no such label, or check_labels() refuses it.
+struct LabelAreas {
+  std::optional<CanvasArea> title, legend, scale_bar, axes;
+};
+LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                       double dots_per_inch = 0);
 
 /// Draws settings.labels over the pixels that settings.crop (or the whole picture) holds. check_labels() must succeed.
 /// Letters grow with the picture's shorter side; with `dots_per_inch` above 0 they have 8 points in print, within

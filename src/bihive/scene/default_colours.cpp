@@ -1,10 +1,17 @@
 #include "bihive/scene/default_colours.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "bihive/scene/palette.h"
+#include "bihive/select/attribute_names.h"
 
 namespace bihive {
 namespace {
@@ -18,6 +25,24 @@ void colour_by_style(const ColourBy& how, Scene& scene) {
   if (!done) return;
   scene.spheres.attributes().colour = std::move(colours);
   scene.coloured_by = {*done};
+}
+
+// Whether the attribute has several values, and none of them too many spheres.
+bool tells_apart(const SphereSet& spheres, const std::string& attribute) {
+  const FoundAttribute found = find_attribute(spheres, attribute);
+  if (!found.found()) return false;
+  std::map<double, std::int64_t> count_of;
+  std::int64_t most = 0;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const double value = found.texts != nullptr ? double(found.texts->text_of_sphere[static_cast<std::size_t>(id)])
+                                                : found.number_of(spheres, id);
+    if (!std::isnan(value)) most = std::max(most, ++count_of[value]);
+  }
+  return count_of.size() > 1 && static_cast<double>(most) <= kMostOfOneColour * static_cast<double>(spheres.size());
+}
+
+bool colours_atoms(const std::optional<AtomColours>& how, const SphereSet& spheres) {
+  return how && spheres.size() > how->above && tells_apart(spheres, how->attribute);
 }
 
 }  // namespace
@@ -34,6 +59,10 @@ void take_default_colours(Scene& scene, std::string_view format, const Style* st
   ColourBy how;
   how.attribute = attribute;
   scene.coloured_by = {how};
+  if (style != nullptr && attribute == "element" && colours_atoms(style->colour_atoms_by, scene.spheres)) {
+    how.attribute = style->colour_atoms_by->attribute;
+    colour_by_style(how, scene);
+  }
 }
 
 }  // namespace bihive

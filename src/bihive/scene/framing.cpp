@@ -12,27 +12,48 @@
 namespace bihive {
 namespace {
 
-// The two opposite planes through the eye that bound the picture to the left and right, or below and above. With the
-// eye at (shift, distance) along (the span's axis, back), a sphere is inside a plane when its centre is at least a
-// radius away from it:
-//   distance * tangent - shift >= radius * slope - place + tangent * depth    and the same with -shift and -place.
+// Where the free part of one side of the picture begins and ends, from the picture's middle: 1 is half of the side.
+struct FreePart {
+  double low, high;
+
+  double middle() const { return 0.5 * (high - low); }
+  double size() const { return 0.5 * (low + high); }  // 1: all of the side
+};
+
+FreePart free_part(double low_inset, double high_inset) {
+  const auto free = [](double inset) { return 1 - 2 * std::clamp(inset, kFreeBorder, kMostInset); };
+  return {free(low_inset), free(high_inset)};
+}
+
+// The two opposite planes through the eye that bound the free part to the left and right, or below and above, by the
+// tangents of their angles. With the eye at (shift, distance) along (the span's axis, back), a sphere is inside a plane
+// when its centre is at least a radius away from it:
+//   distance * low - shift >= radius * slope - place + low * depth    and for `high` with -shift and -place.
 class Span {
  public:
-  explicit Span(double tangent) : tangent_(tangent), slope_(std::sqrt(1 + tangent * tangent)) {}
+  /// `tangent`: of half of the picture's shorter side.
+  Span(double tangent, double side_px, double shorter_px, const FreePart& part)
+      : low_tangent_(tangent * part.low * side_px / shorter_px),
+        high_tangent_(tangent * part.high * side_px / shorter_px),
+        low_slope_(std::sqrt(1 + low_tangent_ * low_tangent_)),
+        high_slope_(std::sqrt(1 + high_tangent_ * high_tangent_)) {}
 
   void add(double place, double depth, double radius) {
-    low_ = std::max(low_, radius * slope_ - place + tangent_ * depth);
-    high_ = std::max(high_, radius * slope_ + place + tangent_ * depth);
+    low_ = std::max(low_, radius * low_slope_ - place + low_tangent_ * depth);
+    high_ = std::max(high_, radius * high_slope_ + place + high_tangent_ * depth);
   }
-  /// The smallest distance at which both planes hold, and its shift.
-  double distance() const { return empty() ? 0 : (low_ + high_) / (2 * tangent_); }
-  double shift() const { return empty() ? 0 : (high_ - low_) / 2; }
+  /// The smallest distance at which both planes hold.
+  double distance() const { return empty() ? 0 : (low_ + high_) / (low_tangent_ + high_tangent_); }
+  /// The shift with as much room at both planes, from that distance on.
+  double shift(double distance) const {
+    return empty() ? 0 : (high_ - low_ + distance * (low_tangent_ - high_tangent_)) / 2;
+  }
 
  private:
   bool empty() const { return low_ == kNone; }
 
   static constexpr double kNone = -std::numeric_limits<double>::infinity();
-  double tangent_, slope_;
+  double low_tangent_, high_tangent_, low_slope_, high_slope_;
   double low_ = kNone, high_ = kNone;
 };
 
@@ -59,7 +80,8 @@ void for_each_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points
 // Turns a camera that frames the set in perspective, whose `distance` from the spheres' `middle` is known, into one
 // with parallel rays.
 void frame_parallel(const SphereSet& spheres, const std::vector<Vec3d>& points, const Side& side, Vec3d middle,
-                    double distance, int width_px, int height_px, Camera& camera) {
+                    double distance, int width_px, int height_px, const FreePart& across_part,
+                    const FreePart& along_part, Camera& camera) {
   const Vec3d right = normalized(cross(side.up, side.back));
   const Vec3d up = cross(side.back, right);
   Extent across, along;
@@ -71,13 +93,16 @@ void frame_parallel(const SphereSet& spheres, const std::vector<Vec3d>& points, 
     front = std::max(front, dot(centre, side.back) + radius);
   });
   const double shorter = std::min(width_px, height_px);
-  const double side_length = std::max(across.size() * shorter / width_px, along.size() * shorter / height_px);
+  const double side_length = std::max(across.size() * shorter / width_px / across_part.size(),
+                                      along.size() * shorter / height_px / along_part.size());
   camera.projection = Projection::orthographic;
-  camera.shorter_side = side_length > 0 ? side_length / (1 - 2 * kFreeBorder) : 1;
+  camera.shorter_side = side_length > 0 ? side_length : 1;
 
   // Origins are rounded to binary32, and must not come to lie in a sphere.
   distance = std::max(distance, front + 0.5 * camera.shorter_side);
-  const Vec3d shift = across.middle() * right + along.middle() * up;
+  const double half_px = 0.5 * camera.shorter_side / shorter;
+  const Vec3d shift = (across.middle() - across_part.middle() * half_px * width_px) * right +
+                      (along.middle() - along_part.middle() * half_px * height_px) * up;
   camera.look_at = middle + shift;
   camera.eye = camera.look_at + distance * side.back;
   const double largest = std::max({std::abs(camera.eye.x), std::abs(camera.eye.y), std::abs(camera.eye.z)});
@@ -110,17 +135,19 @@ namespace {
 
 // The camera of frame_spheres(), with these points inside of the picture too.
 Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const Side& side, const Lens& lens,
-             int width_px, int height_px) {
+             int width_px, int height_px, const Insets& insets) {
   const Vec3d right = normalized(cross(side.up, side.back));
   const Vec3d up = cross(side.back, right);
   const SphereSet::Bounds bounds = spheres.bounds();
   const Vec3d middle = spheres.empty() ? Vec3d{} : bounds.lo + 0.5 * (bounds.hi - bounds.lo);
 
-  // The tangents of the angles that the picture without its margin spans to either side.
+  // The tangents of the angles that the free part of the picture spans to either side.
   const double shorter = std::min(width_px, height_px);
-  const double tangent = tan_deg(lens.fov_deg / 2) * (1 - 2 * kFreeBorder);
-  Span across{tangent * width_px / shorter};
-  Span along{tangent * height_px / shorter};
+  const double tangent = tan_deg(lens.fov_deg / 2);
+  const FreePart across_part = free_part(insets.left, insets.right);
+  const FreePart along_part = free_part(insets.bottom, insets.top);
+  Span across(tangent, width_px, shorter, across_part);
+  Span along(tangent, height_px, shorter, along_part);
   double distance = 0;
   for_each_in_view(spheres, points, [&](Vec3d place, double radius) {
     const Vec3d centre = place - middle;
@@ -131,7 +158,7 @@ Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const S
   });
   distance = std::max({distance, across.distance(), along.distance()});
   if (!(distance > 0)) distance = 1;
-  const Vec3d shift = across.shift() * right + along.shift() * up;
+  const Vec3d shift = across.shift(distance) * right + along.shift(distance) * up;
 
   Camera camera;
   camera.look_at = middle + shift;
@@ -139,14 +166,15 @@ Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const S
   camera.up = up;
   camera.fov_deg = lens.fov_deg;
   if (lens.projection == Projection::orthographic)
-    frame_parallel(spheres, points, side, middle, distance, width_px, height_px, camera);
+    frame_parallel(spheres, points, side, middle, distance, width_px, height_px, across_part, along_part, camera);
   return camera;
 }
 
 }  // namespace
 
-Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
-  return frame(spheres, {}, side, lens, width_px, height_px);
+Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px,
+                     const Insets& insets) {
+  return frame(spheres, {}, side, lens, width_px, height_px, insets);
 }
 
 std::vector<Vec3d> cell_corners(const SphereSet& spheres) {
@@ -160,8 +188,9 @@ std::vector<Vec3d> cell_corners(const SphereSet& spheres) {
   return corners;
 }
 
-Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px) {
-  return frame(spheres, cell_corners(spheres), side, lens, width_px, height_px);
+Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px,
+                       const Insets& insets) {
+  return frame(spheres, cell_corners(spheres), side, lens, width_px, height_px, insets);
 }
 
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px) {

@@ -29,11 +29,21 @@ struct Lens {
 /// The margin on each side of the picture, as a share of that side.
 constexpr double kFreeBorder = 0.04;
 
-/// Every sphere lies wholly inside the picture (width x height pixels) less a margin of 4 % on each side, and the set
-/// is as large as that allows. perspective: the eye is as near as possible, and shifted sideways. orthographic: the eye
-/// is where that of the perspective is or farther away, in front of all spheres, and the shorter side is as short as
-/// possible. An empty or single-point set is seen from distance 1.
-Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px);
+/// What of the picture stays free besides that border: shares of its width (left, right) and height, each from 0 to
+/// kMostInset.
+struct Insets {
+  double left = 0, right = 0, top = 0, bottom = 0;
+
+  bool any() const { return left > 0 || right > 0 || top > 0 || bottom > 0; }
+};
+constexpr double kMostInset = 0.4;
+
+/// Every sphere lies wholly inside the picture (width x height pixels) less a margin of 4 % on each side, or less the
+/// insets where these are wider, and the set is as large as that allows. perspective: the eye is as near as possible,
+/// and shifted sideways. orthographic: the eye is where that of the perspective is or farther away, in front of all
+/// spheres, and the shorter side is as short as possible. An empty or single-point set is seen from distance 1.
+Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px,
+                     const Insets& insets = {});
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
 
 /// One white light above, left of and behind the camera, at least as far from look_at as the camera is.

@@ -14,6 +14,7 @@ std::vector<Vec3d> cell_corners(const SphereSet& spheres);
 
 /// As frame_spheres() of scene/framing.h, with the corners of the cell and of its copies inside of the picture too.
 /// Without a cell it is that camera.
-Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px);
+Camera frame_with_cell(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px,
+                       const Insets& insets = {});
 
 }  // namespace bihive

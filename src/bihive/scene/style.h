@@ -1,6 +1,7 @@
 // A look that fits any input: a material, colours, lights that stand around the camera, and effects.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,15 @@
 
 namespace bihive {
 
+/// A share of all spheres: with more of one colour a picture says less than by element.
+constexpr double kMostOfOneColour = 0.75;
+
+/// Colours of atoms by what they belong to instead of by element.
+struct AtomColours {
+  std::string attribute;   ///< such as chain
+  std::int64_t above = 0;  ///< only for sets with more spheres
+};
+
 struct Style {
   std::string name;
   std::string description;  ///< one line
@@ -21,6 +31,9 @@ struct Style {
   ElementScheme element_colours = ElementScheme::jmol;
   /// Of spheres without element, type and own colour, if they have the attribute. Unset: the material's colour.
   std::optional<ColourBy> colour_by;
+  /// Of spheres with elements, if the attribute tells them apart: no value of it holds more than kMostOfOneColour of
+  /// them. Unset: by element.
+  std::optional<AtomColours> colour_atoms_by;
   /// Lines between spheres that touch and differ in this attribute, if they have it; empty: none.
   std::string crease;
   LightRig lights;

@@ -60,6 +60,10 @@ Result<Style> style_from(const json& document, const std::string& file) {
   if (document.contains("element_colours"))
     style.element_colours = *value_named(kElementSchemes, document.at("element_colours").get<std::string>());
   if (document.contains("colour_by")) style.colour_by = colour_by_from_json(document.at("colour_by"));
+  if (document.contains("colour_atoms_by")) {
+    const json& value = document.at("colour_atoms_by");
+    style.colour_atoms_by = {value.at("attribute").get<std::string>(), value.value("above", std::int64_t{0})};
+  }
   style.crease = document.value("crease", style.crease);
   if (document.contains("lights")) style.lights = light_rig(document.at("lights"));
   if (document.contains("ambient_light"))

@@ -50,7 +50,7 @@ Result<PngPixels> PictureToSave::take() {
     if (!picture) return picture.error();
     pixels = png_pixels_from_film(picture->film, curve, 8);
   }
-  settings_.labels = possible_labels(*scene_, settings_);
+  settings_.labels = possible_labels(*scene_, scene_->camera, settings_);
   draw_labels(pixels, *scene_, settings_);
   return pixels;
 }

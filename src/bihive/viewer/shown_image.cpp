@@ -74,7 +74,7 @@ Image image_to_show(const Film& film, View view, Transfer transfer) {
 
 Image labelled(Image image, const Scene& scene, const RenderSettings& settings) {
   RenderSettings of_labels = settings;
-  of_labels.labels = possible_labels(scene, settings);
+  of_labels.labels = possible_labels(scene, scene.camera, settings);
   if (!of_labels.labels.any()) return image;
   if (image.width != settings.width_px || image.height != settings.height_px)
     image = enlarged_image(image, settings.width_px, settings.height_px);

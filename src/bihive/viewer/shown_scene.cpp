@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "bihive/render/tree_picture.h"
+#include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
 #include "bihive/scene/framing_cell.h"
@@ -24,15 +24,14 @@ ShownScene::ShownScene(LoadedScene loaded)
   diagonal = length(bounds.hi - bounds.lo);
 }
 
-Camera ShownScene::framed(ViewFrom side, const Camera& like, View view, bool cell, PictureSizePx size) const {
-  const Lens lens{like.fov_deg, like.projection};
-  Camera camera;
-  if (view == View::tree)
-    camera = frame_tree(scene.spheres, side_of(side), lens, size.width, size.height);
-  else if (cell)
-    camera = frame_with_cell(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
-  else
-    camera = frame_spheres(RemainingSpheres(scene).set(), side_of(side), lens, size.width, size.height);
+Camera ShownScene::framed(ViewFrom side, const Camera& like, const ViewerSettings& settings, PictureSizePx size) const {
+  RenderSettings picture;
+  picture.width_px = size.width;
+  picture.height_px = size.height;
+  picture.view = settings.view;
+  if (settings.cell) picture.cell_lines.emplace();
+  picture.labels = settings.effects.labels;
+  Camera camera = frame_picture(scene, side_of(side), {like.fov_deg, like.projection}, picture);
   camera.aperture = like.aperture;
   camera.focus = like.focus;
   return camera;

@@ -47,9 +47,8 @@ struct ShownScene {
   ShownScene(const ShownScene&) = delete;
   ShownScene& operator=(const ShownScene&) = delete;
 
-  /// The camera that has the whole set in view: the spheres, or in View::tree the drawing of their tree. Angle,
-  /// projection and lens are those of `like`. `cell`: the cell's edges are drawn, and are in view too.
-  Camera framed(ViewFrom side, const Camera& like, View view, bool cell, PictureSizePx size) const;
+  /// frame_picture() of these settings, with room for their labels. Angle, projection and lens are those of `like`.
+  Camera framed(ViewFrom side, const Camera& like, const ViewerSettings& settings, PictureSizePx size) const;
   /// with_all_in_view() of the spheres that clips leave, and of the cell's edges.
   Camera far_enough(const Camera& camera, bool cell, PictureSizePx size) const;
   /// Whether the other scene has the same spheres and clips, whatever the spheres' other attributes: then these trees

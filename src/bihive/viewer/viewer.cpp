@@ -45,8 +45,7 @@ class Viewer::Implementation {
     settings.replicate.reset();
     take_defaults(next->scene.picture, settings);
     const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
-    settings.camera =
-        side ? next->framed(*side, next->own_camera, settings.view, settings.cell, size_) : next->own_camera;
+    settings.camera = side ? next->framed(*side, next->own_camera, settings, size_) : next->own_camera;
     settings.focus_on.clear();
     if (settings.camera.aperture > 0) settings.effects.adaptive_samples = false;
     if (Status status = check_settings(settings); !status) return status.error();
@@ -220,7 +219,7 @@ class Viewer::Implementation {
     turned_from_.reset();
     Camera like = settings_.camera;
     like.fov_deg = chosen_fov_deg_;
-    settings_.camera = shown_->framed(side, like, settings_.view, settings_.cell, size_);
+    settings_.camera = shown_->framed(side, like, settings_, size_);
     steps_.moved();
   }
 
@@ -369,7 +368,7 @@ class Viewer::Implementation {
     const ShownScene& scene = next ? *next : *shown_;
     const bool same_spheres = !next || shown_->same_spheres(*next);
     if (next) follow_defaults(shown_->scene.picture, next->scene.picture, settings);
-    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera, settings.view, settings.cell, size_);
+    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera, settings, size_);
 
     // The trees refer to the spheres that stay.
     std::unique_ptr<SceneTrees> other_trees;

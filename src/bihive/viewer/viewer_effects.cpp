@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include "bihive/render/draw_labels.h"
 #include "bihive/scene/light_points.h"
 
 namespace bihive {
@@ -86,17 +85,6 @@ void put_effects(const ViewerEffects& effects, RenderSettings& settings) {
   settings.outline = outline.width_px > 0 ? std::optional<Outline>(outline) : std::nullopt;
   settings.tone = effects.tone;
   settings.labels = effects.labels;
-}
-
-Labels possible_labels(const Scene& scene, const RenderSettings& settings) {
-  Labels labels = settings.labels;
-  for (bool Labels::*const label : {&Labels::legend, &Labels::scale_bar}) {
-    RenderSettings alone = settings;
-    alone.labels = {};
-    alone.labels.*label = labels.*label;
-    if (!check_labels(scene, alone)) labels.*label = false;
-  }
-  return labels;
 }
 
 }  // namespace bihive

@@ -42,8 +42,5 @@ void follow_effects(const PictureDefaults& before, const PictureDefaults& now, V
 /// no option (the reach of fog, the colour of outlines) stays the scene's.
 void put_effects(const ViewerEffects& effects, RenderSettings& settings);
 
-/// The labels that this picture can have: without a scale bar in perspective, and without a legend where colours have
-/// no meaning. (Only on request, such a label is an Error: Viewer::set().)
-Labels possible_labels(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace bihive

@@ -36,7 +36,7 @@ bool meets_rows(const Shape& shape, const Tile& part, double border) {
 }  // namespace
 
 LabelPen::LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height_px, double em_px, Vec3d paper)
-    : pixels_(pixels),
+    : pixels_(&pixels),
       part_(part),
       width_px_(width_px),
       height_px_(height_px),
@@ -44,20 +44,35 @@ LabelPen::LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height
       paper_(paper),
       ink_(is_light(paper) ? kDarkInk : kLightInk) {}
 
+LabelPen::LabelPen(CanvasArea& covered, int width_px, int height_px, double em_px)
+    : covered_(&covered), width_px_(width_px), height_px_(height_px), em_px_(em_px) {}
+
+void LabelPen::cover(const Shape& shape, double border) {
+  for (const std::vector<CanvasPoint>& outline : shape.outlines())
+    for (const CanvasPoint point : outline) {
+      covered_->x0 = std::min(covered_->x0, point.x - border);
+      covered_->y0 = std::min(covered_->y0, point.y - border);
+      covered_->x1 = std::max(covered_->x1, point.x + border);
+      covered_->y1 = std::max(covered_->y1, point.y + border);
+    }
+}
+
 double LabelPen::line() const {
   return std::max(1.0, std::floor(kLineEm * em_px_ + 0.5));
 }
 
 void LabelPen::fill(const Shape& shape, Vec3d colour) {
-  blend(pixels_, part_, mask_of(shape), colour);
+  if (covered_ != nullptr) return cover(shape, 0);
+  blend(*pixels_, part_, mask_of(shape), colour);
 }
 
 void LabelPen::draw(const Shape& shape, Vec3d colour) {
+  if (covered_ != nullptr) return cover(shape, kSeamEm * em_px_);
   // A picture in bands has many parts, and large masks take time.
   if (!meets_rows(shape, part_, kSeamEm * em_px_ + 2)) return;
   const CoverageMask mask = mask_of(shape);
-  blend(pixels_, part_, widened(mask, kSeamEm * em_px_), paper_, kSeamOpacity);
-  blend(pixels_, part_, mask, colour);
+  blend(*pixels_, part_, widened(mask, kSeamEm * em_px_), paper_, kSeamOpacity);
+  blend(*pixels_, part_, mask, colour);
 }
 
 void LabelPen::write(const std::string& text, CanvasPoint start, double size) {
@@ -67,7 +82,9 @@ void LabelPen::write(const std::string& text, CanvasPoint start, double size) {
 }
 
 LabelPen LabelPen::with_em(double em_px) const {
-  return {pixels_, part_, width_px_, height_px_, em_px, paper_};
+  LabelPen pen = *this;
+  pen.em_px_ = em_px;
+  return pen;
 }
 
 double em_of_picture(int width_px, int height_px, double dots_per_inch) {

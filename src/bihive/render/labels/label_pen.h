@@ -12,6 +12,8 @@ class LabelPen {
  public:
   /// `part`: the pixels of the whole picture, of this size, that `pixels` holds. `paper`: what is behind the picture.
   LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height_px, double em_px, Vec3d paper);
+  /// Draws nothing, but widens `covered` by what it would draw. An area that nothing covers has x0 above x1.
+  LabelPen(CanvasArea& covered, int width_px, int height_px, double em_px);
 
   double width() const { return width_px_; }
   double height() const { return height_px_; }
@@ -32,8 +34,11 @@ class LabelPen {
   LabelPen with_em(double em_px) const;
 
  private:
-  PngPixels& pixels_;
-  Tile part_;
+  void cover(const Shape& shape, double border);
+
+  PngPixels* pixels_ = nullptr;
+  CanvasArea* covered_ = nullptr;  ///< one of both is there
+  Tile part_{0, 0, 0, 0};
   int width_px_, height_px_;
   double em_px_;
   Vec3d paper_, ink_;

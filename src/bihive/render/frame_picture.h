@@ -1,0 +1,20 @@
+// The camera of a picture whose scene has none.
+#pragma once
+
+#include "bihive/scene/framing.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// The scene from this side, as large as the picture of these settings allows: the spheres that clips leave, with the
+/// edges of the cell if those are drawn, or in View::tree the drawing of the tree. Labels that would cover spheres get
+/// a side of the picture for themselves. `dots_per_inch`: as for draw_labels().
+Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings,
+                     double dots_per_inch = 0);
+
+/// The sides that the labels of such a picture need if all of it is full of spheres.
+Insets insets_of_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                        double dots_per_inch = 0);
+
+}  // namespace bihive
