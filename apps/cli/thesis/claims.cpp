@@ -157,7 +157,7 @@ ReportFront verdict_page(const std::vector<ReportSection>& sections) {
       "the reason that is given. \"Text inconsistent\": two sentences of the text, or a sentence and its table, "
       "exclude "
       "each other. \"Value lost\": only a picture showed it, and the picture is lost. Claims about frame rates are "
-      "judged on the engine reference, which is the thesis's algorithm in plain scalar code.");
+      "judged on the engine reference: the tree that we reconstructed from Table 4.2, walked by plain scalar code.");
   if (!summary.empty()) page.paragraphs.push_back("In this run: " + summary + ".");
   return page;
 }

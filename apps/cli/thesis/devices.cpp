@@ -209,7 +209,8 @@ ReportFront shown_page(const std::vector<ShownFile>& files, const Values& values
   page.paragraphs.push_back(
       "How many frames a second a window or a page showed: the scenes of Figure 4.4, drawn by the CPU, turned into "
       "bytes, and brought to the screen. At rest the same picture is drawn anew for each frame; turning, the camera "
-      "goes once around. \"BIH n\" is the text's own tree in scalar code, \"wide\" this program's tree on vectors. The "
+      "goes once around. \"BIH n\" is the tree reconstructed from Table 4.2 in scalar code, \"wide\" this program's "
+      "tree on vectors. The "
       "text states that its phone shows 60 at most; a browser too stops at its screen's rate, and a window does where "
       "its driver waits for the screen. The rates are reported as they are; no verdicts.");
   page.table.title = "Frames shown a second";

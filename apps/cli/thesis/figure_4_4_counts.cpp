@@ -57,10 +57,16 @@ Range best_range(const WorkByTree& trees, std::int64_t prims, const std::vector<
 }
 
 std::string ratio_text(double ratio) {
-  return std::isinf(ratio) ? "∞" : fmt::format("{:.2f}", ratio);
+  return std::isinf(ratio) ? "∞" : fmt::format("{:.3f}", ratio);
 }
 std::string range_text(const Range& range) {
   return range.empty() ? "at no ratio" : fmt::format("{} to {}", ratio_text(range.low), ratio_text(range.high));
+}
+std::string ranges_text(const std::vector<Range>& ranges) {
+  std::vector<std::string> texts;
+  texts.reserve(ranges.size());
+  for (const Range& range : ranges) texts.push_back(range_text(range));
+  return texts.empty() ? "at no ratio" : fmt::format("{}", fmt::join(texts, " and from "));
 }
 
 class CountsPart {
@@ -82,10 +88,11 @@ class CountsPart {
     if (!work_.empty()) {
       part_.paragraphs = {
           "Nodes that a ray enters and spheres that it is tested against do not depend on a machine. Counted by an "
-          "observer in the text's tree over all primary rays of the picture, they say for each ratio of two costs, "
-          "that "
-          "of a node and that of a sphere test, which MAX_PRIMS is the best, for any machine and without noise. What a "
-          "phone's memory does to either cost is in the ratio; what it does to one tree and not to another is not.",
+          "observer in the tree reconstructed from Table 4.2 over all primary rays of the picture, they say for each "
+          "ratio of two costs, "
+          "that of a node and that of a sphere test, which MAX_PRIMS is the best, for any machine and without noise. "
+          "What a phone's memory does to either cost is in the ratio; what it does to one tree and not to another is "
+          "not.",
           "A small ratio means cheap nodes and favours deep trees; a large one favours large leaves."};
       add_work();
       if (complete()) {
@@ -155,35 +162,49 @@ class CountsPart {
     return wins;
   }
 
-  // All ratios at which something changes, from 0 on, and the ratios halfway between.
-  std::vector<double> telling_ratios(bool beyond) const {
-    std::set<double> changes{0};
+  // All ratios at which two trees change places, from low to high; first 0.
+  std::vector<double> changes(bool beyond) const {
+    std::set<double> found{0};
     for (const auto& [key, trees] : work_)
       for (const auto& [a, one] : trees)
         for (const auto& [b, other] : trees) {
           if (!beyond && (a > max_prims_.back() || b > max_prims_.back())) continue;
           if (one.nodes == other.nodes) continue;
           const double ratio = (one.tests - other.tests) / (other.nodes - one.nodes);
-          if (ratio > 0 && std::isfinite(ratio)) changes.insert(ratio);
+          if (ratio > 0 && std::isfinite(ratio)) found.insert(ratio);
         }
-    std::vector<double> all;
-    for (auto at = changes.begin(); at != changes.end(); ++at) {
-      const auto next = std::next(at);
-      all.push_back(next == changes.end() ? 2 * *at + 1 : (*at + *next) / 2);
+    return {found.begin(), found.end()};
+  }
+
+  // How often a tree wins between two changes that follow each other, and from the last one on: the same everywhere
+  // between them. At a change itself two trees are equal, so both may win there.
+  struct Between {
+    Range range;
+    int wins;
+  };
+  std::vector<Between> wins_between_changes(std::int64_t prims, bool beyond) const {
+    std::vector<Between> all;
+    const std::vector<double> at = changes(beyond);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const bool last = i + 1 == at.size();
+      const double inside = last ? 2 * at[i] + 1 : at[i] + (at[i + 1] - at[i]) / 2;
+      all.push_back(
+          {{at[i], last ? std::numeric_limits<double>::infinity() : at[i + 1]}, wins_at(inside, beyond)[prims]});
     }
     return all;
   }
 
-  // The ratios at which a tree wins exactly so many times: their hull, and whether there are any.
-  Range ratios_with(std::int64_t prims, std::int64_t wins, bool beyond) const {
-    Range range{std::numeric_limits<double>::infinity(), -1};
-    for (const double ratio : telling_ratios(beyond)) {
-      std::map<std::int64_t, int> at = wins_at(ratio, beyond);
-      if (at[prims] != wins) continue;
-      range.low = std::min(range.low, ratio);
-      range.high = std::max(range.high, ratio);
+  // The ratios at which a tree wins exactly so many times, from low to high, without gaps inside of one.
+  std::vector<Range> ratios_with(std::int64_t prims, std::int64_t wins, bool beyond) const {
+    std::vector<Range> ranges;
+    for (const Between& between : wins_between_changes(prims, beyond)) {
+      if (between.wins != wins) continue;
+      if (!ranges.empty() && ranges.back().high == between.range.low)
+        ranges.back().high = between.range.high;
+      else
+        ranges.push_back(between.range);
     }
-    return range;
+    return ranges;
   }
 
   void add_wins() {
@@ -214,32 +235,35 @@ class CountsPart {
                           "From the counts above alone, which have no noise. That a frame's time is made of these two "
                           "costs is our inference, "
                           "not the text's. As inferred if there is a ratio at which it is so.");
-    const Range seven = ratios_with(winner, stated, false);
+    const std::vector<Range> seven = ratios_with(winner, stated, false);
     int most = 0;
-    for (const double ratio : telling_ratios(false)) most = std::max(most, wins_at(ratio, false)[winner]);
-    const Range at_most = ratios_with(winner, most, false);
+    for (const Between& between : wins_between_changes(winner, false)) most = std::max(most, between.wins);
     const bool same_number = static_cast<std::int64_t>(work_.size()) == values_.integer("winner.configurations");
     statements.add("counts.winner",
                    fmt::format("{} is the best in {} of {}, at some ratio", tree_name(winner), stated,
                                values_.integer("winner.configurations")),
                    {fmt::format("in {} of {}", stated, values_.integer("winner.configurations")), ValueKind::inferred},
-                   seven.empty() ? fmt::format("at no ratio; at most in {} of {}, at about {}", most, work_.size(),
-                                               range_text(at_most))
-                                 : "yes, at a ratio of about " + range_text(seven),
+                   seven.empty() ? fmt::format("at no ratio; at most in {} of {}, from {}", most, work_.size(),
+                                               ranges_text(ratios_with(winner, most, false)))
+                                 : "yes, from " + ranges_text(seven),
                    verdict_if(!seven.empty() && same_number));
 
-    // Which configuration would the text have others win? Its only_rises one.
+    // Which configuration would the text have others win? Its only_rises one, at the same ratio. Without such a ratio
+    // there is nothing to compare.
     const Key exception{values_.integer("only_rises.scenario"), values_.integer("only_rises.spheres")};
     const std::int64_t largest = max_prims_.back();
     if (const auto found = work_.find(exception); found != work_.end()) {
       const Range of_exception = best_range(found->second, largest, max_prims_);
-      const bool both =
-          !seven.empty() && !of_exception.empty() && of_exception.low <= seven.high && seven.low <= of_exception.high;
+      const bool both = std::any_of(seven.begin(), seven.end(), [&](const Range& range) {
+        return !of_exception.empty() && of_exception.low <= range.high && range.low <= of_exception.high;
+      });
+      const std::string ours = of_exception.empty() ? "best at no ratio" : "best from " + range_text(of_exception);
       statements.add("counts.only_rises",
                      fmt::format("There, {} is the best for Scenario {} with {} spheres", tree_name(largest),
                                  exception.first, exception.second),
-                     {tree_name(largest), ValueKind::inferred}, "best at a ratio of " + range_text(of_exception),
-                     verdict_if(both));
+                     {tree_name(largest), ValueKind::inferred},
+                     seven.empty() ? ours + "; not judged, as there is no such ratio" : ours,
+                     seven.empty() ? Verdict::none : verdict_if(both));
     }
     section_.data["statements_counts"] = statements.data();
     statements.move_into(section_);
@@ -266,34 +290,27 @@ class CountsPart {
     part_.tables.push_back(std::move(table));
   }
 
-  // The text's reason for Scenario 3: unbalanced trees, a high deviation of the spheres per leaf.
+  // The text's reasons for Scenario 3: unbalanced trees, a high deviation of the spheres per leaf.
   void add_balance() {
     const auto found = context_.results.find(kBalanceStep);
     if (found == context_.results.end()) return;
     const std::int64_t claimed = values_.integer("highest_deviation.scenario");
-    const std::int64_t prims = values_.integer("winner.max_prims");
     Statements statements(
-        fmt::format("The text's reason for Scenario {}: the deviation of the spheres per leaf is high", claimed),
-        fmt::format("With MAX_PRIMS {}, over the leaves of a tree; means over seeds. The text says that it is \"quite "
-                    "high\" and "
-                    "gives no number: we take that as the highest of the scenarios.",
-                    prims));
+        fmt::format(
+            "The text's reasons for Scenario {}: unbalanced trees, and a high deviation of the spheres per leaf",
+            claimed),
+        fmt::format(
+            "With MAX_PRIMS {}, over the leaves of a tree; means over seeds. The text says \"not well balanced\" "
+            "and \"quite high\" and gives no number: we take both as the highest of the scenarios, and balance "
+            "as the deviation of the leaves' depth.",
+            values_.integer("winner.max_prims")));
     for (const std::int64_t spheres : values_.integers("spheres_list")) {
-      double here = -1, elsewhere = -1;
-      std::vector<std::string> ours;
-      for (const Json& row : found->second) {
-        if (row["spheres"] != spheres || row["max_prims"] != prims) continue;
-        const double sd = row["spheres_per_leaf"]["sd"].get<double>();
-        ours.push_back(fmt::format("Scenario {}: {:.2f}", row["scenario"].get<std::int64_t>(), sd));
-        if (row["scenario"] == claimed)
-          here = sd;
-        else
-          elsewhere = std::max(elsewhere, sd);
-      }
-      if (here < 0 || elsewhere < 0) continue;
-      statements.add(fmt::format("deviation.spheres{}", spheres), fmt::format("With {} spheres", spheres),
-                     {fmt::format("highest in Scenario {}", claimed), values_.kind("highest_deviation.scenario")},
-                     fmt::format("{}", fmt::join(ours, ", ")), verdict_if(here > elsewhere));
+      add_highest(
+          found->second, spheres, "deviation", "spheres per leaf",
+          [](const Json& row) { return row["spheres_per_leaf"]["sd"].get<double>(); }, statements);
+      add_highest(
+          found->second, spheres, "imbalance", "depth of the leaves",
+          [](const Json& row) { return row["depth_sd"].get<double>(); }, statements);
     }
     section_.data["balance"] = found->second;
     if (!statements.empty()) {
@@ -303,6 +320,29 @@ class CountsPart {
       section_.tables.pop_back();
     }
     part_.tables.push_back(reasons_table(found->second, "How balanced the trees are"));
+  }
+
+  // Is a deviation, as `of(row)` gives it, the highest in the scenario of which the text says so?
+  template <class Of>
+  void add_highest(const Json& rows, std::int64_t spheres, const std::string& name, const std::string& what,
+                   const Of& of, Statements& statements) const {
+    const std::int64_t claimed = values_.integer("highest_deviation.scenario");
+    double here = -1, elsewhere = -1;
+    std::vector<std::string> ours;
+    for (const Json& row : rows) {
+      if (row["spheres"] != spheres || row["max_prims"] != values_.integer("winner.max_prims")) continue;
+      const double deviation = of(row);
+      ours.push_back(fmt::format("Scenario {}: {:.2f}", row["scenario"].get<std::int64_t>(), deviation));
+      if (row["scenario"] == claimed)
+        here = deviation;
+      else
+        elsewhere = std::max(elsewhere, deviation);
+    }
+    if (here < 0 || elsewhere < 0) return;
+    statements.add(fmt::format("{}.spheres{}", name, spheres),
+                   fmt::format("{} spheres: the deviation of the {}", spheres, what),
+                   {fmt::format("highest in Scenario {}", claimed), values_.kind("highest_deviation.scenario")},
+                   fmt::format("{}", fmt::join(ours, ", ")), verdict_if(here > elsewhere));
   }
 
   const SectionContext& context_;

@@ -74,7 +74,7 @@ class EngineBlock {
 
   const char* words() const {
     if (engine_.gpu) return "a graphics processor's program";
-    return engine_.engine.tree == Engine::wide ? "vectors" : "the thesis's algorithm in scalar code";
+    return engine_.engine.tree == Engine::wide ? "vectors" : "the tree reconstructed from Table 4.2, in scalar code";
   }
 
   std::string method() const {
@@ -92,8 +92,10 @@ class EngineBlock {
              "\"One leaf\" is that tree without any inner node: it keeps the bundles, the filter and the box around "
              "all "
              "spheres, so it is no brute force.";
-    return "BF is a loop over all spheres for each ray. BIH n is the text's tree with at most n spheres a leaf, two "
-           "children a node. \"One leaf\" is the tree with MAX_PRIMS = n: the box around all, then all spheres.";
+    return "BF is a loop over all spheres for each ray. BIH n is the tree reconstructed from Table 4.2, with at most n "
+           "spheres a "
+           "leaf and two children a node. \"One leaf\" is the tree with MAX_PRIMS = n: the box around all, then all "
+           "spheres.";
   }
 
   std::string gpu_name() const {
@@ -260,7 +262,9 @@ class EngineBlock {
         fmt::format(
             "Frames per second, measured apart from the tables above, the scenarios in turn. \"One place\": all "
             "spheres have their centre at the origin. Counts as the same if, of every two places, the quartiles of "
-            "the ratio of their times stay within {:.0f} %; as different if those of two places lie wholly outside.",
+            "the ratio of their times stay within {:.0f} %, a limit that is ours; as different if those of two places "
+            "lie "
+            "wholly outside.",
             100 * kStable));
     for (const std::int64_t count : counts_) {
       const Json& times = measured[fmt::format("spheres{}", count)]["frame_ms"];
@@ -302,7 +306,7 @@ class EngineBlock {
     Verdict verdict = Verdict::undecided;
     if (all_inside) verdict = depends ? Verdict::differs : Verdict::agrees;
     if (one_outside) verdict = depends ? Verdict::agrees : Verdict::differs;
-    statements.add(name, statement, {values(), value},
+    statements.add(name, statement, {values().printed(value), ValueKind::inferred},
                    fmt::format("{} times: {}", quartiles_text(most, 3), fmt::join(rates, ", ")), verdict, "",
                    /*timed=*/true);
   }

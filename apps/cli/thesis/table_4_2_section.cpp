@@ -81,16 +81,27 @@ class TableSection {
     section_.tables.push_back(std::move(table));
   }
 
+  // A column says twice whether there is an empty leaf: by the smallest leaf, and by the share of leaves with N = 0.
+  bool contradicts_itself(const TreeColumn& column, const TreeRow& row) const {
+    const std::string_view key = row.key;
+    if (key != "spheres_per_leaf_min" && key != "share_with_0") return false;
+    const std::string name = tree_value(column.scenario, column.max_prims);
+    return (values_.number(name + ".spheres_per_leaf_min") == 0) != (values_.number(name + ".share_with_0") > 0);
+  }
+
   void add_value(const TreeColumn& column, const TreeRow& row, std::vector<Cell>& cells) {
     const std::string name = tree_value(column.scenario, column.max_prims) + "." + row.key;
     const double stated = values_.number(name), ours = column.row(row.key);
     const std::string printed = values_.printed(name);
     const Spread spread = column.spread(row.key);
-    const Verdict verdict = verdict_if(inside_three_sd(stated, printed, spread));
+    const bool contradicts = contradicts_itself(column, row);
+    const Verdict verdict =
+        contradicts ? Verdict::text_inconsistent : verdict_if(inside_three_sd(stated, printed, spread));
     // A deviation far below the printed digits is left out.
     const bool random = spread.sd > print_rounding(printed);
-    const std::string how = random ? fmt::format("{:+.1f} sd", (stated - spread.mean) / spread.sd)
-                                   : (verdict == Verdict::agrees ? "equal" : "not equal");
+    const std::string how = contradicts ? "two rows of the table exclude each other"
+                            : random    ? fmt::format("{:+.1f} sd", (stated - spread.mean) / spread.sd)
+                                        : (verdict == Verdict::agrees ? "equal" : "not equal");
     cells.push_back({printed});
     cells.push_back({number_text(ours, row.decimals) + (row.share ? " %" : "")});
     cells.push_back({spread_text(spread, row)});

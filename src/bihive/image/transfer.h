@@ -9,7 +9,7 @@
 
 namespace bihive {
 
-/// srgb: the sRGB curve [IEC61966-2-1]. none: the value as it is, as in the thesis's pictures.
+/// srgb: the sRGB curve [IEC61966-2-1]. none: the value as it is.
 enum class Transfer { srgb, none };
 
 /// The sRGB curve and its inverse on [0, 1], built on the library's own pow (same bits everywhere).

@@ -9,7 +9,7 @@
 
 namespace bihive {
 
-/// The side from which the camera looks. front: from +z with y up, as in the thesis; left from -x, right from +x, back
+/// The side from which the camera looks. front: from +z with y up; left from -x, right from +x, back
 /// from -z, top from +y (with -z up), bottom from -y (with +z up), iso from (1, 1, 1).
 enum class ViewFrom { front, back, left, right, top, bottom, iso };
 
