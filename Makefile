@@ -1,6 +1,6 @@
 # Shortcuts: each job is a script in scripts/.
 
-.PHONY: help demo web package test test-all check bench fuzz faults verify lint format clean
+.PHONY: help demo web docs package test test-all check bench fuzz faults verify lint format clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -12,6 +12,11 @@ demo: ## install what the program needs, build it, render the bundled molecule
 web: ## install what the page needs, build it into build-web/page
 	scripts/setup web
 	scripts/build_web
+
+docs: ## install what the documentation needs, build it as one site into build-docs/html
+	scripts/setup docs
+	scripts/demo >/dev/null
+	scripts/docs
 
 package: ## program, window, page and library as Debian packages and as an archive, into build-release/packages
 	scripts/setup package
