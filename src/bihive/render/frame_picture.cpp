@@ -15,10 +15,10 @@ namespace bihive {
 namespace {
 
 /// Between a label and the spheres, as a share of the picture's shorter side.
-constexpr double kGap = 0.015;
+constexpr double kBesideLabels = 0.015;
 
 /// A scale bar may change its length, and so its place, when the camera moves to make room.
-constexpr int kMostAttempts = 4;
+constexpr int kMostMoves = 4;
 
 // Whether some sphere may be seen inside an area of the picture. At the area's corners it says yes too early, by less
 // than a sphere's radius.
@@ -79,7 +79,7 @@ template <class Covers>
 Insets widened(const Insets& before, const LabelAreas& areas, const RenderSettings& settings, const Covers& covers) {
   const double width = settings.width_px;
   const double height = settings.height_px;
-  const double gap = kGap * std::min(width, height);
+  const double gap = kBesideLabels * std::min(width, height);
   Insets insets = before;
   const auto take = [](double& inset, double px, double of) { inset = std::max(inset, std::min(px / of, kMostInset)); };
   if (areas.title && covers(*areas.title)) take(insets.top, areas.title->y1 + gap, height);
@@ -113,7 +113,7 @@ Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, con
   // Fill the picture; then make room for those labels alone that cover spheres.
   Insets insets;
   Camera camera = framed(insets);
-  for (int attempt = 0; settings.labels.any() && attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; settings.labels.any() && attempt < kMostMoves; ++attempt) {
     const LabelAreas areas = label_areas(scene, camera, settings, dots_per_inch);
     const Insets next = widened(insets, areas, settings, [&](const CanvasArea& area) {
       return covers_spheres(spheres, camera, settings, area);

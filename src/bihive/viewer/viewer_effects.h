@@ -42,5 +42,4 @@ void follow_effects(const PictureDefaults& before, const PictureDefaults& now, V
 /// no option (the reach of fog, the colour of outlines) stays the scene's.
 void put_effects(const ViewerEffects& effects, RenderSettings& settings);
 
-
 }  // namespace bihive
