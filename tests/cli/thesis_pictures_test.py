@@ -77,6 +77,9 @@ class Pictures(ProgramTest):
             self.assertEqual(verdicts[name], "agrees")
         for scenario in ("1", "2", "3"):
             self.assertEqual(verdicts[f"scenario{scenario}.visible"], "agrees")
+        # 2048 spheres of a grid of 12 x 12 x 12 = 1728: the others begin anew at its first place.
+        coinciding = [experiment["data"]["scenarios"][f"scenario{scenario}"]["coinciding"] for scenario in (1, 2, 3)]
+        self.assertEqual(coinciding, [0, 0, 2048 - 1728])
 
     def test_each_depth_is_the_deepest_somewhere(self):
         experiment = self.run_figures("figure-4.2")["figure-4.2"]
@@ -182,6 +185,8 @@ class Pictures(ProgramTest):
                 ("scenario1.spacing_difference", 0.5, "scenario1.spacing"),
                 ("scenario2.clusters", 7, "scenario2.clusters"),
                 ("scenario3.clustered_share", 0.4, "scenario3.clustered_share"),
+                ("scenario2.cluster_side", 6.0, "scenario3.clustered_share"),
+                ("scenario3.spacing_difference", 0.5, "scenario3.spacing"),
             ],
             "figure-4.2": [
                 ("spheres", 5, "spheres"),

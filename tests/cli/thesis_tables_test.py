@@ -208,7 +208,7 @@ class ThesisTables(ProgramTest):
 
     def test_a_changed_value_turns_its_row_and_no_other(self):
         self.write_values("table-4.2", scenario2__max_prims8__leaves=912)
-        self.write_values("figure-4.5", ours__scenario1__spheres2048__max_prims4__bytes=22200)
+        self.write_values("figure-4.5", ours__scenario1__spheres2048__max_prims4__bytes=22200, gets_shallower=3)
         self.write_values("section-d", depth3__leaves=5)
         before = verdicts(self.results)
         after = verdicts(self.run_thesis("changed", "--values", self.path("values")))
@@ -218,6 +218,7 @@ class ThesisTables(ProgramTest):
             {
                 ("table-4.2", "scenario2.max_prims8.leaves"): "differs",
                 ("figure-4.5", "ours.scenario1.spheres2048.max_prims4.bytes"): "differs",
+                ("figure-4.5", "gets_shallower"): "differs",
                 ("section-d", "depth3.leaves"): "differs",
             },
         )
@@ -265,6 +266,12 @@ class ThesisTables(ProgramTest):
             self.assertTrue(row["right"])
             self.assertLessEqual(row["overlaps"], row["split_nodes"])
         self.assertGreater(radii[3]["overlaps"], radii[2]["overlaps"])
+        (overlaps,) = [each for each in self.data["figure-4.5"]["statements_radius"] if each["name"] == "overlaps"]
+        self.assertEqual((overlaps["kind"], overlaps["verdict"]), ("inferred", "agrees"))
+        self.write_values("figure-4.5", other_radius=0.001)
+        same = self.run_thesis("same", "--values", self.path("values"), experiments=["figure-4.5"])["experiments"][0]
+        (overlaps,) = [each for each in same["data"]["statements_radius"] if each["name"] == "overlaps"]
+        self.assertEqual(overlaps["verdict"], "differs")
         reasons = {(row["scenario"], row["max_prims"]): row for row in self.data["table-4.2"]["reasons"]}
         self.assertEqual(len(reasons), 6)
         for max_prims in (1, 8):

@@ -53,11 +53,18 @@ TEST(WideBuilderHostile, RightTreesInTimeThatGrowsAsNLogN) {
       EXPECT_TRUE(status.ok()) << set.name << ": " << (status.ok() ? "" : status.error().to_string());
     }
     // Sixteen times the spheres: n log n is 21 times the work, n to the power of 1.5 already 64 times. The limit
-    // between them leaves room for caches and a busy machine (14 to 32 times were seen beside other work). Not under a
-    // sanitizer: its own memory outgrows the caches too, so that 52 times were seen beside other work.
+    // between them leaves room for caches (14 to 32 times were seen beside other work). A neighbour that takes the
+    // shared caches away just for the larger set was seen to give 56 times once, so one of five attempts must keep the
+    // limit; a builder of the wrong order keeps it in none. Not under a sanitizer: its own memory outgrows the caches.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    const double few_ms = build_ms(few), many_ms = build_ms(many);
-    EXPECT_LT(many_ms, 50 * few_ms + 5) << set.name << ": " << few_ms << " ms, then " << many_ms << " ms";
+    double few_ms = 0, many_ms = 0;
+    bool kept = false;
+    for (int attempt = 0; attempt < 5 && !kept; ++attempt) {
+      few_ms = build_ms(few);
+      many_ms = build_ms(many);
+      kept = many_ms < 50 * few_ms + 5;
+    }
+    EXPECT_TRUE(kept) << set.name << ": " << few_ms << " ms, then " << many_ms << " ms";
 #endif
   }
 }

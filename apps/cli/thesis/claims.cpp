@@ -88,9 +88,9 @@ Fate fate_of(const Json& claim, const std::vector<const Finding*>& found) {
   const auto agrees = [](const Finding& finding) { return finding.verdict == Verdict::agrees; };
   if (!any(agrees)) return kNotRun;
   const bool only_checks = !any([](const Finding& finding) { return finding.kind != ValueKind::own_check; });
-  if (claim.value("shape", false) && !only_checks) return kShape;
   // A value that rests on an inference of ours is not the text's alone.
   if (any([](const Finding& finding) { return finding.kind == ValueKind::inferred; })) return kInferred;
+  if (claim.value("shape", false) && !only_checks) return kShape;
   const bool of_text =
       any([&](const Finding& finding) { return agrees(finding) && finding.kind == ValueKind::stated; });
   return of_text ? kReproduced : kChecked;

@@ -7,10 +7,12 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "bihive/scene/generators.h"
 #include "support/failure.h"
+#include "thesis/coinciding.h"
 #include "thesis/compare.h"
 #include "thesis/pictures.h"
 
@@ -48,12 +50,20 @@ std::int64_t spheres_in_view(const Scene& scene, PictureSize size) {
   return inside;
 }
 
-// The number of the cube's corners with spheres wholly inside a small cube; 0 if any sphere lies elsewhere.
-int occupied_corners(const SphereSet& spheres, const Values& values) {
+using Ids = std::vector<std::int64_t>;
+
+Ids all_ids(const SphereSet& spheres) {
+  Ids ids(static_cast<std::size_t>(spheres.size()));
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+// The number of the cube's corners with some of these spheres wholly inside a small cube; 0 if any lies elsewhere.
+int occupied_corners(const SphereSet& spheres, const Ids& ids, const Values& values) {
   const double low = values.number("cube.low"), high = values.number("cube.high");
   const double side = values.number("scenario2.cluster_side"), rounding = kRounding * (high - low);
   std::set<int> corners;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+  for (const std::int64_t id : ids) {
     const Vec3d centre = spheres.centre(id);
     const double radius = spheres.radius(id);
     int corner = 0;
@@ -69,12 +79,12 @@ int occupied_corners(const SphereSet& spheres, const Values& values) {
 }
 
 // The least and the largest distance between neighbouring rows of spheres, over width, height and depth.
-std::pair<double, double> spacing(const SphereSet& spheres) {
+std::pair<double, double> spacing(const SphereSet& spheres, const Ids& ids) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (int axis = 0; axis < 3; ++axis) {
     std::set<double> rows;
-    for (std::int64_t id = 0; id < spheres.size(); ++id) rows.insert(spheres.centre(id)[axis]);
-    for (auto row = rows.begin(); std::next(row) != rows.end(); ++row) {
+    for (const std::int64_t id : ids) rows.insert(spheres.centre(id)[axis]);
+    for (auto row = rows.begin(); row != rows.end() && std::next(row) != rows.end(); ++row) {
       least = std::min(least, *std::next(row) - *row);
       most = std::max(most, *std::next(row) - *row);
     }
@@ -82,13 +92,17 @@ std::pair<double, double> spacing(const SphereSet& spheres) {
   return {least, most};
 }
 
-// The share of the spheres that do not stand in rows.
-double clustered_share(const SphereSet& spheres) {
+// Those that stand in rows, and the others.
+struct Halves {
+  Ids rows, clustered;
+};
+Halves halves_of(const SphereSet& spheres) {
   std::map<float, int> rows;
   for (const float x : spheres.x()) ++rows[x];
-  const auto clustered =
-      std::count_if(spheres.x().begin(), spheres.x().end(), [&](float x) { return rows[x] < kRegular; });
-  return static_cast<double>(clustered) / static_cast<double>(spheres.size());
+  Halves halves;
+  for (const std::int64_t id : all_ids(spheres))
+    (rows[spheres.x()[static_cast<std::size_t>(id)]] < kRegular ? halves.clustered : halves.rows).push_back(id);
+  return halves;
 }
 
 Json material_facts(const Material& material) {
@@ -131,12 +145,21 @@ Json draw_scenario(const StepContext& context, std::int64_t number) {
               {"spheres_in_view", spheres_in_view(scene, size)},
               {"low", std::min({bounds.lo.x, bounds.lo.y, bounds.lo.z})},
               {"high", std::max({bounds.hi.x, bounds.hi.y, bounds.hi.z})},
-              {"clustered_share", clustered_share(scene.spheres)},
+              {"coinciding", coinciding_spheres(scene.spheres)},
               {"scene", scene_facts(scene)}};
-  const auto [least, most] = spacing(scene.spheres);
-  result["spacing"] = {least, most};
-  const int corners = occupied_corners(scene.spheres, values);
+  const Ids all = all_ids(scene.spheres);
+  const auto range = [&](const Ids& ids) {
+    const auto [least, most] = spacing(scene.spheres, ids);
+    return Json{least, most};
+  };
+  result["spacing"] = range(all);
+  const int corners = occupied_corners(scene.spheres, all, values);
   result["clusters"] = corners;
+  const Halves halves = halves_of(scene.spheres);
+  result["clustered_share"] = static_cast<double>(halves.clustered.size()) / static_cast<double>(all.size());
+  const int clustered_corners = occupied_corners(scene.spheres, halves.clustered, values);
+  result["clustered_corners"] = clustered_corners;
+  if (!halves.rows.empty()) result["rows_spacing"] = range(halves.rows);
   return result;
 }
 
@@ -204,10 +227,31 @@ void add_places(Statements& statements, const Values& values, std::int64_t numbe
     // Rounded down if the number of spheres is odd.
     const double share = result.at("clustered_share").get<double>();
     const double most = values.number("scenario3.clustered_share") * double(count);
-    statements.add("scenario3.clustered_share", scenario + "share of the spheres that are clustered",
-                   {values, "scenario3.clustered_share"}, fmt::format("{:.4g}", share),
-                   verdict_if(std::floor(most) == share * double(count)));
+    const auto corners = result.at("clustered_corners").get<std::int64_t>();
+    statements.add(
+        "scenario3.clustered_share", scenario + "share of the spheres that are clustered in the corners",
+        {values, "scenario3.clustered_share"},
+        fmt::format("{:.4g}, {}", share,
+                    corners > 0 ? fmt::format("all in small cubes in {} corners", corners)
+                                : "not all in small cubes in the corners"),
+        verdict_if(std::floor(most) == share * double(count) && corners == values.integer("scenario2.clusters")));
+    if (result.contains("rows_spacing") && values.has("scenario3.spacing_difference")) {
+      const double least_step = result.at("rows_spacing").at(0).get<double>(),
+                   most_step = result.at("rows_spacing").at(1).get<double>();
+      statements.add(
+          "scenario3.spacing", scenario + "spacing of the other half across the cube",
+          {values, "scenario3.spacing_difference"}, fmt::format("{:.4f} to {:.4f}", least_step, most_step),
+          verdict_if(std::abs(most_step - least_step - values.number("scenario3.spacing_difference")) <= rounding));
+    }
   }
+}
+
+// "Scenario 1: 0, Scenario 2: 0, Scenario 3: 320": spheres at the place of another.
+std::string coinciding_text(const Json& scenarios) {
+  std::vector<std::string> counts;
+  for (const auto& [name, result] : scenarios.items())
+    counts.push_back(fmt::format("Scenario {}: {}", name.substr(step_name(0).size() - 1), result["coinciding"].dump()));
+  return fmt::format("{}", fmt::join(counts, ", "));
 }
 
 Section section_of(const SectionContext& context) {
@@ -230,6 +274,11 @@ Section section_of(const SectionContext& context) {
       "The scenes in which everything is measured: spheres of one size, red and transparent in turn, above a plane. "
       "They "
       "are drawn without shadows, which the text does not name, and without a curve to the screen."};
+  if (!scenarios.empty())
+    section.paragraphs.push_back(
+        "The text does not say what becomes of an even grid whose number of spheres is no cube number. Ours begins "
+        "anew at its first place, so that some spheres have the place of another: " +
+        coinciding_text(scenarios) + ". With it the leaves of two spheres in Table 4.2 come out.");
   section.data = {{"scenarios", std::move(scenarios)}, {"statements", statements.data()}};
   if (!statements.empty()) statements.move_into(section);
   return section;

@@ -287,19 +287,23 @@ void add_colours(Statements& statements, const SectionContext& context, Section&
   }
   if (table.rows.empty()) return;
   table.note =
-      "Shares of all pixels. Saturated: green or blue has reached 1, so that a further step would not be seen.";
+      "Shares of all pixels. Saturated: green or blue has reached 1, so that a further step would not be seen. The "
+      "text speaks of these colours and of empty space without numbers: that they show so in our pictures, with the "
+      "steps of blue that we chose, is our inference.";
   section.tables.push_back(std::move(table));
   if (!all) return;
   statements.add("green_areas",
                  "There are green areas where a tree has gaps: pictures with pixels more green than blue",
                  {"(b), (c), (e), (f)", ValueKind::inferred}, fmt::format("({})", fmt::join(greener, "), (")),
                  verdict_if(greener == std::vector<std::string>{"b", "c", "e", "f"}));
-  statements.add("most_empty_space", "The empty space between the nodes is maximized in (c) and (f)", "(c) and (f)",
+  statements.add("most_empty_space", "The empty space between the nodes is maximized in (c) and (f)",
+                 {"(c) and (f)", ValueKind::inferred},
                  fmt::format("most gaps a ray: {:.2f}, in ({})", most_gaps, fmt::join(most_letter, ") and (")),
                  verdict_if(most_letter == "cf"));
   const double several = result_of(context, "c")->at("seen").at("several_gaps_share").get<double>();
-  statements.add("brighter_green", "Brighter shades of green: the ray passed several gaps, in (c)", "some",
-                 fmt::format("{:.1f} % of the pixels", 100 * several), verdict_if(several > 0));
+  statements.add("brighter_green", "Brighter shades of green: the ray passed several gaps, in (c)",
+                 {"some", ValueKind::inferred}, fmt::format("{:.1f} % of the pixels", 100 * several),
+                 verdict_if(several > 0));
 }
 
 // Each tree as a row, with its two pictures side by side.

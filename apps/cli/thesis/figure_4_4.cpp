@@ -154,6 +154,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
                            engine, [&](const ComparedEngine& opened) { return measure_independence(context, opened); });
                      }});
   }
+  steps.push_back({kFloorStep, settings.quick ? 1.0 : 8.0, measure_frames_in_memory});
   return steps;
 }
 
@@ -164,6 +165,10 @@ const std::vector<ComparedEngine>& compared_engines() {
                                                      {"wide", {Engine::wide, Engine::wide_brute, {}}},
                                                      {"gpu", {Engine::reference, Engine::brute, {}}, true}};
   return kCompared;
+}
+
+bool is_of_text(const ComparedEngine& engine) {
+  return engine.engine.tree == Engine::reference && !engine.gpu;
 }
 
 std::string configuration_step(const ComparedEngine& engine, std::int64_t scenario, std::int64_t spheres) {

@@ -21,6 +21,10 @@ struct ComparedEngine {
 };
 const std::vector<ComparedEngine>& compared_engines();
 
+/// It traces by the text's algorithm and tree, as far as we could reconstruct them; what the text found of its own can
+/// be asked of no other engine.
+bool is_of_text(const ComparedEngine& engine);
+
 /// What all trees of a configuration are measured with: the thesis's MAX_PRIMS, and for the engines of the processor
 /// also larger ones, up to the number of spheres, which is a tree of one leaf.
 std::vector<std::int64_t> measured_max_prims(const Values& values, const ComparedEngine& engine, std::int64_t spheres);
@@ -43,10 +47,14 @@ EngineTimes engine_times(const SectionContext& context, const ComparedEngine& en
 /// The steps that count what rays do, without a clock, and how balanced the trees are.
 std::string counts_step(std::int64_t scenario);
 constexpr const char* kBalanceStep = "balance";
+/// The step that draws frames with bytes, as fast as this program can.
+constexpr const char* kFloorStep = "frames_in_memory";
+Json measure_frames_in_memory(const StepContext& context);  // figure_4_4_floor.cpp
 
 /// The parts of the section, in the report's order.
 void add_counts(const SectionContext& context, Section& section);     // figure_4_4_counts.cpp
 void add_engines(const SectionContext& context, Section& section);    // figure_4_4_engines.cpp
+void add_floor(const SectionContext& context, Section& section);      // figure_4_4_floor.cpp
 void add_lost_bars(const SectionContext& context, Section& section);  // figure_4_4_lost_bars.cpp
 
 Section figure_4_4_section(const SectionContext& context);

@@ -24,8 +24,12 @@ const char* const kOtherEngine =
     "row "
     "agrees with the text or differs from it.";
 
+// A spread has as many digits as the rate beside it.
+int digits_of(double fps) {
+  return fps < 100 ? 2 : 1;
+}
 std::string fps_text(double fps) {
-  return fps < 100 ? fmt::format("{:.2f}", fps) : fmt::format("{:.1f}", fps);
+  return fmt::format("{:.{}f}", fps, digits_of(fps));
 }
 
 Series::Spread spread_of_fps(const std::vector<double>& ms) {
@@ -68,9 +72,6 @@ class EngineBlock {
  private:
   const Values& values() const { return context_.values; }
   std::string engine_title(const std::string& title) const { return title + " (engine " + engine_.name + ")"; }
-
-  /// It traces by the text's algorithm and tree; what the text found of them can be asked of no other engine.
-  bool is_of_text() const { return engine_.engine.tree == Engine::reference && !engine_.gpu; }
 
   const char* words() const {
     if (engine_.gpu) return "a graphics processor's program";
@@ -188,7 +189,8 @@ class EngineBlock {
       }
       if (curves.series.empty()) continue;
       add_illustration(fmt::format("-scenario{}-max_prims", scenario), line_chart(curves),
-                       fmt::format("Scenario {} over MAX_PRIMS, up to one leaf and brute force beside it.", scenario));
+                       fmt::format("Scenario {} over MAX_PRIMS{}.", scenario,
+                                   engine_.gpu ? "" : ", up to one leaf and brute force beside it"));
     }
   }
 
@@ -210,7 +212,8 @@ class EngineBlock {
       std::vector<Cell> row{{fmt::format("Scenario {}", key.first)}, {std::to_string(key.second)}};
       const auto add = [&row](const std::vector<double>& ms) {
         const Quartiles fps = fps_quartiles(ms);
-        row.push_back({fmt::format("{} ±{:.1f}", fps_text(fps.median), (fps.upper - fps.lower) / 2)});
+        row.push_back(
+            {fmt::format("{} ±{:.{}f}", fps_text(fps.median), (fps.upper - fps.lower) / 2, digits_of(fps.median))});
       };
       add(times.brute);
       for (const std::int64_t prims : all) {
@@ -229,18 +232,18 @@ class EngineBlock {
     table.note =
         "Medians over the rounds, and half the distance between the quartiles. No verdicts: the thesis's bars stand in "
         "a "
-        "picture that we do not have, and its machine was a phone. One leaf: the tree with MAX_PRIMS = number of "
-        "spheres.";
+        "picture that we do not have, and its machine was a phone.";
+    if (!engine_.gpu) table.note += " One leaf: the tree with MAX_PRIMS = number of spheres.";
     return table;
   }
 
   void add_judgements(Section& section) {
     const std::vector<Judgement> judgements = judge_frame_rates(times_, values());
     for (const auto& [title, rule] : judgement_tables()) {
-      Statements statements(engine_title(title), is_of_text() ? rule : rule + kOtherEngine);
+      Statements statements(engine_title(title), is_of_text(engine_) ? rule : rule + kOtherEngine);
       for (const Judgement& row : judgements) {
         if (row.table != title) continue;
-        const ValueKind kind = is_of_text() ? row.expected.kind : ValueKind::inferred;
+        const ValueKind kind = is_of_text(engine_) ? row.expected.kind : ValueKind::inferred;
         statements.add(row.name, row.statement, {row.expected.text, kind}, row.ours, row.verdict, "", /*timed=*/true);
       }
       if (statements.empty()) continue;
@@ -263,8 +266,8 @@ class EngineBlock {
             "Frames per second, measured apart from the tables above, the scenarios in turn. \"One place\": all "
             "spheres have their centre at the origin. Counts as the same if, of every two places, the quartiles of "
             "the ratio of their times stay within {:.0f} %, a limit that is ours; as different if those of two places "
-            "lie "
-            "wholly outside.",
+            "lie wholly outside. A few per cent are to be expected: every ray makes the same tests everywhere, but a "
+            "ray that hits something is shaded too, and how many hit differs from place to place.",
             100 * kStable));
     for (const std::int64_t count : counts_) {
       const Json& times = measured[fmt::format("spheres{}", count)]["frame_ms"];

@@ -80,6 +80,12 @@ void add_arithmetic(const Values& values, Section& section, Section& part) {
   rows.add("BF falls from 128 to 256 spheres", fmt::format("{} / {}", two(bf128), two(bf256)),
            fmt::format("to 1/{}", two(bf128 / bf256)));
 
+  rows.add("BF with 128 and 256 spheres, as whole numbers",
+           fmt::format("{} and {} fps, rounded as the text says", two(bf128), two(bf256)),
+           fmt::format("{:.0f} and {:.0f}{}", bf128, bf256,
+                       std::round(bf128) == std::round(bf256) ? ": equal, as in the text's figure"
+                                                              : ": not equal, against the text"));
+
   // A frame that costs a constant and so much a sphere, through both stated rates.
   const double slope = (1000 / bf256 - 1000 / bf128) / 128, constant = 1000 / bf128 - 128 * slope;
   const double line64 = 1000 / (constant + 64 * slope);
@@ -115,20 +121,22 @@ void add_arithmetic(const Values& values, Section& section, Section& part) {
                   cap, least, mean, most, bf128 * times(most)));
 }
 
-const char* short_name(Verdict verdict) {
-  return verdict == Verdict::none ? "nothing" : name_of(verdict);
+std::string short_name(Verdict verdict, ValueKind kind) {
+  return verdict == Verdict::none ? "nothing" : words_of(verdict, kind);
 }
 
-// Rows that change their verdict where a display stops at `fps`.
-std::vector<std::string> changed_by(const EngineTimes& times, double fps, const Values& values) {
+// Rows that change their verdict where a display stops at `fps`, in the words that the rows themselves have.
+std::vector<std::string> changed_by(const EngineTimes& times, double fps, const Values& values, bool of_text) {
   const std::vector<Judgement> before = judge_frame_rates(times, values);
   const std::vector<Judgement> after = judge_frame_rates(capped(times, fps), values);
   std::vector<std::string> changed;
   for (const Judgement& row : before)
     for (const Judgement& other : after)
-      if (row.name == other.name && row.verdict != other.verdict)
-        changed.push_back(fmt::format("{}: {}: {} becomes {}", row.table, row.statement, short_name(row.verdict),
-                                      short_name(other.verdict)));
+      if (row.name == other.name && row.verdict != other.verdict) {
+        const ValueKind kind = of_text ? row.expected.kind : ValueKind::inferred;
+        changed.push_back(fmt::format("{}: {}: \"{}\" becomes \"{}\"", row.table, row.statement,
+                                      short_name(row.verdict, kind), short_name(other.verdict, kind)));
+      }
   return changed;
 }
 
@@ -148,7 +156,7 @@ void add_sensitivity(const SectionContext& context, Section& section, Section& p
         {"the display's", values.number("display.fps")},
         {"as far above our BF with 64 spheres", brute * (1 + values.number("scenario2.gain_percent.least") / 100)}};
     for (const auto& [words, fps] : limits) {
-      const std::vector<std::string> changed = changed_by(times, fps, values);
+      const std::vector<std::string> changed = changed_by(times, fps, values, is_of_text(engine));
       table.rows.push_back({{engine.name},
                             {words},
                             {fmt::format("{:.1f}", fps)},

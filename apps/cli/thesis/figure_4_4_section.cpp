@@ -12,7 +12,7 @@ Section figure_4_4_section(const SectionContext& context) {
       "search for the first hit differs. BF tests every sphere; BIH n is a tree with at most n spheres a leaf. Brute "
       "force and all trees of a configuration take turns, round by round; the first round does not count, and the "
       "median of the others does, with their quartiles. A frame has a cost that no tree takes away: making the rays, "
-      "shading what they hit, writing the picture.");
+      "shading what they hit, storing the radiance.");
   for (const auto& [name, result] : context.results)
     if (result.is_object() && result.contains("width_px")) {
       section.paragraphs.push_back(fmt::format(
@@ -24,6 +24,7 @@ Section figure_4_4_section(const SectionContext& context) {
     }
   add_counts(context, section);
   add_engines(context, section);
+  add_floor(context, section);
   add_lost_bars(context, section);
   return section;
 }

@@ -14,6 +14,8 @@ namespace {
 
 // A speed-up (1 + gain / 100) agrees within this factor, because processor and code are others.
 constexpr double kSpeedUpFactor = 2;
+// A step of a curve over MAX_PRIMS of less than this counts as none: nobody sees it in a chart.
+constexpr double kLeastStep = 0.01;
 
 const char* const kGains = "Gains over brute force";
 const char* const kWinners = "Which MAX_PRIMS wins where";
@@ -221,12 +223,16 @@ class Judge {
         verdict);
   }
 
-  // What a curve over MAX_PRIMS may be. A step counts where its quartiles lie on one side of "no change".
+  // What a curve over MAX_PRIMS may be. A step counts where its quartiles lie beyond kLeastStep.
   enum class Shape { rises, peaks, falls };
   static std::set<Shape> shapes_of(const std::vector<const Rounds*>& curve) {
     std::set<Shape> possible;
-    const auto rises = [&](std::size_t a, std::size_t b) { return times_as_fast(*curve[b], *curve[a]).lower > 1; };
-    const auto falls = [&](std::size_t a, std::size_t b) { return times_as_fast(*curve[b], *curve[a]).upper < 1; };
+    const auto rises = [&](std::size_t a, std::size_t b) {
+      return times_as_fast(*curve[b], *curve[a]).lower > 1 + kLeastStep;
+    };
+    const auto falls = [&](std::size_t a, std::size_t b) {
+      return times_as_fast(*curve[b], *curve[a]).upper < 1 / (1 + kLeastStep);
+    };
     const std::size_t last = curve.size() - 1;
     for (std::size_t peak = 0; peak <= last; ++peak) {
       // Nothing falls before the peak, and nothing rises behind it.
@@ -354,6 +360,20 @@ class Judge {
     add(kExtremes, "best", "The best of all", fmt::format("{}", fmt::join(names, ", or without the display's limit ")),
         list(possible), verdict_among(possible, stated));
 
+    // Without a display: is the one faster that the text supposes to be?
+    const auto rates_of = [&](const std::string& name) {
+      return all.find({values_.integer(name + ".max_prims"),
+                       {values_.integer(name + ".scenario"), values_.integer(name + ".spheres")}});
+    };
+    const auto shown = rates_of("best"), supposed = rates_of("supposed_best");
+    if (shown != all.end() && supposed != all.end())
+      add(kExtremes, "beyond_the_display", text(supposed->first) + " is faster than " + text(shown->first),
+          {"perhaps", ValueKind::inferred},
+          fmt::format("{} and {} fps", quartiles_text(supposed->second, 1), quartiles_text(shown->second, 1)),
+          supposed->second.lower > shown->second.upper   ? Verdict::agrees
+          : supposed->second.upper < shown->second.lower ? Verdict::differs
+                                                         : Verdict::undecided);
+
     const auto worst = std::min_element(all.begin(), all.end(), slower);
     possible.clear();
     stated.clear();
@@ -419,8 +439,11 @@ std::vector<std::pair<std::string, std::string>> judgement_tables() {
        "A tree wins where no other tree's quartiles of the ratio to it reach 1. Agrees only if the number of wins is "
        "the same; undecided if it may be."},
       {kCurves,
-       "From the smallest MAX_PRIMS to the largest. A step counts as up or down where the quartiles of its ratio lie "
-       "on one side of 1; a shape is possible where no step contradicts it, and agrees where no other shape is."},
+       fmt::format(
+           "From the smallest MAX_PRIMS to the largest. A step counts as up or down where both quartiles of its "
+           "ratio lie beyond {:.0f} %, a limit that is ours; a shape is possible where no step contradicts it, "
+           "and agrees where no other shape is.",
+           100 * kLeastStep)},
       {kExtremes, "Undecided where the quartiles of others overlap those of what the text names."}};
 }
 

@@ -64,8 +64,8 @@ std::string MachineLoad::text() const {
   if (seconds == 0) return "nothing was measured";
   if (!known) return "unknown on this system";
   return fmt::format(
-      "{:.1f} % of the processors' time went to other programs while it measured, {:.1f} % in the worst "
-      "step",
+      "{:.1f} % of the processors' time went to other programs while it measured, {:.1f} % in the worst step of those "
+      "that took over a second",
       100 * others, 100 * most_others);
 }
 

@@ -6,6 +6,7 @@
 
 #include "bihive/bih/reference_builder.h"
 #include "support/failure.h"
+#include "thesis/coinciding.h"
 
 namespace bihive::cli::thesis {
 namespace {
@@ -50,7 +51,7 @@ Json measure_tree_reasons(const StepContext& context, const ReasonTrees& trees, 
                           std::int64_t spheres, std::int64_t max_prims) {
   const Scenario scenario = scenario_of(number);
   const std::int64_t seeds = scenario == Scenario::grid ? 1 : trees.seeds;
-  std::vector<double> mean, sd, relative, overlap, gap, depth;
+  std::vector<double> mean, sd, relative, overlap, gap, depth, coinciding;
   for (std::int64_t seed = 1; seed <= seeds && !context.cancel.cancelled(); ++seed) {
     const ScenarioParameters parameters{spheres, static_cast<float>(trees.radius), static_cast<std::uint64_t>(seed)};
     const SphereSet set = value_or_fail(scenario_spheres(scenario, parameters));
@@ -61,6 +62,7 @@ Json measure_tree_reasons(const StepContext& context, const ReasonTrees& trees, 
     overlap.push_back(facts.splits > 0 ? facts.overlaps / facts.splits : 0);
     gap.push_back(facts.splits > 0 ? facts.gaps / facts.splits : 0);
     depth.push_back(facts.depth.sd);
+    coinciding.push_back(static_cast<double>(coinciding_spheres(set)));
   }
   const auto middle = [](const std::vector<double>& values) { return spread_of(values).mean; };
   return {{"scenario", number},
@@ -71,7 +73,8 @@ Json measure_tree_reasons(const StepContext& context, const ReasonTrees& trees, 
           {"relative_sd", middle(relative)},
           {"overlap_share", middle(overlap)},
           {"gap_share", middle(gap)},
-          {"depth_sd", middle(depth)}};
+          {"depth_sd", middle(depth)},
+          {"coinciding", middle(coinciding)}};
 }
 
 }  // namespace
@@ -90,10 +93,11 @@ Json measure_reasons(const StepContext& context, const ReasonTrees& trees) {
 Table reasons_table(const Json& rows, const std::string& title) {
   Table table{title,
               {"Scenario", "Spheres", "MAX_PRIMS", "Spheres a leaf", "their deviation", "deviation / mean",
-               "Deviation of leaf depth", "Children overlap", "Children leave a gap"},
+               "Deviation of leaf depth", "Children overlap", "Children leave a gap", "Spheres at another's place"},
               {},
               "Means over the seeds 1, 2, ..., whatever --seed says; deviations are over the leaves of a tree, shares "
-              "are of its split nodes."};
+              "are of its split nodes. Spheres at another's place: the grid begins anew where their number is no cube "
+              "number; no tree can part them."};
   for (const Json& row : rows)
     table.rows.push_back({{row["scenario"].dump()},
                           {row["spheres"].dump()},
@@ -103,7 +107,8 @@ Table reasons_table(const Json& rows, const std::string& title) {
                           {fmt::format("{:.2f}", row["relative_sd"].get<double>())},
                           {fmt::format("{:.2f}", row["depth_sd"].get<double>())},
                           {fmt::format("{:.1f} %", 100 * row["overlap_share"].get<double>())},
-                          {fmt::format("{:.1f} %", 100 * row["gap_share"].get<double>())}});
+                          {fmt::format("{:.1f} %", 100 * row["gap_share"].get<double>())},
+                          {fmt::format("{:.0f}", row["coinciding"].get<double>())}});
   return table;
 }
 
