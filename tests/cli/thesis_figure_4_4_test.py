@@ -249,6 +249,7 @@ class Figure44(ProgramTest):
         if measured is None:
             self.skipTest("no floor is said for these vectors")
         self.assertEqual((measured["width_px"], measured["height_px"], len(measured["configurations"])), (1136, 640, 1))
+        self.assertIn("The picture has 284 x 160 pixels in this quick run, where the full run has 1136 x 640.", experiment["paragraphs"])
         name = "floor__fps__" + measured["floor"]
         for floor, verdict in [(1, "agrees"), (1e6, "differs")]:
             experiment = self.without_egl(lambda: self.measure(scenarios=[2], spheres_list=[64], max_prims_list=[1], **{name: floor}))

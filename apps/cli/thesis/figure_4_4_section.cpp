@@ -14,7 +14,7 @@ Section figure_4_4_section(const SectionContext& context) {
       "median of the others does, with their quartiles. A frame has a cost that no tree takes away: making the rays, "
       "shading what they hit, storing the radiance.");
   for (const auto& [name, result] : context.results)
-    if (result.is_object() && result.contains("width_px")) {
+    if (name != kFloorStep && result.is_object() && result.contains("width_px")) {
       section.paragraphs.push_back(fmt::format(
           "The picture has {} x {} pixels{}.", result["width_px"].get<int>(), result["height_px"].get<int>(),
           context.settings.quick ? fmt::format(" in this quick run, where the full run has {} x {}",

@@ -29,10 +29,17 @@ void* allocate_aligned(std::size_t bytes) {
   const std::size_t rounded = rounded_up(bytes);
   void* const data = std::aligned_alloc(alignment_of(bytes), rounded);
   if (data == nullptr) throw std::bad_alloc();
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-  if (alignment_of(bytes) == kHugePage) madvise(data, rounded, MADV_HUGEPAGE);
-#endif
+  prefer_huge_pages(data, rounded);
   return data;
+}
+
+void prefer_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+  const auto begin = reinterpret_cast<std::uintptr_t>(data);
+  const std::uintptr_t first = (begin + kHugePage - 1) / kHugePage * kHugePage;
+  const std::uintptr_t end = (begin + bytes) / kHugePage * kHugePage;
+  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+#endif
 }
 
 void AlignedBuffer::reserve(std::size_t bytes) {

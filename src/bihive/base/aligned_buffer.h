@@ -12,6 +12,10 @@ namespace bihive {
 /// std::bad_alloc.
 void* allocate_aligned(std::size_t bytes);
 
+/// Asks for huge pages under those parts of a large block that fill them; before it is written for the first time, as a
+/// page costs a moment then. Does nothing for small blocks, and where the system has none.
+void prefer_huge_pages(void* data, std::size_t bytes);
+
 class AlignedBuffer {
  public:
   AlignedBuffer() = default;

@@ -25,10 +25,32 @@ void TextCollector::add(std::string_view text) {
     text_of_sphere_.push_back(text_of_sphere_.back());
     return;
   }
+  text_of_sphere_.push_back(position_of(text));
+}
+
+std::int32_t TextCollector::position_of(std::string_view text) {
+  // Most columns have a few texts only.
+  constexpr std::size_t kFew = 8;
+  for (std::size_t i = 0; i < std::min(kFew, texts_.size()); ++i)
+    if (texts_[i] == text) return static_cast<std::int32_t>(i);
   const auto [entry, is_new] =
       position_of_text_.try_emplace(std::string(text), static_cast<std::int32_t>(texts_.size()));
   if (is_new) texts_.emplace_back(text);
-  text_of_sphere_.push_back(entry->second);
+  return entry->second;
+}
+
+void TextCollector::append(const TextCollector& other) {
+  std::vector<std::int32_t> here;
+  here.reserve(other.texts_.size());
+  for (const std::string& text : other.texts_) here.push_back(position_of(text));
+  text_of_sphere_.reserve(text_of_sphere_.size() + other.text_of_sphere_.size());
+  for (const std::int32_t there : other.text_of_sphere_) text_of_sphere_.push_back(here[std::size_t(there)]);
+}
+
+void TextCollector::clear() {
+  texts_.clear();
+  text_of_sphere_.clear();
+  position_of_text_.clear();
 }
 
 NamedTexts TextCollector::take(std::string name) {

@@ -31,6 +31,10 @@ class TextCollector {
  public:
   void reserve(std::size_t spheres) { text_of_sphere_.reserve(spheres); }
   void add(std::string_view text);
+  /// The texts of another collector, behind these.
+  void append(const TextCollector& other);
+  /// Leaves it empty, with its memory.
+  void clear();
 
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<std::int32_t>& text_of_sphere() const { return text_of_sphere_; }
@@ -40,6 +44,8 @@ class TextCollector {
   NamedTexts take(std::string name);
 
  private:
+  std::int32_t position_of(std::string_view text);
+
   std::vector<std::string> texts_;
   std::vector<std::int32_t> text_of_sphere_;
   std::unordered_map<std::string, std::int32_t> position_of_text_;

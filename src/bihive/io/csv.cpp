@@ -1,5 +1,6 @@
 // CSV with a header, and plain `x y z [r]` text.
 #include <algorithm>
+#include <limits>
 
 #include "bihive/io/parse_number.h"
 #include "bihive/io/readers.h"
@@ -82,8 +83,9 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
     scanner.restart_line();
     if (Status row = table.add_row(scanner); !row) return row.error();
   }
-  while (next_data_line(scanner))
-    if (Status row = table.add_row(scanner); !row) return row.error();
+  const Result<std::int64_t> rows =
+      table.add_rows(scanner, std::numeric_limits<std::int64_t>::max(), SphereTable::RowLines::data);
+  if (!rows) return rows.error();
 
   const std::string names = table.column_names();
   RawSpheres spheres = std::move(table).take();

@@ -149,13 +149,18 @@ class LammpsReader {
     // Read the atoms of the wanted frame. Skip those of other frames, but check the last line.
     const bool wanted = frames_ == wanted_;
     if (wanted) table.reserve(*count_, scanner_.bytes_left());
-    for (std::int64_t i = 0; i < *count_; ++i) {
-      if (!scanner_.next_line())
-        return cut(std::to_string(*count_) + " atoms (line " + std::to_string(count_line_) + ") but found " +
-                   std::to_string(i));
-      const Status row = wanted ? table.add_row(scanner_) : scanner_.at_end() ? table.check_width(scanner_) : Done{};
-      if (!row) return row;
+    std::int64_t found = 0;
+    if (wanted) {
+      const Result<std::int64_t> rows = table.add_rows(scanner_, *count_, SphereTable::RowLines::all);
+      if (!rows) return rows.error();
+      found = *rows;
     }
+    for (; !wanted && found < *count_ && scanner_.next_line(); ++found)
+      if (scanner_.at_end())
+        if (Status width = table.check_width(scanner_); !width) return width;
+    if (found < *count_)
+      return cut(std::to_string(*count_) + " atoms (line " + std::to_string(count_line_) + ") but found " +
+                 std::to_string(found));
     if (wanted) {
       spheres_ = std::move(table).take();
       spheres_.rules.insert(spheres_.rules.begin(), naming->rule);

@@ -1,16 +1,21 @@
 #include "bihive/io/nearest_place.h"
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <utility>
 
 #include "bihive/base/check.h"
+#include "bihive/base/parallel.h"
 
 namespace bihive {
 namespace {
 
 // Of 8, 16, 32 and 64 points, 32 take the least time for a million random points, or nearly so.
 constexpr std::size_t kMostInLeaf = 32;
+
+// Fewer points are one thread's work.
+constexpr std::size_t kFewForThreads = std::size_t{1} << 16;
 
 // A square below this bound may have lost bits. Then all differences are multiplied by 2^600 before they are squared:
 // the smallest difference of binary64 is 2^-1074, and a distance below 2^-450 becomes at most 2^150.
@@ -40,8 +45,7 @@ struct NearestPlace::Search {
 
 NearestPlace::NearestPlace(std::vector<Vec3d> points) : points_(std::move(points)) {
   BIHIVE_CHECK(!points_.empty());
-  nodes_.reserve(points_.size() / (kMostInLeaf / 4) + 1);
-  build(0, points_.size());
+  nodes_ = build(0, points_.size());
 }
 
 double NearestPlace::distance_from(Vec3d from) const {
@@ -64,22 +68,61 @@ NearestPlace::Box NearestPlace::box_of(std::size_t first, std::size_t end) const
   return box;
 }
 
-void NearestPlace::build(std::size_t first, std::size_t end) {
-  const std::size_t at = nodes_.size();
+namespace {
+
+int longest_axis(Vec3d extent) {
+  return extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+}
+
+}  // namespace
+
+// The nodes above a part of the points. Where there are many, both halves are built at a time.
+std::vector<NearestPlace::Node> NearestPlace::build(std::size_t first, std::size_t end) {
+  std::vector<Node> nodes;
   const Box box = box_of(first, end);
-  nodes_.push_back({box, 0, first, end});
+  if (end - first < kFewForThreads || box.lo == box.hi) {
+    nodes.reserve((end - first) / (kMostInLeaf / 4) + 1);
+    build_into(nodes, first, end);
+    return nodes;
+  }
+  const std::size_t middle = part(first, end, longest_axis(box.hi - box.lo));
+  std::vector<Node> halves[2];
+  std::exception_ptr thrown[2];
+  parallel_for(0, 2, [&](std::int64_t half) {
+    try {
+      halves[half] = half == 0 ? build(first, middle) : build(middle, end);
+    } catch (...) {
+      thrown[half] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& each : thrown)
+    if (each) std::rethrow_exception(each);
+  nodes.reserve(1 + halves[0].size() + halves[1].size());
+  nodes.push_back({box, 1 + halves[0].size(), first, end});
+  for (const std::vector<Node>& half : halves) {
+    const std::size_t before = nodes.size();
+    for (Node node : half) {
+      if (node.right != 0) node.right += before;
+      nodes.push_back(node);
+    }
+  }
+  return nodes;
+}
+
+void NearestPlace::build_into(std::vector<Node>& nodes, std::size_t first, std::size_t end) {
+  const std::size_t at = nodes.size();
+  const Box box = box_of(first, end);
+  nodes.push_back({box, 0, first, end});
   if (box.lo == box.hi) {
-    nodes_[at].end = first + 1;  // one place, however many points
+    nodes[at].end = first + 1;  // one place, however many points
     return;
   }
   if (end - first <= kMostInLeaf) return;
 
-  const Vec3d extent = box.hi - box.lo;
-  const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
-  const std::size_t middle = part(first, end, axis);
-  build(first, middle);
-  nodes_[at].right = nodes_.size();
-  build(middle, end);
+  const std::size_t middle = part(first, end, longest_axis(box.hi - box.lo));
+  build_into(nodes, first, middle);
+  nodes[at].right = nodes.size();
+  build_into(nodes, middle, end);
 }
 
 // Sorts the points into those below a value and the rest, as near to halves as can be without parting equal ones, and

@@ -31,8 +31,9 @@ class NearestPlace {
   };
   struct Search;
 
-  void build(std::size_t first, std::size_t end);
+  std::vector<Node> build(std::size_t first, std::size_t end);
   Box box_of(std::size_t first, std::size_t end) const;
+  void build_into(std::vector<Node>& nodes, std::size_t first, std::size_t end);
   std::size_t part(std::size_t first, std::size_t end, int axis);
   void visit(std::size_t node, Search& search) const;
 

@@ -6,42 +6,13 @@
 #include <unordered_map>
 #include <utility>
 
+#include "bihive/base/aligned_buffer.h"
 #include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
+#include "bihive/io/column_numbers.h"
 #include "bihive/io/parse_number.h"
 
 namespace bihive {
-namespace {
-
-// The reason why a number cannot stand in a column of that role, or nullptr if it can.
-const char* number_fault(ColumnRole role, double value) {
-  switch (role) {
-    case ColumnRole::x:
-    case ColumnRole::y:
-    case ColumnRole::z:
-      return coordinate_fault(value);
-    case ColumnRole::radius:
-    case ColumnRole::diameter:
-      return radius_fault(value);
-    case ColumnRole::atomic_number:
-      return value >= 0 && value <= 118 && value == std::floor(value) ? nullptr : "is not one of 0 to 118";
-    case ColumnRole::red:
-    case ColumnRole::green:
-    case ColumnRole::blue:
-      return value >= 0 && value <= 255 ? nullptr : "is outside 0 to 255";
-    case ColumnRole::opacity:
-    case ColumnRole::transparency:
-      return value >= 0 && value <= 1 ? nullptr : "is outside 0 to 1";
-    default:
-      return nullptr;
-  }
-}
-
-bool holds_labels(ColumnRole role) {
-  return role == ColumnRole::species || role == ColumnRole::type;
-}
-
-}  // namespace
 
 ColumnRole usual_role(std::string_view name) {
   static const std::unordered_map<std::string, ColumnRole> roles = {
@@ -134,6 +105,7 @@ void SphereTable::reserve(std::int64_t rows, std::int64_t bytes_left) {
       column.labels.reserve(room);
     else if (column.role != ColumnRole::ignored)
       column.values.reserve(room);
+    prefer_huge_pages(column.values.data(), column.values.capacity() * sizeof(double));
   }
 }
 

@@ -75,6 +75,11 @@ class SphereTable {
   /// Reads the scanner's line. Errors: too few fields or too many; a field that should be a number and is not; a
   /// coordinate, radius, colour or opacity out of range.
   Status add_row(TextScanner& scanner);
+  /// Which lines are rows: each, or each that has more than blanks and does not begin with '#'.
+  enum class RowLines { all, data };
+  /// As add_row() for the next lines, `most` rows at most: the same rows and the same errors, by all threads. Returns
+  /// how many there were; fewer only at the end of the text.
+  Result<std::int64_t> add_rows(TextScanner& scanner, std::int64_t most, RowLines lines);
   /// A row of a file that is not text: one number for each column, those of ignored ones too. Returns why it is refused
   /// ("x is not finite"), or an empty text.
   std::string add_numbers(const double* row);
@@ -98,6 +103,14 @@ class SphereTable {
     TextCollector labels;
   };
 
+  struct Part;
+  bool add_plain_row(std::string_view line);
+  Status read_rows(TextScanner& scanner, RowLines lines);
+  bool is_decided() const;
+  SphereTable without_rows() const;
+  void drop_rows();
+  void append(std::vector<Part>& parts, std::size_t used);
+
   static Status read_number(Column& column, std::string_view field, const TextScanner& scanner);
   static void begin_text(Column& column);
   static void take_types(Column& column, RawSpheres& spheres);
@@ -115,6 +128,8 @@ class SphereTable {
   std::int64_t rows_ = 0;
   bool more_fields_allowed_ = false;
   bool colours_are_bytes_ = false;
+  std::vector<double> row_numbers_;  // of the row that is being read
+  std::vector<std::string_view> row_texts_;
 };
 
 }  // namespace bihive

@@ -14,10 +14,6 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 // Bytes of a file that are read at once. From 64 kB to 4 MB it makes no difference that can be measured.
 constexpr std::int64_t kWindowBytes = std::int64_t{1} << 18;
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
 // The length of the character at the begin of the text, or 0 if it is not UTF-8 [RFC3629].
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -45,7 +41,7 @@ TextScanner::TextScanner(std::string_view text, std::string file)
 
 TextScanner::TextScanner(FileText& part)
     : part_(&part), text_end_(part.begin), file_(part.file.path()), line_number_(part.lines_before) {
-  take_more();
+  take_more(kWindowBytes);
   if (part.begin == 0 && text_.substr(0, 3) == kByteOrderMark) text_.remove_prefix(3);
   if (text_.empty()) return;
   char last = text_.back();
@@ -58,27 +54,33 @@ bool TextScanner::more_in_file() const {
   return part_ != nullptr && text_end_ < part_->end && !part_->fault;
 }
 
-// Lets the window begin at the next line, and reads more of the file behind it.
-void TextScanner::take_more() {
+// Lets the window begin at the next line, and reads about so many more bytes of the file behind it.
+void TextScanner::take_more(std::int64_t bytes) {
   if (!more_in_file()) return;
   // A copy of this scanner may look into the old window.
   auto window = window_ && window_.use_count() == 1 ? window_ : std::make_shared<std::string>();
   const std::size_t kept = text_.size() - next_;
-  if (window == window_)
-    window->erase(0, window->size() - kept);
-  else
-    window->assign(text_.substr(next_));
+  const char* const rest = text_.data() + next_;
   // A long line takes twice as much each time.
-  const std::int64_t count = std::min(part_->end - text_end_, std::max(kWindowBytes, static_cast<std::int64_t>(kept)));
-  window->resize(kept + static_cast<std::size_t>(count));
+  const std::int64_t count = std::min(part_->end - text_end_, std::max(bytes, static_cast<std::int64_t>(kept)));
+  // It does not shrink, as what it gets again would be cleared first. `rest` may lie in it, at its old place.
+  const std::size_t wanted = kept + static_cast<std::size_t>(count);
+  if (window == window_ && window->size() >= wanted) {
+    std::memmove(window->data(), rest, kept);
+  } else {
+    std::string larger(wanted, '\0');
+    std::copy(rest, rest + kept, larger.begin());
+    *window = std::move(larger);
+  }
+  std::size_t have = kept;
   if (Status status = part_->file.read_into(text_end_, count, window->data() + kept); !status) {
     part_->fault = status.error();
-    window->resize(kept);
   } else {
     text_end_ += count;
+    have = wanted;
   }
   window_ = std::move(window);
-  text_ = *window_;
+  text_ = std::string_view(*window_).substr(0, have);
   next_ = 0;
 }
 
@@ -97,7 +99,7 @@ bool TextScanner::next_line() {
     const std::size_t have = text_.size() - next_;
     if (have > 0) found = std::memchr(text_.data() + next_, '\n', have);
     if (found != nullptr || !more_in_file()) break;
-    take_more();
+    take_more(kWindowBytes);
   }
   const char* const begin = text_.data() + next_;
   const std::size_t left = text_.size() - next_;
@@ -110,6 +112,41 @@ bool TextScanner::next_line() {
   if (!whole_line_.empty() && whole_line_.back() == '\r') whole_line_.remove_suffix(1);
   restart_line();
   return true;
+}
+
+std::string_view TextScanner::peek_lines(std::int64_t bytes) {
+  const auto wanted = static_cast<std::size_t>(bytes);
+  for (;;) {
+    // A window that is too small, or one line that is longer.
+    const std::string_view left = text_.substr(next_);
+    if (left.size() >= wanted || !more_in_file()) {
+      if (left.size() <= wanted && !more_in_file()) return left;
+      const std::size_t last = left.rfind('\n', wanted - 1);
+      if (last != std::string_view::npos) return left.substr(0, last + 1);
+      const std::size_t end = left.find('\n');
+      if (end != std::string_view::npos) return left.substr(0, end + 1);
+      if (!more_in_file()) return left;
+    }
+    take_more(std::max(kWindowBytes, bytes - static_cast<std::int64_t>(left.size())));
+  }
+}
+
+void TextScanner::skip_peeked(std::int64_t bytes, std::int64_t lines) {
+  next_ += static_cast<std::size_t>(bytes);
+  line_number_ += lines;
+  whole_line_ = {};
+  restart_line();
+}
+
+TextScanner TextScanner::part(std::string_view lines, std::int64_t lines_before) const {
+  TextScanner scanner("", file_);
+  scanner.text_ = lines;
+  scanner.text_end_ = static_cast<std::int64_t>(lines.size());
+  scanner.ends_in_newline_ = lines.empty() || lines.back() == '\n';
+  scanner.separator_ = separator_;
+  scanner.comment_ = comment_;
+  scanner.line_number_ = line_number_ + lines_before;
+  return scanner;
 }
 
 void TextScanner::restart_line() {

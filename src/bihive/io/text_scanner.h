@@ -35,6 +35,7 @@ class TextScanner {
   /// kBlanks, or the one character between fields; then a field may be empty or "quoted" (with "" for a quote inside).
   /// Begins the current line again.
   void set_separator(char separator);
+  char separator() const { return separator_; }
   /// This character begins a comment, which goes to the end of the line; 0 for none. Begins the current line again.
   void set_comment(char comment);
   /// Begins the current line again.
@@ -46,6 +47,15 @@ class TextScanner {
   bool next_filled_line();
   /// Goes to the next line without reading the present one: the fast way past `count` lines. False at the end.
   bool skip_lines(std::int64_t count);
+
+  /// The lines behind the current one, whole: about so many bytes of them, at least one line, none at the end. The view
+  /// lives until the scanner goes on.
+  std::string_view peek_lines(std::int64_t bytes);
+  /// Goes behind so many bytes of peek_lines(), which are so many lines. The last of them is the current line then, but
+  /// its text is not read.
+  void skip_peeked(std::int64_t bytes, std::int64_t lines);
+  /// A scanner of a part of peek_lines(), behind so many of its lines; its errors name the file's lines.
+  TextScanner part(std::string_view lines, std::int64_t lines_before) const;
 
   std::string_view line() const { return line_; }
   std::int64_t line_number() const { return line_number_; }
@@ -75,7 +85,7 @@ class TextScanner {
  private:
   bool next_quoted_field(std::string_view& field);
   bool more_in_file() const;
-  void take_more();
+  void take_more(std::int64_t bytes);
 
   std::string_view text_;  // all of it, or the window
   FileText* part_ = nullptr;
@@ -94,6 +104,11 @@ class TextScanner {
   bool more_fields_ = false;     // with a separator: one more field follows; it may be empty
   std::string unquoted_;
 };
+
+/// Blank, tab, and what else stands between fields of a line.
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 /// The text with a question mark in place of every control character and every byte that is no UTF-8.
 std::string printable(std::string_view text);

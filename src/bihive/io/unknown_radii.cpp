@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/parallel.h"
 #include "bihive/base/readable.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/nearest_place.h"
@@ -20,6 +21,8 @@ constexpr double kRadiusOfOnePlace = 0.5;
 
 // More distances would move their middle by little, and each search costs a microsecond.
 constexpr std::size_t kMostSearches = 65536;
+// What a thread does without a pause.
+constexpr std::size_t kSearchesOfABundle = 1024;
 
 // The van der Waals radius, or 0 if the sphere has no known element.
 double radius_by_element(const RawSpheres& spheres, std::size_t i) {
@@ -44,11 +47,15 @@ std::optional<double> radius_from_neighbours(const RawSpheres& spheres) {
 
   const std::size_t searches = std::min(count, kMostSearches);
   std::vector<double> distances(searches);
-  for (std::size_t k = 0; k < searches; ++k) {
-    const auto i = static_cast<std::size_t>(std::uint64_t{k} * count / searches);
-    distances[k] = nearest.distance_from({spheres.x[i], spheres.y[i], spheres.z[i]});
-    if (std::isinf(distances[k])) return std::nullopt;  // one has no other place, so none has
-  }
+  const std::size_t bundles = (searches + kSearchesOfABundle - 1) / kSearchesOfABundle;
+  parallel_for(0, static_cast<std::int64_t>(bundles), [&](std::int64_t bundle) {
+    const std::size_t begin = static_cast<std::size_t>(bundle) * kSearchesOfABundle;
+    for (std::size_t k = begin; k < std::min(searches, begin + kSearchesOfABundle); ++k) {
+      const auto i = static_cast<std::size_t>(std::uint64_t{k} * count / searches);
+      distances[k] = nearest.distance_from({spheres.x[i], spheres.y[i], spheres.z[i]});
+    }
+  });
+  if (std::isinf(distances.front())) return std::nullopt;  // one has no other place, so none has
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>((searches - 1) / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return std::min(0.5 * *middle, double(std::numeric_limits<float>::max()));  // larger ones are no radii

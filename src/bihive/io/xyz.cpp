@@ -177,11 +177,16 @@ Result<RawSpheres> read_xyz(TextScanner scanner, const FramePass& pass) {
     // Read the spheres of the wanted frame. Skip those of other frames, but check the last line.
     const bool wanted = frames == frame;
     if (wanted) table->reserve(*count, scanner.bytes_left());
-    for (std::int64_t i = 0; i < *count; ++i) {
-      if (!scanner.next_line()) return cut(i);
-      Status row = wanted ? table->add_row(scanner) : scanner.at_end() ? table->check_width(scanner) : Done{};
-      if (!row) return row.error();
+    std::int64_t found = 0;
+    if (wanted) {
+      const Result<std::int64_t> rows = table->add_rows(scanner, *count, SphereTable::RowLines::all);
+      if (!rows) return rows.error();
+      found = *rows;
     }
+    for (; !wanted && found < *count && scanner.next_line(); ++found)
+      if (scanner.at_end())
+        if (Status width = table->check_width(scanner); !width) return width.error();
+    if (found < *count) return cut(found);
     if (!wanted) continue;
     const std::string columns = table->column_names();
     spheres = std::move(*table).take();
