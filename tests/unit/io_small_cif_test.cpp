@@ -93,6 +93,41 @@ TEST(SmallCif, TakesTheListedOperations) {
   EXPECT_EQ(numbers_of(file, "copy"), (std::vector<double>{1, 2, 1, 2, 1, 2}));
 }
 
+TEST(SmallCif, TheCellTellsHexagonalFromRhombohedralAxes) {
+  // Molysite, FeCl3: two formula units in the rhombohedral cell. By the operations of the hexagonal cell it has 36
+  // atoms.
+  const std::string molysite =
+      "data_molysite\n_cell_length_a 6.69\n_cell_length_b 6.69\n_cell_length_c 6.69\n"
+      "_cell_angle_alpha 52.3\n_cell_angle_beta 52.3\n_cell_angle_gamma 52.3\n"
+      "_symmetry_space_group_name_H-M 'R -3'\n"
+      "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
+      "Fe .3333 .3333 .3333\nCl -.256 .41 .077\n";
+  EXPECT_EQ(read_text(molysite, "molysite.cif").spheres.size(), 8);
+  const std::string numbered =
+      with(molysite, "_symmetry_space_group_name_H-M 'R -3'", "_symmetry_Int_Tables_number 148");
+  EXPECT_EQ(read_text(numbered, "molysite.cif").spheres.size(), 8);
+  EXPECT_EQ(read_text(with(molysite, "'R -3'", "'R -3 :H'"), "molysite.cif").spheres.size(), 36);
+  // Three times as many in the hexagonal cell.
+  std::string hexagonal = with(molysite, "_cell_angle_alpha 52.3", "_cell_angle_alpha 90");
+  hexagonal = with(with(hexagonal, "_cell_angle_beta 52.3", "_cell_angle_beta 90"), "_cell_angle_gamma 52.3",
+                   "_cell_angle_gamma 120");
+  hexagonal = with(hexagonal, ".3333 .3333 .3333", "0 0 .3333");
+  EXPECT_EQ(read_text(hexagonal, "molysite.cif").spheres.size(), 24);
+}
+
+TEST(SmallCif, OperationsMayHaveDecimals) {
+  const std::string decimals = with(kListed, "-x,-y,z+1/2", "-x,-y,z+.5");
+  EXPECT_EQ(numbers_of(read_text(decimals, "listed.cif"), "copy"),
+            numbers_of(read_text(kListed, "listed.cif"), "copy"));
+  for (std::int64_t id = 0; id < read_text(kListed, "listed.cif").spheres.size(); ++id)
+    EXPECT_EQ(read_text(decimals, "listed.cif").spheres.centre(id),
+              read_text(kListed, "listed.cif").spheres.centre(id));
+  EXPECT_EQ(read_text(with(kListed, "-x,-y,z+1/2", "-x,-y,z+0.3333"), "listed.cif").spheres.size(),
+            read_text(with(kListed, "-x,-y,z+1/2", "-x,-y,z+1/3"), "listed.cif").spheres.size());
+  EXPECT_NE(error_of(with(kListed, "-x,-y,z+1/2", "-x,-y,z+.123"), "listed.cif").find("'-x,-y,z+.123'"),
+            std::string::npos);
+}
+
 TEST(SmallCif, UnknownGroupsKeepTheAtoms) {
   const SphereFile file = read_text(with(kSalt, "F m -3 m", "Q 17"), "salt.cif");
   EXPECT_EQ(file.spheres.size(), 2);

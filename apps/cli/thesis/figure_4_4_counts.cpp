@@ -89,8 +89,10 @@ class CountsPart {
       part_.paragraphs = {
           fmt::format(
               "Nodes that a ray enters and spheres that it is tested against do not depend on a machine. Counted by an "
-              "observer in the tree reconstructed from Table 4.2 over all primary rays of the picture, in the scenes of "
-              "seed {}, they say for each ratio of two costs, that of a node and that of a sphere test, which MAX_PRIMS "
+              "observer in the tree reconstructed from Table 4.2 over all primary rays of the picture, in the scenes "
+              "of "
+              "seed {}, they say for each ratio of two costs, that of a node and that of a sphere test, which "
+              "MAX_PRIMS "
               "is the best in these scenes, for any machine and without noise. What a phone's memory does to either "
               "cost is in the ratio; what it does to one tree and not to another is not.",
               context_.settings.seed),

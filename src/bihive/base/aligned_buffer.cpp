@@ -35,10 +35,10 @@ void* allocate_aligned(std::size_t bytes) {
 
 void prefer_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-  const auto begin = reinterpret_cast<std::uintptr_t>(data);
-  const std::uintptr_t first = (begin + kHugePage - 1) / kHugePage * kHugePage;
-  const std::uintptr_t end = (begin + bytes) / kHugePage * kHugePage;
-  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(data) % kHugePage;
+  const std::size_t skipped = before == 0 ? 0 : kHugePage - before;
+  if (skipped + kHugePage > bytes) return;
+  madvise(static_cast<char*>(data) + skipped, (bytes - skipped) / kHugePage * kHugePage, MADV_HUGEPAGE);
 #endif
 }
 

@@ -62,6 +62,25 @@ int element_of_text(std::string_view text) {
   return of_two ? of_two : letters > 0 ? atomic_number(text.substr(0, 1)) : 0;
 }
 
+// "x+.5, y, z+.333" as "x+12/24, y, z+8/24": gemmi reads fractions. Decimals that are near none stay as they are.
+std::string with_fractions(const std::string& text) {
+  std::string made;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = text.find_first_not_of("0123456789.", at);
+    end = std::min(end, text.size());
+    const std::string_view number = std::string_view(text).substr(at, end - at);
+    const auto value = number.find('.') == std::string_view::npos ? std::nullopt : parse_double(number);
+    const double parts = value ? *value * gemmi::Op::DEN : 0;
+    if (value && parts < 1000 && std::abs(parts - std::round(parts)) < 0.02)
+      made += std::to_string(std::lround(parts)) + "/" + std::to_string(gemmi::Op::DEN);
+    else
+      made += number;
+    if (end == at) made += text[end++];
+    at = end;
+  }
+  return made;
+}
+
 class CrystalReader {
  public:
   CrystalReader(gemmi::cif::Block& block, const std::string& file) : block_(block), file_(file) {
@@ -94,6 +113,8 @@ class CrystalReader {
                      item->line_number);
       numbers[i] = *number;
     }
+    alpha_ = numbers[3];
+    gamma_ = numbers[5];
     spheres_.cell = unit_cell(numbers);
     if (!spheres_.cell) return error("the lengths and angles of _cell_ make no cell");
     return Done{};
@@ -111,7 +132,7 @@ class CrystalReader {
         const std::string text = column.str(i);
         try {
           if (text.size() > 80) throw std::runtime_error("too long");
-          operations_.push_back(operation_of(gemmi::parse_triplet(text)));
+          operations_.push_back(operation_of(gemmi::parse_triplet(with_fractions(text))));
         } catch (const std::runtime_error&) {
           return error("expected an operation of symmetry such as 'x, y+1/2, -z' but found " + quote(text), line);
         }
@@ -131,7 +152,15 @@ class CrystalReader {
                                   "_space_group_IT_number", "_symmetry_Int_Tables_number"})
       if (const std::string* const value = block_.find_value(tag); value && !group && !gemmi::cif::is_null(*value)) {
         name = gemmi::cif::as_string(*value);
-        if (!name.empty() && name.size() < 80) group = gemmi::find_spacegroup_by_name(name);
+        if (name.empty() || name.size() >= 80) continue;
+        // Some groups have hexagonal and rhombohedral axes; the cell's angles tell which these are.
+        if (const auto number = parse_int(name)) {
+          const gemmi::SpaceGroup* const numbered =
+              *number >= 1 && *number <= 230 ? gemmi::find_spacegroup_by_number(static_cast<int>(*number)) : nullptr;
+          if (numbered != nullptr) group = gemmi::find_spacegroup_by_name(numbered->hm, alpha_, gamma_);
+        } else {
+          group = gemmi::find_spacegroup_by_name(name, alpha_, gamma_);
+        }
       }
     if (group == nullptr) {
       operations_.push_back(operation_of(gemmi::Op::identity()));
@@ -255,6 +284,7 @@ class CrystalReader {
   NamedNumbers occupancy_{"occupancy", {}}, b_factor_{"b_factor", {}}, copy_{"copy", {}};
   TextCollector names_, groups_;
   bool has_b_ = false;
+  double alpha_ = 0, gamma_ = 0;  // of the cell, degrees
 };
 
 }  // namespace
