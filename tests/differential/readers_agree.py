@@ -64,7 +64,7 @@ def by_lines_of_pdb(path, frame):
     models, rows, optional = [], [], []
     with open(path, errors="replace") as file:
         for line in file:
-            if line.split()[:1] == ["MODEL"] and rows:
+            if line.split()[:1] in (["MODEL"], ["ENDMDL"]) and rows:
                 models.append((rows, optional))
                 rows, optional = [], []
             if line.startswith(("ATOM  ", "HETATM")):

@@ -13,6 +13,7 @@ import warnings
 
 import bihive as bh
 import numpy as np
+from exr_file import ExrFile
 from program import PATIENCE_S, ProgramTest, main, png_numbers
 
 SIZE = (48, 36)
@@ -188,6 +189,31 @@ class Pictures(ProgramTest):
         with self.assertRaises(bh.UsageError):
             picture.save(self.path("a.jpg"))
         self.assertEqual(self.contents(), {})
+
+    def test_save_exr(self):
+        picture = bh.render("demo", size=SIZE)
+        try:
+            picture.save(self.path("a.exr"), layers="radiance,depth,normal,id")
+        except bh.MissingError as error:
+            self.assertIn("no OpenEXR", str(error))
+            return
+        channels = {name: np.array(rows) for name, rows in ExrFile(self.read("a.exr")).channels.items()}
+        np.testing.assert_array_equal(np.stack([channels[c] for c in "RGB"], axis=-1), picture.layer("radiance"))
+        np.testing.assert_array_equal(channels["Z"], picture.layer("depth"))
+        np.testing.assert_array_equal(channels["id"] < 2**31, picture.layer("id") >= 0)
+        self.succeed("render", "demo", "-o", "b.exr", "--size", "48x36", "--layers", "radiance,depth,normal,id")
+        stated = {name: np.array(rows) for name, rows in ExrFile(self.read("b.exr")).channels.items()}
+        self.assertEqual(channels.keys(), stated.keys())
+        for name in stated:
+            np.testing.assert_array_equal(channels[name], stated[name], name)
+        for layers, path in [("smell", "c.exr"), ("depth", "c.png"), (3, "c.exr")]:
+            with self.assertRaisesRegex(bh.UsageError, "^layers: "):
+                picture.save(self.path(path), layers=layers)
+        with self.assertRaises(bh.FileError):
+            picture.save(self.path("no/such/folder.exr"))
+        with self.assertRaisesRegex(bh.UsageError, "detached"):
+            picture.detach().save(self.path("c.exr"))
+        self.assertEqual(set(self.contents()), {self.path("a.exr"), self.path("b.exr")})
 
 
 class Failures(ProgramTest):

@@ -96,6 +96,14 @@ TEST(Sdf, TakesVersion3000) {
   EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{7, 0}));
   EXPECT_EQ(numbers_of(file, "charge"), (std::vector<double>{1, -1}));
   EXPECT_NE(error_of(kTwoMolecules, "a.sdf", at_frame(2)).find("there is no frame 2"), std::string::npos);
+
+  // One blank where the format has two.
+  std::string narrow = kTwoMolecules;
+  for (std::size_t at = 0; (at = narrow.find("M  V30", at)) != std::string::npos;) narrow.replace(at, 6, "M V30");
+  const SphereFile same = read_text(narrow, "a.sdf", at_frame(1));
+  ASSERT_EQ(same.spheres.size(), 2);
+  EXPECT_EQ(same.spheres.centre(1), file.spheres.centre(1));
+  EXPECT_EQ(numbers_of(same, "charge"), numbers_of(file, "charge"));
 }
 
 TEST(Sdf, SaysWhereItIsWrong) {
@@ -112,6 +120,9 @@ TEST(Sdf, SaysWhereItIsWrong) {
             "a:10: there is no atom 4 in the molecule");
   EXPECT_EQ(error_of(with(kTwoMolecules, "COUNTS 2", "COUNTS 3"), "a").rfind("a:30: the molecule ends too early", 0),
             0u);
+  EXPECT_EQ(
+      error_of(with(kTwoMolecules, "M  V30 COUNTS 2 1 0 0 0\n", ""), "a").rfind("a:21: expected 'M  V30 COUNTS'", 0),
+      0u);
   EXPECT_EQ(error_of(with(kTwoMolecules, "COUNTS 2", "COUNTS 1"), "a").rfind("a:24: there are more atoms", 0), 0u);
   EXPECT_EQ(
       error_of(with(kTwoMolecules, "BEGIN BOND", "BEGIN ATOM"), "a").rfind("a:26: the block of atoms comes twice", 0),

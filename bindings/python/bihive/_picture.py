@@ -9,7 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _bihive
-from ._errors import FileError, bad_argument, found
+from ._errors import FileError, InputError, bad_argument, found
 
 __all__ = ["Picture"]
 
@@ -61,14 +61,28 @@ class Picture:
             raise bad_argument("layer", f"expected a name, found {found(name)}")
         return self._core.layer(name)
 
-    def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes a PNG, whole or not at all. Raises FileError (an OSError) if that cannot be."""
+    def save(self, path: Union[str, os.PathLike[str]], *, layers: Optional[str] = None) -> None:
+        """Writes a PNG, or OpenEXR where the path ends in .exr, whole or not at all.
+
+        `layers` are names of layer() between commas, for OpenEXR ("radiance"): the file holds the same numbers. Raises
+        FileError (an OSError) if the file cannot be written, UsageError of layers that are unknown.
+        """
         text = os.fspath(path)
         if not isinstance(text, str) or not text or "\0" in text:
             raise bad_argument("path", f"expected a path, found {found(path)}")
+        if layers is not None and not isinstance(layers, str):
+            raise bad_argument("layers", f"expected names between commas, found {found(layers)}")
         ending = os.path.splitext(text)[1].lower()
+        if ending == ".exr":
+            try:
+                self._core.save_exr(text, "radiance" if layers is None else layers)
+            except InputError as error:
+                raise FileError(0, str(error), text) from None
+            return
         if ending not in ("", ".png"):
-            raise bad_argument("path", f"save() writes PNG, not {ending}", "let it end in .png; layer() has numbers")
+            raise bad_argument("path", f"save() writes PNG and OpenEXR, not {ending}", "let it end in .png or .exr")
+        if layers is not None:
+            raise bad_argument("layers", "a PNG holds no layers", "let the path end in .exr")
         try:
             self._core.save(text)
         except ValueError as error:

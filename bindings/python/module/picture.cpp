@@ -12,6 +12,7 @@
 
 #include "arrays.h"
 #include "bihive/base/write_file.h"
+#include "bihive/image/exr.h"
 #include "bihive/image/png.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/layers.h"
@@ -23,6 +24,7 @@
 #include "commands/render_on_gpu.h"
 #include "errors.h"
 #include "spheres.h"
+#include "support/failure.h"
 #include "support/messages.h"
 #include "waiting.h"
 
@@ -43,6 +45,7 @@ struct Picture {
   PngPixels pixels;
   Film film;  // of the light; empty where `drawing` is null
   PngText text;
+  std::vector<std::pair<std::string, std::string>> exr_text;  // the same in UTF-8
   double dots_per_inch = 0;
   std::string report;  // JSON
   std::vector<std::string> warnings;
@@ -140,7 +143,10 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, cli::RenderO
 
   // Keep what is known of it.
   const nlohmann::ordered_json described = cli::settings_json(options, settings, scene, {});
-  for (const auto& [name, value] : cli::text_of(scene, described)) picture->text.emplace_back(name, cli::latin1(value));
+  for (const auto& [name, value] : cli::text_of(scene, described)) {
+    picture->text.emplace_back(name, cli::latin1(value));
+    picture->exr_text.emplace_back(name, value);
+  }
   nlohmann::ordered_json report;
   report["scene"] = scene.name;
   report["spheres"] = scene.spheres.size();
@@ -211,6 +217,35 @@ py::object layer_of(const Picture& picture, const std::string& name) {
   return array_from<float>(std::move(mixed), {height, width, static_cast<py::ssize_t>(count)});
 }
 
+// `names` are layers between commas, known to layers_from_text(). The file holds the numbers that layer() gives.
+void save_exr(const Picture& picture, const std::string& path, const std::string& names) {
+  if (picture.drawing == nullptr)
+    cli::fail_usage("path: OpenEXR needs the light, and this picture has its pixels alone (unpickled or detached)",
+                    "render it again, or save a PNG");
+  if (!can_write_exr())
+    cli::fail_environment(
+        {"this build of bihive has no OpenEXR", path, 0, 0, "install libopenexr-dev and build again, or save a PNG"});
+  const Drawing& drawing = *picture.drawing;
+  const Result<std::vector<Layer>> known = layers_from_text(names);
+  if (!known) cli::fail_usage("layers: " + known.error().message, known.error().hint);
+  const std::vector<Layer>& layers = *known;
+  if (const Status status = check_layers(drawing.input.scene, layers); !status)
+    cli::fail_usage("layers: " + status.error().message, status.error().hint);
+  wait_for(
+      [&](Work& work) {
+        const RenderSettings& settings = drawing.settings;
+        const ExrForm form{
+            settings.width_px,
+            settings.height_px,
+            drawn_pixels(settings),
+            draw_layers(drawing.input.scene, *drawing.tracer, settings, layers, picture.film, &work.cancel),
+            picture.exr_text,
+            picture.dots_per_inch};
+        value_of(write_exr(path, form));
+      },
+      py::none());
+}
+
 std::string png_bytes(const Picture& picture) {
   return value_of(encode_png(picture.pixels, picture.text, picture.dots_per_inch));
 }
@@ -260,6 +295,7 @@ void bind_pictures(py::module_& module) {
              const py::gil_scoped_release unlocked;
              value_of(write_file(path, png_bytes(p)));
            })
+      .def("save_exr", save_exr)
       .def("detach",
            [](Picture& p) {
              p.drawing.reset();

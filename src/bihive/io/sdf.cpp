@@ -157,13 +157,17 @@ class SdfReader {
     while (scanner_.next_line()) {
       const std::string_view line = trim(scanner_.line());
       if (line == "M  END" || is_end_of_record(line)) {
-        if (!atoms || found != *atoms || in_atoms)
-          return scanner_.line_error("the molecule ends too early: expected " + std::to_string(atoms.value_or(0)) +
+        if (!atoms) return scanner_.line_error("the molecule ends without 'M  V30 COUNTS', the number of its atoms");
+        if (found != *atoms || in_atoms)
+          return scanner_.line_error("the molecule ends too early: expected " + std::to_string(*atoms) +
                                      " atoms but found " + std::to_string(found));
         return Done{};
       }
-      if (line.substr(0, 6) != "M  V30") continue;
-      const std::string_view rest = trim(line.substr(6));
+      // Some programs write one blank where the format has two.
+      if (line.substr(0, 1) != "M") continue;
+      std::string_view rest = trim(line.substr(1));
+      if (rest.substr(0, 3) != "V30") continue;
+      rest = trim(rest.substr(3));
       if (rest == "BEGIN ATOM") {
         if (in_atoms || found > 0) return scanner_.line_error("the block of atoms comes twice");
         in_atoms = true;
@@ -176,7 +180,8 @@ class SdfReader {
         if (!count) return count.error();
         atoms = *count;
       } else if (in_atoms) {
-        if (!atoms || found >= *atoms) return scanner_.line_error("there are more atoms than COUNTS promises");
+        if (!atoms) return scanner_.line_error("expected 'M  V30 COUNTS', the number of atoms, before the atoms");
+        if (found >= *atoms) return scanner_.line_error("there are more atoms than COUNTS promises");
         ++found;
         if (Status atom = read_v3000_atom(wanted); !atom) return atom;
       }
