@@ -17,9 +17,9 @@
 namespace bihive::cli::thesis {
 namespace {
 
-constexpr int kRounds = 9;       // a first one besides, which warms up
-constexpr double kRoundMs = 60;  // of several frames, so that a single moment does not decide
-constexpr int kQuickRounds = 2;
+constexpr int kFloorRounds = 9;       // a first one besides, which warms up
+constexpr double kFloorRoundMs = 60;  // of several frames, so that a single moment does not decide
+constexpr int kQuickFloorRounds = 2;
 
 // "avx512" or "avx2" on the vectors that have a floor; else empty.
 std::string vectors_with_a_floor() {
@@ -38,10 +38,10 @@ std::vector<double> frame_ms(const StepContext& context, const Scene& scene, con
   const Tracer tracer = value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
   std::vector<double> rounds;
   Film film;
-  for (int round = -1; round < (context.settings.quick ? kQuickRounds : kRounds); ++round) {
+  for (int round = -1; round < (context.settings.quick ? kQuickFloorRounds : kFloorRounds); ++round) {
     const Timer timer;
     int frames = 0;
-    for (; frames == 0 || timer.elapsed_ms() < kRoundMs; ++frames) {
+    for (; frames == 0 || timer.elapsed_ms() < kFloorRoundMs; ++frames) {
       Result<Rendered> rendered = render(scene, tracer, settings, {}, &context.cancel, std::move(film));
       if (context.cancel.cancelled()) return {};
       if (!rendered) fail(rendered.error());

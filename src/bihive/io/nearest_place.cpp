@@ -70,7 +70,7 @@ NearestPlace::Box NearestPlace::box_of(std::size_t first, std::size_t end) const
 
 namespace {
 
-int longest_axis(Vec3d extent) {
+int widest_axis(Vec3d extent) {
   return extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
 }
 
@@ -85,7 +85,7 @@ std::vector<NearestPlace::Node> NearestPlace::build(std::size_t first, std::size
     build_into(nodes, first, end);
     return nodes;
   }
-  const std::size_t middle = part(first, end, longest_axis(box.hi - box.lo));
+  const std::size_t middle = part(first, end, widest_axis(box.hi - box.lo));
   std::vector<Node> halves[2];
   std::exception_ptr thrown[2];
   parallel_for(0, 2, [&](std::int64_t half) {
@@ -119,7 +119,7 @@ void NearestPlace::build_into(std::vector<Node>& nodes, std::size_t first, std::
   }
   if (end - first <= kMostInLeaf) return;
 
-  const std::size_t middle = part(first, end, longest_axis(box.hi - box.lo));
+  const std::size_t middle = part(first, end, widest_axis(box.hi - box.lo));
   build_into(nodes, first, middle);
   nodes[at].right = nodes.size();
   build_into(nodes, middle, end);
