@@ -23,7 +23,7 @@ const std::vector<TableColumn> kColumns = {{"id", ColumnRole::number}, {"type", 
                                            {"x", ColumnRole::x},       {"y", ColumnRole::y},
                                            {"z", ColumnRole::z},       {"name", ColumnRole::number}};
 
-// What add_rows() promises, word by word.
+// One row after the other: add_rows() promises the same.
 Result<std::int64_t> one_by_one(SphereTable& table, TextScanner& scanner, std::int64_t most, RowLines lines) {
   std::int64_t rows = 0;
   while (rows < most) {

@@ -223,7 +223,7 @@ class Judge {
         verdict);
   }
 
-  // What a curve over MAX_PRIMS may be. A step counts where its quartiles lie beyond kLeastStep.
+  // The shapes of a curve over MAX_PRIMS. A step counts where its quartiles lie beyond kLeastStep.
   enum class Shape { rises, peaks, falls };
   static std::set<Shape> shapes_of(const std::vector<const Rounds*>& curve) {
     std::set<Shape> possible;

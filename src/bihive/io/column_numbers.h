@@ -1,4 +1,4 @@
-// What a column of a table may hold, by its role.
+// The numbers that a column of a table may hold, by its role.
 #pragma once
 
 #include <cmath>

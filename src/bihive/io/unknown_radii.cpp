@@ -21,7 +21,7 @@ constexpr double kRadiusOfOnePlace = 0.5;
 
 // More distances would move their middle by little, and each search costs a microsecond.
 constexpr std::size_t kMostSearches = 65536;
-// What a thread does without a pause.
+// A thread does so many without a pause.
 constexpr std::size_t kSearchesOfABundle = 1024;
 
 // The van der Waals radius, or 0 if the sphere has no known element.
