@@ -144,9 +144,15 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
   return text_of(json);
 }
 
-std::string Page::load(const std::string& name, const std::string& trajectory, double radius, double radius_scale) {
+std::string Page::load(const std::string& name, const std::string& trajectory, double radius, double radius_scale,
+                       const std::string& columns) {
   return with_memory([&] {
     ReadOptions reading = reading_of(radius, radius_scale);
+    if (!columns.empty()) {
+      Result<ColumnChoice> choice = columns_from_text(columns);
+      if (!choice) return failure(choice.error());
+      reading.columns = std::move(*choice);
+    }
     if (!trajectory.empty()) reading.trajectory = folder() + trajectory;
     Result<LoadedFile> file = load_file(viewer_, folder() + name, reading);
     if (!file) return failure(file.error());

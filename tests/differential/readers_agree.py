@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Files as bihive reads them beside independent readers: ASE, MDAnalysis, Biopython, the package gsd, NumPy.
+"""Files as bihive reads them beside independent readers: ASE, MDAnalysis, Biopython, gsd, NumPy, netCDF4, h5py, PCL, VTK.
 
 usage: readers_agree.py BIHIVE FOLDER... [--json FILE] [--list]
 
 Looks at every file in the folders whose ending names a format that both can read: the first frame and the last. Prints
 a table with a line for each format: files, atoms, the largest difference of a coordinate, and a line for each file
 where something differs or only one of both reads it. Exit code 1 if a coordinate or a number of atoms differs.
-Debian: python3-ase, python3-mdanalysis, python3-biopython, python3-gsd.
+Debian: python3-ase, python3-mdanalysis, python3-biopython, python3-gsd, python3-netcdf4, python3-h5py, python3-pcl, python3-vtk9.
 """
 
 import argparse
@@ -106,6 +106,96 @@ def by_numpy(path, frame):
     return Places(array[:, :3])
 
 
+def by_trajectory_reader(module, name):
+    """Places alone, as MDAnalysis reads them: bihive needs a file of as many atoms beside it."""
+
+    def read(path, frame):
+        import importlib
+
+        with getattr(importlib.import_module(f"MDAnalysis.coordinates.{module}"), name)(str(path)) as reader:
+            return Places(reader[frame].positions.copy())
+
+    return read
+
+
+def by_netcdf(path, frame):
+    import netCDF4
+
+    with netCDF4.Dataset(path) as file:
+        if "coordinates" not in file.variables:
+            raise OtherReads("no coordinates")
+        return Places(np.asarray(file["coordinates"][frame]))
+
+
+def by_h5md(path, frame):
+    import h5py
+
+    with h5py.File(path, "r") as file:
+        if "particles" not in file:
+            raise OtherReads("no particles")
+        values = next(iter(file["particles"].values()))["position/value"]
+        nanometres = values.attrs.get("unit") in ("nm", b"nm")
+        return Places(values[frame] * (10 if nanometres else 1))
+
+
+def by_lammps_data(path, frame):
+    """ASE wants the style of the atoms, which LAMMPS writes behind "Atoms" or nowhere."""
+    import ase.io
+
+    styles = ["full", "molecular", "atomic", "charge", "sphere", "bond", "angle"]
+    with open(path, errors="replace") as file:
+        stated = [line.split("#", 1)[1].split() for line in file if line.startswith("Atoms") and "#" in line]
+    if stated and stated[0]:
+        styles = stated[0][:1]
+    error = None
+    for style in styles:
+        try:
+            atoms = ase.io.read(str(path), format="lammps-data", style=style, sort_by_id=False)
+            return Places(atoms.positions)
+        except Exception as found:
+            error = found
+    raise error
+
+
+def by_pcl(path, frame):
+    import pcl
+
+    return Places(pcl.load(str(path)).to_array())
+
+
+# VTK ends the program that it is in on some broken files, so it reads in one of its own.
+VTK_READER = """
+import sys
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkCommonDataModel import vtkPointSet
+from vtkmodules.vtkIOLegacy import vtkGenericDataObjectReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLStructuredGridReader, vtkXMLUnstructuredGridReader
+
+vtkObject.GlobalWarningDisplayOff()
+path, kind, out = sys.argv[1:]
+reader = {"ply": vtkPLYReader, "vtk": vtkGenericDataObjectReader, "vtp": vtkXMLPolyDataReader,
+          "vtu": vtkXMLUnstructuredGridReader, "vts": vtkXMLStructuredGridReader}[kind]()
+reader.SetFileName(path)
+reader.Update()
+data = reader.GetOutputDataObject(0)
+if not isinstance(data, vtkPointSet) or data.GetNumberOfPoints() == 0:
+    sys.exit("no points")
+numpy.save(out, vtk_to_numpy(data.GetPoints().GetData()))
+"""
+
+
+def by_vtk(path, frame):
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, "points.npy")
+        done = subprocess.run([sys.executable, "-c", VTK_READER, str(path), path.suffix[1:].lower(), out], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise OtherReads(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"VTK ended with {done.returncode}")
+        return Places(np.load(out))
+
+
 def ase_format(name):
     return lambda path, frame: by_ase(path, frame, format=name)
 
@@ -127,10 +217,30 @@ READERS = {
     ".npy": ("NPY", by_numpy),
     ".lammpstrj": ("LAMMPS dump", lambda path, frame: by_ase(path, frame, format="lammps-dump-text")),
     ".dump": ("LAMMPS dump", lambda path, frame: by_ase(path, frame, format="lammps-dump-text")),
+    ".lmp": ("LAMMPS data", by_lammps_data),
+    ".data": ("LAMMPS data", by_lammps_data),
+    ".data2": ("LAMMPS data", by_lammps_data),
+    "data": ("LAMMPS data", by_lammps_data),
+    ".ply": ("PLY", by_vtk),
+    ".vtk": ("VTK", by_vtk),
+    ".vtp": ("VTK", by_vtk),
+    ".vtu": ("VTK", by_vtk),
+    ".vts": ("VTK", by_vtk),
+    ".pcd": ("PCD", by_pcl),
+    ".dcd": ("DCD", by_trajectory_reader("DCD", "DCDReader")),
+    ".xtc": ("XTC", by_trajectory_reader("XTC", "XTCReader")),
+    ".trr": ("TRR", by_trajectory_reader("TRR", "TRRReader")),
+    ".nc": ("NetCDF", by_netcdf),
+    ".ncdf": ("NetCDF", by_netcdf),
+    ".h5md": ("H5MD", by_h5md),
     "POSCAR": ("POSCAR", ase_format("vasp")),
     "CONTCAR": ("POSCAR", ase_format("vasp")),
     "XDATCAR": ("XDATCAR", ase_format("vasp-xdatcar")),
 }
+
+
+# Formats of places alone.
+BESIDE_ATOMS = ("DCD", "XTC", "TRR", "NetCDF")
 
 
 def reader_of(path):
@@ -154,15 +264,24 @@ class Bihive:
     def run(self, *arguments):
         return subprocess.run([self.program, *arguments], capture_output=True, text=True, timeout=300)
 
-    def frames(self, path):
-        done = self.run("info", str(path), "--json")
+    def inputs(self, path, count):
+        """The file, and in front of it one of `count` atoms if it holds places alone."""
+        if count is None:
+            return [str(path)]
+        atoms = os.path.join(self.folder, "atoms.xyz")
+        with open(atoms, "w") as file:
+            file.write(f"{count}\n\n" + "Ar 0 0 0\n" * count)
+        return [atoms, str(path)]
+
+    def frames(self, inputs):
+        done = self.run("info", *inputs, "--json")
         if done.returncode != 0:
             return None, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"exit code {done.returncode}"
         return json.loads(done.stdout)["frames"], ""
 
-    def places(self, path, frame):
+    def places(self, inputs, frame):
         out = os.path.join(self.folder, "out.npy")
-        done = self.run("convert", str(path), "-o", out, "--frame", str(frame))
+        done = self.run("convert", *inputs, "-o", out, "--frame", str(frame))
         if done.returncode != 0:
             return None, done.stderr.strip().splitlines()[-1]
         return np.load(out)[:, :3].astype(float), ""
@@ -218,6 +337,7 @@ def main():
     parser.add_argument("bihive")
     parser.add_argument("folders", nargs="+")
     parser.add_argument("--json", help="the results in this file")
+    parser.add_argument("--format", nargs="+", help="of these formats only, as the table names them")
     parser.add_argument("--tolerance", type=float, default=2e-4,
                         help="of coordinates, relative to the largest one: readers keep binary32 (%(default)s)")
     parser.add_argument("--special", type=float, default=0.02, help="of atoms in crystals, in Angstrom (%(default)s)")
@@ -227,6 +347,7 @@ def main():
     largest = collections.defaultdict(float)
     remarks, wrong = [], 0
     candidates = [(path, found) for path in files_in(arguments.folders) if (found := reader_of(path))]
+    candidates = [one for one in candidates if not arguments.format or one[1][0] in arguments.format]
     begin = time.time()
     with tempfile.TemporaryDirectory() as folder:
         bihive = Bihive(arguments.bihive, folder)
@@ -235,11 +356,13 @@ def main():
                 left = (time.time() - begin) / max(number, 1) * (len(candidates) - number)
                 print(f"\r{number}/{len(candidates)} files, {left:.0f} s left   ", end="", file=sys.stderr)
             tally[name]["files"] += 1
-            frames, why = bihive.frames(path)
             try:
                 theirs = reader(path, 0)
             except Exception as error:  # each reader has its own
                 theirs, other = None, f"{type(error).__name__}: {error}".splitlines()[0][:120]
+            alone = name in BESIDE_ATOMS and theirs is not None
+            inputs = bihive.inputs(path, len(theirs.xyz) if alone else None)
+            frames, why = bihive.frames(inputs)
             if frames is None and theirs is None:
                 tally[name]["neither"] += 1
                 continue
@@ -252,7 +375,7 @@ def main():
                 remarks.append((name, str(path), "only bihive reads it", other))
                 continue
             for frame in {0, frames - 1}:
-                ours, why = bihive.places(path, frame)
+                ours, why = bihive.places(inputs, frame)
                 if frame != 0:
                     try:
                         theirs = reader(path, frame)

@@ -55,6 +55,17 @@ TEST(Gro, TakesMoreDecimals) {
   EXPECT_NEAR(file.spheres.centre(0).x, 1.2345, 1e-6);
 }
 
+// huge_box.gro of MDAnalysis' tests: numbers that fill their columns of ten.
+TEST(Gro, TakesABoxWithoutBlanks) {
+  const SphereFile file =
+      read_text("t\n 1\n    1SOL     OW    1   0.123   1.623   1.673\n40000.0000041000.0000042000.50000\n", "a.gro");
+  ASSERT_TRUE(file.spheres.cell().has_value());
+  EXPECT_EQ(file.spheres.cell()->vectors[0], (Vec3d{400000, 0, 0}));
+  EXPECT_EQ(file.spheres.cell()->vectors[2], (Vec3d{0, 0, 420005}));
+  EXPECT_NE(error_of("t\n 1\n    1SOL     OW    1   0.123   1.623   1.673\n1.5.0.25 1 1\n", "a.gro").find("1.5.0.25"),
+            std::string::npos);
+}
+
 TEST(Gro, SaysWhereItIsWrong) {
   const auto changed = [](const std::string& from, const std::string& to) {
     std::string text = kTwoFrames;

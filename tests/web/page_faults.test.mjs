@@ -281,6 +281,33 @@ test('a radius is a field and an address, and messages name the field', async ()
   await wrong.context.close();
 });
 
+test('columns are a field and an address, also for a file that cannot be read without', async () => {
+  const table = { name: 'table.csv', bytes: Buffer.from('px,py,pz,size\n0,0,0,1\n3,0,0,0.5\n0,2,1,0.75\n') };
+  const file = join(scratch, 'table.csv');
+  writeFileSync(file, table.bytes);
+  const native = () =>
+    native_picture(file, 'columns', '--size', '468x240', '--samples', '1', '--columns', 'x=px,y=py,z=pz,r=size');
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  await ways_in.picker(page, table);
+  assert.match(await shown_error(page), /table\.csv.*“Columns” in the panel/s);
+  await set_value(page, '#columns', 'x=px,y=py,z=missing');
+  await page.waitForFunction(() => document.querySelector('#errors, #messages').textContent.includes('missing'));
+  assert.equal(await page.inputValue('#columns'), 'x=px,y=py,z=missing', 'what was asked for stays');
+  await and_settle(page, () => set_value(page, '#columns', 'x=px,y=py,z=pz,r=size'));
+  await and_settle(page, () => set_value(page, '#samples', 1));
+  const state = await link_state(page);
+  assert.deepEqual(state.source, { file: 'table.csv', reading: { columns: 'x=px,y=py,z=pz,r=size' } });
+  assert_same_picture(await saved_picture(page, 468, 240), native(), 'columns by name');
+  no_complaints(complaints);
+  await context.close();
+
+  const asked = await open_page(browser, `${server.url}?columns=x=px,y=py,z=pz,r=size`, small);
+  await and_settle(asked.page, () => ways_in.picker(asked.page, table));
+  await and_settle(asked.page, () => set_value(asked.page, '#samples', 1));
+  assert_same_picture(await saved_picture(asked.page, 468, 240), native(), 'columns by address');
+  await asked.context.close();
+});
+
 test('numbers of a link that no radius and no count can be are refused', async () => {
   const link = (source) => `${server.url}#state=${Buffer.from(source).toString('base64url')}`;
   for (const source of [

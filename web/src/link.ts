@@ -24,8 +24,8 @@ const is_radius = (number: unknown): number is number => typeof number === 'numb
 
 function is_reading(value: unknown): value is Reading {
   if (typeof value !== 'object' || value === null) return false;
-  return Object.entries(value).every(
-    ([key, number]) => ['radius', 'radius_scale'].includes(key) && is_radius(number),
+  return Object.entries(value).every(([key, one]) =>
+    key === 'columns' ? typeof one === 'string' : ['radius', 'radius_scale'].includes(key) && is_radius(one),
   );
 }
 
@@ -68,7 +68,7 @@ export function state_of(hash: string): State | null {
   throw new Error('The link is damaged: it does not hold a scene');
 }
 
-/** The reading that an address asks for: `?radius=0.5&radius_scale=2`. Throws words for the user. */
+/** The reading that an address asks for: `?radius=0.5&radius_scale=2&columns=x=px,y=py,z=pz`. Throws words for the user. */
 export function reading_of(search: string): Reading | undefined {
   const asked = new URLSearchParams(search);
   const reading: Reading = {};
@@ -80,5 +80,7 @@ export function reading_of(search: string): Reading | undefined {
       throw new Error(`${key}=${text} in the address: expected a number from 0 to ${largest_radius}`);
     reading[key] = number;
   }
+  const columns = asked.get('columns');
+  if (columns !== null) reading.columns = columns;
   return Object.keys(reading).length > 0 ? reading : undefined;
 }

@@ -37,6 +37,8 @@ let look_serial = 0;
 let loading = 0; // id of the load that is awaited
 let first_frame = false; // of the scene that has just been loaded: it is awaited
 let chosen: OwnFiles | null = null; // the user's files that are on show
+let refused: OwnFiles | null = null; // the user's files that were opened last and could not be read
+let asked_columns = ''; // of the load that is awaited
 let asked: Ask | null = null; // a file of the user's own that a link was made for
 let address_reading: Reading | undefined;
 let framed = true; // nobody has moved the camera since it showed the whole scene, or was the scene's own
@@ -63,6 +65,7 @@ const engine = new Engine(
       const now = awaited.get(answer.id);
       awaited.delete(answer.id);
       chosen = now?.own ?? null;
+      refused = null;
       framed = now?.framed ?? true;
       show_facts(answer.facts);
       show_source(source);
@@ -78,8 +81,16 @@ const engine = new Engine(
       busy(null);
       first_frame = false;
       saving.failed(id);
+      const own = id === null ? null : (awaited.get(id)?.own ?? null);
       if (id !== null) awaited.delete(id);
-      if (id === loading) show_source(source);
+      if (id === loading) {
+        show_source(source);
+        // Other columns may help, so what was asked for stays in the panel, and a change reads the same file again.
+        if (own && own !== chosen) {
+          refused = own;
+          element<HTMLInputElement>('columns').value = asked_columns;
+        }
+      }
       fail(message);
     },
     note: ({ message }) => note(message),
@@ -247,6 +258,7 @@ async function open(
 ): Promise<void> {
   const id = (loading = engine.new_id());
   first_frame = false;
+  refused = null;
   clear_notes();
   clear_errors();
   picture.dataset['settled'] = 'false';
@@ -256,6 +268,7 @@ async function open(
     if (id !== loading) return; // another one was asked for meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
     awaited.set(id, { own, framed: !state.settings?.camera?.eye });
+    asked_columns = from.reading?.columns ?? '';
     engine.send({ type: 'load', id, source: from, files, ...state });
   } catch (error) {
     busy(null);
@@ -300,8 +313,9 @@ async function open_files(files: File[]): Promise<void> {
   }
 }
 
-// The same file with other radii. A camera that nobody has moved is placed anew.
+// The same file with other radii or columns. A camera that nobody has moved is placed anew.
 function read_again(reading: Reading | undefined): void {
+  if (refused) return void open(wanted_files(refused, reading), refused.file.name, null, refused);
   if (!settings) return;
   const { fov_deg, projection, aperture, focus } = settings.camera;
   const camera = framed ? { fov_deg, projection, aperture, focus } : settings.camera;

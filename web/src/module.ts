@@ -2,7 +2,7 @@
 import { in_words_of_the_page } from './words';
 
 export interface Page {
-  load(name: string, trajectory: string, radius: number, radius_scale: number): string;
+  load(name: string, trajectory: string, radius: number, radius_scale: number, columns: string): string;
   load_built_in(name: string, count: number, radius: number, radius_scale: number): string;
   player(): string;
   toggle_play(now_ms: number): void;

@@ -74,10 +74,11 @@ export interface LookFault {
 /** Changes of settings; what a camera leaves out stays. */
 export type Changes = Omit<Partial<Settings>, 'camera'> & { camera?: Partial<Camera> };
 
-/** How the radii of a file are read; what is left out is the file's own. */
+/** How a file is read; what is left out is the file's own. `columns`: "x=px,y=py,z=pz,r=5". */
 export interface Reading {
   radius?: number;
   radius_scale?: number;
+  columns?: string;
 }
 
 /** Where a scene comes from. A dropped file has no address: a link names it, and the page asks for it. */

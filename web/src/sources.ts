@@ -45,7 +45,7 @@ async function with_progress(response: Response, name: string): Promise<ArrayBuf
   }
 }
 
-/** A source whose radii are read like this. */
+/** A source that is read like this. */
 export function with_reading(source: Source, reading: Reading | undefined): Source {
   const { reading: _, ...place } = source;
   return reading ? { ...place, reading } : place;
@@ -72,17 +72,21 @@ export async function wanted_files({ file, trajectory }: OwnFiles, reading?: Rea
 /** By the ending: what holds places alone, and needs the file of the spheres. */
 export const is_trajectory = ({ name }: File): boolean => /\.(dcd|xtc|trr)$/i.test(name);
 
-const reading_inputs = () => [element<HTMLInputElement>('radius'), element<HTMLInputElement>('radius_scale')] as const;
+const reading_inputs = () =>
+  (['radius', 'radius_scale', 'columns'] as const).map((id) => element<HTMLInputElement>(id)) as [
+    radius: HTMLInputElement, scale: HTMLInputElement, columns: HTMLInputElement,
+  ];
 
-/** Calls `read` with the radii that the panel asks for. */
+/** Calls `read` with the radii and columns that the panel asks for. */
 export function listen_for_reading(read: (reading: Reading | undefined) => void): void {
-  const [radius, scale] = reading_inputs();
-  for (const input of [radius, scale])
+  const [radius, scale, columns] = reading_inputs();
+  for (const input of [radius, scale, columns])
     input.addEventListener('change', () => {
       if (!radius.reportValidity() || !scale.reportValidity()) return;
       const reading: Reading = {};
       if (radius.value !== '') reading.radius = Number(radius.value);
       if (scale.value !== '') reading.radius_scale = Number(scale.value);
+      if (columns.value.trim() !== '') reading.columns = columns.value.trim();
       read(Object.keys(reading).length > 0 ? reading : undefined);
     });
 }
@@ -134,11 +138,13 @@ export function show_source(source: Source): void {
   const name = 'built_in' in source ? source.built_in : '';
   element<HTMLSelectElement>('built_in').value = name;
   element('count_row').hidden = !name.startsWith('scenario');
-  const [radius, scale] = reading_inputs();
+  const [radius, scale, columns] = reading_inputs();
   radius.value = String(source.reading?.radius ?? '');
   scale.value = String(source.reading?.radius_scale ?? '');
+  columns.value = source.reading?.columns ?? '';
   // The thesis's scenes have radii of their own: scenarios take another one.
   radius.disabled = name === 'four-spheres';
   element('radius_scale_row').hidden = name !== '' && name !== 'demo';
+  element('columns_row').hidden = element('columns_help').hidden = name !== '' && name !== 'demo';
   if ('built_in' in source && source.count) element<HTMLInputElement>('count').value = String(source.count);
 }

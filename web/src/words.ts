@@ -1,6 +1,7 @@
 // The library's messages name options of the command line; the page has controls instead.
 const controls: Record<string, string> = {
   radius: 'Radius',
+  columns: 'Columns',
   'radius-scale': 'Radius ×',
   style: 'Style',
   'element-colours': 'Elements',

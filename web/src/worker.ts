@@ -282,14 +282,14 @@ function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
 
 async function load(request: Request & { type: 'load' }): Promise<void> {
   let loaded: Loaded;
-  const { radius = -1, radius_scale = 1 } = request.source.reading ?? {};
+  const { radius = -1, radius_scale = 1, columns = '' } = request.source.reading ?? {};
   if ('built_in' in request.source) {
     loaded = value_of(page.load_built_in(request.source.built_in, request.source.count ?? 0, radius, radius_scale));
     user_files.forget();
   } else {
     const { name, trajectory } = await user_files.show(request.files!);
     try {
-      loaded = value_of(page.load(name, trajectory, radius, radius_scale));
+      loaded = value_of(page.load(name, trajectory, radius, radius_scale, columns));
     } catch (error) {
       user_files.keep(false);
       throw error;

@@ -1,5 +1,6 @@
 // GRO, fixed columns [GRO]: a title, a count, one line for each atom, and the box; repeated for every frame. Lengths in
 // nanometres, which become Angstrom. The distance between decimal points tells how wide the coordinates are.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -124,15 +125,23 @@ class GroReader {
     return Done{};
   }
 
-  // Three lengths, and six more numbers if the box is not a right one: v1y v1z v2x v2z v3x v3y.
+  // Three lengths, and six more numbers if the box is not a right one: v1y v1z v2x v2z v3x v3y. Large ones fill their
+  // columns and leave no blank between them; all have as many decimals.
   Status read_box() {
     double v[9] = {};
     std::size_t have = 0;
-    for (std::string_view field; have < 9 && scanner_.next_field(field); ++have) {
-      const auto value = parse_double(field);
-      if (!value || coordinate_fault(*value))
-        return scanner_.field_error("expected three or nine numbers of the box but found " + quote(field));
-      v[have] = kAngstromOfNm * *value;
+    for (std::string_view field; have < 9 && scanner_.next_field(field);) {
+      const std::size_t decimals = field.size() - std::min(field.size(), field.rfind('.') + 1);
+      for (std::string_view left = field; !left.empty() && have < 9; ++have) {
+        const std::size_t dot = left.find('.');
+        const bool joined = dot != left.rfind('.');
+        const std::string_view one = joined ? left.substr(0, dot + 1 + decimals) : left;
+        left.remove_prefix(one.size());
+        const auto value = parse_double(one);
+        if (!value || coordinate_fault(*value))
+          return scanner_.field_error("expected three or nine numbers of the box but found " + quote(field));
+        v[have] = kAngstromOfNm * *value;
+      }
     }
     if (have != 3 && have != 9)
       return scanner_.line_error("expected three or nine numbers of the box but found " + std::to_string(have));
