@@ -30,7 +30,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} 
 # from where they stand, wherever the folder is moved. RPATH instead of RUNPATH, because it also counts for what those
 # libraries need.
 file(RELATIVE_PATH from_programs ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-foreach(program bihive bihive-view)
+foreach(program bihive bihive-mpi bihive-view)
   if(TARGET ${program} AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
     set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${from_programs};$ORIGIN/${from_programs}/bihive")
     target_link_options(${program} PRIVATE LINKER:--disable-new-dtags)
@@ -42,6 +42,9 @@ if(TARGET bihive)
   # The page of `bihive web`, if `make web` has built it.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build-web/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bihive/web COMPONENT bihive
           OPTIONAL)
+endif()
+if(TARGET bihive-mpi)
+  install(TARGETS bihive-mpi COMPONENT mpi)
 endif()
 if(TARGET bihive-view)
   install(TARGETS bihive-view COMPONENT bihive)

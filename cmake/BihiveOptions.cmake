@@ -24,6 +24,10 @@ option(BIHIVE_COMPILE_TOGETHER "Compile neighbouring source files together: all 
        ${BIHIVE_COMPILE_TOGETHER_DEFAULT})
 set(BIHIVE_SANITIZE "" CACHE STRING "Sanitizers: empty, asan (address and undefined behaviour) or tsan (threads)")
 set_property(CACHE BIHIVE_SANITIZE PROPERTY STRINGS "" asan tsan)
+option(BIHIVE_SANITIZE_ALL "With the address sanitizer: build tests of arithmetic, pictures and words too" ON)
+
+set(BIHIVE_MPI AUTO CACHE STRING "The program bihive-mpi: ON, OFF, or AUTO: where MPI is found")
+set_property(CACHE BIHIVE_MPI PROPERTY STRINGS AUTO ON OFF)
 
 # Builds for another machine have no libraries of that machine. Header-only libraries are enough for pictures in memory.
 set(BIHIVE_BARE OFF)

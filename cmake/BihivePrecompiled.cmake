@@ -52,7 +52,11 @@ endfunction()
 # bihive_optimise_little(target): for code that reads words and writes text, most of it by templates of others (CLI11,
 # Boost.Beast, JSON). Compiling it took more processor time than the kernels did, and running it takes next to none.
 function(bihive_optimise_little target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(BIHIVE_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
 endfunction()
 
 # GCC 12 forgets that precompiled headers of the system's are the system's, and complains of its own std::string. Builds

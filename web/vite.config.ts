@@ -4,7 +4,7 @@ import { defineConfig } from 'vite';
 // as they are (scripts/build_web, which also says where to).
 export default defineConfig({
   base: './',
-  publicDir: false,
+  publicDir: 'public', // what an installed page needs
   build: {
     target: 'es2022',
     modulePreload: { polyfill: false },

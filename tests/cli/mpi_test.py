@@ -1,12 +1,16 @@
-"""Films whose pictures are shared out over ranks of mpirun, as docs/many_machines.md says."""
+"""Pictures and films by the ranks of mpirun: bihive-mpi, and shards of bihive, as docs/many_machines.md says."""
 
+import json
 import os
 import shutil
+import signal
 import subprocess
+import time
 import unittest
 
 from program import BIHIVE, PATIENCE_S, ProgramTest, main
 
+BIHIVE_MPI = os.environ.get("BIHIVE_MPI")
 MPIRUN = shutil.which("mpirun")
 FRAMES = 7
 # Each rank draws the shard of its own number.
@@ -26,19 +30,26 @@ def is_open_mpi():
     return "Open MPI" in said.stdout
 
 
-@unittest.skipUnless(is_open_mpi(), "there is no Open MPI here: install openmpi-bin")
-class Ranks(ProgramTest):
+class OnRanks(ProgramTest):
     def setUp(self):
         super().setUp()
         self.write("run.xyz", "".join(map(frame, range(FRAMES))))
 
-    def on_ranks(self, count, *arguments):
+    def mpirun(self, count, *command):
         options = ["--oversubscribe", "--bind-to", "none", "-n", str(count)]
         if os.geteuid() == 0:
             options.append("--allow-run-as-root")
-        return subprocess.run([MPIRUN, *options, "sh", "-c", SHARD_OF_RANK, BIHIVE, *arguments], cwd=self.folder,
-                              capture_output=True, text=True, timeout=PATIENCE_S)
+        return [MPIRUN, *options, *command]
 
+    def run_ranks(self, count, *command):
+        return subprocess.run(self.mpirun(count, *command), cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S)
+
+    def on_ranks(self, count, *arguments):
+        return self.run_ranks(count, "sh", "-c", SHARD_OF_RANK, BIHIVE, *arguments)
+
+
+@unittest.skipUnless(is_open_mpi(), "there is no Open MPI here: install openmpi-bin")
+class Shards(OnRanks):
     def test_a_film_of_three_ranks_equals_that_of_one_process(self):
         small = ["--size", "48x32", "--samples", "1", "--threads", "1"]
         self.succeed("film", "run.xyz", "-o", "whole/%d.png", *small)
@@ -56,6 +67,124 @@ class Ranks(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("absent.xyz", done.stderr)
         self.assertFalse(os.path.exists(self.path("parts")))
+
+
+def is_running(process):
+    """Whether it runs; one whose parent has not asked for its end yet does not."""
+    try:
+        with open(f"/proc/{process}/stat") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+# Each rank reads a file of its own.
+OWN_FILE = 'exec "$0" render $OMPI_COMM_WORLD_RANK.xyz "$@"'
+
+
+@unittest.skipUnless(BIHIVE_MPI and is_open_mpi(), "bihive-mpi was not built: install libopenmpi-dev and openmpi-bin")
+class Program(OnRanks):
+    def errors(self, done):
+        """The lines of the program, without those of mpirun."""
+        return [line for line in done.stderr.splitlines() if line.startswith("bihive: ")]
+
+    def leftovers(self):
+        return sorted(name for name in os.listdir(self.folder) if name != "run.xyz")
+
+    def hash_of(self, done):
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)["picture_hash"]
+
+    def test_any_number_of_ranks_gives_the_same_picture(self):
+        looks = [
+            ["--size", "160x120"],
+            ["--size", "97x203", "--style", "illustrative", "--samples", "auto"],
+            ["--size", "160x120", "--style", "glossy", "--background", "none", "--aperture", "1"],
+            ["--size", "64x400", "--view", "normal", "--crop", "3,17,60,391"],
+            ["--size", "120x90", "--view", "distance"],  # which rank 0 draws alone
+        ]
+        for options in looks:
+            alone = self.hash_of(self.run_bihive("render", "demo", "-o", "alone.png", "--json", *options))
+            for ranks in (1, 2, 3, 4):
+                with self.subTest(options=options, ranks=ranks):
+                    words = ["render", "demo", "-o", "ranks.png", "--json", "--threads", "1", *options]
+                    self.assertEqual(self.hash_of(self.run_ranks(ranks, BIHIVE_MPI, *words)), alone)
+
+    def test_the_rays_are_those_of_all_ranks(self):
+        words = ["render", "demo", "-o", "a.png", "--json", "--size", "160x120", "--style", "plain"]
+        alone = json.loads(self.run_bihive(*words).stdout)["rays"]
+        ranks = json.loads(self.run_ranks(3, BIHIVE_MPI, *words).stdout)["rays"]
+        self.assertEqual(ranks, alone)
+
+    def test_a_film_of_three_ranks_equals_that_of_one_process_too(self):
+        small = ["--size", "48x32", "--samples", "1", "--threads", "1"]
+        self.succeed("film", "run.xyz", "-o", "whole.y4m", *small)
+        done = self.run_ranks(3, BIHIVE_MPI, "film", "run.xyz", "-o", "ranks.y4m", *small)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.read("ranks.y4m"), self.read("whole.y4m"))
+        self.assertEqual(done.stdout.count("ranks.y4m"), 1, done.stdout)
+
+    def test_one_rank_says_what_is_wrong_for_all(self):
+        wrong = [
+            (["render", "absent.xyz", "-o", "a.png"], 1, "absent.xyz"),
+            (["render", "run.xyz", "-o", "missing/a.png"], 1, "missing"),
+            (["render", "run.xyz", "-o", "a.png", "--samples", "many"], 2, "--samples"),
+            (["info", "run.xyz"], 2, "render and film"),
+            (["film", "run.xyz", "-o", "a.y4m", "--shard", "0/2"], 2, "--shard"),
+        ]
+        for words, code, text in wrong:
+            with self.subTest(words=words):
+                done = self.run_ranks(3, BIHIVE_MPI, *words)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertEqual(len(self.errors(done)), 1, done.stderr)
+                self.assertIn(text, self.errors(done)[0])
+                self.assertEqual(self.leftovers(), [])
+
+    def test_ranks_that_see_different_files(self):
+        for rank in range(3):
+            self.write(f"{rank}.xyz", f"1\n\nC {rank // 2} 0 0\n")
+        done = self.run_ranks(3, "sh", "-c", OWN_FILE, BIHIVE_MPI, "-o", "a.png")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(self.errors(done), ["bihive: error: the input of rank 2 is not that of rank 0; give all ranks the same "
+                                             "program, files and options"])
+        self.assertFalse(os.path.exists(self.path("a.png")))
+
+    def test_a_file_that_one_rank_lacks(self):
+        self.write("0.xyz", "1\n\nC 0 0 0\n")
+        self.write("2.xyz", "1\n\nC 0 0 0\n")
+        done = self.run_ranks(3, "sh", "-c", OWN_FILE, BIHIVE_MPI, "-o", "a.png")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
+        self.assertIn("1.xyz", self.errors(done)[0])
+
+    def test_a_full_disk(self):
+        done = self.run_ranks(3, BIHIVE_MPI, "render", "demo", "-o", "/dev/full", "--size", "640x480")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
+        self.assertIn("/dev/full", self.errors(done)[0])
+        self.assertEqual(self.leftovers(), [])
+
+    def test_ctrl_c_and_a_rank_that_dies(self):
+        words = ["render", "demo", "-o", "a.png", "--size", "6000x4000", "--threads", "1"]
+        for kind in ("mpirun is interrupted", "a rank is killed"):
+            with self.subTest(kind=kind):
+                running = subprocess.Popen(self.mpirun(3, BIHIVE_MPI, *words), cwd=self.folder, stdout=subprocess.DEVNULL,
+                                           stderr=subprocess.DEVNULL)
+                ranks = []
+                while len(ranks) < 3:
+                    self.assertIsNone(running.poll(), "it ended before it was stopped")
+                    found = subprocess.run(["pgrep", "-P", str(running.pid)], capture_output=True, text=True)
+                    ranks = [int(line) for line in found.stdout.split()]
+                    time.sleep(0.05)
+                time.sleep(1)
+                if kind == "a rank is killed":
+                    os.kill(ranks[1], signal.SIGKILL)
+                else:
+                    running.send_signal(signal.SIGINT)
+                self.assertNotEqual(running.wait(timeout=60), 0)
+                for rank in ranks:
+                    self.assertFalse(is_running(rank), "nothing runs on")
+                self.assertEqual(self.leftovers(), [])
 
 
 if __name__ == "__main__":

@@ -160,7 +160,8 @@ def by_lammps_data(path, frame):
 def by_pcl(path, frame):
     import pcl
 
-    return Places(pcl.load(str(path)).to_array())
+    xyz = pcl.load(str(path)).to_array()
+    return Places(xyz[np.isfinite(xyz).all(axis=1)])  # places that the camera did not see are NaN; bihive leaves them out
 
 
 # VTK ends the program that it is in on some broken files, so it reads in one of its own.

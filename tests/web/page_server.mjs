@@ -10,6 +10,8 @@ const types = {
   '.css': 'text/css',
   '.json': 'application/json',
   '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml',
+  '.webmanifest': 'application/manifest+json',
 };
 const isolation = {
   'Cross-Origin-Opener-Policy': 'same-origin',

@@ -5,7 +5,9 @@ import { Engine } from './engine';
 import { listen_for_keys } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
+import { start_embedded, tell } from './embedded';
 import { link_of, reading_of, state_from, state_of, type State } from './link';
+import { keep_for_offline, listen_for_launches } from './offline';
 import { busy, clear_errors, clear_notes, fail, note } from './messages';
 import { start_panel } from './panel';
 import { PlayerBar } from './player';
@@ -76,6 +78,8 @@ const engine = new Engine(
       looks.show_facts(answer.facts);
       looks.show(look, answer.coloured_by);
       for (const text of answer.notes) note(text);
+      const { name, format, spheres, frames } = answer.facts;
+      tell({ bihive: 'loaded', name, format, spheres, frames });
     },
     failed: ({ id, message }) => {
       busy(null);
@@ -92,6 +96,7 @@ const engine = new Engine(
         }
       }
       fail(message);
+      tell({ bihive: 'failed', message });
     },
     note: ({ message }) => note(message),
     gpu: ({ gpu: found }) => {
@@ -274,6 +279,7 @@ async function open(
     busy(null);
     show_source(source);
     fail((error as Error).message);
+    tell({ bihive: 'failed', message: (error as Error).message });
   }
 }
 
@@ -372,6 +378,8 @@ function lacking(): string {
 async function start(): Promise<void> {
   start_theme();
   start_panel();
+  start_embedded();
+  keep_for_offline();
   const lack = lacking();
   if (lack !== '') {
     fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`);
@@ -405,6 +413,7 @@ async function start(): Promise<void> {
     void open_source(from);
   }, (files) => void open_files(files));
   listen_for_reading(read_again);
+  listen_for_launches((files) => void open_files(files));
   element('copy_link').addEventListener('click', () => void copy_link());
 
   const open_state = async () => {

@@ -130,6 +130,7 @@ struct FilmOptions {
   std::string codec;  ///< ffmpeg's words for the film's codec, one space between them; empty: by the output's ending
   std::optional<Shard> shard;
   bool join = false;
+  bool silent = false;  ///< no report: another process makes that of the film
 };
 void run_film(const FilmOptions& options);
 

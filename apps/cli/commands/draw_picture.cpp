@@ -39,11 +39,7 @@ Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings
       &CancellableSection::token());
   stop_if_interrupted();
   const RenderedBands rendered = value_or_fail(std::move(result));
-  const RenderCounts& rays = rendered.rays;
-  Drawn drawn;
-  drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient;
-  drawn.rays = {{"primary", rays.primary},         {"shadow", rays.shadow},   {"reflected", rays.reflected},
-                {"transmitted", rays.transmitted}, {"ambient", rays.ambient}, {"all", drawn.all_rays}};
+  Drawn drawn = drawn_with(rendered.rays);
   drawn.render_ms = rendered.render_ms;
   return drawn;
 }
@@ -80,6 +76,14 @@ Drawn draw_on_gpu(const Scene& scene, const Tracer& tracer, const RenderSettings
 }
 
 }  // namespace
+
+Drawn drawn_with(const RenderCounts& rays) {
+  Drawn drawn;
+  drawn.all_rays = rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient;
+  drawn.rays = {{"primary", rays.primary},         {"shadow", rays.shadow},   {"reflected", rays.reflected},
+                {"transmitted", rays.transmitted}, {"ambient", rays.ambient}, {"all", drawn.all_rays}};
+  return drawn;
+}
 
 Drawn draw_picture(const Scene& scene, const Tracer& tracer, RenderEngine engine, const RenderSettings& settings,
                    const std::vector<Layer>& layers, PictureFile& file, const ProgressCallback& progress) {

@@ -18,6 +18,8 @@ struct Drawn {
   nlohmann::ordered_json rays, gpu;
 };
 
+Drawn drawn_with(const RenderCounts& rays);
+
 /// Thrown when a signal came while the caller had a CancellableSection.
 struct Interrupted {};
 

@@ -259,7 +259,7 @@ void run_film(const FilmOptions& asked) {
   report.times = make_missing(source, plan, options, style, wanted, missing, folder, *sink);
   if (!options.shard) folder.finish(plan);
   report.all_ms = timer.elapsed_ms();
-  print_film_report(options, plan, report);
+  if (!options.silent) print_film_report(options, plan, report);
 }
 
 }  // namespace bihive::cli

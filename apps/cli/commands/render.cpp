@@ -10,6 +10,7 @@
 #include "commands/choose_look.h"
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
+#include "commands/draw_with_team.h"
 #include "commands/names.h"
 #include "commands/picture_file.h"
 #include "commands/picture_settings.h"
@@ -19,6 +20,7 @@
 #include "support/messages.h"
 #include "support/outputs.h"
 #include "support/peak_memory.h"
+#include "support/team.h"
 
 namespace bihive::cli {
 namespace {
@@ -49,13 +51,18 @@ ordered_json report_json(const RenderOptions& options, const Input& input, const
   return json;
 }
 
+// Other engines, layers and views are drawn by rank 0 alone.
+bool can_share(RenderEngine engine, const RenderSettings& settings, const std::vector<Layer>& layers) {
+  return !is_gpu(engine) && !is_drawn_whole(settings.view) && (layers.empty() || has_radiance(layers));
+}
+
 }  // namespace
 
 void run_render(const RenderOptions& asked) {
   RenderOptions options = asked;
   if (!asked.film.empty()) take_film(options, read_film_plan(asked.film));
   const RenderEngine engine = choose_engine(options);
-  check_output(options);
+  if (leads()) check_output(options);
 
   // Load the scene and apply the user's options to it.
   const bool named = !options.style.name.empty();
@@ -63,7 +70,7 @@ void run_render(const RenderOptions& asked) {
   Style style = choose_style(options.style);
   if (options.fixed) fix_range(style, options.fixed->range_of_style);
   Input input = load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named);
-  check_outputs({options.output}, input.files);
+  if (leads()) check_outputs({options.output}, input.files);
   RenderSettings settings = prepare_picture(options, engine, input);
   const Scene& scene = input.scene;
   const std::vector<Layer> layers = choose_layers(options, scene, settings);
@@ -74,18 +81,24 @@ void run_render(const RenderOptions& asked) {
   const Tracer tracer = value_or_fail(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
   const Timer drawing;
   const ordered_json described = settings_json(options, settings, scene, layers);
+  if (team() != nullptr) team()->agree(fingerprints_of(scene, described.dump()));
   const std::unique_ptr<PictureFile> file =
-      open_picture({options, scene, tracer, settings, layers, text_of(scene, described)});
+      leads() ? open_picture({options, scene, tracer, settings, layers, text_of(scene, described)}) : nullptr;
   const Drawn drawn = [&] {
     const CancellableSection section;
     Progress progress("rendering");
+    const auto update = [&](double done) { progress.update(done); };
     try {
-      return draw_picture(scene, tracer, engine, settings, layers, *file, [&](double done) { progress.update(done); });
+      if (team() != nullptr && can_share(engine, settings, layers))
+        return draw_with_team(scene, tracer, settings, file.get(), update, *team());
+      return file == nullptr ? Drawn{} : draw_picture(scene, tracer, engine, settings, layers, *file, update);
     } catch (const Interrupted&) {
       CancellableSection::leave_if_cancelled();
       throw;
     }
   }();
+  if (team() != nullptr) team()->agree({});
+  if (file == nullptr) return;
   value_or_fail(file->finish());
   const double write_ms = drawing.elapsed_ms() - drawn.render_ms;
 

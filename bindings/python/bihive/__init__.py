@@ -6,9 +6,10 @@
 >>> np.asarray(picture).shape
 (60, 80, 3)
 
-Spheres, read       spheres of arrays, of a file
+Spheres, read       spheres of arrays, of a file; Spheres.save, convert: into a file
 render, film        pictures and films of them; Orthographic, Perspective, Look, Style decide how they look
 Tree                what rays hit
+view                the page in a browser, with spheres from memory
 select, stats       which spheres an expression takes; the trees in numbers
 colour_map          colours of numbers
 Error               the base of all exceptions of this package
@@ -20,8 +21,9 @@ from ._errors import Error, FileError, InputError, InputWarning, MissingError, U
 from ._film import film
 from ._picture import Picture
 from ._render import render
-from ._spheres import Spheres, colour_map, read, select, stats
+from ._spheres import Spheres, colour_map, convert, read, select, stats
 from ._tree import Hits, Near, Tree
+from ._view import View, view
 
 __all__ = [
     "Error",
@@ -39,11 +41,14 @@ __all__ = [
     "Style",
     "Tree",
     "UsageError",
+    "View",
     "__version__",
     "colour_map",
+    "convert",
     "film",
     "read",
     "render",
     "select",
     "stats",
+    "view",
 ]

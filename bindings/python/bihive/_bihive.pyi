@@ -30,6 +30,7 @@ class Spheres:
     def __len__(self) -> int: ...
     def select(self, expression: str) -> _Array: ...
     def statistics(self, words: list[str]) -> str: ...
+    def written(self, format: str) -> tuple[bytes, list[str]]: ...
 
 class Picture:
     pixels: _Array
@@ -85,13 +86,14 @@ def spheres_from_arrays(
     type: Optional[_Array],
     colour: Optional[_Array],
     opacity: Optional[_Array],
-    numbers: dict[str, Any],
-    texts: dict[str, list[str]],
+    numbers: list[tuple[str, Any]],
+    texts: list[tuple[str, list[str]]],
     cell: Optional[_Array],
     format: str,
     name: str,
 ) -> Spheres: ...
 def read(words: list[str]) -> Spheres: ...
+def write_file(path: str, content: bytes) -> None: ...
 def render(
     spheres: Optional[Spheres],
     words: list[str],

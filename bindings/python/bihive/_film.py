@@ -27,7 +27,7 @@ _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
 _OF_PROGRAM = ["frames", "pictures", "turntable", "camera_keys", "colour_range", "codec", "shard", "join"]
 
 
-def _program() -> str:
+def program() -> str:
     """The program `bihive`: as BIHIVE says, in the folder of the build or of the installation, or in PATH."""
     import shutil
 
@@ -51,7 +51,7 @@ def _film_of_file(source: str, path: str, words: list[str], progress: Progress) 
 
     from ._errors import in_python
 
-    command = [_program(), "film", "-o", path, *words, "--", source]
+    command = [program(), "film", "-o", path, *words, "--", source]
     # The program shows its own progress, on a terminal.
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
     lines = done.stderr.splitlines()

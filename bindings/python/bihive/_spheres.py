@@ -14,10 +14,11 @@ from ._arrays import as_array, numbers, one_each, texts, whole_numbers
 from ._errors import FileError, InputWarning, bad_argument, found
 from ._options import words_of
 
-__all__ = ["Spheres", "read", "select", "stats", "colour_map"]
+__all__ = ["Spheres", "read", "convert", "select", "stats", "colour_map"]
 
 Array = np.ndarray[Any, Any]
 _BUILT_IN = ["demo", "scenario1", "scenario2", "scenario3", "four-spheres"]
+_WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".ply": "ply"}
 _MAPS = ["viridis", "magma", "cividis", "coolwarm", "okabe-ito"]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
 _READING = ["radius", "radius_scale", "assembly", "frame", "trajectory", "cell_vectors", "cell_origin", "recenter"]
@@ -172,8 +173,8 @@ class Spheres:
             None if type is None else whole_numbers("type", type, count, -(2**31), 2**31 - 1).astype(np.int32),
             None if colour is None else np.asarray(_colours(colour, count), dtype=np.float32),
             None if opacity is None else np.asarray(_opacities(opacity, count), dtype=np.float32),
-            numbers_of,
-            texts_of,
+            list(numbers_of.items()),
+            list(texts_of.items()),
             None if cell is None else np.asarray(_cell(cell), dtype=np.float64),
             "array",
             name,
@@ -246,6 +247,36 @@ class Spheres:
         """The memory of the set, in bytes."""
         return self._core.nbytes
 
+    def save(self, path: Union[str, os.PathLike[str]], format: Optional[str] = None) -> list[str]:
+        """Writes the spheres into a file of another format, whole or not at all, as ``bihive convert`` does.
+
+        format: "xyz", "extxyz", "csv", "npy" or "ply"; left out: by the ending. Returns what the format cannot hold, a
+        sentence each. Raises FileError (an OSError) if the file cannot be written.
+
+        >>> import os, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = os.path.join(folder, "two.csv")
+        ...     left_out = Spheres([[0, 0, 0], [1, 2, 3]], radius=0.5, charge=[-1, 1]).save(path)
+        ...     read(path)["charge"].tolist()
+        [-1.0, 1.0]
+        """
+        text = os.fspath(path)
+        if not isinstance(text, str) or not text or "\0" in text:
+            raise bad_argument("path", f"expected a path, found {found(path)}")
+        ending = os.path.splitext(text)[1].lower()
+        if format is None and ending == ".json":
+            raise bad_argument("path", "the program bihive convert writes scene files", "or let it end in .csv or .extxyz")
+        chosen = _WRITTEN.get(ending) if format is None else format
+        if chosen is None or chosen not in _WRITTEN.values():
+            what = f"path: expected an ending of {', '.join(_WRITTEN)}" if format is None else f"found {found(format)}"
+            raise bad_argument("format", f"expected one of {', '.join(_WRITTEN.values())}", what)
+        content, left_out = self._core.written(chosen)
+        try:
+            _bihive.write_file(text, content)
+        except ValueError as error:
+            raise FileError(0, str(error), text) from None
+        return left_out
+
     def __len__(self) -> int:
         return len(self._core)
 
@@ -311,8 +342,8 @@ class Spheres:
             state["type"],
             state["colour"],
             state["opacity"],
-            {name: values for name, values in state["columns"].items() if name not in texts_of},
-            texts_of,
+            [(name, values) for name, values in state["columns"].items() if name not in texts_of],
+            list(texts_of.items()),
             state["cell"],
             state["format"],
             state["name"],
@@ -376,6 +407,24 @@ def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     return Spheres._of(core)
 
 
+def convert(
+    source: Union[str, os.PathLike[str]],
+    path: Union[str, os.PathLike[str]],
+    *,
+    format: Optional[str] = None,
+    select: Optional[str] = None,
+    **options: Any,
+) -> list[str]:
+    """Reads a file and writes it in another format: ``read(source, **options)``, then ``Spheres.save(path, format)``.
+
+    select: only the spheres that this selection takes. Returns what the format cannot hold, a sentence each.
+    """
+    spheres = read(source, **options)
+    if select is not None:
+        spheres = spheres[_mask(spheres, select)]
+    return spheres.save(path, format)
+
+
 def select(spheres: Spheres, expression: str) -> Array:
     """bool (n,): which spheres a selection (docs/selections.md) takes. Raises UsageError that shows the wrong place.
 
@@ -387,6 +436,10 @@ def select(spheres: Spheres, expression: str) -> Array:
     if not isinstance(expression, str):
         raise bad_argument("expression", f"expected a text, found {found(expression)}")
     return spheres._core.select(expression)
+
+
+# convert() has an argument of the name.
+_mask = select
 
 
 def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> dict[str, Any]:

@@ -12,10 +12,12 @@
 
 #include "arrays.h"
 #include "bihive/base/timer.h"
+#include "bihive/base/write_file.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/packed.h"
+#include "bihive/io/write_spheres.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/colour_text.h"
@@ -54,8 +56,8 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
                                   const std::optional<Array<std::uint8_t>>& element,
                                   const std::optional<Array<std::int32_t>>& type,
                                   const std::optional<Array<float>>& colour, const std::optional<Array<float>>& opacity,
-                                  const std::map<std::string, Array<double>>& numbers,
-                                  const std::map<std::string, std::vector<std::string>>& texts,
+                                  const std::vector<std::pair<std::string, Array<double>>>& numbers,
+                                  const std::vector<std::pair<std::string, std::vector<std::string>>>& texts,
                                   const std::optional<Array<double>>& cell, const std::string& format,
                                   const std::string& name) {
   auto made = std::make_shared<Spheres>();
@@ -235,6 +237,21 @@ py::array_t<float> colours_of(const py::object& values, const std::string& how, 
   return made;
 }
 
+// The bytes of a file of spheres, and what the format cannot hold. `format` is one of those that bihive/_spheres.py knows.
+py::tuple written(const Spheres& spheres, const std::string& format) {
+  const std::map<std::string, SphereFileFormat> formats{{"xyz", SphereFileFormat::xyz},
+                                                        {"extxyz", SphereFileFormat::extended_xyz},
+                                                        {"csv", SphereFileFormat::csv},
+                                                        {"npy", SphereFileFormat::npy},
+                                                        {"ply", SphereFileFormat::ply}};
+  WrittenSpheres made;
+  {
+    const py::gil_scoped_release unlocked;
+    made = write_spheres(spheres.file.spheres, formats.at(format));
+  }
+  return py::make_tuple(py::bytes(made.bytes), made.left_out);
+}
+
 }  // namespace
 
 cli::Request request_of(const std::vector<std::string>& words) {
@@ -272,9 +289,14 @@ void bind_spheres(py::module_& module) {
       .def_property_readonly("rules", [](const Spheres& s) { return s.file.rules; })
       .def_property_readonly("warnings", [](const Spheres& s) { return s.file.warnings; })
       .def("select", select)
-      .def("statistics", statistics);
+      .def("statistics", statistics)
+      .def("written", written);
   module.def("spheres_from_arrays", spheres_from_arrays);
   module.def("read", read);
+  module.def("write_file", [](const std::string& path, const std::string& bytes) {
+    const py::gil_scoped_release unlocked;
+    value_of(write_file(path, bytes));
+  });
   module.def("colours_of", colours_of);
   module.def("linear_colour", [](const std::string& text) -> std::optional<std::array<double, 3>> {
     const std::optional<Vec3d> light = colour_from_text(text, Transfer::srgb);

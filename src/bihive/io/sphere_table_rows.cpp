@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "bihive/base/memory.h"
 #include "bihive/base/parallel.h"
 #include "bihive/io/column_numbers.h"
 #include "bihive/io/parse_number.h"
@@ -173,11 +174,14 @@ Result<std::int64_t> SphereTable::add_rows(TextScanner& scanner, std::int64_t mo
     if (Status row = add_row(scanner); !row) return row.error();
   }
 
+  // A number takes two bytes of text at least and eight here: the numbers of a block stay within a quarter of the memory.
+  const auto most_block_bytes =
+      std::clamp(static_cast<std::int64_t>(std::min(memory_bytes(), 0x1p62) / 16), kLeastBlockBytes, kMostBlockBytes);
   std::vector<Part> parts;
   std::int64_t read_bytes = 0;
   while (missing() > 0) {
     // Cut the next block into parts of whole lines.
-    const std::int64_t block_bytes = std::clamp(read_bytes, kLeastBlockBytes, kMostBlockBytes);
+    const std::int64_t block_bytes = std::clamp(read_bytes, kLeastBlockBytes, most_block_bytes);
     const auto part_bytes = static_cast<std::size_t>(block_bytes / kParts);
     const std::string_view block = scanner.peek_lines(block_bytes);
     if (block.empty()) break;

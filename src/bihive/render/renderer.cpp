@@ -470,16 +470,50 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
   return rendered;
 }
 
+bool is_drawn_whole(View view) {
+  return view == View::tree || view == View::distance;
+}
+
+Result<RenderedBands> render_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                   const NextBand& next, const BandCallback& take, const ProgressCallback& progress,
+                                   const CancelToken* cancel) {
+  BIHIVE_CHECK(!is_drawn_whole(settings.view));
+  if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
+  Timer timer;
+  Result<Transparency> transparency = transparency_of(scene, tracer, settings);
+  if (!transparency) return transparency.error();
+
+  std::optional<Renderer> renderer;
+  RenderedBands rendered;
+  Film film;
+  for (std::optional<Tile> band = next(); band; band = next()) {
+    if (renderer) {
+      renderer->move_to(*band, std::move(film));
+    } else {
+      RenderSettings of_band = settings;
+      of_band.crop = *band;
+      renderer.emplace(scene, tracer, of_band, progress, cancel, Film{}, std::move(*transparency));
+    }
+    run_all(*renderer);
+    if (renderer->cancelled()) return was_cancelled();
+    Rendered of_rows = renderer->take();
+    add_counts(of_rows.rays, rendered.rays);
+    rendered.render_ms += timer.elapsed_ms();
+    if (Status status = take(of_rows.film, *band); !status) return status.error();
+    film = std::move(of_rows.film);
+    timer = Timer();
+  }
+  return rendered;
+}
+
 Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                       int band_rows, const BandCallback& take, const ProgressCallback& progress,
                                       const CancelToken* cancel) {
   BIHIVE_CHECK(band_rows >= 1);
-  if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
-  if (settings.view == View::tree || settings.view == View::distance)
+  if (is_drawn_whole(settings.view)) {
+    if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
     return render_in_one_band(scene, tracer, settings, take, progress, cancel);
-  Timer timer;
-  Result<Transparency> transparency = transparency_of(scene, tracer, settings);
-  if (!transparency) return transparency.error();
+  }
 
   // The share of the picture above the band, and that of the band.
   double above = 0;
@@ -488,25 +522,16 @@ Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, 
   if (progress) of_picture = [&](double done) { progress(above + done * in_band); };
 
   const Tile all = drawn_pixels(settings);
-  const auto band_from = [&](int y) { return Tile{all.x0, y, all.x1, std::min(y + band_rows, all.y1)}; };
-  RenderSettings of_band = settings;
-  of_band.crop = band_from(all.y0);
-  Renderer renderer(scene, tracer, of_band, of_picture, cancel, {}, std::move(*transparency));
-  RenderedBands rendered;
-  for (Tile band = *of_band.crop; band.y0 < all.y1;) {
+  int y = all.y0;
+  const auto next = [&]() -> std::optional<Tile> {
+    if (y >= all.y1) return std::nullopt;
+    const Tile band{all.x0, y, all.x1, std::min(y + band_rows, all.y1)};
     above = static_cast<double>(band.y0 - all.y0) / all.height();
     in_band = static_cast<double>(band.height()) / all.height();
-    run_all(renderer);
-    if (renderer.cancelled()) return was_cancelled();
-    Rendered of_rows = renderer.take();
-    add_counts(of_rows.rays, rendered.rays);
-    rendered.render_ms += timer.elapsed_ms();
-    if (Status status = take(of_rows.film, band); !status) return status.error();
-    timer = Timer();
-    band = band_from(band.y1);
-    if (band.y0 < all.y1) renderer.move_to(band, std::move(of_rows.film));
-  }
-  return rendered;
+    y = band.y1;
+    return band;
+  };
+  return render_bands(scene, tracer, settings, next, take, of_picture, cancel);
 }
 
 class SlicedPicture::Implementation {

@@ -1,0 +1,143 @@
+// bihive-mpi: pictures and films by the ranks of MPI, with the options of bihive and the same bits.
+
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "../shared/last_line.h"
+#include "bihive/base/parallel.h"
+#include "bihive/simd/target.h"
+#include "command_line.h"
+#include "mpi_team.h"
+#include "support/failure.h"
+#include "support/interrupt.h"
+#include "support/messages.h"
+
+namespace bihive::mpi {
+namespace {
+
+using cli::FilmOptions;
+using cli::RenderOptions;
+
+constexpr const char* kHelp =
+    "bihive-mpi: one picture or film by many processes, with the same bits as by one\n"
+    "Usage: mpirun -n N bihive-mpi render|film ...\n"
+    "\n"
+    "The words behind are those of bihive render and bihive film: see bihive render --help, bihive film --help.\n"
+    "Every rank reads the input; rank 0 writes the picture. Of films each rank draws every N-th picture, and rank 0 joins\n"
+    "them. Without --threads the ranks of a machine share its cores, or keep to those that mpirun gives them.\n"
+    "\n"
+    "Examples:\n"
+    "  mpirun -n 4 bihive-mpi render demo -o molecule.png --size 8000x6000\n"
+    "  mpirun -n 4 bihive-mpi film run.dump -o run.mp4\n";
+
+// The threads of each rank. default_concurrency() is what mpirun lets this rank run on: all cores, or its own.
+int threads_of_rank(const MpiTeam& team) {
+  const int allowed = hardware_threads();
+  const long all = sysconf(_SC_NPROCESSORS_ONLN);
+  return allowed < all ? allowed : std::max(1, allowed / team.size_on_machine());
+}
+
+void check_film(const FilmOptions& options) {
+  if (options.shard || options.join)
+    cli::fail_usage("--shard and --join are what bihive-mpi does by itself", "leave them out, or use bihive film");
+}
+
+void run_request(MpiTeam& team, cli::Request request) {
+  if (RenderOptions* const render = std::get_if<RenderOptions>(&request)) {
+    if (render->threads == 0) render->threads = threads_of_rank(team);
+    cli::run_render(*render);
+  } else if (FilmOptions* const film = std::get_if<FilmOptions>(&request)) {
+    check_film(*film);
+    FilmOptions of_rank = *film;
+    if (of_rank.picture.threads == 0) of_rank.picture.threads = threads_of_rank(team);
+    of_rank.shard = cli::Shard{team.rank(), team.size()};
+    of_rank.silent = true;
+    cli::run_film(of_rank);
+    team.agree({});
+    if (team.rank() != 0) return;
+    FilmOptions joined;
+    joined.picture.output = film->picture.output;
+    joined.picture.json = film->picture.json;
+    joined.join = true;
+    cli::run_film(joined);
+  } else if (const cli::HelpText* const help = std::get_if<cli::HelpText>(&request)) {
+    cli::print(help->asked_for ? help->text : kHelp);
+  } else {
+    cli::fail_usage("bihive-mpi has render and film", "bihive has the other commands");
+  }
+}
+
+// Why this rank fails; nothing: it does not.
+struct Said {
+  int code = cli::kSuccess;
+  std::string text, shown;
+};
+
+Said run(MpiTeam& team, int argc, const char* const* argv) {
+  try {
+    cli::handle_signals();
+    if (const Status status = check_target_environment(); !status) throw cli::Failure{cli::kBadUsage, status.error()};
+    if (argc < 2 || std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h") {
+      cli::print(kHelp);
+    } else {
+      run_request(team, cli::parse_command_line(argc, argv));
+    }
+    cli::finish_output();
+    return {};
+  } catch (const cli::Failure& failure) {
+    return {failure.code, failure.error.to_string(), failure.shown};
+  } catch (const cli::OtherRankFailed& other) {
+    return {other.code, "", ""};
+  } catch (const std::bad_alloc&) {
+    return {cli::kBadInput, kNoMemory, ""};
+  } catch (const std::exception& error) {
+    return {cli::kBadInput, error.what(), ""};
+  }
+}
+
+// Whatever happens, all ranks end with the same code, and one of them says why.
+int run_ranks(int argc, const char* const* argv) {
+  MpiTeam team;
+  cli::set_team(&team);
+  std::vector<std::string> unsaid;
+  if (team.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;
+  Said said;
+  {
+    // Rank 0 warns for all.
+    std::optional<cli::CollectedWarnings> collected;
+    if (team.rank() != 0) collected.emplace(unsaid);
+    said = run(team, argc, argv);
+  }
+  const int code = team.end_with(said.code);
+  if (team.speaks()) {
+    cli::say_error(said.text);
+    std::fputs(said.shown.c_str(), stderr);
+  }
+  cli::set_team(nullptr);
+  return code;
+}
+
+}  // namespace
+}  // namespace bihive::mpi
+
+int main(int argc, char** argv) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
+  if (provided < MPI_THREAD_SERIALIZED) {
+    bihive::cli::say_error("this MPI takes calls from the main thread alone");
+    MPI_Finalize();
+    return bihive::cli::kEnvironment;
+  }
+  const int code = bihive::mpi::run_ranks(argc, argv);
+  MPI_Finalize();
+  return code;
+}

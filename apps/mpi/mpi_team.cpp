@@ -1,0 +1,185 @@
+#include "mpi_team.h"
+
+#include <algorithm>
+#include <climits>
+#include <cstring>
+#include <utility>
+
+namespace bihive::mpi {
+namespace {
+
+enum Tag : int { kRows = 1, kEnd = 2 };
+
+// In front of the light of some rows.
+struct RowsHead {
+  std::int64_t number;
+  std::int32_t width, height, has_coverage, unused;
+};
+
+struct EndOfRank {
+  std::int64_t primary, shadow, reflected, transmitted, ambient, failed;
+};
+
+std::vector<char> packed(std::int64_t number, const Film& film) {
+  const RowsHead head{number, film.width, film.height, film.coverage.empty() ? 0 : 1, 0};
+  const std::size_t light = film.radiance.size() * sizeof(Vec3f), coverage = film.coverage.size() * sizeof(float);
+  std::vector<char> bytes(sizeof head + light + coverage);
+  std::memcpy(bytes.data(), &head, sizeof head);
+  std::memcpy(bytes.data() + sizeof head, film.radiance.data(), light);
+  if (coverage > 0) std::memcpy(bytes.data() + sizeof head + light, film.coverage.data(), coverage);
+  return bytes;
+}
+
+cli::GivenRows unpacked(const std::vector<char>& bytes) {
+  RowsHead head{};
+  std::memcpy(&head, bytes.data(), sizeof head);
+  cli::GivenRows rows{head.number, {}};
+  rows.film.resize(head.width, head.height, head.has_coverage != 0);
+  const std::size_t light = rows.film.radiance.size() * sizeof(Vec3f);
+  std::memcpy(static_cast<void*>(rows.film.radiance.data()), bytes.data() + sizeof head, light);
+  if (head.has_coverage != 0)
+    std::memcpy(rows.film.coverage.data(), bytes.data() + sizeof head + light, rows.film.coverage.size() * sizeof(float));
+  return rows;
+}
+
+}  // namespace
+
+MpiTeam::MpiTeam() {
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &size_on_machine_);
+  MPI_Comm_free(&machine);
+  // The counter lies with rank 0. Epochs last as long as the team.
+  MPI_Win_allocate(rank_ == 0 ? sizeof(std::int64_t) : 0, sizeof(std::int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &counter_,
+                   &window_);
+  if (rank_ == 0) *counter_ = 0;
+  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Win_lock_all(0, window_);
+}
+
+MpiTeam::~MpiTeam() {
+  MPI_Win_unlock_all(window_);
+  MPI_Win_free(&window_);
+}
+
+// The lowest rank that failed, and its code.
+int MpiTeam::share(int code) {
+  const std::lock_guard lock(mutex_);
+  const int mine = code == 0 ? INT_MAX : rank_;
+  int lowest = INT_MAX;
+  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  if (lowest == INT_MAX) return 0;
+  MPI_Bcast(&code, 1, MPI_INT, lowest, MPI_COMM_WORLD);
+  code_ = code;
+  speaks_ = lowest == rank_;
+  return code;
+}
+
+int MpiTeam::end_with(int code) {
+  // After a failure everybody knows already.
+  return code_ != 0 ? code_ : share(code);
+}
+
+void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
+  if (const int code = share(0); code != 0) throw cli::OtherRankFailed{code};
+  if (seen.empty()) return;
+
+  // What rank 0 sees, beside what this rank sees.
+  std::vector<std::uint64_t> wanted;
+  for (const cli::Fingerprint& one : seen) wanted.push_back(one.hash);
+  {
+    const std::lock_guard lock(mutex_);
+    MPI_Bcast(wanted.data(), static_cast<int>(wanted.size()), MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  }
+  std::string differs;
+  for (std::size_t i = 0; i < seen.size() && differs.empty(); ++i)
+    if (seen[i].hash != wanted[i]) differs = seen[i].what;
+  const int code = share(differs.empty() ? 0 : cli::kBadInput);
+  if (code == 0) return;
+  if (differs.empty()) throw cli::OtherRankFailed{code};
+  cli::fail({differs + " of rank " + std::to_string(rank_) + " is not that of rank 0", "", 0, 0,
+             "give all ranks the same program, files and options"});
+}
+
+std::int64_t MpiTeam::next_number() {
+  const std::lock_guard lock(mutex_);
+  const std::int64_t one = 1;
+  std::int64_t number = 0;
+  MPI_Fetch_and_op(&one, &number, MPI_INT64_T, 0, 0, MPI_SUM, window_);
+  MPI_Win_flush(0, window_);
+  return number;
+}
+
+void MpiTeam::stop_counting() {
+  const std::lock_guard lock(mutex_);
+  const std::int64_t beyond = std::int64_t{1} << 40;
+  std::int64_t before = 0;
+  MPI_Fetch_and_op(&beyond, &before, MPI_INT64_T, 0, 0, MPI_SUM, window_);
+  MPI_Win_flush(0, window_);
+}
+
+void MpiTeam::give(std::int64_t number, const Film& film) {
+  std::vector<char> bytes = packed(number, film);
+  const std::lock_guard lock(mutex_);
+  Sending& sending = sending_[next_sending_];
+  next_sending_ = 1 - next_sending_;
+  MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
+  sending.bytes = std::move(bytes);
+  MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, 0, kRows, MPI_COMM_WORLD,
+            &sending.request);
+}
+
+void MpiTeam::end_giving(const RenderCounts& rays, bool failed) {
+  const EndOfRank end{rays.primary, rays.shadow, rays.reflected, rays.transmitted, rays.ambient, failed ? 1 : 0};
+  const std::lock_guard lock(mutex_);
+  for (Sending& sending : sending_) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
+  MPI_Send(&end, sizeof end, MPI_BYTE, 0, kEnd, MPI_COMM_WORLD);
+}
+
+// Whether there was a message.
+bool MpiTeam::receive_one(bool wait) {
+  int there = 1;
+  MPI_Status status;
+  if (wait)
+    MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &status);
+  else
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+  if (there == 0) return false;
+  int count = 0;
+  MPI_Get_count(&status, MPI_BYTE, &count);
+  std::vector<char> bytes(static_cast<std::size_t>(count));
+  MPI_Recv(bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  if (status.MPI_TAG == kRows) {
+    received_.push_back(unpacked(bytes));
+    return true;
+  }
+  EndOfRank end{};
+  std::memcpy(&end, bytes.data(), sizeof end);
+  ++ended_;
+  somebody_failed_ = somebody_failed_ || end.failed != 0;
+  rays_of_others_ = {rays_of_others_.primary + end.primary, rays_of_others_.shadow + end.shadow,
+                     rays_of_others_.reflected + end.reflected, rays_of_others_.transmitted + end.transmitted,
+                     rays_of_others_.ambient + end.ambient};
+  return true;
+}
+
+void MpiTeam::receive() {
+  const std::lock_guard lock(mutex_);
+  while (receive_one(/*wait=*/false)) {
+  }
+}
+
+std::optional<cli::GivenRows> MpiTeam::take(bool wait) {
+  const std::lock_guard lock(mutex_);
+  while (receive_one(/*wait=*/false)) {
+  }
+  while (wait && received_.empty() && ended_ < size_ - 1) receive_one(/*wait=*/true);
+  if (received_.empty()) return std::nullopt;
+  cli::GivenRows first = std::move(received_.front());
+  received_.pop_front();
+  return first;
+}
+
+}  // namespace bihive::mpi

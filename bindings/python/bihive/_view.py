@@ -1,0 +1,114 @@
+"""The page in a browser, with spheres that lie in memory."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Optional
+
+from ._adapt import spheres_of
+from ._errors import InputError, MissingError, UsageError, bad_argument, in_python
+from ._film import program
+from ._spheres import Spheres, check_readable
+
+if TYPE_CHECKING:
+    import subprocess
+
+__all__ = ["View", "view"]
+
+
+class View:
+    """A page that is served until close(), the end of a ``with``, or the end of Python."""
+
+    def __init__(self, server: subprocess.Popen[str], url: str, folder: str, descriptors: list[int]) -> None:
+        self._server, self._folder, self._descriptors = server, folder, descriptors
+        self.url = url
+        """The page's address on this machine."""
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the page is served."""
+        return self._server.poll() is None
+
+    def close(self) -> None:
+        """Ends the server, and lets the memory of its spheres go. Again: nothing."""
+        if self.is_open:
+            self._server.terminate()
+            self._server.wait()
+        _let_go(self._folder, self._descriptors)
+
+    def __enter__(self) -> View:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<bihive.View: {self.url}{'' if self.is_open else ', closed'}>"
+
+    def _repr_html_(self) -> str:
+        return f'<a href="{self.url}" target="_blank">{self.url}</a>' if self.is_open else "closed"
+
+
+def _let_go(folder: str, descriptors: list[int]) -> None:
+    import shutil
+
+    shutil.rmtree(folder, ignore_errors=True)
+    while descriptors:
+        os.close(descriptors.pop())
+
+
+# Spheres lie in memory that has no name in any folder; the link to it gives the page a name to show.
+def _command_of(spheres: Spheres, folder: str) -> tuple[list[str], list[int]]:
+    content, _ = spheres._core.written("extxyz")
+    descriptor = os.memfd_create("spheres")
+    with open(os.dup(descriptor), "wb") as file:
+        file.write(content)
+    stem = os.path.splitext(os.path.basename(spheres.name))[0] or "spheres"
+    link = os.path.join(folder, f"{stem}.extxyz")
+    os.symlink(f"/proc/{os.getpid()}/fd/{descriptor}", link)
+    return [link], [descriptor]
+
+
+def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = None) -> View:
+    """Opens the page with these spheres: they turn, are coloured, selected and saved there. No file is written.
+
+    source: Spheres, atoms of ASE, an AtomGroup or Universe of MDAnalysis, the path of a file, or a built-in name. Spheres keep
+        their colours, cell and attributes.
+    port: of 127.0.0.1; left out: a free one. browser: whether one is opened; left out: not from within a notebook, where the
+        answer shows the address.
+
+    The computation is the browser's own; nothing leaves this machine. Raises MissingError where the program ``bihive`` or its
+    page (``make web``) is missing.
+    """
+    import atexit
+    import json
+    import subprocess
+    import sys
+    import tempfile
+
+    if port is not None and (isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535):
+        raise bad_argument("port", f"expected a number from 0 to 65535, found {port!r}")
+    if browser is None:
+        browser = "ipykernel" not in sys.modules
+    folder = tempfile.mkdtemp(prefix="bihive_view_")
+    descriptors: list[int] = []
+    try:
+        if isinstance(source, (str, os.PathLike)):
+            words = [check_readable(source)]
+        else:
+            words, descriptors = _command_of(spheres_of(source), folder)
+        words = [program(), "web", "--json", "--port", str(port or 0), *([] if browser else ["--no-browser"]), "--", *words]
+        server = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        assert server.stdout is not None and server.stderr is not None
+        line = server.stdout.readline()
+        if not line:
+            code = server.wait()
+            errors = [one for one in server.stderr.read().splitlines() if one.startswith("bihive: error: ")]
+            text = in_python(errors[-1].removeprefix("bihive: error: ") if errors else f"bihive web ended with {code}")
+            raise {1: InputError, 3: MissingError}.get(code, UsageError)(text)
+    except BaseException:
+        _let_go(folder, descriptors)
+        raise
+    made = View(server, json.loads(line)["url"], folder, descriptors)
+    atexit.register(made.close)
+    return made

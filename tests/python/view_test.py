@@ -1,0 +1,60 @@
+"""bihive.view: the program serves spheres that lie in memory."""
+
+import json
+import os
+import urllib.request
+import unittest
+
+import bihive as bh
+import numpy as np
+from program import ProgramTest, main
+
+
+def fetched(url):
+    with urllib.request.urlopen(url) as answer:
+        return answer.read()
+
+
+class View(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.path("page"))
+        self.write("page/index.html", "<!doctype html><title>page</title>")
+        os.environ["BIHIVE_PAGE"] = self.path("page")
+        self.addCleanup(os.environ.pop, "BIHIVE_PAGE")
+
+    def test_spheres_from_memory(self):
+        s = bh.Spheres(np.eye(3), radius=0.5, charge=[1, 2, 3], name="three")
+        with bh.view(s, browser=False) as page:
+            self.assertIn(page.url, page._repr_html_())
+            start = json.loads(fetched(page.url + "start.json"))
+            self.assertEqual(start, {"source": {"url": "file/three.extxyz"}})
+            self.write("got.extxyz", fetched(page.url + "file/three.extxyz").decode())
+            links = os.listdir(page._folder)
+            self.assertEqual([os.path.islink(os.path.join(page._folder, one)) for one in links], [True], "no file in between")
+        self.assertFalse(page.is_open)
+        self.assertFalse(os.path.exists(page._folder))
+        again = bh.read(self.path("got.extxyz"))
+        self.assertTrue(np.array_equal(again.xyz, s.xyz))
+        self.assertEqual(again["charge"].tolist(), [1, 2, 3])
+        page.close()
+
+    def test_files_and_built_in_names(self):
+        self.write("a.csv", "x,y,z\n0,0,0\n")
+        with bh.view(self.path("a.csv"), browser=False) as page:
+            self.assertEqual(fetched(page.url + "file/a.csv"), b"x,y,z\n0,0,0\n")
+        with bh.view("demo", browser=False) as page:
+            self.assertEqual(json.loads(fetched(page.url + "start.json")), {"source": {"built_in": "demo"}})
+
+    def test_what_is_wrong(self):
+        with self.assertRaisesRegex(OSError, "missing.pdb"):
+            bh.view(self.path("missing.pdb"))
+        with self.assertRaisesRegex(bh.UsageError, "port"):
+            bh.view("demo", port=70000)
+        os.environ["BIHIVE_PAGE"] = self.path("nowhere")
+        with self.assertRaises(bh.Error):
+            bh.view("demo", browser=False)
+
+
+if __name__ == "__main__":
+    main()
