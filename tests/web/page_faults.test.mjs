@@ -291,7 +291,7 @@ test('columns are a field and an address, also for a file that cannot be read wi
   await ways_in.picker(page, table);
   assert.match(await shown_error(page), /table\.csv.*“Columns” in the panel/s);
   await set_value(page, '#columns', 'x=px,y=py,z=missing');
-  await page.waitForFunction(() => document.querySelector('#errors, #messages').textContent.includes('missing'));
+  await page.waitForFunction(() => document.getElementById('errors').textContent.includes('missing'));
   assert.equal(await page.inputValue('#columns'), 'x=px,y=py,z=missing', 'what was asked for stays');
   await and_settle(page, () => set_value(page, '#columns', 'x=px,y=py,z=pz,r=size'));
   await and_settle(page, () => set_value(page, '#samples', 1));
