@@ -69,6 +69,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-bihive)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/package/python/postinst"
+                                               "${PROJECT_SOURCE_DIR}/cmake/package/python/prerm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "The Python package bihive: arrays of NumPy in, pictures and hits of rays out.")
 include(CPack)

@@ -104,6 +104,13 @@ class ByDuckTyping(unittest.TestCase):
         universe.atoms.elements = np.array(["", "", ""], dtype=object)
         with self.assertRaisesRegex(bh.UsageError, "spheres: the atoms have neither elements nor radii"):
             bh.render(universe)
+        universe.atoms.masses = np.array([15.9994, 1.008, 3.024])  # repartitioned: no element's
+        with self.assertRaisesRegex(bh.UsageError, "neither elements nor radii"):
+            bh.render(universe)
+        universe.atoms.masses = np.array([15.9994, 1.008, 1.00794])
+        with self.assertWarnsRegex(bh.InputWarning, "by their masses"):
+            self.assertEqual(bh.Tree(universe).spheres["element"].tolist(), [8, 1, 1])
+        del universe.atoms.masses
         universe.atoms.types = np.array(["O", "H", "H"], dtype=object)
         self.assertEqual(bh.Tree(universe).spheres["element"].tolist(), [8, 1, 1])
         del universe.atoms.types

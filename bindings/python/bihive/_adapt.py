@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Any, Optional
 
 import numpy as np
 
 from . import _bihive
-from ._errors import bad_argument, found
+from ._errors import InputWarning, bad_argument, found
 from ._spheres import Spheres, read
 
 __all__ = ["spheres_of"]
@@ -102,6 +103,31 @@ def _elements_of(group: Any) -> Optional[list[str]]:
     return None
 
 
+# Standard atomic weights, rounded, of what simulations of molecules hold; no two are nearer than twice the tolerance.
+_WEIGHTS = {
+    "H": 1.008, "He": 4.0026, "Li": 6.94, "B": 10.81, "C": 12.011, "N": 14.007, "O": 15.999, "F": 18.998,
+    "Ne": 20.180, "Na": 22.990, "Mg": 24.305, "Al": 26.982, "Si": 28.085, "P": 30.974, "S": 32.06, "Cl": 35.45,
+    "K": 39.098, "Ca": 40.078, "Mn": 54.938, "Fe": 55.845, "Co": 58.933, "Ni": 58.693, "Cu": 63.546, "Zn": 65.38,
+    "Se": 78.971, "Br": 79.904, "I": 126.90,
+}  # fmt: skip
+_TOLERANCE = 0.1
+
+
+def _elements_by_mass(group: Any) -> Optional[list[str]]:
+    """Symbols by the masses, where each is that of one element: files of CHARMM and AMBER state masses alone."""
+    masses = _attribute(group, "masses")
+    if masses is None or len(masses) == 0:
+        return None
+    symbols: dict[float, str] = {}
+    for mass in set(np.asarray(masses, dtype=float).tolist()):
+        near = [symbol for symbol, weight in _WEIGHTS.items() if abs(mass - weight) <= _TOLERANCE]
+        if len(near) != 1:
+            return None
+        symbols[mass] = near[0]
+    warnings.warn(InputWarning("the atoms state no elements; these are by their masses"), stacklevel=2)
+    return [symbols[mass] for mass in np.asarray(masses, dtype=float).tolist()]
+
+
 def _of_atom_group(group: Any) -> Spheres:
     columns: dict[str, Any] = {}
     for name, own in _OF_MDANALYSIS.items():
@@ -110,6 +136,8 @@ def _of_atom_group(group: Any) -> Spheres:
             columns[own] = [str(one) for one in values] if np.asarray(values).dtype.kind in "USO" else values
     elements = _elements_of(group)
     radii = _attribute(group, "radii")
+    if elements is None and radii is None:
+        elements = _elements_by_mass(group)
     if elements is None and radii is None:
         raise bad_argument(
             "spheres",
