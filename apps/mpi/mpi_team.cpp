@@ -38,7 +38,8 @@ cli::GivenRows unpacked(const std::vector<char>& bytes) {
   const std::size_t light = rows.film.radiance.size() * sizeof(Vec3f);
   std::memcpy(static_cast<void*>(rows.film.radiance.data()), bytes.data() + sizeof head, light);
   if (head.has_coverage != 0)
-    std::memcpy(rows.film.coverage.data(), bytes.data() + sizeof head + light, rows.film.coverage.size() * sizeof(float));
+    std::memcpy(rows.film.coverage.data(), bytes.data() + sizeof head + light,
+                rows.film.coverage.size() * sizeof(float));
   return rows;
 }
 
@@ -52,8 +53,8 @@ MpiTeam::MpiTeam() {
   MPI_Comm_size(machine, &size_on_machine_);
   MPI_Comm_free(&machine);
   // The counter lies with rank 0. Epochs last as long as the team.
-  MPI_Win_allocate(rank_ == 0 ? sizeof(std::int64_t) : 0, sizeof(std::int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &counter_,
-                   &window_);
+  MPI_Win_allocate(rank_ == 0 ? sizeof(std::int64_t) : 0, sizeof(std::int64_t), MPI_INFO_NULL, MPI_COMM_WORLD,
+                   &counter_, &window_);
   if (rank_ == 0) *counter_ = 0;
   MPI_Barrier(MPI_COMM_WORLD);
   MPI_Win_lock_all(0, window_);
@@ -88,6 +89,7 @@ void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
 
   // What rank 0 sees, beside what this rank sees.
   std::vector<std::uint64_t> wanted;
+  wanted.reserve(seen.size());
   for (const cli::Fingerprint& one : seen) wanted.push_back(one.hash);
   {
     const std::lock_guard lock(mutex_);

@@ -36,8 +36,8 @@ class MpiTeam final : public cli::Team {
   bool somebody_failed() const override { return somebody_failed_; }
   RenderCounts rays_of_others() const override { return rays_of_others_; }
 
-  /// All ranks come here at their end, unless a rank that failed made them leave agree(). Returns 0, or the code of the lowest rank
-  /// that failed.
+  /// All ranks come here at their end, unless a rank that failed made them leave agree(). Returns 0, or the code of the
+  /// lowest rank that failed.
   int end_with(int code);
   /// Then: whether this rank is the one to say why.
   bool speaks() const { return speaks_; }

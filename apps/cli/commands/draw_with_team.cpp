@@ -15,8 +15,8 @@
 namespace bihive::cli {
 namespace {
 
-// The picture in bands: several for each rank, so that an expensive corner does not keep one of them alone. A band is at
-// least as high as a tile of the fast engine, for what looks at neighbouring pixels draws its border anew.
+// The picture in bands: several for each rank, so that an expensive corner does not keep one of them alone. A band is
+// at least as high as a tile of the fast engine, for what looks at neighbouring pixels draws its border anew.
 class Bands {
  public:
   Bands(const RenderSettings& settings, int ranks) : all_(drawn_pixels(settings)) {
@@ -44,7 +44,8 @@ RenderCounts sum(const RenderCounts& a, const RenderCounts& b) {
 }
 
 // Ranks above 0.
-RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const Bands& bands, Team& team) {
+RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const Bands& bands,
+                  Team& team) {
   RenderCounts rays;
   std::exception_ptr failure;
   try {

@@ -6,13 +6,13 @@
 
 namespace bihive::cli {
 
-/// The same bits as alone. `file`: that of rank 0, null on the others, whose answer counts their own rays. Fails and throws
-/// as draw_picture().
+/// The same bits as alone. `file`: that of rank 0, null on the others, whose answer counts their own rays. Fails and
+/// throws as draw_picture().
 Drawn draw_with_team(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile* file,
                      const ProgressCallback& progress, Team& team);
 
-/// What all ranks must see alike before they draw: the program, the spheres, the settings (`described`, as the picture's file
-/// keeps them).
+/// What all ranks must see alike before they draw: the program, the spheres, the settings (`described`, as the
+/// picture's file keeps them).
 std::vector<Fingerprint> fingerprints_of(const Scene& scene, const std::string& described);
 
 }  // namespace bihive::cli

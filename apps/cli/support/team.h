@@ -34,8 +34,8 @@ class Team {
   virtual int rank() const = 0;  ///< rank 0 writes the file, and speaks
   virtual int size() const = 0;
 
-  /// All ranks come here. Fails on a rank that sees something else than rank 0; throws OtherRankFailed on the others, and on
-  /// all that are well if a rank has failed before.
+  /// All ranks come here. Fails on a rank that sees something else than rank 0; throws OtherRankFailed on the others,
+  /// and on all that are well if a rank has failed before.
   virtual void agree(const std::vector<Fingerprint>& seen) = 0;
 
   /// The next number, which all ranks count together from 0. After stop_counting(), on any rank, numbers are beyond any

@@ -237,7 +237,8 @@ py::array_t<float> colours_of(const py::object& values, const std::string& how, 
   return made;
 }
 
-// The bytes of a file of spheres, and what the format cannot hold. `format` is one of those that bihive/_spheres.py knows.
+// The bytes of a file of spheres, and what the format cannot hold. `format` is one of those that bihive/_spheres.py
+// knows.
 py::tuple written(const Spheres& spheres, const std::string& format) {
   const std::map<std::string, SphereFileFormat> formats{{"xyz", SphereFileFormat::xyz},
                                                         {"extxyz", SphereFileFormat::extended_xyz},

@@ -174,7 +174,8 @@ Result<std::int64_t> SphereTable::add_rows(TextScanner& scanner, std::int64_t mo
     if (Status row = add_row(scanner); !row) return row.error();
   }
 
-  // A number takes two bytes of text at least and eight here: the numbers of a block stay within a quarter of the memory.
+  // A number takes two bytes of text at least and eight here: the numbers of a block stay within a quarter of the
+  // memory.
   const auto most_block_bytes =
       std::clamp(static_cast<std::int64_t>(std::min(memory_bytes(), 0x1p62) / 16), kLeastBlockBytes, kMostBlockBytes);
   std::vector<Part> parts;

@@ -50,11 +50,11 @@ using NextBand = std::function<std::optional<Tile>()>;
 /// Views that are drawn whole: no part of them has the bits of the picture.
 bool is_drawn_whole(View view);
 
-/// Bands of a picture in any order, so that several processes can share it. Each has the bits of the whole picture. Progress
-/// is that of the band. Not for views that are drawn whole (a programmer's error).
+/// Bands of a picture in any order, so that several processes can share it. Each has the bits of the whole picture.
+/// Progress is that of the band. Not for views that are drawn whole (a programmer's error).
 Result<RenderedBands> render_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
-                                   const NextBand& next, const BandCallback& take, const ProgressCallback& progress = {},
-                                   const CancelToken* cancel = nullptr);
+                                   const NextBand& next, const BandCallback& take,
+                                   const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr);
 
 /// The same picture from the top in bands of `band_rows` rows, at least one; the last may have fewer. So a picture
 /// needs the memory of a band (render/memory.h). Each band has the bits of the whole picture. The views distance and
