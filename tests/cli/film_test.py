@@ -337,6 +337,21 @@ class Shards(FilmTest):
         self.assertEqual(self.read("run.y4m"), self.read("whole.y4m"))
         self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json", "whole.y4m", "whole.y4m.json"])
 
+    def test_shards_that_begin_at_the_same_moment(self):
+        # What the first one makes before its plan is no film of somebody else's.
+        os.makedirs(self.path("lone.y4m.part"))
+        self.write("lone.y4m.part/lock", "")
+        self.film("run.xyz", "-o", "lone.y4m", *SMALL, "--shard", "0/2")
+        whole = self.film("run.xyz", "-o", "whole.y4m", *SMALL)["pictures"]
+        for attempt in range(4):
+            words = ["film", "run.xyz", "-o", f"{attempt}.y4m", *SMALL, "--threads", "1", "--shard"]
+            begun = [subprocess.Popen([BIHIVE, *words, f"{i}/{whole}"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.PIPE, text=True) for i in range(whole)]
+            for shard in begun:
+                self.assertEqual((shard.communicate()[1], shard.returncode), ("", 0))
+            self.succeed("film", "--join", "-o", f"{attempt}.y4m")
+            self.assertEqual(self.read(f"{attempt}.y4m"), self.read("whole.y4m"))
+
     def test_shards_of_a_sequence(self):
         for shard in ("0/2", "1/2"):
             self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--shard", shard)

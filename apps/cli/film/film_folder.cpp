@@ -26,6 +26,16 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash);
 }
 
+// Whether there is more than what a shard that begins at this moment has made before its plan.
+bool holds_something(const std::string& folder) {
+  std::error_code code;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "lock" && name.rfind(".bihive-", 0) != 0) return true;
+  }
+  return static_cast<bool>(code);
+}
+
 }  // namespace
 
 FilmFolder::FilmFolder(std::string output, bool parts)
@@ -33,13 +43,12 @@ FilmFolder::FilmFolder(std::string output, bool parts)
       folder_(parts ? part_path(output_) : folder_of(plan_path(output_))),
       plan_(parts ? folder_ + "/film.json" : plan_path(output_)),
       parts_(parts) {
-  if (exists(plan_)) {
+  const bool holds_else = parts && !exists(plan_) && exists(folder_) && holds_something(folder_);
+  // Another shard may have written its plan since.
+  if (exists(plan_))
     kept_ = read_film_plan(plan_);
-  } else if (parts && exists(folder_)) {
-    std::error_code code;
-    if (!std::filesystem::is_empty(folder_, code) || code)
-      fail({"is in the place where the film would be made", folder_, 0, 0, "remove it, or name another output"});
-  }
+  else if (holds_else)
+    fail({"is in the place where the film would be made", folder_, 0, 0, "remove it, or name another output"});
 }
 
 FilmFolder::~FilmFolder() {
