@@ -72,5 +72,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/package/python/postinst"
                                                "${PROJECT_SOURCE_DIR}/cmake/package/python/prerm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-    "The Python package bihive: arrays of NumPy in, pictures and hits of rays out.")
+    "The Python package bihive: arrays of NumPy in, pictures and hits of rays out.
+It reads the files of structural biology, materials science and simulation,
+takes atoms of ASE and MDAnalysis, and makes films of trajectories. Its answers
+have the bits of the program's.")
 include(CPack)

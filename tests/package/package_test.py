@@ -63,6 +63,8 @@ class Packages(unittest.TestCase):
             "usr/share/man/man1/bihive.1.gz",
             *(f"usr/share/man/man1/bihive-{command}.1.gz" for command in commands),
         }
+        library = sorted(path.name for path in (BUILD / "bindings/c").glob("libbihive_c.so.*"))
+        expected |= {f"usr/lib/{name}" for name in library}
         if (BUILD / "bihive-view").exists():
             expected |= {
                 "usr/bin/bihive-view",
