@@ -98,14 +98,16 @@ Said run(MpiTeam& team, int argc, const char* const* argv) {
     return {failure.code, failure.error.to_string(), failure.shown};
   } catch (const cli::OtherRankFailed& other) {
     return {other.code, "", ""};
-  } catch (const std::bad_alloc&) {
-    return {cli::kBadInput, kNoMemory, ""};
   } catch (const std::exception& error) {
-    return {cli::kBadInput, error.what(), ""};
+    // It may have come in the middle of a picture, where the other ranks wait for this one: MPI ends them.
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    cli::say_error(is_memory ? kNoMemory : error.what());
+    MPI_Abort(MPI_COMM_WORLD, cli::kBadInput);
+    return {cli::kBadInput, "", ""};
   }
 }
 
-// Whatever happens, all ranks end with the same code, and one of them says why.
+// All ranks end with the same code, and one of them says why.
 int run_ranks(int argc, const char* const* argv) {
   MpiTeam team;
   cli::set_team(&team);

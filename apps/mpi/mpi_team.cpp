@@ -87,7 +87,7 @@ void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
   if (const int code = share(0); code != 0) throw cli::OtherRankFailed{code};
   if (seen.empty()) return;
 
-  // What rank 0 sees, beside what this rank sees.
+  // Compare with rank 0.
   std::vector<std::uint64_t> wanted;
   wanted.reserve(seen.size());
   for (const cli::Fingerprint& one : seen) wanted.push_back(one.hash);

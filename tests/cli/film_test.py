@@ -338,7 +338,7 @@ class Shards(FilmTest):
         self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json", "whole.y4m", "whole.y4m.json"])
 
     def test_shards_that_begin_at_the_same_moment(self):
-        # What the first one makes before its plan is no film of somebody else's.
+        # The lock that the first one makes before its plan is no film of somebody else's.
         os.makedirs(self.path("lone.y4m.part"))
         self.write("lone.y4m.part/lock", "")
         self.film("run.xyz", "-o", "lone.y4m", *SMALL, "--shard", "0/2")

@@ -15,8 +15,8 @@
 namespace bihive::cli {
 namespace {
 
-// The picture in bands: several for each rank, so that an expensive corner does not keep one of them alone. A band is
-// at least as high as a tile of the fast engine, for what looks at neighbouring pixels draws its border anew.
+// The picture in bands: several for each rank, so that an expensive corner does not keep one of them alone. Low bands
+// cost more, because effects that look at neighbouring pixels draw the border of a band anew.
 class Bands {
  public:
   Bands(const RenderSettings& settings, int ranks) : all_(drawn_pixels(settings)) {

@@ -81,9 +81,10 @@ void run_render(const RenderOptions& asked) {
   const Tracer tracer = value_or_fail(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
   const Timer drawing;
   const ordered_json described = settings_json(options, settings, scene, layers);
-  if (team() != nullptr) team()->agree(fingerprints_of(scene, described.dump()));
   const std::unique_ptr<PictureFile> file =
       leads() ? open_picture({options, scene, tracer, settings, layers, text_of(scene, described)}) : nullptr;
+  // Nothing may fail between this and the drawing, for the other ranks wait for rank 0 there.
+  if (team() != nullptr) team()->agree(fingerprints_of(scene, described.dump()));
   const Drawn drawn = [&] {
     const CancellableSection section;
     Progress progress("rendering");

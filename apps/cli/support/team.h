@@ -11,7 +11,7 @@
 
 namespace bihive::cli {
 
-/// What all ranks must see alike: "the spheres", a hash of them.
+/// A thing that all ranks must see alike, "the input", and a hash of it.
 struct Fingerprint {
   std::string what;
   std::uint64_t hash;
