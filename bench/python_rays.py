@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+"""Rays a second from Python, and the memory of Spheres of a large array.
+
+usage: PYTHONPATH=build-release/python bench/python_rays.py
+
+Two million random rays at the bundled molecule, nine times in turn from arrays in C order, which are copied into columns,
+and from columns, which the engine reads where they lie; medians. Then Spheres of 62.5 million rows of float32.
+"""
+
+import resource
+import statistics
+import time
+
+import numpy as np
+
+begin = time.perf_counter()
+import bihive as bh  # noqa: E402
+
+print(f"import: {time.perf_counter() - begin:.3f} s with NumPy loaded")
+
+rng = np.random.default_rng(1)
+count = 2_000_000
+spheres = bh.read("demo")
+low, high = spheres.bounds
+origins = rng.uniform(low - 20, high + 20, (count, 3)).astype(np.float32)
+directions = rng.uniform(low, high, (count, 3)).astype(np.float32) - origins
+tree = bh.Tree(spheres)
+orders = {"C order": (origins, directions), "columns": (np.asfortranarray(origins), np.asfortranarray(directions))}
+rates = {name: [] for name in orders}
+for _ in range(9):
+    for name, rays in orders.items():
+        begin = time.perf_counter()
+        tree.closest(*rays)
+        rates[name].append(count / (time.perf_counter() - begin) / 1e6)
+for name, of_order in rates.items():
+    print(f"{name}: {statistics.median(of_order):.1f} million rays a second ({min(of_order):.1f} to {max(of_order):.1f})")
+
+
+def peak_bytes():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+rows = np.ones((62_500_000, 4), np.float32)
+rows[:, 0] = np.arange(len(rows), dtype=np.float32)
+before = peak_bytes()
+large = bh.Spheres(rows)
+print(f"array {rows.nbytes / 1e9:.2f} GB: peak {before / 1e9:.2f} GB before, {peak_bytes() / 1e9:.2f} GB with Spheres")
