@@ -1,6 +1,7 @@
 #include "bihive/geometry/cut_sphere.h"
 
 #include <cmath>
+#include <utility>
 
 #include "bihive/geometry/sphere.h"
 
@@ -47,25 +48,31 @@ struct TakenParts {
 
 CutSet::CutSet(const SphereSet& spheres, const std::vector<Clip>& clips,
                const std::vector<std::uint64_t>& clips_of_sphere)
-    : spheres_(&spheres),
-      remainders_(static_cast<std::size_t>(spheres.size()), Remainder::whole),
-      cutting_(remainders_.size(), 0) {
+    : spheres_(&spheres), clips_of_sphere_(&clips_of_sphere) {
   clips_.reserve(clips.size());
   for (const Clip& clip : clips) {
     clips_.emplace_back(clip, spheres.scale());
     has_round_clips_ = has_round_clips_ || clips_.back().is_round();
   }
-  const std::uint64_t known = clips.size() < kMostClips ? (std::uint64_t{1} << clips.size()) - 1 : ~std::uint64_t{0};
-  for (std::size_t i = 0; i < clips_of_sphere.size(); ++i) {
-    const auto id = static_cast<std::int64_t>(i);
-    for_each_clip(clips_of_sphere[i] & known, [&](int k) {
-      const Remainder left =
-          clips_[static_cast<std::size_t>(k)].remainder(spheres.stored_centre(id), spheres.stored_radius(id));
-      if (left == Remainder::whole || remainders_[i] == Remainder::nothing) return;
-      remainders_[i] = left;
-      if (left == Remainder::cut) cutting_[i] |= std::uint64_t{1} << k;
-    });
-  }
+  all_clips_ = clips.size() < kMostClips ? (std::uint64_t{1} << clips.size()) - 1 : ~std::uint64_t{0};
+  std::vector<CutSphere> known;
+  known.reserve(static_cast<std::size_t>(spheres.size()));
+  for (std::int64_t id = 0; id < spheres.size(); ++id) known.push_back(look_at(id));
+  known_ = std::move(known);
+}
+
+CutSet::CutSphere CutSet::look_at(std::int64_t id) const {
+  CutSphere found;
+  const auto i = static_cast<std::size_t>(id);
+  if (i >= clips_of_sphere_->size()) return found;
+  for_each_clip((*clips_of_sphere_)[i] & all_clips_, [&](int k) {
+    const Remainder left =
+        clips_[static_cast<std::size_t>(k)].remainder(spheres_->stored_centre(id), spheres_->stored_radius(id));
+    if (left == Remainder::whole || found.remainder == Remainder::nothing) return;
+    found.remainder = left;
+    if (left == Remainder::cut) found.cutting |= std::uint64_t{1} << k;
+  });
+  return found;
 }
 
 // Finds the surface of a cut sphere on which the ray starts.

@@ -23,12 +23,13 @@ struct CutHit {
 /// The spheres of a set with the clips that act on them. Const; any number of threads may ask.
 class CutSet {
  public:
-  /// `clips_of_sphere`: of each sphere a bit for each clip; empty: no clip acts. The spheres must outlive this.
+  /// `clips_of_sphere`: of each sphere a bit for each clip; empty: no clip acts. Both must outlive this. Spheres that
+  /// join them later are looked at whenever somebody asks for them.
   CutSet(const SphereSet& spheres, const std::vector<Clip>& clips, const std::vector<std::uint64_t>& clips_of_sphere);
 
-  Remainder remainder(std::int64_t id) const { return remainders_[static_cast<std::size_t>(id)]; }
+  Remainder remainder(std::int64_t id) const { return of_sphere(id).remainder; }
   bool is_cut(std::int64_t id) const {
-    return id >= 0 && id < static_cast<std::int64_t>(remainders_.size()) && remainder(id) == Remainder::cut;
+    return id >= 0 && id < static_cast<std::int64_t>(clips_of_sphere_->size()) && remainder(id) == Remainder::cut;
   }
 
   /// A valid ray as the cut spheres meet it. If it leaves a cut sphere, it leaves the surface to which its origin is
@@ -39,7 +40,7 @@ class CutSet {
   void enter(const Ray& ray, std::uint64_t clips, CutRay& entered) const;
 
   /// The clips whose border meets the sphere, a bit each.
-  std::uint64_t cutting(std::int64_t id) const { return cutting_[static_cast<std::size_t>(id)]; }
+  std::uint64_t cutting(std::int64_t id) const { return of_sphere(id).cutting; }
 
   /// Whether some clip is a sphere.
   bool has_round_clips() const { return has_round_clips_; }
@@ -58,13 +59,23 @@ class CutSet {
   bool cap_normal(const Ray& ray, std::int64_t id, Vec3d& normal) const;
 
  private:
+  struct CutSphere {
+    Remainder remainder = Remainder::whole;
+    std::uint64_t cutting = 0;  // the clips whose border meets the sphere
+  };
+  CutSphere look_at(std::int64_t id) const;
+  CutSphere of_sphere(std::int64_t id) const {
+    const auto i = static_cast<std::size_t>(id);
+    return i < known_.size() ? known_[i] : look_at(id);
+  }
   void leave_nearest(const Ray& ray, CutRay& entered) const;
 
   const SphereSet* spheres_;
+  const std::vector<std::uint64_t>* clips_of_sphere_;
   std::vector<StoredClip> clips_;
   bool has_round_clips_ = false;
-  std::vector<Remainder> remainders_;
-  std::vector<std::uint64_t> cutting_;  // of each sphere: the clips whose border meets it
+  std::uint64_t all_clips_ = 0;   // a bit each
+  std::vector<CutSphere> known_;  // of each sphere that was there at first
 };
 
 }  // namespace bihive

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace bihive {
 namespace {
@@ -112,6 +113,32 @@ Result<SphereSet> SphereSet::from_world(const NumbersView& x, const NumbersView&
   if (x.precision == Precision::binary32)
     return with_radii(TypedView<float>(x), TypedView<float>(y), TypedView<float>(z));
   return with_radii(TypedView<double>(x), TypedView<double>(y), TypedView<double>(z));
+}
+
+SphereSet SphereSet::from_stored(StoredSpheres spheres, int scale_exponent) {
+  BIHIVE_CHECK_EQ(spheres.x.size(), spheres.y.size());
+  BIHIVE_CHECK_EQ(spheres.x.size(), spheres.z.size());
+  BIHIVE_CHECK_EQ(spheres.x.size(), spheres.r.size());
+  SphereSet set;
+  set.scale_exponent_ = scale_exponent;
+  set.x_ = std::move(spheres.x);
+  set.y_ = std::move(spheres.y);
+  set.z_ = std::move(spheres.z);
+  set.r_ = std::move(spheres.r);
+  set.count_vanishing_radii();
+  return set;
+}
+
+void SphereSet::append_stored(const StoredSpheres& spheres) {
+  BIHIVE_CHECK(!has_images());
+  x_.insert(x_.end(), spheres.x.begin(), spheres.x.end());
+  y_.insert(y_.end(), spheres.y.begin(), spheres.y.end());
+  z_.insert(z_.end(), spheres.z.begin(), spheres.z.end());
+  r_.insert(r_.end(), spheres.r.begin(), spheres.r.end());
+}
+
+void SphereSet::keep_first(std::int64_t count) {
+  for (auto* values : {&x_, &y_, &z_, &r_}) values->resize(static_cast<std::size_t>(count));
 }
 
 SphereSet::Bounds SphereSet::bounds() const {

@@ -35,9 +35,22 @@ struct NumbersView {
   Precision precision = Precision::binary64;
 };
 
+/// Spheres as a set stores them: binary32, world units times 2^scale_exponent.
+struct StoredSpheres {
+  std::vector<float> x, y, z, r;
+};
+
 class SphereSet {
  public:
   SphereSet() = default;
+
+  /// A set of these spheres in these units, without images: a part of a larger set whose units they are. Every bound
+  /// must lie in [-1, 1].
+  static SphereSet from_stored(StoredSpheres spheres, int scale_exponent);
+  /// Adds spheres in the set's own stored units, behind the others. The set has no images.
+  void append_stored(const StoredSpheres& spheres);
+  /// Keeps the first `count` spheres, without touching the attributes.
+  void keep_first(std::int64_t count);
 
   /// Takes world units, n entries each; rounds once, to binary32 in stored units. Error: NaN, an infinity, a coordinate
   /// or radius beyond binary32's range (3.4e38), or a radius below 0; the message names the sphere's position. A radius

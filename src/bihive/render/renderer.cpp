@@ -388,7 +388,7 @@ class Renderer {
 // The pictures that follow light need it.
 Result<Transparency> transparency_of(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
   if (settings.view != View::shaded && settings.view != View::recursion) return Transparency();
-  return Transparency::of(scene, settings.opacity_rule, tracer.engine(), settings.threads);
+  return Transparency::of(scene, settings.opacity_rule, tracer, settings.threads);
 }
 
 Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {

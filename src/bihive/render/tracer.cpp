@@ -11,6 +11,7 @@
 #include "bihive/bih/traversal.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/brute_force.h"
+#include "bihive/render/elsewhere.h"
 #include "bihive/render/image_tracer.h"
 #include "bihive/render/part_tracer.h"
 #include "bihive/render/pixel_order.h"
@@ -18,6 +19,16 @@
 #include "bihive/scene/clips.h"
 
 namespace bihive {
+namespace {
+
+RayBatch one_ray(const Ray& ray) {
+  RayBatch batch;
+  batch.push_back(ray);
+  return batch;
+}
+
+}  // namespace
+
 BuildParameters TreeParameters::for_reference() const {
   BuildParameters both;
   both.max_prims = max_prims.value_or(both.max_prims);
@@ -96,7 +107,19 @@ Tracer::Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree) : Tra
   tree_ = std::move(tree);
 }
 
+Tracer::Tracer(const SphereSet& seen, std::shared_ptr<Elsewhere> elsewhere, bool has_clips)
+    : Tracer(seen, Engine::wide) {
+  BIHIVE_CHECK(elsewhere != nullptr);
+  elsewhere_ = std::move(elsewhere);
+  has_clips_elsewhere_ = has_clips;
+}
+
 Hit Tracer::closest_hit(const Ray& ray) const {
+  if (elsewhere_) {
+    Hit hit;
+    elsewhere_->closest_hits(WhichSpheres::all, one_ray(ray).span(), RayOrder::any, {&hit.t, &hit.sphere_id});
+    return hit;
+  }
   if (images_) return images_->closest_hit(ray);
   if (parts_) return parts_->closest_hit(ray);
   if (wide_tree_) return bihive::closest_hit(*wide_tree_, ray);
@@ -104,6 +127,11 @@ Hit Tracer::closest_hit(const Ray& ray) const {
 }
 
 bool Tracer::occluded(const Ray& ray) const {
+  if (elsewhere_) {
+    std::uint8_t hidden = 0;
+    elsewhere_->occluded(WhichSpheres::all, one_ray(ray).span(), RayOrder::any, &hidden);
+    return hidden != 0;
+  }
   if (images_) return images_->occluded(ray);
   if (parts_) return parts_->occluded(ray);
   if (wide_tree_) return bihive::occluded(*wide_tree_, ray);
@@ -111,6 +139,7 @@ bool Tracer::occluded(const Ray& ray) const {
 }
 
 void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
+  if (elsewhere_) return elsewhere_->closest_hits(WhichSpheres::all, rays, order, hits);
   if (images_) return images_->closest_hits(rays, order, hits);
   if (parts_) return parts_->closest_hits(rays, order, hits);
   if (wide_tree_) return bihive::closest_hits(*wide_tree_, rays, order, hits);
@@ -123,6 +152,7 @@ void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hi
 }
 
 void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+  if (elsewhere_) return elsewhere_->occluded(WhichSpheres::all, rays, order, hidden);
   if (images_) return images_->occluded(rays, order, hidden);
   if (parts_) return parts_->occluded(rays, order, hidden);
   if (wide_tree_) return bihive::occluded(*wide_tree_, rays, order, hidden);

@@ -19,6 +19,7 @@
 
 namespace bihive {
 
+class Elsewhere;
 class ImageTracer;
 class PartTracer;
 struct Scene;
@@ -70,6 +71,10 @@ class Tracer {
   Tracer(const SphereSet& spheres, std::shared_ptr<const WideTree> tree);
   Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree);
 
+  /// A tracer that asks other processes. `seen`: the set to which they add the spheres that they tell of. One thread at
+  /// a time may use it. `has_clips`: whether clips cut spheres of the whole set.
+  Tracer(const SphereSet& seen, std::shared_ptr<Elsewhere> elsewhere, bool has_clips);
+
   /// One ray: the nearest hit, and whether there is any hit.
   Hit closest_hit(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
@@ -85,11 +90,12 @@ class Tracer {
   Engine engine() const { return engine_; }  ///< never `automatic`
   const SphereSet& spheres() const { return *spheres_; }
   /// Whether clips cut the spheres. Then there is no tree of all spheres.
-  bool has_clips() const { return parts_ != nullptr; }
+  bool has_clips() const { return parts_ != nullptr || has_clips_elsewhere_; }
   /// Whether the spheres have images. Then a tree is that of the stored spheres alone.
   bool has_images() const { return images_ != nullptr; }
   const Tree* tree() const { return tree_.get(); }                ///< null unless the engine is `reference`
   const WideTree* wide_tree() const { return wide_tree_.get(); }  ///< null unless the engine is `wide`
+  Elsewhere* elsewhere() const { return elsewhere_.get(); }       ///< null: this process has all spheres
   double build_ms() const { return build_ms_; }                   ///< 0 for a tree from elsewhere
 
  private:
@@ -101,6 +107,8 @@ class Tracer {
   std::shared_ptr<const WideTree> wide_tree_;
   std::shared_ptr<const PartTracer> parts_;    // null: all spheres are whole
   std::shared_ptr<const ImageTracer> images_;  // null: the set has no images
+  std::shared_ptr<Elsewhere> elsewhere_;       // null: the spheres are here
+  bool has_clips_elsewhere_ = false;
   double build_ms_ = 0;
 };
 

@@ -5,12 +5,22 @@
 #include <utility>
 
 #include "bihive/geometry/cut_sphere.h"
+#include "bihive/render/elsewhere.h"
 #include "bihive/render/part_tracer.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/image_colours.h"
 
 namespace bihive {
 namespace {
+
+// The shares of light that a sphere lets straight through.
+struct Passing {
+  double to_eye, to_light;
+};
+Passing passing_of(const Material& material) {
+  const double share = std::min(material.transmissive, 1.0);
+  return {is_passed_straight(material) ? share : 0, share};
+}
 
 bool any_passes(const std::vector<double>& passing) {
   return std::any_of(passing.begin(), passing.end(), [](double share) { return share > 0; });
@@ -34,6 +44,7 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     auto made = std::make_shared<TransparentSpheres>();
     made->passing_ = std::move(passing);
     made->tints_ = std::move(tints);
+    made->has_tints_ = !made->tints_.empty();
     made->of_images_ = of_images;
     std::vector<std::int64_t> opaque, transparent;
     for (std::int64_t id = 0; id < spheres.size(); ++id) (made->passing(id) > 0 ? transparent : opaque).push_back(id);
@@ -50,11 +61,42 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
   }
 }
 
+std::shared_ptr<const TransparentSpheres> TransparentSpheres::elsewhere(const Scene& scene, Elsewhere& elsewhere,
+                                                                        bool to_eye, bool has_tints) {
+  auto made = std::make_shared<TransparentSpheres>();
+  made->of_images_ = &scene;
+  made->elsewhere_ = &elsewhere;
+  made->to_eye_ = to_eye;
+  made->has_tints_ = has_tints;
+  return made;
+}
+
+double TransparentSpheres::passing_of_seen(std::int64_t id) const {
+  const Passing passing = passing_of(material_of(*of_images_, id));
+  return to_eye_ ? passing.to_eye : passing.to_light;
+}
+
 Hit TransparentSpheres::closest_opaque(const Ray& ray) const {
+  if (elsewhere_ != nullptr) {
+    RayBatch one;
+    one.push_back(ray);
+    Hit hit;
+    closest_opaque(one.span(), RayOrder::any, {&hit.t, &hit.sphere_id});
+    return hit;
+  }
   return opaque_->closest_hit(ray);
 }
 
 void TransparentSpheres::find_crossings(const Ray& ray, std::vector<Crossing>& found) const {
+  if (elsewhere_ != nullptr) {
+    RayBatch one;
+    one.push_back(ray);
+    std::vector<RayHit> hits;
+    find_crossings(one.span(), RayOrder::any, hits);
+    found.clear();
+    for (const RayHit& hit : hits) found.push_back({hit.t, hit.sphere_id});
+    return;
+  }
   transparent_->all_hits(ray, found);
 }
 
@@ -63,7 +105,15 @@ Vec3d TransparentSpheres::tint_of_image(std::int64_t id) const {
 }
 
 Vec3d TransparentSpheres::share(const Ray& ray) const {
-  if (opaque_->occluded(ray)) return {};
+  if (elsewhere_ != nullptr) {
+    RayBatch one;
+    one.push_back(ray);
+    std::uint8_t hidden = 0;
+    hides(one.span(), RayOrder::any, &hidden);
+    if (hidden != 0) return {};
+  } else if (opaque_->occluded(ray)) {
+    return {};
+  }
   static thread_local std::vector<Crossing> crossings;
   find_crossings(ray, crossings);
   double share = 1;
@@ -76,15 +126,47 @@ Vec3d TransparentSpheres::share(const Ray& ray) const {
 }
 
 void TransparentSpheres::closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
+  if (elsewhere_ != nullptr)
+    return elsewhere_->closest_hits(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
+                                    hits);
   opaque_->closest_hits(rays, order, hits);
 }
 
 void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+  if (elsewhere_ != nullptr)
+    return elsewhere_->occluded(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
+                                hidden);
   opaque_->occluded(rays, order, hidden);
 }
 
 void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
+  if (elsewhere_ != nullptr)
+    return elsewhere_->all_hits(to_eye_ ? WhichSpheres::clear_to_eye : WhichSpheres::clear_to_light, rays, order,
+                                found);
   transparent_->all_hits(rays, order, found);
+}
+
+Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, const Tracer& tracer, int threads) {
+  if (tracer.elsewhere() == nullptr) return of(scene, rule, tracer.engine(), threads);
+  Transparency parts;
+  if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
+
+  // The spheres that stand for the rest say what there is.
+  bool to_eye = false, to_light = false, alike = true, has_tints = false;
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+    const Material material = material_of(scene, id);
+    const Passing passing = passing_of(material);
+    to_eye = to_eye || passing.to_eye > 0;
+    to_light = to_light || passing.to_light > 0;
+    alike = alike && passing.to_eye == passing.to_light;
+    has_tints = has_tints || (passing.to_light > 0 && passing_tint(material) != Vec3d{1, 1, 1});
+  }
+  if (to_light) parts.to_light = TransparentSpheres::elsewhere(scene, *tracer.elsewhere(), alike, has_tints);
+  if (alike)
+    parts.to_eye = parts.to_light;
+  else if (to_eye)
+    parts.to_eye = TransparentSpheres::elsewhere(scene, *tracer.elsewhere(), true, has_tints);
+  return parts;
 }
 
 Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engine engine, int threads) {
@@ -98,8 +180,9 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engi
   if (of_images != nullptr) tints.assign(count, {1, 1, 1});
   for (std::size_t i = 0; i < count; ++i) {
     const Material material = material_of(scene, static_cast<std::int64_t>(i));
-    if (is_passed_straight(material)) to_eye[i] = std::min(material.transmissive, 1.0);
-    to_light[i] = std::min(material.transmissive, 1.0);
+    const Passing passing = passing_of(material);
+    to_eye[i] = passing.to_eye;
+    to_light[i] = passing.to_light;
     const Vec3d tint = to_light[i] > 0 ? passing_tint(material) : Vec3d{1, 1, 1};
     if (tints.empty() && tint != Vec3d{1, 1, 1}) tints.assign(count, {1, 1, 1});
     if (!tints.empty()) tints[i] = tint;

@@ -17,6 +17,7 @@
 namespace bihive {
 
 class CutSet;
+class Elsewhere;
 class PartTracer;
 
 /// The colour that the light gets which goes straight through: white if all of it does, and the nearer to the hue of
@@ -50,10 +51,16 @@ class TransparentSpheres {
                                                                   std::vector<Vec3d> tints = {},
                                                                   const Scene* of_images = nullptr);
 
-  double passing(std::int64_t id) const { return passing_[stored(id)]; }
-  bool has_tints() const { return !tints_.empty(); }
+  /// The same where other processes hold the spheres: `scene` knows those that were seen so far. `to_eye`: for rays that
+  /// see, else for rays that ask for light. Both must outlive it.
+  static std::shared_ptr<const TransparentSpheres> elsewhere(const Scene& scene, Elsewhere& elsewhere, bool to_eye,
+                                                             bool has_tints);
+
+  double passing(std::int64_t id) const { return elsewhere_ != nullptr ? passing_of_seen(id) : passing_[stored(id)]; }
+  bool has_tints() const { return has_tints_; }
   Vec3d tint(std::int64_t id) const {
     if (!has_tints()) return {1, 1, 1};
+    if (elsewhere_ != nullptr) return tint_of_image(id);
     if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size()) return tint_of_image(id);
     return tints_[stored(id)];
   }
@@ -81,11 +88,15 @@ class TransparentSpheres {
   }
 
   Vec3d tint_of_image(std::int64_t id) const;
+  double passing_of_seen(std::int64_t id) const;
 
+  bool has_tints_ = false;
   std::vector<double> passing_;
   std::vector<Vec3d> tints_;          // empty: all are white
   const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
   std::shared_ptr<const PartTracer> opaque_, transparent_;
+  Elsewhere* elsewhere_ = nullptr;  // null: the spheres are here
+  bool to_eye_ = false;             // where they are elsewhere
 };
 
 /// The parts of a scene's set for one picture.
@@ -97,6 +108,8 @@ struct Transparency {
 
   /// Both null with OpacityRule::each_surface. Error: not enough memory for the trees.
   static Result<Transparency> of(const Scene& scene, OpacityRule rule, Engine engine, int threads);
+  /// With the engine of that tracer, or where that tracer asks.
+  static Result<Transparency> of(const Scene& scene, OpacityRule rule, const Tracer& tracer, int threads);
 };
 
 /// The straight ways to light: what of it arrives at the end of a ray. Made from a tracer alone, spheres hide wholly.

@@ -52,6 +52,7 @@ class KeyCollector {
 
   void add(std::int64_t id) {
     if (!attribute_.found()) return;
+    if (!used_) spheres_.push_back(id);
     used_ = true;
     if (how_.range &&
         !std::isnan(place_in_range(*how_.range, how_.logarithmic, attribute_.number_of(scene_.spheres, id))))
@@ -60,12 +61,15 @@ class KeyCollector {
     // The order of NaN is none.
     const auto [position, is_new] = entries_.try_emplace({std::isnan(place), std::isnan(place) ? 0 : place});
     if (!is_new) return;
+    spheres_.push_back(id);
     const Vec3f colour = scene_.spheres.attributes().colour[static_cast<std::size_t>(id)];
     position->second = {how_.range ? "unknown" : names_.name(id),
                         screen_colour(to_double(colour), scene_.picture.transfer)};
   }
 
   bool used() const { return used_; }
+  /// The first one, and of each entry the first.
+  const std::vector<std::int64_t>& spheres() const { return spheres_; }
   LegendKey key() const {
     LegendKey key;
     key.title = how_.attribute;
@@ -81,13 +85,13 @@ class KeyCollector {
   CategoryNames names_;
   bool used_ = false;
   std::map<std::pair<bool, double>, LegendEntry> entries_;  // the unknown one last
+  std::vector<std::int64_t> spheres_;
 };
 
-}  // namespace
-
-std::vector<LegendKey> legend_of(const Scene& scene) {
-  if (scene.coloured_by.empty() || scene.spheres.attributes().colour.empty()) return {};
+// The collectors of all keys, with all spheres.
+std::vector<KeyCollector> collected(const Scene& scene) {
   std::vector<KeyCollector> collectors;
+  if (scene.coloured_by.empty() || scene.spheres.attributes().colour.empty()) return collectors;
   collectors.reserve(scene.coloured_by.size());
   for (const ColourBy& how : scene.coloured_by) collectors.emplace_back(scene, how);
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
@@ -95,10 +99,23 @@ std::vector<LegendKey> legend_of(const Scene& scene) {
         scene.coloured_by_of_sphere.empty() ? 0 : scene.coloured_by_of_sphere[static_cast<std::size_t>(id)];
     if (key >= 0) collectors[static_cast<std::size_t>(key)].add(id);
   }
+  return collectors;
+}
+
+}  // namespace
+
+std::vector<LegendKey> legend_of(const Scene& scene) {
   std::vector<LegendKey> keys;
-  for (const KeyCollector& collector : collectors)
+  for (const KeyCollector& collector : collected(scene))
     if (collector.used()) keys.push_back(collector.key());
   return keys;
+}
+
+std::vector<std::int64_t> spheres_of_legend(const Scene& scene) {
+  std::vector<std::int64_t> ids;
+  for (const KeyCollector& collector : collected(scene))
+    ids.insert(ids.end(), collector.spheres().begin(), collector.spheres().end());
+  return ids;
 }
 
 Vec3d screen_colour(Vec3d linear, Transfer transfer) {

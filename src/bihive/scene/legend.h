@@ -1,6 +1,7 @@
 // What a legend says: the meaning of the spheres' colours, from what coloured them (Scene::coloured_by).
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,6 +36,9 @@ struct LegendKey {
 /// of the spheres that are there: elements and numbers from low to high, texts in the input's order. Costs a pass over
 /// all spheres.
 std::vector<LegendKey> legend_of(const Scene& scene);
+
+/// Spheres of which the legend alone is that of all: of each entry the first, in any order.
+std::vector<std::int64_t> spheres_of_legend(const Scene& scene);
 
 /// The value of the screen for linear light under a transfer, 0 to 1.
 Vec3d screen_colour(Vec3d linear, Transfer transfer);

@@ -1,0 +1,29 @@
+// Questions and answers between the ranks of one program.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "bihive/spread/bytes.h"
+
+namespace bihive {
+
+/// Thrown by ask() when there will be no answer: the program stops.
+struct ExchangeStopped {};
+
+class Exchange {
+ public:
+  virtual ~Exchange() = default;
+  virtual int rank() const = 0;  ///< this one
+  virtual int ranks() const = 0;
+
+  struct Question {
+    int rank;  ///< whom it is for, not this one
+    Bytes bytes;
+  };
+  /// Sends all questions, and waits for all answers, in the order of the questions. Any number of threads may ask at a
+  /// time.
+  virtual std::vector<Bytes> ask(std::vector<Question> questions) = 0;
+};
+
+}  // namespace bihive

@@ -1,0 +1,100 @@
+#include "bihive/spread/part_of_set.h"
+
+#include <string>
+#include <utility>
+
+namespace bihive {
+namespace {
+
+bool is_to_eye(WhichSpheres which) {
+  return which == WhichSpheres::opaque_to_eye || which == WhichSpheres::clear_to_eye;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const PartOfSet>> PartOfSet::make(Scene spheres, std::vector<std::int64_t> whole_ids,
+                                                         const SphereColumns& has, OpacityRule rule,
+                                                         const TreeParameters& parameters, int threads) {
+  if (spheres.spheres.size() >= static_cast<std::int64_t>(kNoPlace))
+    return Error{"a rank cannot hold " + std::to_string(spheres.spheres.size()) + " spheres", "", 0, 0,
+                 "take more ranks: each holds up to 2^32"};
+  auto made = std::make_shared<PartOfSet>();
+  made->scene_ = std::move(spheres);
+  made->whole_ids_ = std::move(whole_ids);
+  made->has_ = has;
+  Result<Tracer> tracer = Tracer::build(made->scene_, Engine::wide, parameters, threads);
+  if (!tracer) return tracer.error();
+  made->tracer_.emplace(std::move(*tracer));
+  Result<Transparency> transparency = Transparency::of(made->scene_, rule, Engine::wide, threads);
+  if (!transparency) return transparency.error();
+  made->transparency_ = std::move(*transparency);
+  return std::shared_ptr<const PartOfSet>(std::move(made));
+}
+
+// A part without clear spheres has no division: all its spheres are opaque.
+void PartOfSet::closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order,
+                             std::vector<FoundSphere>& found) const {
+  found.clear();
+  static thread_local HitBatch hits;
+  hits.resize(rays.count);
+  const auto& divided = is_to_eye(which) ? transparency_.to_eye : transparency_.to_light;
+  if (which == WhichSpheres::all || divided == nullptr)
+    tracer_->closest_hits(rays, order, hits.span());
+  else
+    divided->closest_opaque(rays, order, hits.span());
+  for (std::int64_t i = 0; i < rays.count; ++i)
+    if (const Hit hit = hits.at(i); hit.found()) found.push_back(found_sphere(i, hit.t, hit.sphere_id));
+}
+
+void PartOfSet::occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+  const auto& divided = is_to_eye(which) ? transparency_.to_eye : transparency_.to_light;
+  if (which == WhichSpheres::all || divided == nullptr)
+    tracer_->occluded(rays, order, hidden);
+  else
+    divided->hides(rays, order, hidden);
+}
+
+void PartOfSet::all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order,
+                         std::vector<FoundSphere>& found) const {
+  found.clear();
+  const auto& divided = is_to_eye(which) ? transparency_.to_eye : transparency_.to_light;
+  if (divided == nullptr) return;
+  static thread_local std::vector<RayHit> hits;
+  divided->find_crossings(rays, order, hits);
+  for (const RayHit& hit : hits) found.push_back(found_sphere(hit.ray, hit.t, hit.sphere_id));
+}
+
+void PartOfSet::pack(const std::vector<std::int64_t>& places, Bytes& bytes) const {
+  pack_spheres(scene_, has_, whole_ids_, places, bytes);
+}
+
+Bytes PartOfSet::answer(const Bytes& question) const {
+  ByteReader in(question);
+  Bytes bytes;
+  const auto kind = in.take<QuestionKind>();
+  if (kind == QuestionKind::spheres) {
+    std::vector<Place> asked(static_cast<std::size_t>(in.take<std::int64_t>()));
+    in.take_array(asked.data(), asked.size());
+    pack({asked.begin(), asked.end()}, bytes);
+    return bytes;
+  }
+  static thread_local RaysAsked asked;
+  take_rays(in, asked);
+  const RaySpan rays = asked.rays.span();
+  if (kind == QuestionKind::occluded) {
+    static thread_local std::vector<std::uint8_t> hidden;
+    hidden.resize(static_cast<std::size_t>(rays.count));
+    occluded(asked.which, rays, asked.order, hidden.data());
+    put_hidden(hidden, bytes);
+    return bytes;
+  }
+  static thread_local std::vector<FoundSphere> found;
+  if (kind == QuestionKind::closest)
+    closest_hits(asked.which, rays, asked.order, found);
+  else
+    all_hits(asked.which, rays, asked.order, found);
+  put_found(found, bytes);
+  return bytes;
+}
+
+}  // namespace bihive

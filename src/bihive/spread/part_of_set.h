@@ -1,0 +1,56 @@
+// One rank's spheres: their trees, and the answers that other ranks get from them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/render/tracer.h"
+#include "bihive/render/transparency.h"
+#include "bihive/scene/opacity_rule.h"
+#include "bihive/scene/scene.h"
+#include "bihive/spread/ray_messages.h"
+#include "bihive/spread/sphere_columns.h"
+
+namespace bihive {
+
+/// Const after make(); any number of threads may ask at a time.
+class PartOfSet {
+ public:
+  PartOfSet() = default;
+  PartOfSet(const PartOfSet&) = delete;
+  PartOfSet& operator=(const PartOfSet&) = delete;
+
+  /// `spheres`: a scene with this rank's spheres alone, which ascend by `whole_ids`. Errors: as Tracer::build().
+  static Result<std::shared_ptr<const PartOfSet>> make(Scene spheres, std::vector<std::int64_t> whole_ids,
+                                                       const SphereColumns& has, OpacityRule rule,
+                                                       const TreeParameters& parameters, int threads);
+
+  std::int64_t size() const { return scene_.spheres.size(); }
+  const SphereSet& spheres() const { return scene_.spheres; }
+  double build_ms() const { return tracer_->build_ms(); }
+
+  /// The answer to any question of Exchange.
+  Bytes answer(const Bytes& question) const;
+
+  /// The same where question and answer stay on this rank. `rays.leaves`: places.
+  void closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<FoundSphere>& found) const;
+  void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
+  void all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<FoundSphere>& found) const;
+  void pack(const std::vector<std::int64_t>& places, Bytes& bytes) const;
+
+ private:
+  FoundSphere found_sphere(std::int64_t ray, double t, std::int64_t place) const {
+    return {ray, t, whole_ids_[static_cast<std::size_t>(place)], static_cast<Place>(place)};
+  }
+
+  Scene scene_;
+  std::vector<std::int64_t> whole_ids_;
+  SphereColumns has_;
+  std::optional<Tracer> tracer_;
+  Transparency transparency_;
+};
+
+}  // namespace bihive

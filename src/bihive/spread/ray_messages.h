@@ -1,0 +1,54 @@
+// The bytes of questions about rays, and of their answers.
+//
+// A column of which all entries are equal takes the space of one: the origin of primary rays, an end that no ray has.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/render/elsewhere.h"
+#include "bihive/spread/bytes.h"
+
+namespace bihive {
+
+enum class QuestionKind : std::uint8_t { closest, occluded, all_hits, spheres };
+
+/// The number of a sphere on its rank, in place of its id in the whole set; kNoPlace: none.
+using Place = std::uint32_t;
+constexpr Place kNoPlace = ~Place{0};
+
+/// Some rays of a span: those of the numbers `chosen`. `places`: of the sphere that each chosen ray leaves, as the rank
+/// that is asked knows it. `ends`: of all rays of the span; they replace t_max.
+struct ChosenRays {
+  const RaySpan* rays;
+  const std::vector<std::int64_t>* chosen;
+  const std::vector<Place>* places;
+  const std::vector<double>* ends;
+};
+
+Bytes rays_question(QuestionKind kind, WhichSpheres which, RayOrder order, const ChosenRays& rays);
+
+/// The same on the other side. `rays.leaves` are places, or kNothing.
+struct RaysAsked {
+  WhichSpheres which;
+  RayOrder order;
+  RayBatch rays;
+};
+/// The kind was taken.
+void take_rays(ByteReader& question, RaysAsked& asked);
+
+/// One hit of one ray.
+struct FoundSphere {
+  std::int64_t ray;  ///< of the question
+  double t;
+  std::int64_t whole_id;
+  Place place;
+};
+void put_found(const std::vector<FoundSphere>& found, Bytes& answer);
+std::vector<FoundSphere> take_found(const Bytes& answer);
+
+/// A bit for each ray.
+void put_hidden(const std::vector<std::uint8_t>& hidden, Bytes& answer);
+void take_hidden(const Bytes& answer, std::vector<std::uint8_t>& hidden);
+
+}  // namespace bihive

@@ -1,0 +1,68 @@
+#include "bihive/spread/sphere_keys.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+namespace bihive {
+namespace {
+
+constexpr int kBits = 21;  // of each axis
+
+std::uint64_t cell_along(float place) {
+  constexpr double kCells = std::uint64_t{1} << kBits;
+  const double cell = (double(place) + 1) * (0.5 * kCells);
+  return static_cast<std::uint64_t>(std::clamp(cell, 0.0, kCells - 1));
+}
+
+// Two zero bits behind each of the lower 21 bits.
+std::uint64_t spread_bits(std::uint64_t bits) {
+  bits = (bits | bits << 32) & 0x001F00000000FFFF;
+  bits = (bits | bits << 16) & 0x001F0000FF0000FF;
+  bits = (bits | bits << 8) & 0x100F00F00F00F00F;
+  bits = (bits | bits << 4) & 0x10C30C30C30C30C3;
+  return (bits | bits << 2) & 0x1249249249249249;
+}
+
+// Bits that ascend with the number. -0 and 0 are one place.
+std::uint32_t ordered_bits(float number) {
+  number += 0.0F;
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &number, sizeof bits);
+  return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
+}
+
+}  // namespace
+
+SphereKey key_of(float x, float y, float z) {
+  return {spread_bits(cell_along(x)) | spread_bits(cell_along(y)) << 1 | spread_bits(cell_along(z)) << 2,
+          ordered_bits(x), ordered_bits(y), ordered_bits(z)};
+}
+
+SphereKey key_of(const SphereSet& spheres, std::int64_t id) {
+  const auto i = static_cast<std::size_t>(id);
+  return key_of(spheres.x()[i], spheres.y()[i], spheres.z()[i]);
+}
+
+std::vector<SphereKey> starts_of_ranks(std::vector<SphereKey> samples, int ranks) {
+  std::sort(samples.begin(), samples.end());
+  std::vector<SphereKey> starts;
+  for (int rank = 1; rank < ranks; ++rank) {
+    const std::size_t at = samples.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks);
+    starts.push_back(samples.empty() ? SphereKey{} : samples[at]);
+  }
+  return starts;
+}
+
+int rank_of(const SphereKey& key, const std::vector<SphereKey>& starts) {
+  return static_cast<int>(std::upper_bound(starts.begin(), starts.end(), key) - starts.begin());
+}
+
+std::vector<std::vector<std::int64_t>> ids_of_ranks(const SphereSet& spheres, const std::vector<SphereKey>& starts) {
+  std::vector<std::vector<std::int64_t>> ids(starts.size() + 1);
+  for (std::int64_t id = 0; id < spheres.size(); ++id)
+    ids[static_cast<std::size_t>(rank_of(key_of(spheres, id), starts))].push_back(id);
+  return ids;
+}
+
+}  // namespace bihive

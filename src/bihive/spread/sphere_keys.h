@@ -1,0 +1,35 @@
+// Which spheres lie on one rank: those between two keys along a Morton curve, so that a rank's spheres are neighbours.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "bihive/geometry/sphere_set.h"
+
+namespace bihive {
+
+/// The place of a centre along the curve through 2^63 cells of [-1, 1]^3, then the centre itself. Equal centres have
+/// equal keys, and no others do. So spheres that coincide, which share one surface (geometry/scaled_ray.h), always lie
+/// on one rank.
+struct SphereKey {
+  std::uint64_t cell = 0;
+  std::uint32_t x = 0, y = 0, z = 0;
+
+  auto operator<=>(const SphereKey&) const = default;
+};
+
+/// Stored units.
+SphereKey key_of(float x, float y, float z);
+SphereKey key_of(const SphereSet& spheres, std::int64_t id);
+
+/// Where ranks begin: rank k has the keys from starts[k - 1] on, and before starts[k]. `samples`: of all spheres, in any
+/// order; the ranks get about as many of them each. One key fewer than ranks. Ranks may get nothing: where there are
+/// fewer keys than ranks.
+std::vector<SphereKey> starts_of_ranks(std::vector<SphereKey> samples, int ranks);
+int rank_of(const SphereKey& key, const std::vector<SphereKey>& starts);
+
+/// The ids of each rank's spheres, which ascend.
+std::vector<std::vector<std::int64_t>> ids_of_ranks(const SphereSet& spheres, const std::vector<SphereKey>& starts);
+
+}  // namespace bihive

@@ -1,0 +1,77 @@
+// Rays of one thread, asked on the ranks whose spheres they may meet.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "bihive/render/elsewhere.h"
+#include "bihive/spread/exchange.h"
+#include "bihive/spread/part_of_set.h"
+#include "bihive/spread/rank_boxes.h"
+#include "bihive/spread/seen_spheres.h"
+
+namespace bihive {
+
+/// What the rays of a thread cost.
+struct ExchangeCounts {
+  std::int64_t rays = 0;      ///< of queries
+  std::int64_t asked = 0;     ///< rays times the ranks that they were asked on, this one too
+  std::int64_t messages = 0;  ///< to other ranks and back
+  std::int64_t bytes = 0;     ///< in these
+  std::int64_t rounds = 0;    ///< times that a query waited for other ranks
+};
+
+/// A ray goes to the ranks whose boxes it meets, the nearest first, and ends where its nearest hit so far is. Of all
+/// hits at one t the smallest id in the whole set wins; so the answer is that of one process that has all spheres.
+class SpheresElsewhere final : public Elsewhere {
+ public:
+  /// `here`: this rank's spheres. All must outlive it.
+  SpheresElsewhere(SeenSpheres& seen, const RankBoxes& boxes, const PartOfSet& here, Exchange& exchange)
+      : seen_(seen), boxes_(boxes), here_(here), exchange_(exchange) {}
+
+  void closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, const HitSpan& hits) override;
+  void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) override;
+  void all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) override;
+
+  const ExchangeCounts& counts() const { return counts_; }
+
+ private:
+  struct Nearest {
+    double t;
+    std::int64_t whole_id;
+    Address address;
+  };
+  // The rays that a rank is asked in one round.
+  struct RaysOfRank {
+    int rank;
+    std::vector<std::int64_t> chosen;
+    std::vector<Place> places;  // of the spheres that they leave
+  };
+
+  void find_ways(const RaySpan& rays);
+  RaysOfRank& rays_of(int rank);
+  void choose(const RaySpan& rays, std::int64_t ray, int rank);
+  bool choose_next(const RaySpan& rays);
+  RaySpan rays_here(const RaySpan& rays, const RaysOfRank& asked);
+  template <class Use>
+  void ask(QuestionKind kind, WhichSpheres which, RayOrder order, const RaySpan& rays, const Use& use);
+  void know(const std::vector<Address>& addresses);
+
+  SeenSpheres& seen_;
+  const RankBoxes& boxes_;
+  const PartOfSet& here_;
+  Exchange& exchange_;
+  ExchangeCounts counts_;
+
+  // Of the query at work.
+  std::vector<RankOnWay> ways_;      // ray after ray
+  std::vector<std::size_t> next_;    // of each ray: the next rank in ways_, and where its ranks end
+  std::vector<std::size_t> end_;
+  std::vector<double> ends_;         // of each ray: where it ends by now
+  std::vector<RaysOfRank> asked_;    // of this round
+  std::vector<std::int32_t> number_of_rank_;  // in asked_, or -1
+  RayBatch batch_;
+};
+
+}  // namespace bihive
