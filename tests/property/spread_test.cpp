@@ -4,59 +4,46 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "bihive/render/renderer.h"
-#include "bihive/spread/local_exchange.h"
-#include "bihive/spread/sphere_keys.h"
-#include "bihive/spread/spheres_elsewhere.h"
-#include "bihive/spread/stand_ins.h"
+#include "bihive/spread/spread_scene.h"
 #include "support/effort.h"
 #include "support/random_scene.h"
+#include "support/ranks_here.h"
 
 namespace bihive {
 namespace {
 
-// A scene on ranks that are all in this process.
-struct SpreadScene {
-  Scene shell;
-  SphereColumns has;
-  std::vector<std::shared_ptr<const PartOfSet>> parts;
-  std::vector<RankBox> boxes;
-  Bytes stand_ins;
-
-  SpreadScene(const Scene& whole, const RenderSettings& settings, int ranks)
-      : shell(without_spheres(whole)), has(SphereColumns::of(whole)) {
-    std::vector<SphereKey> keys;
-    std::vector<std::int64_t> own_ids;
-    for (std::int64_t id = 0; id < whole.spheres.size(); ++id) {
-      keys.push_back(key_of(whole.spheres, id));
-      own_ids.push_back(id);
-    }
-    for (const std::vector<std::int64_t>& ids : ids_of_ranks(whole.spheres, starts_of_ranks(keys, ranks))) {
-      Bytes packed;
-      pack_spheres(whole, has, own_ids, ids, packed);
-      Scene scene = shell;
-      std::vector<std::int64_t> whole_ids;
-      ByteReader reader(packed);
-      append_spheres(reader, has, scene, whole_ids);
-      boxes.push_back(box_of(scene.spheres));
-      parts.push_back(
-          PartOfSet::make(std::move(scene), std::move(whole_ids), has, settings.opacity_rule, {}, 1).value());
-    }
-    pack_spheres(whole, has, own_ids, bihive::stand_ins(whole, settings), stand_ins);
+// A scene on ranks that are threads of this process.
+class RanksHere {
+ public:
+  /// `first_of_all`: rank 0 has all spheres at first; else each rank has some that follow each other.
+  RanksHere(const Scene& whole, const RenderSettings& settings, int ranks, bool first_has_all)
+      : meeting_(ranks), scenes_(static_cast<std::size_t>(ranks)) {
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < ranks; ++rank)
+      threads.emplace_back([&, rank] {
+        test::RankThread here(rank, meeting_);
+        Scene mine = test::part_of_scene(whole, first_has_all ? (rank == 0 ? 0 : 1) : rank, first_has_all ? 1 : ranks);
+        scenes_[static_cast<std::size_t>(rank)] =
+            SpreadScene::make(std::move(mine), settings, {}, here).value();
+      });
+    for (std::thread& thread : threads) thread.join();
   }
 
-  Rendered draw(int rank, RenderSettings settings) const {
-    SeenSpheres seen(shell, has, stand_ins);
-    LocalExchange exchange(rank, parts);
-    const RankBoxes ranks(boxes, shell.spheres.scale());
-    const Tracer tracer(
-        seen.scene().spheres,
-        std::make_shared<SpheresElsewhere>(seen, ranks, *parts[static_cast<std::size_t>(rank)], exchange), false);
+  Rendered draw(int rank, RenderSettings settings) {
+    test::LocalExchange exchange(rank, scenes_);
+    const std::unique_ptr<SpreadScene::Artist> artist = scenes_[static_cast<std::size_t>(rank)]->artist(exchange);
     settings.threads = 1;
-    return render(seen.scene(), tracer, settings).value();
+    return render(artist->scene(), artist->tracer(), settings).value();
   }
+
+ private:
+  test::Meeting meeting_;
+  std::vector<std::shared_ptr<const SpreadScene>> scenes_;
 };
 
 void expect_same(const Rendered& expected, const Rendered& drawn, const std::string& what) {
@@ -81,8 +68,8 @@ TEST(Spread, pictures_are_those_of_one_process) {
     const RenderSettings settings = test::random_settings(seed);
     const Rendered expected = render(scene, Tracer::build(scene, Engine::wide).value(), settings).value();
     for (const int ranks : {1, 2, 3, 4, 7, 8, 100}) {
-      const SpreadScene spread(scene, settings, ranks);
-      expect_same(expected, spread.draw(static_cast<int>(seed) % ranks, settings),
+      RanksHere here(scene, settings, ranks, seed % 2 == 0);
+      expect_same(expected, here.draw(static_cast<int>(seed) % ranks, settings),
                   scene.name + " on " + std::to_string(ranks) + " ranks");
       if (::testing::Test::HasFailure()) return;
     }

@@ -10,17 +10,9 @@
 #include "bihive/spread/part_of_set.h"
 #include "bihive/spread/rank_boxes.h"
 #include "bihive/spread/seen_spheres.h"
+#include "bihive/spread/spread_scene.h"
 
 namespace bihive {
-
-/// What the rays of a thread cost.
-struct ExchangeCounts {
-  std::int64_t rays = 0;      ///< of queries
-  std::int64_t asked = 0;     ///< rays times the ranks that they were asked on, this one too
-  std::int64_t messages = 0;  ///< to other ranks and back
-  std::int64_t bytes = 0;     ///< in these
-  std::int64_t rounds = 0;    ///< times that a query waited for other ranks
-};
 
 /// A ray goes to the ranks whose boxes it meets, the nearest first, and ends where its nearest hit so far is. Of all
 /// hits at one t the smallest id in the whole set wins; so the answer is that of one process that has all spheres.

@@ -1,0 +1,23 @@
+// What the ranks of a program do together before they draw.
+#pragma once
+
+#include <vector>
+
+#include "bihive/spread/bytes.h"
+
+namespace bihive {
+
+/// Each function is for all ranks at the same time, each in the same order.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+
+  /// What each rank gives, in the order of the ranks.
+  virtual std::vector<Bytes> gather(const Bytes& of_this_rank) = 0;
+  /// What each rank gives this one, from what each gives to each.
+  virtual std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) = 0;
+};
+
+}  // namespace bihive

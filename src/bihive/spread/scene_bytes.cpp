@@ -1,0 +1,154 @@
+#include "bihive/spread/scene_bytes.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bihive/spread/sphere_columns.h"
+
+namespace bihive {
+namespace {
+
+// The same list of fields for both directions: transfer(archive, value) writes the value or fills it.
+class Putting {
+ public:
+  explicit Putting(Bytes& bytes) : out_(bytes) {}
+  static constexpr bool kTakes = false;
+
+  template <class T>
+  void plain(T& value) {
+    out_.put(value);
+  }
+  void text(std::string& value) { out_.put_text(value); }
+
+ private:
+  ByteWriter out_;
+};
+
+class Taking {
+ public:
+  explicit Taking(ByteReader& bytes) : in_(bytes) {}
+  static constexpr bool kTakes = true;
+
+  template <class T>
+  void plain(T& value) {
+    value = in_.take<T>();
+  }
+  void text(std::string& value) { value = in_.take_text(); }
+
+ private:
+  ByteReader& in_;
+};
+
+// Structs of numbers alone go as they are.
+template <class A, class T>
+  requires std::is_trivially_copyable_v<T>
+void transfer(A& archive, T& value) {
+  archive.plain(value);
+}
+template <class A>
+void transfer(A& archive, std::string& value) {
+  archive.text(value);
+}
+template <class A, class T>
+void transfer(A& archive, std::vector<T>& values);
+template <class A, class T>
+  requires(!std::is_trivially_copyable_v<T>)
+void transfer(A& archive, std::optional<T>& value) {
+  bool there = value.has_value();
+  archive.plain(there);
+  if (A::kTakes && there) value.emplace();
+  if (there) transfer(archive, *value);
+}
+template <class A>
+void transfer(A& archive, ColourChoice& colour) {
+  bool is_text = std::holds_alternative<std::string>(colour);
+  archive.plain(is_text);
+  if (A::kTakes && is_text) colour = std::string();
+  if (A::kTakes && !is_text) colour = Vec3d();
+  if (is_text)
+    transfer(archive, std::get<std::string>(colour));
+  else
+    transfer(archive, std::get<Vec3d>(colour));
+}
+// A pair is not trivially copyable.
+template <class A>
+void transfer(A& archive, std::pair<double, double>& range) {
+  transfer(archive, range.first);
+  transfer(archive, range.second);
+}
+
+template <class A, class... Fields>
+void all(A& archive, Fields&... fields) {
+  (transfer(archive, fields), ...);
+}
+
+template <class A>
+void transfer(A& archive, ColourBy& by) {
+  all(archive, by.attribute, by.map, by.range, by.logarithmic, by.nan_colour);
+}
+template <class A>
+void transfer(A& archive, Labels& labels) {
+  all(archive, labels.legend, labels.scale_bar, labels.axes, labels.title, labels.length_unit);
+}
+template <class A>
+void transfer(A& archive, PictureDefaults& p) {
+  all(archive, p.width_px, p.height_px, p.samples_per_pixel, p.adaptive_samples, p.recursion, p.shadows,
+      p.ambient_occlusion, p.opacity_rule, p.light_points, p.outline, p.fog, p.cell_lines, p.transparent, p.tone,
+      p.labels, p.transfer);
+}
+template <class A>
+void transfer(A& archive, RenderSettings& s) {
+  all(archive, s.width_px, s.height_px, s.samples_per_pixel, s.adaptive_samples, s.recursion, s.shadows,
+      s.ambient_occlusion, s.opacity_rule, s.light_points, s.outline, s.fog, s.cell_lines, s.labels, s.transparent,
+      s.tone, s.outline_scale, s.view, s.crop, s.threads);
+}
+template <class A>
+void transfer(A& archive, NamedNumbers& column) {
+  transfer(archive, column.name);
+}
+template <class A>
+void transfer(A& archive, NamedTexts& column) {
+  all(archive, column.name, column.texts);
+}
+template <class A, class T>
+void transfer(A& archive, std::vector<T>& values) {
+  auto count = static_cast<std::int64_t>(values.size());
+  archive.plain(count);
+  if (A::kTakes) values.resize(static_cast<std::size_t>(count));
+  for (T& value : values) transfer(archive, value);
+}
+
+template <class A>
+void transfer(A& archive, Scene& scene) {
+  int exponent = scene.spheres.scale_exponent();
+  archive.plain(exponent);
+  if (A::kTakes) scene.spheres = SphereSet::from_stored({}, exponent);
+  SphereAttributes& attributes = scene.spheres.attributes();
+  all(archive, scene.spheres.cell(), attributes.numbers, attributes.texts, scene.materials, scene.size_of_input,
+      scene.coloured_by, scene.length_unit, scene.lights, scene.plane, scene.clips, scene.camera, scene.background,
+      scene.ambient_light, scene.picture, scene.name, scene.seed);
+}
+
+}  // namespace
+
+void put_scene(const Scene& scene, const RenderSettings& settings, Bytes& bytes) {
+  Scene shell = without_spheres(scene);
+  RenderSettings copy = settings;
+  Putting out(bytes);
+  all(out, shell, copy);
+}
+
+void take_scene(ByteReader& bytes, Scene& scene, RenderSettings& settings) {
+  scene = Scene();
+  settings = RenderSettings();
+  Taking in(bytes);
+  all(in, scene, settings);
+}
+
+}  // namespace bihive

@@ -1,0 +1,236 @@
+#include "bihive/spread/spread_scene.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "bihive/scene/clips.h"
+#include "bihive/spread/part_of_set.h"
+#include "bihive/spread/rank_boxes.h"
+#include "bihive/spread/seen_spheres.h"
+#include "bihive/spread/sphere_columns.h"
+#include "bihive/spread/sphere_keys.h"
+#include "bihive/spread/spheres_elsewhere.h"
+#include "bihive/spread/stand_ins.h"
+
+namespace bihive {
+namespace {
+
+// The spheres are shared out by samples: so many for each rank, fewer if there are very many ranks.
+constexpr std::int64_t kSamplesOfAll = 1 << 16;
+constexpr std::int64_t kFewestSamples = 64, kMostSamples = 4096;  // of each rank
+
+// Spheres that a rank sends at a time, so that little memory is in use twice.
+constexpr std::int64_t kSpheresAtOnce = 1 << 21;
+
+// A thread forgets what it saw when it was so much.
+constexpr std::int64_t kMostSeen = 1 << 22;
+
+template <class T>
+Bytes bytes_of(const T& value) {
+  Bytes bytes;
+  ByteWriter(bytes).put(value);
+  return bytes;
+}
+
+// Of all ranks, in their order.
+template <class T>
+std::vector<T> gather(Ranks& ranks, const T& value) {
+  std::vector<T> values;
+  for (const Bytes& bytes : ranks.gather(bytes_of(value))) values.push_back(ByteReader(bytes).take<T>());
+  return values;
+}
+
+// The columns that some rank's spheres have.
+SphereColumns columns_of_all(const Scene& scene, Ranks& ranks) {
+  SphereColumns has;
+  for (const SphereColumns& one : gather(ranks, SphereColumns::of(scene))) {
+    for (bool SphereColumns::*const column :
+         {&SphereColumns::element, &SphereColumns::type, &SphereColumns::colour, &SphereColumns::opacity,
+          &SphereColumns::outline, &SphereColumns::crease, &SphereColumns::clips, &SphereColumns::material,
+          &SphereColumns::meaning, &SphereColumns::input_id})
+      has.*column = has.*column || one.*column;
+  }
+  return has;
+}
+
+// Where the ranks begin, from samples of all spheres at even distances.
+std::vector<SphereKey> common_starts(const SphereSet& spheres, std::int64_t whole_size, Ranks& ranks) {
+  const std::int64_t of_each = std::clamp(kSamplesOfAll / ranks.size(), kFewestSamples, kMostSamples);
+  const std::int64_t step = std::max<std::int64_t>(1, whole_size / (of_each * ranks.size()));
+  Bytes own;
+  ByteWriter out(own);
+  for (std::int64_t id = 0; id < spheres.size(); id += step) out.put(key_of(spheres, id));
+  std::vector<SphereKey> samples;
+  for (const Bytes& bytes : ranks.gather(own)) {
+    const std::size_t before = samples.size();
+    samples.resize(before + bytes.size() / sizeof(SphereKey));
+    ByteReader(bytes).take_array(samples.data() + before, samples.size() - before);
+  }
+  return starts_of_ranks(std::move(samples), ranks.size());
+}
+
+// Some of a whole set's spheres.
+struct SomeSpheres {
+  Scene scene;
+  std::vector<std::int64_t> whole_ids;
+};
+
+// Orders them by their ids in the whole set.
+void sort_by_whole_id(SomeSpheres& spheres, const SphereColumns& has, const Scene& shell) {
+  if (std::is_sorted(spheres.whole_ids.begin(), spheres.whole_ids.end())) return;
+  std::vector<std::int64_t> order(spheres.whole_ids.size());
+  std::iota(order.begin(), order.end(), std::int64_t{0});
+  std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
+    return spheres.whole_ids[static_cast<std::size_t>(a)] < spheres.whole_ids[static_cast<std::size_t>(b)];
+  });
+  SomeSpheres sorted{shell, {}};
+  Bytes packed;
+  for (std::size_t first = 0; first < order.size(); first += std::size_t(kSpheresAtOnce)) {
+    const std::size_t end = std::min(order.size(), first + std::size_t(kSpheresAtOnce));
+    packed.clear();
+    pack_spheres(spheres.scene, has, spheres.whole_ids,
+                 {order.begin() + static_cast<std::ptrdiff_t>(first), order.begin() + static_cast<std::ptrdiff_t>(end)},
+                 packed);
+    ByteReader reader(packed);
+    append_spheres(reader, has, sorted.scene, sorted.whole_ids);
+  }
+  spheres = std::move(sorted);
+}
+
+// Sends all spheres to their ranks.
+SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const SphereColumns& has, const Scene& shell,
+                 Ranks& ranks) {
+  SomeSpheres got{shell, {}};
+  const SphereSet& spheres = had.scene.spheres;
+  const std::vector<std::int64_t> sizes = gather(ranks, spheres.size());
+  const std::int64_t largest = *std::max_element(sizes.begin(), sizes.end());
+  for (std::int64_t first = 0; first < largest; first += kSpheresAtOnce) {
+    std::vector<std::vector<std::int64_t>> ids(static_cast<std::size_t>(ranks.size()));
+    for (std::int64_t id = first; id < std::min(spheres.size(), first + kSpheresAtOnce); ++id)
+      ids[static_cast<std::size_t>(rank_of(key_of(spheres, id), starts))].push_back(id);
+    std::vector<Bytes> packed(ids.size());
+    for (std::size_t rank = 0; rank < ids.size(); ++rank)
+      if (!ids[rank].empty()) pack_spheres(had.scene, has, had.whole_ids, ids[rank], packed[rank]);
+    for (const Bytes& bytes : ranks.scatter(packed)) {
+      ByteReader reader(bytes);
+      while (!reader.at_end()) append_spheres(reader, has, got.scene, got.whole_ids);
+    }
+  }
+  had = {};
+  sort_by_whole_id(got, has, shell);
+  return got;
+}
+
+// Those of all ranks together, in the order of the whole set.
+Bytes common_stand_ins(const SomeSpheres& own, const RenderSettings& settings, const SphereColumns& has,
+                       const Scene& shell, Ranks& ranks) {
+  Bytes packed;
+  pack_spheres(own.scene, has, own.whole_ids, stand_ins(own.scene, settings), packed);
+  SomeSpheres all{shell, {}};
+  for (const Bytes& bytes : ranks.gather(packed)) {
+    ByteReader reader(bytes);
+    append_spheres(reader, has, all.scene, all.whole_ids);
+  }
+  sort_by_whole_id(all, has, shell);
+  std::vector<std::int64_t> ids(all.whole_ids.size());
+  std::iota(ids.begin(), ids.end(), std::int64_t{0});
+  Bytes together;
+  pack_spheres(all.scene, has, all.whole_ids, ids, together);
+  return together;
+}
+
+class ArtistOfScene final : public SpreadScene::Artist {
+ public:
+  ArtistOfScene(const Scene& shell, const SphereColumns& has, const Bytes& stand_ins, const RankBoxes& boxes,
+                const PartOfSet& here, Exchange& exchange)
+      : seen_(shell, has, stand_ins),
+        elsewhere_(std::make_shared<SpheresElsewhere>(seen_, boxes, here, exchange)),
+        tracer_(seen_.scene().spheres, elsewhere_, false) {}
+
+  const Scene& scene() const override { return seen_.scene(); }
+  const Tracer& tracer() const override { return tracer_; }
+  void rest() override {
+    if (seen_.count() > kMostSeen) seen_.forget();
+  }
+  ExchangeCounts counts() const override { return elsewhere_->counts(); }
+
+ private:
+  SeenSpheres seen_;
+  std::shared_ptr<SpheresElsewhere> elsewhere_;
+  Tracer tracer_;
+};
+
+}  // namespace
+
+struct SpreadScene::Implementation {
+  Scene shell;
+  SphereColumns has;
+  std::int64_t whole_size = 0;
+  std::unique_ptr<RankBoxes> boxes;
+  Bytes stand_ins;
+  std::shared_ptr<const PartOfSet> part;
+};
+
+SpreadScene::SpreadScene() : implementation_(std::make_unique<Implementation>()) {}
+SpreadScene::~SpreadScene() = default;
+
+Status SpreadScene::refusal(const Scene& scene, const RenderSettings& settings) {
+  if (scene.spheres.has_images())
+    return Error{"copies of a replicated set cannot be distributed", "", 0, 0, "leave out --replicate"};
+  if (has_clips(scene)) return Error{"cut spheres cannot be distributed", "", 0, 0, "leave out the clips"};
+  if (settings.view == View::tree || settings.view == View::traversal)
+    return Error{"this view shows the tree of all spheres, and distributed spheres have a tree on each rank", "", 0, 0,
+                 "leave out --distribute"};
+  return Done{};
+}
+
+Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const RenderSettings& settings,
+                                                             const TreeParameters& parameters, Ranks& ranks) {
+  BIHIVE_CHECK(!scene.spheres.has_images());
+  std::shared_ptr<SpreadScene> made(new SpreadScene);
+  Implementation& all = *made->implementation_;
+  all.shell = without_spheres(scene);
+  all.has = columns_of_all(scene, ranks);
+
+  // Number all spheres, and send each to its rank.
+  const std::vector<std::int64_t> sizes = gather(ranks, scene.spheres.size());
+  all.whole_size = std::accumulate(sizes.begin(), sizes.end(), std::int64_t{0});
+  std::vector<std::int64_t> whole_ids(static_cast<std::size_t>(scene.spheres.size()));
+  std::iota(whole_ids.begin(), whole_ids.end(),
+            std::accumulate(sizes.begin(), sizes.begin() + ranks.rank(), std::int64_t{0}));
+  const std::vector<SphereKey> starts = common_starts(scene.spheres, all.whole_size, ranks);
+  SomeSpheres own = sent({std::move(scene), std::move(whole_ids)}, starts, all.has, all.shell, ranks);
+
+  // Tell all of what is here, and build.
+  all.stand_ins = common_stand_ins(own, settings, all.has, all.shell, ranks);
+  all.boxes = std::make_unique<RankBoxes>(gather(ranks, box_of(own.scene.spheres)), all.shell.spheres.scale());
+  Result<std::shared_ptr<const PartOfSet>> part = PartOfSet::make(std::move(own.scene), std::move(own.whole_ids),
+                                                                  all.has, settings.opacity_rule, parameters,
+                                                                  settings.threads);
+  if (!part) return part.error();
+  all.part = std::move(*part);
+  return std::shared_ptr<const SpreadScene>(std::move(made));
+}
+
+std::int64_t SpreadScene::size() const {
+  return implementation_->part->size();
+}
+std::int64_t SpreadScene::whole_size() const {
+  return implementation_->whole_size;
+}
+double SpreadScene::build_ms() const {
+  return implementation_->part->build_ms();
+}
+
+Bytes SpreadScene::answer(const Bytes& question) const {
+  return implementation_->part->answer(question);
+}
+
+std::unique_ptr<SpreadScene::Artist> SpreadScene::artist(Exchange& exchange) const {
+  const Implementation& all = *implementation_;
+  return std::make_unique<ArtistOfScene>(all.shell, all.has, all.stand_ins, *all.boxes, *all.part, exchange);
+}
+
+}  // namespace bihive

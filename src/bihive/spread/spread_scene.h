@@ -1,0 +1,74 @@
+// A scene whose spheres lie on several ranks, each on one: for sets beyond the memory of one machine.
+//
+// Each rank keeps its spheres, their tree, and a scene without the others. Threads that draw have an Artist each, and ask
+// other ranks through an Exchange; their questions are answered by SpreadScene::answer(). Pictures have the bits of one
+// process that has all spheres, for any number of ranks.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/render_settings.h"
+#include "bihive/scene/scene.h"
+#include "bihive/spread/bytes.h"
+#include "bihive/spread/exchange.h"
+#include "bihive/spread/ranks.h"
+
+namespace bihive {
+
+/// What the rays of a thread cost.
+struct ExchangeCounts {
+  std::int64_t rays = 0;      ///< of queries
+  std::int64_t asked = 0;     ///< rays times the ranks that they were asked on, this one too
+  std::int64_t messages = 0;  ///< to other ranks and back
+  std::int64_t bytes = 0;     ///< in these
+  std::int64_t rounds = 0;    ///< times that a query waited for other ranks
+};
+
+/// One rank's share of a scene. Const after make(); any number of threads may use it at a time.
+class SpreadScene {
+ public:
+  ~SpreadScene();
+  SpreadScene(const SpreadScene&) = delete;
+  SpreadScene& operator=(const SpreadScene&) = delete;
+
+  /// For all ranks at the same time. `scene`: as it is drawn, with those spheres that this rank has at first, which may
+  /// be all, some or none; all else is the same on all ranks. The spheres of rank 0 are the first of the whole set,
+  /// those of rank 1 follow. `settings`: the picture's, the same on all ranks. Errors come after all that ranks do
+  /// together: more spheres than a rank can number, or not enough memory for their tree. Copies of a replicated set
+  /// and clips that cut spheres are a programmer's error (refusal()).
+  static Result<std::shared_ptr<const SpreadScene>> make(Scene scene, const RenderSettings& settings,
+                                                         const TreeParameters& parameters, Ranks& ranks);
+  /// Why spheres of this scene cannot be spread, with these settings.
+  static Status refusal(const Scene& scene, const RenderSettings& settings);
+
+  std::int64_t size() const;        ///< spheres of this rank
+  std::int64_t whole_size() const;  ///< of all
+  double build_ms() const;
+
+  /// The answer to any question that an Exchange brings.
+  Bytes answer(const Bytes& question) const;
+
+  /// For one thread.
+  class Artist {
+   public:
+    virtual ~Artist() = default;
+    virtual const Scene& scene() const = 0;
+    virtual const Tracer& tracer() const = 0;
+    /// Gives memory back, between two pictures or parts of one.
+    virtual void rest() = 0;
+    virtual ExchangeCounts counts() const = 0;
+  };
+  /// The scene and the exchange must outlive it.
+  std::unique_ptr<Artist> artist(Exchange& exchange) const;
+
+ private:
+  SpreadScene();
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bihive
