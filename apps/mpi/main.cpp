@@ -27,17 +27,23 @@ namespace {
 using cli::FilmOptions;
 using cli::RenderOptions;
 
+constexpr const char* kDistribute = "--distribute";
+
 constexpr const char* kHelp =
     "bihive-mpi: one picture or film by many processes, with the same bits as by one\n"
-    "Usage: mpirun -n N bihive-mpi render|film ...\n"
+    "Usage: mpirun -n N bihive-mpi render|film ... [--distribute]\n"
     "\n"
     "The words behind are those of bihive render and bihive film: see bihive render --help, bihive film --help.\n"
     "Every rank reads the input; rank 0 writes the picture. Of films each rank draws every N-th picture, and rank 0 "
     "joins\n"
     "them. Without --threads the ranks of a machine share its cores, or keep to those that mpirun gives them.\n"
     "\n"
+    "--distribute: the spheres are distributed over the ranks, each on one, for sets beyond the memory of a machine. For\n"
+    "render alone.\n"
+    "\n"
     "Examples:\n"
     "  mpirun -n 4 bihive-mpi render demo -o molecule.png --size 8000x6000\n"
+    "  mpirun -n 4 bihive-mpi render big.npy -o big.png --distribute\n"
     "  mpirun -n 4 bihive-mpi film run.dump -o run.mp4\n";
 
 // The threads of each rank. default_concurrency() is what mpirun lets this rank run on: all cores, or its own.
@@ -53,6 +59,8 @@ void check_film(const FilmOptions& options) {
 }
 
 void run_request(MpiTeam& team, cli::Request request) {
+  if (team.distributes() && std::holds_alternative<FilmOptions>(request))
+    cli::fail_usage("--distribute is for one picture", "draw a film with all spheres on each rank");
   if (RenderOptions* const render = std::get_if<RenderOptions>(&request)) {
     if (render->threads == 0) render->threads = threads_of_rank(team);
     cli::run_render(*render);
@@ -108,8 +116,11 @@ Said run(MpiTeam& team, int argc, const char* const* argv) {
 }
 
 // All ranks end with the same code, and one of them says why.
-int run_ranks(int argc, const char* const* argv) {
-  MpiTeam team;
+int run_ranks(std::vector<const char*> words) {
+  // The program's own option.
+  const std::size_t before = words.size();
+  std::erase_if(words, [](const char* word) { return std::string(word) == kDistribute; });
+  MpiTeam team(words.size() < before);
   cli::set_team(&team);
   std::vector<std::string> unsaid;
   if (team.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;
@@ -118,7 +129,7 @@ int run_ranks(int argc, const char* const* argv) {
     // Rank 0 warns for all.
     std::optional<cli::CollectedWarnings> collected;
     if (team.rank() != 0) collected.emplace(unsaid);
-    said = run(team, argc, argv);
+    said = run(team, static_cast<int>(words.size()), words.data());
   }
   const int code = team.end_with(said.code);
   if (team.speaks()) {
@@ -140,7 +151,7 @@ int main(int argc, char** argv) {
     MPI_Finalize();
     return bihive::cli::kEnvironment;
   }
-  const int code = bihive::mpi::run_ranks(argc, argv);
+  const int code = bihive::mpi::run_ranks({argv, argv + argc});
   MPI_Finalize();
   return code;
 }

@@ -2,50 +2,29 @@
 
 #include <algorithm>
 #include <climits>
-#include <cstring>
 #include <utility>
+
+#include "mpi_conversation.h"
+#include "mpi_messages.h"
 
 namespace bihive::mpi {
 namespace {
 
-enum Tag : int { kRows = 1, kEnd = 2 };
+enum Tag : int { kRows = 1, kEnd = 2, kScattered = 3 };
 
-// In front of the light of some rows.
-struct RowsHead {
-  std::int64_t number;
-  std::int32_t width, height, has_coverage, unused;
-};
+// No message is longer, because MPI counts bytes with 31 bits.
+constexpr std::size_t kLongestMessage = std::size_t{1} << 29;
 
-struct EndOfRank {
-  std::int64_t primary, shadow, reflected, transmitted, ambient, failed;
-};
-
-std::vector<char> packed(std::int64_t number, const Film& film) {
-  const RowsHead head{number, film.width, film.height, film.coverage.empty() ? 0 : 1, 0};
-  const std::size_t light = film.radiance.size() * sizeof(Vec3f), coverage = film.coverage.size() * sizeof(float);
-  std::vector<char> bytes(sizeof head + light + coverage);
-  std::memcpy(bytes.data(), &head, sizeof head);
-  std::memcpy(bytes.data() + sizeof head, film.radiance.data(), light);
-  if (coverage > 0) std::memcpy(bytes.data() + sizeof head + light, film.coverage.data(), coverage);
-  return bytes;
-}
-
-cli::GivenRows unpacked(const std::vector<char>& bytes) {
-  RowsHead head{};
-  std::memcpy(&head, bytes.data(), sizeof head);
-  cli::GivenRows rows{head.number, {}};
-  rows.film.resize(head.width, head.height, head.has_coverage != 0);
-  const std::size_t light = rows.film.radiance.size() * sizeof(Vec3f);
-  std::memcpy(static_cast<void*>(rows.film.radiance.data()), bytes.data() + sizeof head, light);
-  if (head.has_coverage != 0)
-    std::memcpy(rows.film.coverage.data(), bytes.data() + sizeof head + light,
-                rows.film.coverage.size() * sizeof(float));
-  return rows;
+// Calls use(bytes, count) for each message in which so many bytes go.
+template <class Use>
+void for_each_message(char* bytes, std::size_t count, const Use& use) {
+  for (std::size_t first = 0; first < count; first += kLongestMessage)
+    use(bytes + first, static_cast<int>(std::min(kLongestMessage, count - first)));
 }
 
 }  // namespace
 
-MpiTeam::MpiTeam() {
+MpiTeam::MpiTeam(bool distributes) : distributes_(distributes) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &size_);
   MPI_Comm machine = MPI_COMM_NULL;
@@ -133,11 +112,11 @@ void MpiTeam::give(std::int64_t number, const Film& film) {
             &sending.request);
 }
 
-void MpiTeam::end_giving(const RenderCounts& rays, bool failed) {
-  const EndOfRank end{rays.primary, rays.shadow, rays.reflected, rays.transmitted, rays.ambient, failed ? 1 : 0};
+void MpiTeam::end_giving(const cli::WorkOfRank& work, bool failed) {
+  const std::vector<char> end = packed(EndOfRank{work, failed});
   const std::lock_guard lock(mutex_);
   for (Sending& sending : sending_) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
-  MPI_Send(&end, sizeof end, MPI_BYTE, 0, kEnd, MPI_COMM_WORLD);
+  MPI_Send(end.data(), static_cast<int>(end.size()), MPI_BYTE, 0, kEnd, MPI_COMM_WORLD);
 }
 
 // Whether there was a message.
@@ -154,16 +133,13 @@ bool MpiTeam::receive_one(bool wait) {
   std::vector<char> bytes(static_cast<std::size_t>(count));
   MPI_Recv(bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   if (status.MPI_TAG == kRows) {
-    received_.push_back(unpacked(bytes));
+    received_.push_back(unpacked_rows(bytes));
     return true;
   }
-  EndOfRank end{};
-  std::memcpy(&end, bytes.data(), sizeof end);
+  const EndOfRank end = unpacked_end(bytes);
   ++ended_;
-  somebody_failed_ = somebody_failed_ || end.failed != 0;
-  rays_of_others_ = {rays_of_others_.primary + end.primary, rays_of_others_.shadow + end.shadow,
-                     rays_of_others_.reflected + end.reflected, rays_of_others_.transmitted + end.transmitted,
-                     rays_of_others_.ambient + end.ambient};
+  somebody_failed_ = somebody_failed_ || end.failed;
+  work_of_others_.add(end.work);
   return true;
 }
 
@@ -182,6 +158,52 @@ std::optional<cli::GivenRows> MpiTeam::take(bool wait) {
   cli::GivenRows first = std::move(received_.front());
   received_.pop_front();
   return first;
+}
+
+std::vector<Bytes> MpiTeam::gather(const Bytes& of_this_rank) {
+  const std::lock_guard lock(mutex_);
+  const auto own = static_cast<std::int64_t>(of_this_rank.size());
+  std::vector<std::int64_t> sizes(static_cast<std::size_t>(size_));
+  MPI_Allgather(&own, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
+  std::vector<Bytes> all(sizes.size());
+  for (int rank = 0; rank < size_; ++rank) {
+    Bytes& bytes = all[static_cast<std::size_t>(rank)];
+    if (rank == rank_) bytes = of_this_rank;
+    bytes.resize(static_cast<std::size_t>(sizes[static_cast<std::size_t>(rank)]));
+    for_each_message(bytes.data(), bytes.size(),
+                     [&](char* first, int count) { MPI_Bcast(first, count, MPI_BYTE, rank, MPI_COMM_WORLD); });
+  }
+  return all;
+}
+
+std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::int64_t> sizes, coming(for_each_rank.size());
+  for (const Bytes& bytes : for_each_rank) sizes.push_back(static_cast<std::int64_t>(bytes.size()));
+  MPI_Alltoall(sizes.data(), 1, MPI_INT64_T, coming.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
+  std::vector<Bytes> got(for_each_rank.size());
+  std::vector<MPI_Request> requests;
+  for (int rank = 0; rank < size_; ++rank) {
+    Bytes& bytes = got[static_cast<std::size_t>(rank)];
+    const Bytes& given = for_each_rank[static_cast<std::size_t>(rank)];
+    if (rank == rank_) {
+      bytes = given;
+      continue;
+    }
+    bytes.resize(static_cast<std::size_t>(coming[static_cast<std::size_t>(rank)]));
+    for_each_message(bytes.data(), bytes.size(), [&](char* first, int count) {
+      MPI_Irecv(first, count, MPI_BYTE, rank, kScattered, MPI_COMM_WORLD, &requests.emplace_back());
+    });
+    for_each_message(const_cast<char*>(given.data()), given.size(), [&](char* first, int count) {
+      MPI_Isend(first, count, MPI_BYTE, rank, kScattered, MPI_COMM_WORLD, &requests.emplace_back());
+    });
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  return got;
+}
+
+std::unique_ptr<cli::Conversation> MpiTeam::converse(std::function<Bytes(const Bytes&)> answer, int threads) {
+  return std::make_unique<MpiConversation>(std::move(answer), threads);
 }
 
 }  // namespace bihive::mpi

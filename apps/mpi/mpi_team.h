@@ -4,7 +4,10 @@
 #include <mpi.h>
 
 #include <deque>
+#include <functional>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "support/failure.h"
@@ -16,7 +19,8 @@ namespace bihive::mpi {
 /// destroy it before MPI_Finalize.
 class MpiTeam final : public cli::Team {
  public:
-  MpiTeam();
+  /// `distributes`: the spheres are distributed over the ranks.
+  explicit MpiTeam(bool distributes);
   ~MpiTeam() override;
   MpiTeam(const MpiTeam&) = delete;
   MpiTeam& operator=(const MpiTeam&) = delete;
@@ -26,15 +30,20 @@ class MpiTeam final : public cli::Team {
   /// Ranks on this machine.
   int size_on_machine() const { return size_on_machine_; }
 
+  bool distributes() const override { return distributes_; }
+  std::unique_ptr<cli::Conversation> converse(std::function<Bytes(const Bytes&)> answer, int threads) override;
+  std::vector<Bytes> gather(const Bytes& of_this_rank) override;
+  std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) override;
+
   void agree(const std::vector<cli::Fingerprint>& seen) override;
   std::int64_t next_number() override;
   void stop_counting() override;
   void give(std::int64_t number, const Film& film) override;
-  void end_giving(const RenderCounts& rays, bool failed) override;
+  void end_giving(const cli::WorkOfRank& work, bool failed) override;
   void receive() override;
   std::optional<cli::GivenRows> take(bool wait) override;
   bool somebody_failed() const override { return somebody_failed_; }
-  RenderCounts rays_of_others() const override { return rays_of_others_; }
+  cli::WorkOfRank work_of_others() const override { return work_of_others_; }
 
   /// All ranks come here at their end, unless a rank that failed made them leave agree(). Returns 0, or the code of the
   /// lowest rank that failed.
@@ -46,6 +55,7 @@ class MpiTeam final : public cli::Team {
   int share(int code);
   bool receive_one(bool wait);
 
+  bool distributes_;
   int rank_ = 0, size_ = 1, size_on_machine_ = 1;
   std::mutex mutex_;  // MPI takes one thread at a time
   MPI_Win window_ = MPI_WIN_NULL;
@@ -64,7 +74,7 @@ class MpiTeam final : public cli::Team {
   bool somebody_failed_ = false;
   int code_ = 0;  // of all
   bool speaks_ = false;
-  RenderCounts rays_of_others_;
+  cli::WorkOfRank work_of_others_;
 };
 
 }  // namespace bihive::mpi

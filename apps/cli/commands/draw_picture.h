@@ -16,6 +16,7 @@ struct Drawn {
   std::int64_t all_rays = 0;
   double render_ms = 0;
   nlohmann::ordered_json rays, gpu;
+  nlohmann::ordered_json exchange;  ///< null: all spheres were here
 };
 
 Drawn drawn_with(const RenderCounts& rays);

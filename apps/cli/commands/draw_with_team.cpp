@@ -1,50 +1,25 @@
 #include "commands/draw_with_team.h"
 
-#include <algorithm>
 #include <cstring>
 #include <exception>
-#include <map>
 #include <string_view>
 #include <utility>
 
 #include "bihive/base/timer.h"
 #include "bihive/base/version.h"
+#include "commands/picture_bands.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 
 namespace bihive::cli {
 namespace {
 
-// The picture in bands: several for each rank, so that an expensive corner does not keep one of them alone. Low bands
-// cost more, because effects that look at neighbouring pixels draw the border of a band anew.
-class Bands {
- public:
-  Bands(const RenderSettings& settings, int ranks) : all_(drawn_pixels(settings)) {
-    constexpr int kOfEachRank = 8, kLeastRows = 16, kMostRows = 64;
-    rows_ = std::clamp(all_.height() / (kOfEachRank * ranks), kLeastRows, kMostRows);
-  }
-  std::int64_t count() const { return (all_.height() + rows_ - 1) / rows_; }
-  Tile pixels(std::int64_t number) const {
-    const int y = all_.y0 + static_cast<int>(number) * rows_;
-    return {all_.x0, y, all_.x1, std::min(y + rows_, all_.y1)};
-  }
-
- private:
-  Tile all_;
-  int rows_;
-};
-
 void stop_if_signalled() {
   if (CancellableSection::token().cancelled()) throw Interrupted{};
 }
 
-RenderCounts sum(const RenderCounts& a, const RenderCounts& b) {
-  return {a.primary + b.primary, a.shadow + b.shadow, a.reflected + b.reflected, a.transmitted + b.transmitted,
-          a.ambient + b.ambient};
-}
-
 // Ranks above 0.
-RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const Bands& bands,
+RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const PictureBands& bands,
                   Team& team) {
   RenderCounts rays;
   std::exception_ptr failure;
@@ -66,7 +41,7 @@ RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings
   } catch (...) {
     failure = std::current_exception();
   }
-  team.end_giving(rays, failure != nullptr);
+  team.end_giving({rays, {}}, failure != nullptr);
   if (failure) std::rethrow_exception(failure);
   return rays;
 }
@@ -74,8 +49,8 @@ RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings
 // Rank 0, which draws too, and puts the bands of all into the file in their order.
 class Leader {
  public:
-  Leader(const Bands& bands, PictureFile& file, const ProgressCallback& progress, Team& team)
-      : bands_(bands), file_(file), progress_(progress), team_(team) {}
+  Leader(const PictureBands& bands, PictureFile& file, const ProgressCallback& progress, Team& team)
+      : bands_(bands), in_order_(bands, file, progress), team_(team) {}
 
   RenderCounts lead(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
     RenderCounts rays;
@@ -107,8 +82,10 @@ class Leader {
       if (team_.somebody_failed()) team_.stop_counting();
     }
     if (failure) std::rethrow_exception(failure);
-    if (!status_) fail(status_.error());
-    return sum(rays, team_.rays_of_others());
+    if (!in_order_.status()) fail(in_order_.status().error());
+    WorkOfRank work{rays, {}};
+    work.add(team_.work_of_others());
+    return work.rays;
   }
 
  private:
@@ -118,23 +95,13 @@ class Leader {
   }
 
   void add(std::int64_t number, Film film) {
-    early_.emplace(number, std::move(film));
-    for (auto first = early_.begin(); first != early_.end() && first->first == written_; first = early_.begin()) {
-      if (status_) status_ = file_.add(first->second, bands_.pixels(written_));
-      if (!status_) team_.stop_counting();
-      early_.erase(first);
-      ++written_;
-    }
-    progress_(static_cast<double>(written_) / static_cast<double>(bands_.count()));
+    in_order_.add(number, std::move(film));
+    if (!in_order_.status()) team_.stop_counting();
   }
 
-  const Bands& bands_;
-  PictureFile& file_;
-  const ProgressCallback& progress_;
+  const PictureBands& bands_;
+  BandsInOrder in_order_;
   Team& team_;
-  std::map<std::int64_t, Film> early_;  // bands that wait for those above them
-  std::int64_t written_ = 0;
-  Status status_ = Done{};
 };
 
 // 64-bit FNV-1a.
@@ -160,7 +127,7 @@ class Hash {
 Drawn draw_with_team(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile* file,
                      const ProgressCallback& progress, Team& team) {
   const Timer timer;
-  const Bands bands(settings, team.size());
+  const PictureBands bands(settings, team.size());
   const RenderCounts rays = file == nullptr ? help(scene, tracer, settings, bands, team)
                                             : Leader(bands, *file, progress, team).lead(scene, tracer, settings);
   Drawn drawn = drawn_with(rays);
@@ -168,9 +135,14 @@ Drawn draw_with_team(const Scene& scene, const Tracer& tracer, const RenderSetti
   return drawn;
 }
 
-std::vector<Fingerprint> fingerprints_of(const Scene& scene, const std::string& described) {
-  Hash program, spheres, settings;
+Fingerprint fingerprint_of_program() {
+  Hash program;
   for (const std::string_view text : {version(), commit()}) program.add(text.data(), text.size());
+  return {"the program", program.value()};
+}
+
+std::vector<Fingerprint> fingerprints_of(const Scene& scene, const std::string& described) {
+  Hash spheres, settings;
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     const Vec3d centre = scene.spheres.centre(id);
     for (const double number : {centre.x, centre.y, centre.z, scene.spheres.radius(id)}) spheres.add(number);
@@ -181,7 +153,7 @@ std::vector<Fingerprint> fingerprints_of(const Scene& scene, const std::string& 
   spheres.add(attributes.element);
   spheres.add(attributes.type);
   settings.add(described.data(), described.size());
-  return {{"the program", program.value()}, {"the input", spheres.value()}, {"the options", settings.value()}};
+  return {fingerprint_of_program(), {"the input", spheres.value()}, {"the options", settings.value()}};
 }
 
 }  // namespace bihive::cli

@@ -26,6 +26,14 @@ struct ExchangeCounts {
   std::int64_t messages = 0;  ///< to other ranks and back
   std::int64_t bytes = 0;     ///< in these
   std::int64_t rounds = 0;    ///< times that a query waited for other ranks
+
+  void add(const ExchangeCounts& more) {
+    rays += more.rays;
+    asked += more.asked;
+    messages += more.messages;
+    bytes += more.bytes;
+    rounds += more.rounds;
+  }
 };
 
 /// One rank's share of a scene. Const after make(); any number of threads may use it at a time.

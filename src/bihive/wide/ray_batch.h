@@ -107,6 +107,16 @@ struct RayBatch {
     inside.push_back(ray.inside ? 1 : 0);
   }
 
+  /// Adds rays without their segments: these have origin, direction, what they leave, and from which side.
+  void append(const RaySpan& rays) {
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis].insert(origin[axis].end(), rays.origin[axis], rays.origin[axis] + rays.count);
+      direction[axis].insert(direction[axis].end(), rays.direction[axis], rays.direction[axis] + rays.count);
+    }
+    leaves.insert(leaves.end(), rays.leaves, rays.leaves + rays.count);
+    inside.insert(inside.end(), rays.inside, rays.inside + rays.count);
+  }
+
   RaySpan span() const {
     RaySpan view;
     view.count = size();

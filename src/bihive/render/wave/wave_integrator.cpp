@@ -15,6 +15,9 @@ constexpr std::int64_t kRaysBetweenLooks = 64;
 // of the next part.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
 
+// Rays about which other processes are asked before their turn comes.
+constexpr std::int64_t kMostRaysAskedAhead = 1 << 17;
+
 RayOrder order_of(const WavePart& rays) {
   return rays.wave->starts_at_eye ? RayOrder::blocks : RayOrder::any;
 }
@@ -320,13 +323,14 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
     const auto count = static_cast<double>(of_set.size());
     for (std::size_t l = 0; l < lights.size(); ++l) {
       steps::forget_sums(wave);
-      for (const Vec3d& point : of_set) {
-        steps::find_light_rays(lights[l]->position + lights[l]->radius * point, wave);
-        rays_.shadow += wave.rays.count;
-        trace_places(depth, 1, buffers);
-        if (cancelled()) return;
+      const auto towards = [&](std::size_t i) {
+        steps::find_light_rays(lights[l]->position + lights[l]->radius * of_set[i], wave);
+      };
+      trace_places_of_all(of_set.size(), depth, 1, buffers, towards, [&](const RaySpan& rays) {
+        rays_.shadow += rays.count;
         steps::add_visible(wave);
-      }
+      });
+      if (cancelled()) return;
       const std::int64_t row = static_cast<std::int64_t>(l) * surfaces.count;
       for (int channel = 0; channel < channels(); ++channel)
         for (std::int64_t k = 0; k < wave.places; ++k) {
@@ -348,17 +352,17 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
     const int level = n / ambient.sets.count();
     steps::gather_places(surfaces, alike(set, ambient.sets.count(), level, buffers), wave);
     if (wave.places == 0) continue;
-    for (const Vec3f& direction : ambient.sets.of_sample(set, level)) {
-      steps::find_ambient_rays(direction, wave);
-      rays_.ambient += wave.rays.count;
-      const RaySpan rays = trace_places(depth, ambient.distance, buffers);
-      if (cancelled()) return;
+    const std::vector<Vec3f>& directions = ambient.sets.of_sample(set, level);
+    const auto towards = [&](std::size_t i) { steps::find_ambient_rays(directions[i], wave); };
+    trace_places_of_all(directions.size(), depth, ambient.distance, buffers, towards, [&](const RaySpan& rays) {
+      rays_.ambient += rays.count;
       if (scene_.scene->plane)
         for (std::int64_t i = 0; i < rays.count; ++i)
           if (plane_hit(rays.at(i), scene_.scene->plane->plane) < std::numeric_limits<double>::infinity())
             wave.hidden[i] = 1;
       steps::add_visible(wave);
-    }
+    });
+    if (cancelled()) return;
     for (int channel = 0; channel < channels(); ++channel)
       for (std::int64_t k = 0; k < wave.places; ++k)
         buffers.visibility[channel][wave.surface[k]] =
@@ -400,20 +404,62 @@ void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uin
   }
 }
 
-// Which rays of the places does a sphere hide before t = limit? Returns these rays.
-RaySpan WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffers) {
+// Calls make(i), which puts rays into buffers.places, and use(these rays) when it is known which of them a sphere hides
+// before t = limit, for each i from 0 to before `count`. Other processes are asked for many i at a time, because each
+// question waits for its answer.
+template <class MakeRays, class Use>
+void WaveIntegrator::trace_places_of_all(std::size_t count, int depth, double limit, WaveBuffers& buffers,
+                                         const MakeRays& make, const Use& use) const {
   PlaceWave& wave = buffers.places;
+  AnswersAhead& ahead = buffers.ahead;
+  ahead.next = ahead.rays.size();
+  const auto at_once = static_cast<std::size_t>(std::max<std::int64_t>(1, kMostRaysAskedAhead / wave.places));
+  for (std::size_t i = 0; i < count && !cancelled(); ++i) {
+    if (tracer_.elsewhere() != nullptr && !ahead.any()) {
+      ahead.rays.clear();
+      ahead.next = 0;
+      // Making rays adds to this sum, and these are made again.
+      const std::vector<double> in_front(wave.in_front.data(), wave.in_front.data() + wave.places);
+      for (std::size_t k = i; k < std::min(count, i + at_once); ++k) {
+        make(k);
+        ahead.rays.append(wave.rays.span());
+      }
+      std::copy(in_front.begin(), in_front.end(), wave.in_front.data());
+      ahead.hidden.resize(static_cast<std::size_t>(ahead.rays.size()));
+      for (int channel = 0; channel < channels(); ++channel) ahead.share[channel].reserve(ahead.rays.size());
+      std::vector<double> limits(ahead.hidden.size(), limit);
+      RaySpan rays = ahead.rays.span();
+      rays.t_max = limits.data();
+      ask_for_light(rays, RayOrder::any, ahead.hidden.data(), ahead.share, 0);
+    }
+    make(i);
+    const RaySpan rays = trace_places(depth, limit, buffers);
+    if (cancelled()) return;
+    use(rays);
+  }
+}
+
+// Which rays of the places does a sphere hide before t = limit? Returns these rays.
+RaySpan WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffers) const {
+  PlaceWave& wave = buffers.places;
+  wave.has_shares = to_light() != nullptr;
   RaySpan rays = wave.rays.span();
   if (limit < std::numeric_limits<double>::infinity()) {
     buffers.limits.reserve(rays.count);
     std::fill_n(buffers.limits.data(), rays.count, limit);
     rays.t_max = buffers.limits.data();
   }
+  if (AnswersAhead& ahead = buffers.ahead; ahead.any()) {
+    std::copy_n(ahead.hidden.data() + ahead.next, rays.count, wave.hidden.data());
+    for (int channel = 0; wave.has_shares && channel < channels(); ++channel)
+      std::copy_n(ahead.share[channel].data() + ahead.next, rays.count, wave.share[channel].data());
+    ahead.next += rays.count;
+    return rays;
+  }
   const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
   const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
   for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
     ask_for_light(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i, wave.share, i);
-  wave.has_shares = to_light() != nullptr;
   return rays;
 }
 

@@ -26,6 +26,16 @@ struct CrossingBuffers {
   std::vector<std::size_t> first;    ///< of each ray, in `crossings`; and their number
 };
 
+/// What other processes said of rays of places before these rays' turn comes.
+struct AnswersAhead {
+  RayBatch rays;
+  std::vector<std::uint8_t> hidden;
+  Columns3<double> share;
+  std::int64_t next = 0;  ///< the first ray whose turn is still to come
+
+  bool any() const { return next < rays.size(); }
+};
+
 /// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation,
 /// and with ambient occlusion some 150 more.
 struct WaveBuffers {
@@ -39,6 +49,7 @@ struct WaveBuffers {
   Column<std::uint8_t> hidden;
   Columns3<double> share;
   PlaceWave places;
+  AnswersAhead ahead;
   Column<std::uint8_t> level;  ///< faint_level() of each surface; only where spheres are passed straight
   Column<double> limits;
   Columns3<double> visibility;
@@ -114,7 +125,10 @@ class WaveIntegrator {
   void find_shadows(int depth, WaveBuffers& buffers);
   void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);
-  RaySpan trace_places(int depth, double limit, WaveBuffers& buffers);
+  template <class MakeRays, class Use>
+  void trace_places_of_all(std::size_t count, int depth, double limit, WaveBuffers& buffers, const MakeRays& make,
+                           const Use& use) const;
+  RaySpan trace_places(int depth, double limit, WaveBuffers& buffers) const;
   void ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, Columns3<double>& share,
                      std::int64_t first) const;
   const TransparentSpheres* to_eye() const {

@@ -1,0 +1,48 @@
+// The steps of bihive render that it shares with pictures of distributed spheres.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bihive/render/layers.h"
+#include "bihive/scene/render_settings.h"
+#include "commands/commands.h"
+#include "commands/draw_picture.h"
+#include "commands/picture_file.h"
+
+namespace bihive::cli {
+
+/// The input with the user's options, and what its file will say of them.
+struct PreparedPicture {
+  RenderEngine engine;
+  Input input;
+  RenderSettings settings;
+  std::vector<Layer> layers;
+  nlohmann::ordered_json described;
+  double read_ms;
+};
+
+/// The options of the film are taken already. Fails like the steps that it takes.
+PreparedPicture prepare_render(const RenderOptions& options);
+/// The film's share of a picture's options.
+RenderOptions with_film(const RenderOptions& asked);
+
+/// What was drawn, for the report.
+struct FinishedPicture {
+  const PreparedPicture& prepared;
+  Engine engine;
+  std::int64_t spheres;
+  double build_ms, write_ms;
+  const Drawn& drawn;
+  const PictureFile& file;
+};
+void report_render(const RenderOptions& options, const FinishedPicture& finished);
+
+/// Other engines, layers and views are drawn by rank 0 alone.
+bool can_share(const PreparedPicture& prepared);
+
+/// bihive-mpi with --distribute: each rank has some of the spheres. `options`: of with_film().
+void run_render_spread(const RenderOptions& options);
+
+}  // namespace bihive::cli

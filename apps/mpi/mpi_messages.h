@@ -1,0 +1,22 @@
+// The bytes of what ranks send each other.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "support/team.h"
+
+namespace bihive::mpi {
+
+/// Rows of a picture, and the end of them.
+std::vector<char> packed(std::int64_t number, const Film& film);
+cli::GivenRows unpacked_rows(const std::vector<char>& bytes);
+
+struct EndOfRank {
+  cli::WorkOfRank work;
+  bool failed;
+};
+std::vector<char> packed(const EndOfRank& end);
+EndOfRank unpacked_end(const std::vector<char>& bytes);
+
+}  // namespace bihive::mpi
