@@ -4,16 +4,19 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "../shared/last_line.h"
 #include "bihive/base/parallel.h"
+#include "bihive/base/version.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
 #include "mpi_team.h"
@@ -58,6 +61,21 @@ void check_film(const FilmOptions& options) {
     cli::fail_usage("--shard and --join are what bihive-mpi does by itself", "leave them out, or use bihive film");
 }
 
+std::uint64_t hash_of(const std::vector<std::string>& texts) {
+  // 64-bit FNV-1a, with the end of each text.
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::string& text : texts)
+    for (std::size_t i = 0; i <= text.size(); ++i)
+      hash = (hash ^ static_cast<unsigned char>(text.c_str()[i])) * 0x100000001b3;
+  return hash;
+}
+
+// All ranks must be the same program, with the same words.
+void agree_on_words(MpiTeam& team, int argc, const char* const* argv) {
+  team.agree({{"the program", hash_of({std::string(version()), std::string(commit())})},
+              {"the command line", hash_of({argv + 1, argv + argc})}});
+}
+
 void run_request(MpiTeam& team, cli::Request request) {
   if (team.distributes() && std::holds_alternative<FilmOptions>(request))
     cli::fail_usage("--distribute is for one picture", "draw a film with all spheres on each rank");
@@ -98,7 +116,9 @@ Said run(MpiTeam& team, int argc, const char* const* argv) {
     if (argc < 2 || std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h") {
       cli::print(kHelp);
     } else {
-      run_request(team, cli::parse_command_line(argc, argv));
+      cli::Request request = cli::parse_command_line(argc, argv);
+      agree_on_words(team, argc, argv);
+      run_request(team, std::move(request));
     }
     cli::finish_output();
     return {};

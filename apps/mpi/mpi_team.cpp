@@ -81,7 +81,7 @@ void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
   if (code == 0) return;
   if (differs.empty()) throw cli::OtherRankFailed{code};
   cli::fail({differs + " of rank " + std::to_string(rank_) + " is not that of rank 0", "", 0, 0,
-             "give all ranks the same program, files and options"});
+             "give all ranks the same program and the same words"});
 }
 
 std::int64_t MpiTeam::next_number() {
@@ -174,6 +174,16 @@ std::vector<Bytes> MpiTeam::gather(const Bytes& of_this_rank) {
                      [&](char* first, int count) { MPI_Bcast(first, count, MPI_BYTE, rank, MPI_COMM_WORLD); });
   }
   return all;
+}
+
+Bytes MpiTeam::from_first(Bytes of_first) {
+  const std::lock_guard lock(mutex_);
+  auto size = static_cast<std::int64_t>(of_first.size());
+  MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+  of_first.resize(static_cast<std::size_t>(size));
+  for_each_message(of_first.data(), of_first.size(),
+                   [](char* first, int count) { MPI_Bcast(first, count, MPI_BYTE, 0, MPI_COMM_WORLD); });
+  return of_first;
 }
 
 std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {

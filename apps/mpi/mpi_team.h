@@ -33,6 +33,7 @@ class MpiTeam final : public cli::Team {
   bool distributes() const override { return distributes_; }
   std::unique_ptr<cli::Conversation> converse(std::function<Bytes(const Bytes&)> answer, int threads) override;
   std::vector<Bytes> gather(const Bytes& of_this_rank) override;
+  Bytes from_first(Bytes of_first) override;
   std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) override;
 
   void agree(const std::vector<cli::Fingerprint>& seen) override;

@@ -1,5 +1,6 @@
 """Pictures and films by the ranks of mpirun: bihive-mpi, and shards of bihive, as docs/many_machines.md says."""
 
+import itertools
 import json
 import os
 import shutil
@@ -78,8 +79,8 @@ def is_running(process):
         return False
 
 
-# Each rank reads a file of its own.
-OWN_FILE = 'exec "$0" render $OMPI_COMM_WORLD_RANK.xyz "$@"'
+# Rank 2 draws another picture.
+OWN_SIZE = 'exec "$0" render run.xyz --size 5x$((OMPI_COMM_WORLD_RANK / 2 + 3)) "$@"'
 
 
 @unittest.skipUnless(BIHIVE_MPI and is_open_mpi(), "bihive-mpi was not built: install libopenmpi-dev and openmpi-bin")
@@ -110,6 +111,28 @@ class Program(OnRanks):
                     words = ["render", "demo", "-o", "ranks.png", "--json", "--threads", "1", *options]
                     self.assertEqual(self.hash_of(self.run_ranks(ranks, BIHIVE_MPI, *words)), alone)
 
+    def test_distributed_spheres_give_the_same_picture(self):
+        looks = [
+            ["--size", "80x60"],
+            ["--size", "97x103", "--style", "illustrative", "--samples", "auto", "--background", "none"],
+            ["--size", "80x60", "--style", "glossy", "--aperture", "1", "--samples", "3"],
+            ["--size", "80x60", "--select", "all", "--opacity", "0.4", "--legend", "--title", "hi"],
+            ["--size", "60x100", "--view", "id", "--crop", "3,17,60,91"],
+            ["--size", "60x50", "--view", "distance"],  # which rank 0 draws alone
+        ]
+        for options in looks:
+            alone = self.hash_of(self.run_bihive("render", "demo", "-o", "alone.png", "--json", *options))
+            for ranks in (1, 3, 4):
+                with self.subTest(options=options, ranks=ranks):
+                    words = ["render", "demo", "-o", "ranks.png", "--json", "--threads", "1", "--distribute", *options]
+                    self.assertEqual(self.hash_of(self.run_ranks(ranks, BIHIVE_MPI, *words)), alone)
+
+    def test_fewer_spheres_than_ranks(self):
+        self.write("one.xyz", "2\n\nC 0 0 0\nC 0 0 0\n")
+        alone = self.hash_of(self.run_bihive("render", "one.xyz", "-o", "alone.png", "--json", "--size", "40x30"))
+        words = ["render", "one.xyz", "-o", "ranks.png", "--json", "--size", "40x30", "--threads", "1", "--distribute"]
+        self.assertEqual(self.hash_of(self.run_ranks(4, BIHIVE_MPI, *words)), alone)
+
     def test_the_rays_are_those_of_all_ranks(self):
         words = ["render", "demo", "-o", "a.png", "--json", "--size", "160x120", "--style", "plain"]
         alone = json.loads(self.run_bihive(*words).stdout)["rays"]
@@ -131,6 +154,11 @@ class Program(OnRanks):
             (["render", "run.xyz", "-o", "a.png", "--samples", "many"], 2, "--samples"),
             (["info", "run.xyz"], 2, "render and film"),
             (["film", "run.xyz", "-o", "a.y4m", "--shard", "0/2"], 2, "--shard"),
+            (["film", "run.xyz", "-o", "a.y4m", "--distribute"], 2, "--distribute"),
+            (["render", "absent.xyz", "-o", "a.png", "--distribute"], 1, "absent.xyz"),
+            (["render", "run.xyz", "-o", "missing/a.png", "--distribute"], 1, "missing"),
+            (["render", "run.xyz", "-o", "a.png", "--distribute", "--engine", "brute"], 2, "--engine"),
+            (["render", "run.xyz", "-o", "a.png", "--distribute", "--view", "tree"], 2, "--distribute"),
         ]
         for words, code, text in wrong:
             with self.subTest(words=words):
@@ -140,35 +168,55 @@ class Program(OnRanks):
                 self.assertIn(text, self.errors(done)[0])
                 self.assertEqual(self.leftovers(), [])
 
-    def test_ranks_that_see_different_files(self):
-        for rank in range(3):
-            self.write(f"{rank}.xyz", f"1\n\nC {rank // 2} 0 0\n")
-        done = self.run_ranks(3, "sh", "-c", OWN_FILE, BIHIVE_MPI, "-o", "a.png")
+    def test_rank_0_alone_reads(self):
+        """The others need no file, and the standard input is that of rank 0."""
+        alone = self.hash_of(self.run_bihive("render", "run.xyz", "-o", "alone.png", "--json", "--size", "80x60"))
+        elsewhere = 'test $OMPI_COMM_WORLD_RANK = 0 || cd /; exec "$0" render "$@"'
+        for more in ([], ["--distribute"]):
+            words = ["-o", "a.png", "--json", "--size", "80x60", "--threads", "1", *more]
+            done = self.run_ranks(3, "sh", "-c", elsewhere, BIHIVE_MPI, "run.xyz", *words)
+            self.assertEqual(self.hash_of(done), alone)
+        with open(self.path("run.xyz"), "rb") as text:
+            done = subprocess.run(self.mpirun(3, BIHIVE_MPI, "render", "-", *words), cwd=self.folder, stdin=text, capture_output=True,
+                                  text=True, timeout=PATIENCE_S)
+        self.assertEqual(self.hash_of(done), alone)
+
+    def test_ranks_with_other_words(self):
+        done = self.run_ranks(3, "sh", "-c", OWN_SIZE, BIHIVE_MPI, "-o", "a.png")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(self.errors(done), ["bihive: error: the input of rank 2 is not that of rank 0; give all ranks the same "
-                                             "program, files and options"])
+        self.assertEqual(self.errors(done), ["bihive: error: the command line of rank 2 is not that of rank 0; give all ranks the same "
+                                             "program and the same words"])
         self.assertFalse(os.path.exists(self.path("a.png")))
 
-    def test_a_file_that_one_rank_lacks(self):
-        self.write("0.xyz", "1\n\nC 0 0 0\n")
-        self.write("2.xyz", "1\n\nC 0 0 0\n")
-        done = self.run_ranks(3, "sh", "-c", OWN_FILE, BIHIVE_MPI, "-o", "a.png")
+    def test_ranks_of_other_builds(self):
+        version = self.run_bihive("--version").stdout.split()[1].encode()
+        with open(BIHIVE_MPI, "rb") as file:
+            program = file.read()
+        self.assertIn(version, program)
+        self.write("other", program.replace(version, b"9" + version[1:]))
+        other = self.path("other")
+        os.chmod(other, 0o755)
+        first = self.mpirun(1, BIHIVE_MPI, "render", "run.xyz", "-o", "a.png")
+        done = subprocess.run([*first, ":", "-n", "2", other, "render", "run.xyz", "-o", "a.png"], cwd=self.folder, capture_output=True,
+                              text=True, timeout=PATIENCE_S)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(len(self.errors(done)), 1, done.stderr)
-        self.assertIn("1.xyz", self.errors(done)[0])
+        self.assertIn("the program of rank 1 is not that of rank 0", self.errors(done)[0])
 
     def test_a_full_disk(self):
-        done = self.run_ranks(3, BIHIVE_MPI, "render", "demo", "-o", "/dev/full", "--size", "640x480")
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(len(self.errors(done)), 1, done.stderr)
-        self.assertIn("/dev/full", self.errors(done)[0])
-        self.assertEqual(self.leftovers(), [])
+        for more in ([], ["--distribute"]):
+            done = self.run_ranks(3, BIHIVE_MPI, "render", "demo", "-o", "/dev/full", "--size", "320x240", *more)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(len(self.errors(done)), 1, done.stderr)
+            self.assertIn("/dev/full", self.errors(done)[0])
+            self.assertEqual(self.leftovers(), [])
 
     def test_ctrl_c_and_a_rank_that_dies(self):
         words = ["render", "demo", "-o", "a.png", "--size", "6000x4000", "--threads", "1"]
-        for kind in ("mpirun is interrupted", "a rank is killed"):
-            with self.subTest(kind=kind):
-                running = subprocess.Popen(self.mpirun(3, BIHIVE_MPI, *words), cwd=self.folder, stdout=subprocess.DEVNULL,
+        kinds = ("mpirun is interrupted", "a rank is killed")
+        for kind, more in itertools.product(kinds, ([], ["--distribute"])):
+            with self.subTest(kind=kind, more=more):
+                running = subprocess.Popen(self.mpirun(3, BIHIVE_MPI, *words, *more), cwd=self.folder, stdout=subprocess.DEVNULL,
                                            stderr=subprocess.DEVNULL)
                 ranks = []
                 while len(ranks) < 3:

@@ -59,6 +59,7 @@ class RankThread final : public Ranks {
     for (std::vector<Bytes>& one : meeting_.meet(rank_, {own})) all.push_back(std::move(one.front()));
     return all;
   }
+  Bytes from_first(Bytes of_first) override { return gather(of_first).front(); }
   std::vector<Bytes> scatter(const std::vector<Bytes>& for_each) override {
     std::vector<Bytes> mine;
     for (std::vector<Bytes>& one : meeting_.meet(rank_, for_each))

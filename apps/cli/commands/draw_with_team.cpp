@@ -1,12 +1,9 @@
 #include "commands/draw_with_team.h"
 
-#include <cstring>
 #include <exception>
-#include <string_view>
 #include <utility>
 
 #include "bihive/base/timer.h"
-#include "bihive/base/version.h"
 #include "commands/picture_bands.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
@@ -104,24 +101,6 @@ class Leader {
   Team& team_;
 };
 
-// 64-bit FNV-1a.
-class Hash {
- public:
-  void add(const void* bytes, std::size_t count) {
-    const auto* const at = static_cast<const unsigned char*>(bytes);
-    for (std::size_t i = 0; i < count; ++i) value_ = (value_ ^ at[i]) * 0x100000001b3;
-  }
-  void add(double number) { add(&number, sizeof number); }
-  template <class T>
-  void add(const std::vector<T>& numbers) {
-    add(numbers.data(), numbers.size() * sizeof(T));
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325;
-};
-
 }  // namespace
 
 Drawn draw_with_team(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile* file,
@@ -133,27 +112,6 @@ Drawn draw_with_team(const Scene& scene, const Tracer& tracer, const RenderSetti
   Drawn drawn = drawn_with(rays);
   drawn.render_ms = timer.elapsed_ms();
   return drawn;
-}
-
-Fingerprint fingerprint_of_program() {
-  Hash program;
-  for (const std::string_view text : {version(), commit()}) program.add(text.data(), text.size());
-  return {"the program", program.value()};
-}
-
-std::vector<Fingerprint> fingerprints_of(const Scene& scene, const std::string& described) {
-  Hash spheres, settings;
-  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
-    const Vec3d centre = scene.spheres.centre(id);
-    for (const double number : {centre.x, centre.y, centre.z, scene.spheres.radius(id)}) spheres.add(number);
-  }
-  const SphereAttributes& attributes = scene.spheres.attributes();
-  spheres.add(attributes.colour);
-  spheres.add(attributes.opacity);
-  spheres.add(attributes.element);
-  spheres.add(attributes.type);
-  settings.add(described.data(), described.size());
-  return {fingerprint_of_program(), {"the input", spheres.value()}, {"the options", settings.value()}};
 }
 
 }  // namespace bihive::cli

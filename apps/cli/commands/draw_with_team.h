@@ -11,9 +11,4 @@ namespace bihive::cli {
 Drawn draw_with_team(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile* file,
                      const ProgressCallback& progress, Team& team);
 
-Fingerprint fingerprint_of_program();
-/// Hashes that all ranks compare before they draw: of the program, the spheres, the settings (`described`, as the
-/// picture's file keeps them).
-std::vector<Fingerprint> fingerprints_of(const Scene& scene, const std::string& described);
-
 }  // namespace bihive::cli

@@ -9,6 +9,7 @@
 #include "commands/picture_file.h"
 #include "commands/picture_settings.h"
 #include "commands/render_steps.h"
+#include "commands/share_picture.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
@@ -19,10 +20,18 @@ namespace bihive::cli {
 void run_render(const RenderOptions& asked) {
   const RenderOptions options = with_film(asked);
   if (team() != nullptr && team()->distributes()) return run_render_spread(options);
-  const PreparedPicture prepared = prepare_render(options);
+  PreparedPicture prepared{};
+  if (leads()) {
+    prepared = prepare_render(options);
+    check_memory_of(prepared.engine, prepared.input, options, prepared.settings);
+  }
+  prepared.settings.threads = static_cast<int>(options.threads);
+  if (team() != nullptr) {
+    team()->agree({});
+    share_picture(prepared, /*with_spheres=*/true, *team());
+  }
   const Scene& scene = prepared.input.scene;
   const RenderSettings& settings = prepared.settings;
-  check_memory_of(prepared.engine, prepared.input, options, settings);
 
   // Build, render, write.
   const Tracer tracer =
@@ -33,13 +42,13 @@ void run_render(const RenderOptions& asked) {
           ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})
           : nullptr;
   // Nothing may fail between this and the drawing, for the other ranks wait for rank 0 there.
-  if (team() != nullptr) team()->agree(fingerprints_of(scene, prepared.described.dump()));
+  if (team() != nullptr) team()->agree({});
   const Drawn drawn = [&] {
     const CancellableSection section;
     Progress progress("rendering");
     const auto update = [&](double done) { progress.update(done); };
     try {
-      if (team() != nullptr && can_share(prepared))
+      if (team() != nullptr && prepared.can_share)
         return draw_with_team(scene, tracer, settings, file.get(), update, *team());
       return file == nullptr
                  ? Drawn{}

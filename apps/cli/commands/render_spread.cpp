@@ -1,17 +1,15 @@
 // bihive-mpi render --distribute: rank 0 reads, and each rank gets some of the spheres.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "bihive/base/timer.h"
-#include "bihive/spread/scene_bytes.h"
 #include "bihive/spread/spread_scene.h"
 #include "commands/draw_spread.h"
-#include "commands/draw_with_team.h"
 #include "commands/picture_settings.h"
 #include "commands/render_steps.h"
+#include "commands/share_picture.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
@@ -21,30 +19,10 @@ namespace bihive::cli {
 namespace {
 
 void refuse(const PreparedPicture& prepared) {
-  if (prepared.engine != RenderEngine::automatic && prepared.engine != RenderEngine::wide)
-    fail_usage("distributed spheres are drawn by the engine wide alone", "leave --engine out");
   if (const Status status = SpreadScene::refusal(prepared.input.scene, prepared.settings); !status)
     fail_usage("--distribute: " + status.error().message, status.error().hint);
-}
-
-// All that rank 0 knows of the picture but for the spheres: on rank 0 given, on the others taken.
-void share(PreparedPicture& prepared, Team& team) {
-  Bytes own;
-  if (leads()) {
-    ByteWriter out(own);
-    out.put_text(prepared.described.dump());
-    out.put(can_share(prepared));
-    put_scene(prepared.input.scene, prepared.settings, own);
-  }
-  const std::vector<Bytes> all = team.gather(own);
-  if (leads()) return;
-  ByteReader in(all.front());
-  prepared.described = nlohmann::ordered_json::parse(in.take_text());
-  // What another rank cannot share has no layers of its own to tell.
-  if (!in.take<bool>()) prepared.layers = {Layer{LayerKind::depth, {}}};
-  const int threads = prepared.settings.threads;
-  take_scene(in, prepared.input.scene, prepared.settings);
-  prepared.settings.threads = threads;
+  if (prepared.engine != RenderEngine::automatic && prepared.engine != RenderEngine::wide)
+    fail_usage("distributed spheres are drawn by the engine wide alone", "leave --engine out");
 }
 
 }  // namespace
@@ -57,8 +35,8 @@ void run_render_spread(const RenderOptions& options) {
     refuse(prepared);
   }
   prepared.settings.threads = static_cast<int>(options.threads);
-  ranks.agree({fingerprint_of_program()});
-  share(prepared, ranks);
+  ranks.agree({});
+  share_picture(prepared, /*with_spheres=*/false, ranks);
 
   // Each rank builds a tree of its spheres.
   const std::vector<std::pair<std::string, std::string>> text = text_of(prepared.input.scene, prepared.described);
@@ -81,7 +59,7 @@ void run_render_spread(const RenderOptions& options) {
     Progress progress("rendering");
     const auto update = [&](double done) { progress.update(done); };
     try {
-      if (can_share(prepared))
+      if (prepared.can_share)
         return draw_spread(*spread, prepared.settings, file.get(), update, ranks, *conversation);
       return draw_spread_alone(*artist, prepared.engine, prepared.settings, prepared.layers, file.get(), update,
                                *conversation);

@@ -20,6 +20,7 @@ struct PreparedPicture {
   RenderSettings settings;
   std::vector<Layer> layers;
   nlohmann::ordered_json described;
+  bool can_share;  ///< else rank 0 draws alone: other engines, layers without light, some views
   double read_ms;
 };
 
@@ -38,9 +39,6 @@ struct FinishedPicture {
   const PictureFile& file;
 };
 void report_render(const RenderOptions& options, const FinishedPicture& finished);
-
-/// Other engines, layers and views are drawn by rank 0 alone.
-bool can_share(const PreparedPicture& prepared);
 
 /// bihive-mpi with --distribute: each rank has some of the spheres. `options`: of with_film().
 void run_render_spread(const RenderOptions& options);

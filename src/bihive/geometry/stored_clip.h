@@ -57,6 +57,8 @@ class StoredClip {
   StoredClip(const Clip& clip, double scale);
 
   bool is_round() const { return kind_ == Kind::sphere; }
+  /// Whether it is a ball of this place and size.
+  bool is_ball(Vec3d centre, double radius) const { return is_round() && lo_ == centre && radius_ == radius; }
 
   /// A sphere that the border touches is cut. A sphere of radius 0, which no ray meets, remains whole.
   Remainder remainder(Vec3d centre, double radius) const;

@@ -79,15 +79,18 @@ Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const Tree
   return tracer;
 }
 
-Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParameters& parameters, int threads) {
+Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParameters& parameters, int threads,
+                             std::int64_t first) {
   if (scene.spheres.has_images() && bihive::has_clips(scene))
     return Error{"clips cannot cut the copies of a replicated set", "", 0, 0, "leave out the clips or the copies"};
   std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
+  const std::int64_t count = first < 0 ? scene.spheres.size() : first;
+  BIHIVE_CHECK(cuts != nullptr || count == scene.spheres.size());
   if (cuts == nullptr) return build(scene.spheres, engine, parameters, threads);
   Tracer tracer(scene.spheres, engine == Engine::automatic ? Engine::wide : engine);
   const Timer timer;
   std::vector<std::int64_t> all;
-  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) all.push_back(id);
+  for (std::int64_t id = 0; id < count; ++id) all.push_back(id);
   auto parts = std::make_shared<PartTracer>();
   const PartTracer::Parameters of_parts{tracer.engine_, parameters, threads, false};
   if (Status status = parts->make(scene.spheres, std::move(cuts), all, of_parts); !status) return status.error();

@@ -39,7 +39,7 @@ Vec3d passing_tint(const Material& material) {
 
 Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     const SphereSet& spheres, std::vector<double> passing, Engine engine, int threads,
-    std::shared_ptr<const CutSet> cuts, std::vector<Vec3d> tints, const Scene* of_images) {
+    std::shared_ptr<const CutSet> cuts, std::vector<Vec3d> tints, const Scene* of_images, std::int64_t first) {
   try {
     auto made = std::make_shared<TransparentSpheres>();
     made->passing_ = std::move(passing);
@@ -47,7 +47,8 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     made->has_tints_ = !made->tints_.empty();
     made->of_images_ = of_images;
     std::vector<std::int64_t> opaque, transparent;
-    for (std::int64_t id = 0; id < spheres.size(); ++id) (made->passing(id) > 0 ? transparent : opaque).push_back(id);
+    const std::int64_t count = first < 0 ? spheres.size() : first;
+    for (std::int64_t id = 0; id < count; ++id) (made->passing(id) > 0 ? transparent : opaque).push_back(id);
     auto part = std::make_shared<PartTracer>();
     if (Status status = part->make(spheres, cuts, opaque, {engine, {}, threads, false}); !status) return status.error();
     made->opaque_ = std::move(part);
@@ -169,7 +170,8 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, cons
   return parts;
 }
 
-Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engine engine, int threads) {
+Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engine engine, int threads,
+                                      std::int64_t first) {
   Transparency parts;
   if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
   const auto count = static_cast<std::size_t>(scene.spheres.size());
@@ -191,7 +193,8 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engi
   const bool alike = to_eye == to_light;
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   const auto divide = [&](std::vector<double>& passing) {
-    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints, of_images);
+    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints, of_images,
+                                      first);
   };
   if (any_passes(to_light)) {
     Result<std::shared_ptr<const TransparentSpheres>> divided = divide(to_light);

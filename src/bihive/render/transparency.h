@@ -43,13 +43,14 @@ class TransparentSpheres {
   /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for
   /// that engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. `tints`:
   /// the colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. `of_images`: the scene,
-  /// if images have colours of their own (scene/image_colours.h); null: they have those of the stored spheres. The
-  /// spheres and that scene must outlive it. Error: not enough memory for a tree.
+  /// if images have colours of their own (scene/image_colours.h); null: they have those of the stored spheres. `first`:
+  /// as for Tracer::build(). The spheres and that scene must outlive it. Error: not enough memory for a tree.
   static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
                                                                   Engine engine, int threads,
                                                                   std::shared_ptr<const CutSet> cuts = nullptr,
                                                                   std::vector<Vec3d> tints = {},
-                                                                  const Scene* of_images = nullptr);
+                                                                  const Scene* of_images = nullptr,
+                                                                  std::int64_t first = -1);
 
   /// The same where other processes hold the spheres: `scene` knows those that were seen so far. `to_eye`: for rays that
   /// see, else for rays that ask for light. Both must outlive it.
@@ -107,7 +108,9 @@ struct Transparency {
   std::shared_ptr<const TransparentSpheres> to_light;
 
   /// Both null with OpacityRule::each_surface. Error: not enough memory for the trees.
-  static Result<Transparency> of(const Scene& scene, OpacityRule rule, Engine engine, int threads);
+  /// `first`: as for Tracer::build().
+  static Result<Transparency> of(const Scene& scene, OpacityRule rule, Engine engine, int threads,
+                                 std::int64_t first = -1);
   /// With the engine of that tracer, or where that tracer asks.
   static Result<Transparency> of(const Scene& scene, OpacityRule rule, const Tracer& tracer, int threads);
 };

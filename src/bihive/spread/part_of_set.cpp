@@ -1,5 +1,7 @@
 #include "bihive/spread/part_of_set.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -13,19 +15,21 @@ bool is_to_eye(WhichSpheres which) {
 }  // namespace
 
 Result<std::shared_ptr<const PartOfSet>> PartOfSet::make(Scene spheres, std::vector<std::int64_t> whole_ids,
-                                                         const SphereColumns& has, OpacityRule rule,
-                                                         const TreeParameters& parameters, int threads) {
+                                                         std::int64_t count, const SphereColumns& has,
+                                                         OpacityRule rule, const TreeParameters& parameters,
+                                                         int threads) {
   if (spheres.spheres.size() >= static_cast<std::int64_t>(kNoPlace))
     return Error{"a rank cannot hold " + std::to_string(spheres.spheres.size()) + " spheres", "", 0, 0,
                  "take more ranks: each holds up to 2^32"};
   auto made = std::make_shared<PartOfSet>();
+  made->count_ = count;
   made->scene_ = std::move(spheres);
   made->whole_ids_ = std::move(whole_ids);
   made->has_ = has;
-  Result<Tracer> tracer = Tracer::build(made->scene_, Engine::wide, parameters, threads);
+  Result<Tracer> tracer = Tracer::build(made->scene_, Engine::wide, parameters, threads, count);
   if (!tracer) return tracer.error();
   made->tracer_.emplace(std::move(*tracer));
-  Result<Transparency> transparency = Transparency::of(made->scene_, rule, Engine::wide, threads);
+  Result<Transparency> transparency = Transparency::of(made->scene_, rule, Engine::wide, threads, count);
   if (!transparency) return transparency.error();
   made->transparency_ = std::move(*transparency);
   return std::shared_ptr<const PartOfSet>(std::move(made));
@@ -68,6 +72,12 @@ void PartOfSet::pack(const std::vector<std::int64_t>& places, Bytes& bytes) cons
   pack_spheres(scene_, has_, whole_ids_, places, bytes);
 }
 
+std::int64_t PartOfSet::place_of_guest(std::int64_t whole_id) const {
+  const auto first = whole_ids_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto found = std::lower_bound(first, whole_ids_.end(), whole_id);
+  return found != whole_ids_.end() && *found == whole_id ? found - whole_ids_.begin() : kNothing;
+}
+
 Bytes PartOfSet::answer(const Bytes& question) const {
   ByteReader in(question);
   Bytes bytes;
@@ -80,6 +90,8 @@ Bytes PartOfSet::answer(const Bytes& question) const {
   }
   static thread_local RaysAsked asked;
   take_rays(in, asked);
+  for (std::size_t i = 0; i < asked.guests.size(); ++i)
+    if (asked.guests[i] != kNothing) asked.rays.leaves[i] = place_of_guest(asked.guests[i]);
   const RaySpan rays = asked.rays.span();
   if (kind == QuestionKind::occluded) {
     static thread_local std::vector<std::uint8_t> hidden;

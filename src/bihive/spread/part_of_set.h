@@ -23,13 +23,14 @@ class PartOfSet {
   PartOfSet(const PartOfSet&) = delete;
   PartOfSet& operator=(const PartOfSet&) = delete;
 
-  /// `spheres`: a scene with this rank's spheres alone, which ascend by `whole_ids`. Errors: as Tracer::build().
+  /// `spheres`: a scene with this rank's spheres, `count` of them, which ascend by `whole_ids`; then, where clips cut
+  /// some sphere of the whole set, those of other ranks that rays may leave and that matter here, ascending too. Errors:
+  /// as Tracer::build().
   static Result<std::shared_ptr<const PartOfSet>> make(Scene spheres, std::vector<std::int64_t> whole_ids,
-                                                       const SphereColumns& has, OpacityRule rule,
+                                                       std::int64_t count, const SphereColumns& has, OpacityRule rule,
                                                        const TreeParameters& parameters, int threads);
 
-  std::int64_t size() const { return scene_.spheres.size(); }
-  const SphereSet& spheres() const { return scene_.spheres; }
+  std::int64_t size() const { return count_; }
   double build_ms() const { return tracer_->build_ms(); }
 
   /// The answer to any question of Exchange.
@@ -40,12 +41,15 @@ class PartOfSet {
   void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
   void all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<FoundSphere>& found) const;
   void pack(const std::vector<std::int64_t>& places, Bytes& bytes) const;
+  /// The place of another rank's sphere, or kNothing if it does not matter here.
+  std::int64_t place_of_guest(std::int64_t whole_id) const;
 
  private:
   FoundSphere found_sphere(std::int64_t ray, double t, std::int64_t place) const {
     return {ray, t, whole_ids_[static_cast<std::size_t>(place)], static_cast<Place>(place)};
   }
 
+  std::int64_t count_ = 0;
   Scene scene_;
   std::vector<std::int64_t> whole_ids_;
   SphereColumns has_;

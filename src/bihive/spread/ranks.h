@@ -16,6 +16,8 @@ class Ranks {
 
   /// What each rank gives, in the order of the ranks.
   virtual std::vector<Bytes> gather(const Bytes& of_this_rank) = 0;
+  /// What rank 0 gives; what the others give does not matter.
+  virtual Bytes from_first(Bytes of_first) = 0;
   /// What each rank gives this one, from what each gives to each.
   virtual std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) = 0;
 };

@@ -57,6 +57,7 @@ Bytes rays_question(QuestionKind kind, WhichSpheres which, RayOrder order, const
   put_chosen_rays<double>(chosen, [&](std::int64_t i) { return span.t_min != nullptr ? span.t_min[i] : 0; }, out);
   put_chosen_rays<double>(chosen, [&](std::int64_t i) { return (*rays.ends)[static_cast<std::size_t>(i)]; }, out);
   put_column(*rays.places, out);
+  put_column(*rays.guests, out);
   put_chosen_rays<std::uint8_t>(
       chosen, [&](std::int64_t i) { return span.inside != nullptr ? span.inside[i] : std::uint8_t{0}; }, out);
   return bytes;
@@ -73,6 +74,7 @@ void take_rays(ByteReader& in, RaysAsked& asked) {
   take_column(in, count, rays.t_max);
   static thread_local std::vector<Place> places;
   take_column(in, count, places);
+  take_column(in, count, asked.guests);
   rays.leaves.resize(count);
   for (std::size_t i = 0; i < count; ++i)
     rays.leaves[i] = places[i] == kNoPlace ? kNothing : static_cast<std::int64_t>(places[i]);

@@ -18,11 +18,13 @@ using Place = std::uint32_t;
 constexpr Place kNoPlace = ~Place{0};
 
 /// Some rays of a span: those of the numbers `chosen`. `places`: of the sphere that each chosen ray leaves, as the rank
-/// that is asked knows it. `ends`: of all rays of the span; they replace t_max.
+/// that is asked knows it. `guests`: if it is another rank's sphere, and clips may let it matter, its id in the whole
+/// set; else kNothing. `ends`: of all rays of the span; they replace t_max.
 struct ChosenRays {
   const RaySpan* rays;
   const std::vector<std::int64_t>* chosen;
   const std::vector<Place>* places;
+  const std::vector<std::int64_t>* guests;
   const std::vector<double>* ends;
 };
 
@@ -33,6 +35,7 @@ struct RaysAsked {
   WhichSpheres which;
   RayOrder order;
   RayBatch rays;
+  std::vector<std::int64_t> guests;
 };
 /// The kind was taken.
 void take_rays(ByteReader& question, RaysAsked& asked);

@@ -15,8 +15,15 @@ constexpr std::size_t kFirstSlots = 1024;
 SeenSpheres::SeenSpheres(Scene shell, const SphereColumns& has, const Bytes& stand_ins)
     : scene_(std::move(shell)), has_(has), slots_(kFirstSlots, {0, kNothing}) {
   ByteReader packed(stand_ins);
-  while (!packed.at_end()) append_spheres(packed, has_, scene_, whole_ids_);
+  while (!packed.at_end()) append(packed);
   stand_ins_ = scene_.spheres.size();
+}
+
+// People know a sphere by its number in the whole set.
+void SeenSpheres::append(ByteReader& packed) {
+  append_spheres(packed, has_, scene_, whole_ids_);
+  std::vector<std::int64_t>& known = scene_.id_in_input;
+  if (!has_.input_id) known.insert(known.end(), whole_ids_.begin() + std::ptrdiff_t(known.size()), whole_ids_.end());
 }
 
 // The slot of the key, or the free one where it would be.
@@ -43,7 +50,7 @@ Address SeenSpheres::address_of(std::int64_t id) const {
 
 void SeenSpheres::add(const std::vector<Address>& addresses, ByteReader& packed) {
   const std::int64_t first = scene_.spheres.size();
-  append_spheres(packed, has_, scene_, whole_ids_);
+  append(packed);
   addresses_.insert(addresses_.end(), addresses.begin(), addresses.end());
   std::size_t wanted = slots_.size();
   while (2 * addresses_.size() > wanted) wanted *= 2;
@@ -59,6 +66,7 @@ void SeenSpheres::add(const std::vector<Address>& addresses, ByteReader& packed)
 
 void SeenSpheres::forget() {
   keep_first_spheres(stand_ins_, has_, scene_, whole_ids_);
+  if (!has_.input_id) scene_.id_in_input = whole_ids_;
   addresses_.clear();
   slots_.assign(kFirstSlots, {0, kNothing});
 }

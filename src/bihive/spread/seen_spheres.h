@@ -31,6 +31,7 @@ class SeenSpheres {
   std::int64_t id_of(Address address) const;
   /// Where the sphere of an id here lies. rank -1: it only stands for others, or the id is no sphere's.
   Address address_of(std::int64_t id) const;
+  std::int64_t whole_id_of(std::int64_t id) const { return whole_ids_[static_cast<std::size_t>(id)]; }
   /// Adds packed spheres that are new, which lie at these addresses.
   void add(const std::vector<Address>& addresses, ByteReader& packed);
   /// Forgets all that was seen.
@@ -41,6 +42,7 @@ class SeenSpheres {
   static std::uint64_t key_of(Address address) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(address.rank)) << 32 | address.place;
   }
+  void append(ByteReader& packed);
   std::size_t slot_of(std::uint64_t key) const;
   void insert(std::uint64_t key, std::int64_t id);
 

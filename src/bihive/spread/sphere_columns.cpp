@@ -59,10 +59,12 @@ SphereColumns SphereColumns::of(const Scene& scene) {
 
 void pack_spheres(const Scene& scene, const SphereColumns& has, const std::vector<std::int64_t>& whole_ids,
                   const std::vector<std::int64_t>& ids, Bytes& bytes) {
-  BIHIVE_CHECK(!scene.spheres.has_images());
   ByteWriter out(bytes);
   out.put(static_cast<std::int64_t>(ids.size()));
-  put_chosen(whole_ids, ids, out);
+  if (whole_ids.empty())
+    out.put_array(ids.data(), ids.size());
+  else
+    put_chosen(whole_ids, ids, out);
   for (const auto* column : {&scene.spheres.x(), &scene.spheres.y(), &scene.spheres.z(), &scene.spheres.r()})
     put_chosen(*column, ids, out);
   for_each_column(has, scene, [&](const auto& column) { put_chosen(column, ids, out); });

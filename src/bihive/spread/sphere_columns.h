@@ -18,8 +18,8 @@ struct SphereColumns {
   static SphereColumns of(const Scene& scene);
 };
 
-/// Appends the spheres of these ids to the bytes. `whole_ids`: of each sphere its id in the whole set. The set has no
-/// images.
+/// Appends the spheres of these ids to the bytes. `whole_ids`: of each sphere its id in the whole set; empty: the
+/// set is whole. Of a set with images its stored spheres.
 void pack_spheres(const Scene& scene, const SphereColumns& has, const std::vector<std::int64_t>& whole_ids,
                   const std::vector<std::int64_t>& ids, Bytes& bytes);
 

@@ -35,7 +35,7 @@ SpheresElsewhere::RaysOfRank& SpheresElsewhere::rays_of(int rank) {
   std::int32_t& number = number_of_rank_[static_cast<std::size_t>(rank)];
   if (number < 0) {
     number = static_cast<std::int32_t>(asked_.size());
-    asked_.push_back({rank, {}, {}});
+    asked_.push_back({rank, {}, {}, {}});
   }
   return asked_[static_cast<std::size_t>(number)];
 }
@@ -46,6 +46,8 @@ void SpheresElsewhere::choose(const RaySpan& rays, std::int64_t ray, int rank) {
   asked.chosen.push_back(ray);
   const Address left = rays.leaves != nullptr ? seen_.address_of(rays.leaves[ray]) : Address{-1, kNoPlace};
   asked.places.push_back(left.rank == rank ? left.place : kNoPlace);
+  const bool is_guest = left.rank >= 0 && left.rank != rank && !seen_.scene().clips.empty();
+  asked.guests.push_back(is_guest ? seen_.whole_id_of(rays.leaves[ray]) : kNothing);
 }
 
 // Each ray that may still find something nearer goes to its next rank. False: none does.
@@ -74,7 +76,9 @@ RaySpan SpheresElsewhere::rays_here(const RaySpan& rays, const RaysOfRank& asked
   gather(batch_.inside, [&](std::int64_t i) { return rays.inside != nullptr ? rays.inside[i] : std::uint8_t{0}; });
   batch_.leaves.resize(count);
   for (std::size_t k = 0; k < count; ++k)
-    batch_.leaves[k] = asked.places[k] == kNoPlace ? kNothing : static_cast<std::int64_t>(asked.places[k]);
+    batch_.leaves[k] = asked.guests[k] != kNothing     ? here_.place_of_guest(asked.guests[k])
+                       : asked.places[k] == kNoPlace ? kNothing
+                                                     : static_cast<std::int64_t>(asked.places[k]);
   return batch_.span();
 }
 
@@ -86,7 +90,8 @@ void SpheresElsewhere::ask(QuestionKind kind, WhichSpheres which, RayOrder order
   for (const RaysOfRank& asked : asked_) {
     counts_.asked += static_cast<std::int64_t>(asked.chosen.size());
     if (asked.rank == exchange_.rank()) continue;
-    questions.push_back({asked.rank, rays_question(kind, which, order, {&rays, &asked.chosen, &asked.places, &ends_})});
+    questions.push_back(
+        {asked.rank, rays_question(kind, which, order, {&rays, &asked.chosen, &asked.places, &asked.guests, &ends_})});
     counts_.bytes += static_cast<std::int64_t>(questions.back().bytes.size());
   }
   std::vector<Bytes> answers;

@@ -38,7 +38,8 @@ class SpheresElsewhere final : public Elsewhere {
   struct RaysOfRank {
     int rank;
     std::vector<std::int64_t> chosen;
-    std::vector<Place> places;  // of the spheres that they leave
+    std::vector<Place> places;          // of the spheres that they leave
+    std::vector<std::int64_t> guests;  // as in ChosenRays
   };
 
   void find_ways(const RaySpan& rays);

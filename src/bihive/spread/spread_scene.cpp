@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <numeric>
 #include <utility>
+#include <variant>
 
+#include "bihive/geometry/cut_sphere.h"
+#include "bihive/geometry/stored_clip.h"
 #include "bihive/scene/clips.h"
 #include "bihive/spread/part_of_set.h"
 #include "bihive/spread/rank_boxes.h"
@@ -123,6 +126,49 @@ SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const Sp
   return got;
 }
 
+// Where clips cut spheres, the surface that a ray leaves may also be a cap of a sphere elsewhere, which lies in the same
+// plane or on the same ball as one here: each rank knows all cut spheres, and those that equal a clip.
+std::vector<std::int64_t> possible_guests(const Scene& scene) {
+  std::vector<std::int64_t> ids;
+  const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+    bool matters = cuts != nullptr && cuts->is_cut(id);
+    for (const Clip& clip : scene.clips)
+      if (const auto* ball = std::get_if<SphereClip>(&clip)) {
+        const StoredClip stored(*ball, scene.spheres.scale());
+        matters = matters || stored.is_ball(scene.spheres.stored_centre(id), scene.spheres.stored_radius(id));
+      }
+    if (matters) ids.push_back(id);
+  }
+  return ids;
+}
+
+// Adds the spheres of other ranks that matter here. Returns how many spheres were there before.
+std::int64_t add_guests(SomeSpheres& own, const SphereColumns& has, const Scene& shell, Ranks& ranks) {
+  const std::int64_t count = own.scene.spheres.size();
+  if (!has.clips || shell.clips.empty()) return count;
+  Bytes packed;
+  pack_spheres(own.scene, has, own.whole_ids, possible_guests(own.scene), packed);
+  const std::vector<Bytes> all = ranks.gather(packed);
+  SomeSpheres guests{shell, {}};
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    if (rank == ranks.rank()) continue;
+    ByteReader reader(all[static_cast<std::size_t>(rank)]);
+    append_spheres(reader, has, guests.scene, guests.whole_ids);
+  }
+  sort_by_whole_id(guests, has, shell);
+  // Without a cut sphere anywhere all spheres are whole or gone.
+  const bool here = cut_set_of(own.scene) != nullptr;
+  if (!here && cut_set_of(guests.scene) == nullptr) return count;
+  packed.clear();
+  std::vector<std::int64_t> ids(guests.whole_ids.size());
+  std::iota(ids.begin(), ids.end(), std::int64_t{0});
+  pack_spheres(guests.scene, has, guests.whole_ids, ids, packed);
+  ByteReader reader(packed);
+  append_spheres(reader, has, own.scene, own.whole_ids);
+  return count;
+}
+
 // Those of all ranks together, in the order of the whole set.
 Bytes common_stand_ins(const SomeSpheres& own, const RenderSettings& settings, const SphereColumns& has,
                        const Scene& shell, Ranks& ranks) {
@@ -147,7 +193,7 @@ class ArtistOfScene final : public SpreadScene::Artist {
                 const PartOfSet& here, Exchange& exchange)
       : seen_(shell, has, stand_ins),
         elsewhere_(std::make_shared<SpheresElsewhere>(seen_, boxes, here, exchange)),
-        tracer_(seen_.scene().spheres, elsewhere_, false) {}
+        tracer_(seen_.scene().spheres, elsewhere_, cut_set_of(seen_.scene()) != nullptr) {}
 
   const Scene& scene() const override { return seen_.scene(); }
   const Tracer& tracer() const override { return tracer_; }
@@ -173,13 +219,36 @@ struct SpreadScene::Implementation {
   std::shared_ptr<const PartOfSet> part;
 };
 
+void give_all_spheres(Scene& scene, Ranks& ranks) {
+  const bool gives = ranks.rank() == 0;
+  const Images images = ByteReader(ranks.from_first(bytes_of(scene.spheres.images()))).take<Images>();
+  const auto has = ByteReader(ranks.from_first(bytes_of(SphereColumns::of(scene)))).take<SphereColumns>();
+  const auto count = ByteReader(ranks.from_first(bytes_of(scene.spheres.size()))).take<std::int64_t>();
+  std::vector<std::int64_t> whole_ids;
+  for (std::int64_t first = 0; first < count; first += kSpheresAtOnce) {
+    Bytes packed;
+    if (gives) {
+      std::vector<std::int64_t> ids(static_cast<std::size_t>(std::min(kSpheresAtOnce, count - first)));
+      std::iota(ids.begin(), ids.end(), first);
+      pack_spheres(scene, has, {}, ids, packed);
+    }
+    packed = ranks.from_first(std::move(packed));
+    if (gives) continue;
+    ByteReader reader(packed);
+    append_spheres(reader, has, scene, whole_ids);
+    whole_ids.clear();
+  }
+  // The units are those with copies already.
+  if (!gives && images.count() > 1)
+    BIHIVE_CHECK(static_cast<bool>(scene.spheres.replicate(images.vectors, images.counts)));
+}
+
 SpreadScene::SpreadScene() : implementation_(std::make_unique<Implementation>()) {}
 SpreadScene::~SpreadScene() = default;
 
 Status SpreadScene::refusal(const Scene& scene, const RenderSettings& settings) {
   if (scene.spheres.has_images())
     return Error{"copies of a replicated set cannot be distributed", "", 0, 0, "leave out --replicate"};
-  if (has_clips(scene)) return Error{"cut spheres cannot be distributed", "", 0, 0, "leave out the clips"};
   if (settings.view == View::tree || settings.view == View::traversal)
     return Error{"this view shows the tree of all spheres, and distributed spheres have a tree on each rank", "", 0, 0,
                  "leave out --distribute"};
@@ -206,9 +275,10 @@ Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const 
   // Tell all of what is here, and build.
   all.stand_ins = common_stand_ins(own, settings, all.has, all.shell, ranks);
   all.boxes = std::make_unique<RankBoxes>(gather(ranks, box_of(own.scene.spheres)), all.shell.spheres.scale());
-  Result<std::shared_ptr<const PartOfSet>> part = PartOfSet::make(std::move(own.scene), std::move(own.whole_ids),
-                                                                  all.has, settings.opacity_rule, parameters,
-                                                                  settings.threads);
+  const std::int64_t count = add_guests(own, all.has, all.shell, ranks);
+  Result<std::shared_ptr<const PartOfSet>> part =
+      PartOfSet::make(std::move(own.scene), std::move(own.whole_ids), count, all.has, settings.opacity_rule,
+                      parameters, settings.threads);
   if (!part) return part.error();
   all.part = std::move(*part);
   return std::shared_ptr<const SpreadScene>(std::move(made));

@@ -36,6 +36,10 @@ struct ExchangeCounts {
   }
 };
 
+/// For all ranks at the same time: on rank 0 a scene with its spheres, which the others get too. These have the same
+/// scene without spheres and copies (spread/scene_bytes.h).
+void give_all_spheres(Scene& scene, Ranks& ranks);
+
 /// One rank's share of a scene. Const after make(); any number of threads may use it at a time.
 class SpreadScene {
  public:
@@ -47,7 +51,7 @@ class SpreadScene {
   /// be all, some or none; all else is the same on all ranks. The spheres of rank 0 are the first of the whole set,
   /// those of rank 1 follow. `settings`: the picture's, the same on all ranks. Errors come after all that ranks do
   /// together: more spheres than a rank can number, or not enough memory for their tree. Copies of a replicated set
-  /// and clips that cut spheres are a programmer's error (refusal()).
+  /// are a programmer's error (refusal()).
   static Result<std::shared_ptr<const SpreadScene>> make(Scene scene, const RenderSettings& settings,
                                                          const TreeParameters& parameters, Ranks& ranks);
   /// Why spheres of this scene cannot be spread, with these settings.

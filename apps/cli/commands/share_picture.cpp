@@ -1,0 +1,32 @@
+#include "commands/share_picture.h"
+
+#include <utility>
+
+#include "bihive/spread/scene_bytes.h"
+#include "bihive/spread/spread_scene.h"
+
+namespace bihive::cli {
+
+void share_picture(PreparedPicture& prepared, bool with_spheres, Team& team) {
+  Bytes bytes;
+  if (leads()) {
+    ByteWriter out(bytes);
+    out.put(prepared.engine);
+    out.put(prepared.can_share);
+    out.put_text(prepared.described.dump());
+    put_scene(prepared.input.scene, prepared.settings, bytes);
+  }
+  bytes = team.from_first(std::move(bytes));
+  if (!leads()) {
+    const int threads = prepared.settings.threads;
+    ByteReader in(bytes);
+    prepared.engine = in.take<RenderEngine>();
+    prepared.can_share = in.take<bool>();
+    prepared.described = nlohmann::ordered_json::parse(in.take_text());
+    take_scene(in, prepared.input.scene, prepared.settings);
+    prepared.settings.threads = threads;
+  }
+  if (with_spheres) give_all_spheres(prepared.input.scene, team);
+}
+
+}  // namespace bihive::cli
