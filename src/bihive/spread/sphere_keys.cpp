@@ -58,11 +58,4 @@ int rank_of(const SphereKey& key, const std::vector<SphereKey>& starts) {
   return static_cast<int>(std::upper_bound(starts.begin(), starts.end(), key) - starts.begin());
 }
 
-std::vector<std::vector<std::int64_t>> ids_of_ranks(const SphereSet& spheres, const std::vector<SphereKey>& starts) {
-  std::vector<std::vector<std::int64_t>> ids(starts.size() + 1);
-  for (std::int64_t id = 0; id < spheres.size(); ++id)
-    ids[static_cast<std::size_t>(rank_of(key_of(spheres, id), starts))].push_back(id);
-  return ids;
-}
-
 }  // namespace bihive

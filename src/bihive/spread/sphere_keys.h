@@ -29,7 +29,4 @@ SphereKey key_of(const SphereSet& spheres, std::int64_t id);
 std::vector<SphereKey> starts_of_ranks(std::vector<SphereKey> samples, int ranks);
 int rank_of(const SphereKey& key, const std::vector<SphereKey>& starts);
 
-/// The ids of each rank's spheres, which ascend.
-std::vector<std::vector<std::int64_t>> ids_of_ranks(const SphereSet& spheres, const std::vector<SphereKey>& starts);
-
 }  // namespace bihive
