@@ -62,8 +62,13 @@ int MpiTeam::end_with(int code) {
   return code_ != 0 ? code_ : share(code);
 }
 
-void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
+// A rank that has failed says so in place of what all do together.
+void MpiTeam::go_on_if_all_do() {
   if (const int code = share(0); code != 0) throw cli::OtherRankFailed{code};
+}
+
+void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
+  go_on_if_all_do();
   if (seen.empty()) return;
 
   // Compare with rank 0.
@@ -161,6 +166,7 @@ std::optional<cli::GivenRows> MpiTeam::take(bool wait) {
 }
 
 std::vector<Bytes> MpiTeam::gather(const Bytes& of_this_rank) {
+  go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   const auto own = static_cast<std::int64_t>(of_this_rank.size());
   std::vector<std::int64_t> sizes(static_cast<std::size_t>(size_));
@@ -177,6 +183,7 @@ std::vector<Bytes> MpiTeam::gather(const Bytes& of_this_rank) {
 }
 
 Bytes MpiTeam::from_first(Bytes of_first) {
+  go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   auto size = static_cast<std::int64_t>(of_first.size());
   MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
@@ -186,7 +193,14 @@ Bytes MpiTeam::from_first(Bytes of_first) {
   return of_first;
 }
 
+void MpiTeam::take_greatest(std::vector<double>& numbers) {
+  go_on_if_all_do();
+  const std::lock_guard lock(mutex_);
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+}
+
 std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
+  go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   std::vector<std::int64_t> sizes, coming(for_each_rank.size());
   for (const Bytes& bytes : for_each_rank) sizes.push_back(static_cast<std::int64_t>(bytes.size()));

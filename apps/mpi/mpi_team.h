@@ -34,6 +34,7 @@ class MpiTeam final : public cli::Team {
   std::unique_ptr<cli::Conversation> converse(std::function<Bytes(const Bytes&)> answer, int threads) override;
   std::vector<Bytes> gather(const Bytes& of_this_rank) override;
   Bytes from_first(Bytes of_first) override;
+  void take_greatest(std::vector<double>& numbers) override;
   std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) override;
 
   void agree(const std::vector<cli::Fingerprint>& seen) override;
@@ -54,6 +55,7 @@ class MpiTeam final : public cli::Team {
 
  private:
   int share(int code);
+  void go_on_if_all_do();
   bool receive_one(bool wait);
 
   bool distributes_;

@@ -1,7 +1,9 @@
 // Ranks that are threads of one process.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -60,6 +62,15 @@ class RankThread final : public Ranks {
     return all;
   }
   Bytes from_first(Bytes of_first) override { return gather(of_first).front(); }
+  void take_greatest(std::vector<double>& numbers) override {
+    Bytes own;
+    ByteWriter(own).put_array(numbers.data(), numbers.size());
+    for (const Bytes& bytes : gather(own)) {
+      std::vector<double> others(numbers.size());
+      ByteReader(bytes).take_array(others.data(), others.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = std::max(numbers[i], others[i]);
+    }
+  }
   std::vector<Bytes> scatter(const std::vector<Bytes>& for_each) override {
     std::vector<Bytes> mine;
     for (std::vector<Bytes>& one : meeting_.meet(rank_, for_each))

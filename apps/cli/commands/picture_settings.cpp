@@ -78,7 +78,7 @@ std::string filled_title(const std::string& title, const RenderOptions& options,
   TitleValues values{{"frame", static_cast<double>(options.input.frame.value_or(0))},
                      {"time", input.time_ps.value_or(kUnknown)},
                      {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
-                     {"spheres", static_cast<double>(input.scene.spheres.size())}};
+                     {"spheres", static_cast<double>(input.scene.spheres.whole_size())}};
   if (!options.labels.title_values.empty()) {
     const TitleValues more = values_of_frame(options.labels.title_values, options.input.frame.value_or(0));
     values.insert(values.begin(), more.begin(), more.end());
@@ -249,7 +249,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
     json["max_depth"] = limit(tree.max_depth);
   }
   const InputOptions& input = options.input;
-  json["spheres"] = scene.spheres.size();
+  json["spheres"] = scene.spheres.whole_size();
   if (input.radius) json["radius"] = *input.radius;
   if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
   if (input.frame) json["frame"] = *input.frame;

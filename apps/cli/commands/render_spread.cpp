@@ -1,11 +1,16 @@
-// bihive-mpi render --distribute: rank 0 reads, and each rank gets some of the spheres.
+// bihive-mpi render --distribute: each rank gets some of the spheres. Rank 0 reads them, or each rank a part.
 
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "bihive/base/timer.h"
+#include "bihive/io/part_of_file.h"
+#include "bihive/spread/parts_of_ranks.h"
 #include "bihive/spread/spread_scene.h"
+#include "commands/choose_look.h"
 #include "commands/draw_spread.h"
 #include "commands/picture_settings.h"
 #include "commands/render_steps.h"
@@ -18,6 +23,20 @@
 namespace bihive::cli {
 namespace {
 
+// Parts of the file give the picture of the whole one only where nothing but places and radii matters.
+bool reads_parts(const RenderOptions& options) {
+  const InputOptions& input = options.input;
+  const bool plain_input = input.frame.value_or(0) == 0 && input.trajectory.empty() && input.assembly.empty() &&
+                           input.columns.empty() && !input.replicate && !input.cell_vectors && !input.cell_origin &&
+                           input.wrapping == Wrapping::none;
+  const bool plain_look = options.looks.words.empty() && options.looks.element_colours.empty() &&
+                          !options.labels.legend && !options.fixed && !options.cell &&
+                          (!options.focus || std::holds_alternative<double>(*options.focus));
+  if (!plain_input || !plain_look || is_built_in_scene(input.input)) return false;
+  const Style style = choose_style(options.style);
+  return !style.colour_by && !style.picture.labels.legend && can_read_part(file_of(input));
+}
+
 void refuse(const PreparedPicture& prepared) {
   if (const Status status = SpreadScene::refusal(prepared.input.scene, prepared.settings); !status)
     fail_usage("--distribute: " + status.error().message, status.error().hint);
@@ -27,16 +46,20 @@ void refuse(const PreparedPicture& prepared) {
 
 }  // namespace
 
-void run_render_spread(const RenderOptions& options) {
+void run_render_spread(const RenderOptions& asked) {
   Team& ranks = *team();
+  RenderOptions options = asked;
+  const Bytes decided = ranks.from_first(leads() && reads_parts(options) ? Bytes{1} : Bytes{});
+  const bool in_parts = !decided.empty();
+  if (in_parts) options.input.parts = std::make_shared<PartsOfRanks>(ranks);
   PreparedPicture prepared{};
-  if (leads()) {
+  if (leads() || in_parts) {
     prepared = prepare_render(options);
     refuse(prepared);
   }
   prepared.settings.threads = static_cast<int>(options.threads);
   ranks.agree({});
-  share_picture(prepared, /*with_spheres=*/false, ranks);
+  if (!in_parts) share_picture(prepared, /*with_spheres=*/false, ranks);
 
   // Each rank builds a tree of its spheres.
   const std::vector<std::pair<std::string, std::string>> text = text_of(prepared.input.scene, prepared.described);

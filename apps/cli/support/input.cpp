@@ -97,6 +97,7 @@ ReadOptions read_options(const InputOptions& options) {
   reading.cell_vectors = options.cell_vectors;
   reading.cell_origin = options.cell_origin;
   reading.wrapping = options.wrapping;
+  reading.parts = options.parts;
   return reading;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -28,6 +29,7 @@ struct InputOptions {
   std::optional<std::array<Vec3d, 3>> cell_vectors;
   std::optional<Vec3d> cell_origin;
   Wrapping wrapping = Wrapping::none;
+  std::shared_ptr<const SetParts> parts = nullptr;  ///< each rank reads a part; null: the whole set
 };
 
 /// The bytes of a file, or of the standard input for "-". Warns if the file grew meanwhile. Fails with kBadInput.

@@ -53,28 +53,34 @@ class TypedView {
 }  // namespace
 
 template <class Coordinates, class Radii>
-Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r) {
+Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                  std::shared_ptr<const SetParts> parts) {
   BIHIVE_CHECK_EQ(x.size(), y.size());
   BIHIVE_CHECK_EQ(x.size(), z.size());
   BIHIVE_CHECK_EQ(x.size(), r.size());
 
   // Check every number, and find the farthest bound from 0.
+  const CountOfParts spheres = count_of_all(parts.get(), static_cast<std::int64_t>(x.size()));
+  const auto first = static_cast<std::size_t>(spheres.before);
   constexpr double kLargest = std::numeric_limits<float>::max();
   double extent = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double values[4] = {double(x[i]), double(y[i]), double(z[i]), double(r[i])};
     const char* const names[4] = {"x", "y", "z", "the radius"};
     for (int k = 0; k < 4; ++k) {
-      if (!std::isfinite(values[k])) return bad_sphere(i, std::string(names[k]) + " must be finite but", values[k]);
+      if (!std::isfinite(values[k])) return bad_sphere(first + i, std::string(names[k]) + " must be finite but", values[k]);
       if (!(std::abs(values[k]) <= kLargest))
-        return bad_sphere(i, std::string(names[k]) + " must fit single precision (3.4e38) but", values[k]);
+        return bad_sphere(first + i, std::string(names[k]) + " must fit single precision (3.4e38) but", values[k]);
       if (k < 3) extent = std::max(extent, std::abs(values[k]) + values[3]);
     }
-    if (values[3] < 0) return bad_sphere(i, "the radius must not be negative but", values[3]);
+    if (values[3] < 0) return bad_sphere(first + i, "the radius must not be negative but", values[3]);
   }
 
   // Choose the power of two that brings that bound into [1/2, 1], and round once.
+  extent = greatest_of_all(parts.get(), extent);
   SphereSet set;
+  set.whole_size_ = spheres.all;
+  set.parts_ = std::move(parts);
   if (extent > 0) std::frexp(extent, &set.scale_exponent_);
   set.scale_exponent_ = std::min(-set.scale_exponent_, kLargestScaleExponent);
   const double scale = set.scale();
@@ -95,6 +101,12 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
 Result<SphereSet> SphereSet::from_world(const std::vector<double>& x, const std::vector<double>& y,
                                         const std::vector<double>& z, const std::vector<double>& r) {
   return make(x, y, z, r);
+}
+
+Result<SphereSet> SphereSet::part_from_world(const std::vector<double>& x, const std::vector<double>& y,
+                                             const std::vector<double>& z, const std::vector<double>& r,
+                                             std::shared_ptr<const SetParts> parts) {
+  return make(x, y, z, r, std::move(parts));
 }
 
 Result<SphereSet> SphereSet::from_world(const std::vector<float>& x, const std::vector<float>& y,
@@ -158,6 +170,11 @@ SphereSet::Bounds SphereSet::bounds() const {
       box.lo[axis] = std::min(box.lo[axis], lo - radius);
       box.hi[axis] = std::max(box.hi[axis], hi + radius);
     }
+  }
+  if (parts_ != nullptr) {
+    std::vector<double> ends{-box.lo.x, -box.lo.y, -box.lo.z, box.hi.x, box.hi.y, box.hi.z};
+    parts_->take_greatest(ends);
+    box = {{-ends[0], -ends[1], -ends[2]}, {ends[3], ends[4], ends[5]}};
   }
   return {box.lo * inverse_scale(), box.hi * inverse_scale()};
 }

@@ -13,11 +13,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/cell.h"
+#include "bihive/geometry/set_parts.h"
 #include "bihive/geometry/sphere_attributes.h"
 #include "bihive/math/aabb.h"
 #include "bihive/math/vec3.h"
@@ -59,6 +61,11 @@ class SphereSet {
                                       const std::vector<double>& z, const std::vector<double>& r);
   static Result<SphereSet> from_world(const std::vector<float>& x, const std::vector<float>& y,
                                       const std::vector<float>& z, const std::vector<float>& r);
+  /// A part of a set: its units are those of the whole set. For all processes that have parts, at the same time. Errors
+  /// of another part are not told here.
+  static Result<SphereSet> part_from_world(const std::vector<double>& x, const std::vector<double>& y,
+                                           const std::vector<double>& z, const std::vector<double>& r,
+                                           std::shared_ptr<const SetParts> parts);
   /// The same from numbers where they lie. x, y and z must have the same precision.
   static Result<SphereSet> from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
                                       const NumbersView& r);
@@ -66,6 +73,11 @@ class SphereSet {
   /// The spheres that are stored.
   std::int64_t size() const { return static_cast<std::int64_t>(x_.size()); }
   bool empty() const { return x_.empty(); }
+  /// Null unless the set is a part of one that several processes have. Then bounds() and cameras are those of the whole
+  /// set, and all processes ask for them at the same time.
+  const SetParts* parts() const { return parts_.get(); }
+  /// With the spheres of the other parts.
+  std::int64_t whole_size() const { return parts_ != nullptr ? whole_size_ : size(); }
 
   /// The spheres with all their images. Every id below is one.
   std::int64_t total_size() const { return size() * images_.count(); }
@@ -140,12 +152,15 @@ class SphereSet {
   SphereAttributes attributes_;
   std::optional<Cell> cell_;
   Images images_;
+  std::shared_ptr<const SetParts> parts_;  // null: the set is whole
+  std::int64_t whole_size_ = 0;            // of a part
 
   Vec3d stored_image_centre(std::int64_t id) const;
   void count_vanishing_radii();
 
   template <class Coordinates, class Radii>
-  static Result<SphereSet> make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r);
+  static Result<SphereSet> make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                std::shared_ptr<const SetParts> parts = nullptr);
 };
 
 }  // namespace bihive

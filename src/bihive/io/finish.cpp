@@ -1,7 +1,9 @@
 #include "bihive/io/finish.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
@@ -30,7 +32,7 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
     raw.r.assign(raw.size(), *options.radius);
     raw.rules.push_back("radii: all " + readable_number(*options.radius) + ", as asked for");
   } else if (raw.r.empty()) {
-    fill_radii(raw);
+    fill_radii(raw, options.parts.get());
   }
   if (options.radius_scale != 1) {
     if (const char* fault = radius_fault(options.radius_scale))
@@ -44,11 +46,14 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
 
 // Moves the middle of the centres' bounding box to the origin, in binary64; copies count. Returns the vector that was
 // subtracted.
-Vec3d recenter(RawSpheres& raw, const Images& images) {
+Vec3d recenter(RawSpheres& raw, const Images& images, const SetParts* parts) {
   const Images::Shifts shifts = images.shifts();
   const auto middle_of = [&](const std::vector<double>& values, int axis) {
-    const auto [lo, hi] = std::minmax_element(values.begin(), values.end());
-    return 0.5 * (*lo + shifts.lo[axis]) + 0.5 * (*hi + shifts.hi[axis]);
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    std::vector<double> ends{-kInfinite, -kInfinite};
+    for (const double value : values) ends = {std::max(ends[0], -value), std::max(ends[1], value)};
+    greatest_of_all(parts, ends);
+    return 0.5 * (-ends[0] + shifts.lo[axis]) + 0.5 * (ends[1] + shifts.hi[axis]);
   };
   const Vec3d middle{middle_of(raw.x, 0), middle_of(raw.y, 1), middle_of(raw.z, 2)};
   if (raw.cell) raw.cell->origin = raw.cell->origin - middle;
@@ -98,9 +103,21 @@ void warn_of_rounding(const RawSpheres& raw, const SphereSet& set, bool recentre
       worst = id;
     }
   }
+  // The worst of all parts, the first of equal ones.
+  if (set.parts() != nullptr) {
+    const std::int64_t first = count_of_all(set.parts(), set.size()).before;
+    moved = count_of_all(set.parts(), moved).all;
+    const std::vector<double> own{worst_share, static_cast<double>(first + worst)};
+    worst_share = kHarmlessShift;
+    for (const std::vector<double>& one : set.parts()->gather(own)) {
+      if (!(one[0] > worst_share)) continue;
+      worst_share = one[0];
+      worst = static_cast<std::int64_t>(one[1]);
+    }
+  }
   if (moved == 0) return;
   std::string text = "rounding to single precision moves " + std::to_string(moved) + " of " +
-                     std::to_string(set.size()) + " centres by more than 1 % of the radius (sphere " +
+                     std::to_string(set.whole_size()) + " centres by more than 1 % of the radius (sphere " +
                      std::to_string(worst) + " by " + readable_number(100 * worst_share) + " %)";
   text += recentred ? "; the radii are too small for the extent" : "; --recenter makes it finer";
   warnings.push_back(text);
@@ -109,7 +126,9 @@ void warn_of_rounding(const RawSpheres& raw, const SphereSet& set, bool recentre
 }  // namespace
 
 Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options) {
-  if (raw.size() == 0) return Error{"there are no spheres in it (read as " + raw.format + ")", name, 0, 0, ""};
+  const SetParts* const parts = options.parts.get();
+  if (count_of_all(parts, static_cast<std::int64_t>(raw.size())).all == 0)
+    return Error{"there are no spheres in it (read as " + raw.format + ")", name, 0, 0, ""};
   const auto count = static_cast<std::int64_t>(raw.size());
   if (count > kSmallSet)
     if (Status status =
@@ -119,10 +138,12 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   if (Status applied = apply_radius_options(raw, name, options); !applied) return applied.error();
   const Result<Images> images = apply_cell_options(raw, name, options);
   if (!images) return images.error();
-  const Vec3d recentred_by = options.recenter ? recenter(raw, *images) : Vec3d{};
+  const Vec3d recentred_by = options.recenter ? recenter(raw, *images, parts) : Vec3d{};
 
   // Round once.
-  Result<SphereSet> set = SphereSet::from_world(raw.x, raw.y, raw.z, raw.r);
+  Result<SphereSet> set = parts == nullptr
+                              ? SphereSet::from_world(raw.x, raw.y, raw.z, raw.r)
+                              : SphereSet::part_from_world(raw.x, raw.y, raw.z, raw.r, options.parts);
   if (!set) {
     Error error = set.error();
     error.file = name;
@@ -138,7 +159,7 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
     error.hint = "see --replicate and --cell-vectors";
     return error;
   }
-  if (const std::int64_t vanishing = set->vanishing_radii())
+  if (const std::int64_t vanishing = count_of_all(parts, set->vanishing_radii()).all)
     raw.warnings.push_back(spheres_have(vanishing) +
                            " a radius below 2^-60 of the whole extent and cannot be told from a point");
 

@@ -7,6 +7,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/io/binary_number.h"
+#include "bihive/io/npy_layout.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/io/text_scanner.h"
 
@@ -14,13 +15,6 @@ namespace bihive {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-
-struct Header {
-  std::string dtype;
-  bool fortran_order = false;
-  std::vector<std::int64_t> shape;
-  std::size_t data_begin = 0;
-};
 
 std::string shape_text(const std::vector<std::int64_t>& shape) {
   std::string text = "(";
@@ -34,7 +28,7 @@ class DictionaryParser {
   explicit DictionaryParser(std::string_view text) : text_(text) {}
 
   // False if the text is not such a dictionary.
-  bool parse(Header& header) {
+  bool parse(NpyLayout& header) {
     bool has_dtype = false, has_order = false, has_shape = false;
     if (!take('{')) return false;
     while (!take('}')) {
@@ -110,7 +104,7 @@ std::uint64_t little_endian(std::string_view bytes) {
   return value;
 }
 
-Result<Header> parse_header(std::string_view bytes, const std::string& name) {
+Result<NpyLayout> parse_header(std::string_view bytes, const std::string& name) {
   const auto bad = [&name](const std::string& what) { return Error{what, name, 0, 0, ""}; };
   if (bytes.substr(0, kMagic.size()) != kMagic) return bad("this is no NPY file: it does not begin with \\x93NUMPY");
   if (bytes.size() < 8) return bad("the NPY header is cut");
@@ -126,7 +120,7 @@ Result<Header> parse_header(std::string_view bytes, const std::string& name) {
   if (length > bytes.size() - text_begin) return bad("the NPY header is cut");
 
   const std::string_view text = bytes.substr(text_begin, static_cast<std::size_t>(length));
-  Header header;
+  NpyLayout header;
   if (!DictionaryParser(text).parse(header))
     return bad("the NPY header is not what NumPy writes: " + quote(trim(text)));
   header.data_begin = text_begin + static_cast<std::size_t>(length);
@@ -170,29 +164,39 @@ std::string bytes_of(const std::vector<T>& values, const std::vector<std::int64_
 
 }  // namespace
 
-Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
+Result<NpyLayout> npy_layout(std::string_view head, std::uint64_t file_bytes, const std::string& name) {
   const auto bad = [&name](const std::string& what) { return Error{what, name, 0, 0, ""}; };
-  Result<Header> header = parse_header(bytes, name);
-  if (!header) return header.error();
-  const std::string shape = shape_text(header->shape);
-  const auto type = number_type(header->dtype);
-  if (!type) return bad("the NPY array's type " + quote(header->dtype) + " is none of f4, f8, i1 to i8, u1 to u8");
-  if (header->shape.empty() || header->shape.size() > 2)
+  Result<NpyLayout> layout = parse_header(head, name);
+  if (!layout) return layout.error();
+  const std::string shape = shape_text(layout->shape);
+  const auto type = number_type(layout->dtype);
+  if (!type) return bad("the NPY array's type " + quote(layout->dtype) + " is none of f4, f8, i1 to i8, u1 to u8");
+  layout->type = *type;
+  if (layout->shape.empty() || layout->shape.size() > 2)
     return bad("the NPY array's shape is " + shape + "; expected one or two dimensions");
 
   // The shape must agree with the number of bytes in the file; multiply without overflow.
-  const std::size_t data_bytes = bytes.size() - header->data_begin;
-  std::uint64_t count = 1;
+  const std::uint64_t data_bytes = file_bytes - layout->data_begin;
+  layout->count = 1;
   bool too_many = false;
-  for (const std::int64_t extent : header->shape) {
+  for (const std::int64_t extent : layout->shape) {
     const auto factor = static_cast<std::uint64_t>(extent);
-    if (factor != 0 && count > std::numeric_limits<std::uint64_t>::max() / 8 / factor) too_many = true;
-    count = too_many ? count : count * factor;
+    if (factor != 0 && layout->count > std::numeric_limits<std::uint64_t>::max() / 8 / factor) too_many = true;
+    if (!too_many) layout->count *= factor;
   }
-  if (too_many || count * type->size != data_bytes)
-    return bad("the NPY array's shape " + shape + " of " + header->dtype + " does not agree with the " +
+  if (too_many || layout->count * type->size != data_bytes)
+    return bad("the NPY array's shape " + shape + " of " + layout->dtype + " does not agree with the " +
                std::to_string(data_bytes) + " bytes of numbers in the file");
+  return layout;
+}
 
+Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
+  const auto bad = [&name](const std::string& what) { return Error{what, name, 0, 0, ""}; };
+  Result<NpyLayout> header = npy_layout(bytes, bytes.size(), name);
+  if (!header) return header.error();
+  const NumberType type = header->type;
+  const std::uint64_t count = header->count;
+  const std::string shape = shape_text(header->shape);
   if (Status status = check_memory(static_cast<double>(count) * sizeof(double), "the NPY array of shape " + shape);
       !status)
     return bad(status.error().message);
@@ -208,10 +212,10 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
   const char* at = bytes.data() + header->data_begin;
   if (header->fortran_order) {
     for (std::size_t column = 0; column < columns; ++column)
-      for (std::size_t row = 0; row < rows; ++row, at += type->size)
-        array.values[row * columns + column] = number_at(at, *type);
+      for (std::size_t row = 0; row < rows; ++row, at += type.size)
+        array.values[row * columns + column] = number_at(at, type);
   } else {
-    for (std::size_t i = 0; i < array.values.size(); ++i, at += type->size) array.values[i] = number_at(at, *type);
+    for (std::size_t i = 0; i < array.values.size(); ++i, at += type.size) array.values[i] = number_at(at, type);
   }
   return array;
 }

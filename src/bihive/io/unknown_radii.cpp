@@ -29,6 +29,22 @@ double radius_by_element(const RawSpheres& spheres, std::size_t i) {
   return spheres.attributes.element.empty() ? 0 : van_der_waals_radius(spheres.attributes.element[i]);
 }
 
+// The centres from which neighbours are searched, evenly by id among all parts.
+std::vector<Vec3d> searched(const RawSpheres& spheres, const CountOfParts& all, std::size_t searches,
+                            const SetParts* parts) {
+  const auto first = static_cast<std::size_t>(all.before);
+  std::vector<double> own;
+  for (std::size_t k = 0; k < searches; ++k) {
+    const auto i = static_cast<std::size_t>(std::uint64_t{k} * static_cast<std::uint64_t>(all.all) / searches);
+    if (i < first || i - first >= spheres.size()) continue;
+    own.insert(own.end(), {spheres.x[i - first], spheres.y[i - first], spheres.z[i - first]});
+  }
+  std::vector<Vec3d> centres;
+  for (const std::vector<double>& one : parts != nullptr ? parts->gather(own) : std::vector<std::vector<double>>{own})
+    for (std::size_t k = 0; k < one.size(); k += 3) centres.push_back({one[k], one[k + 1], one[k + 2]});
+  return centres;
+}
+
 }  // namespace
 
 bool lacks_radii(const RawSpheres& spheres) {
@@ -38,30 +54,40 @@ bool lacks_radii(const RawSpheres& spheres) {
   return false;
 }
 
-std::optional<double> radius_from_neighbours(const RawSpheres& spheres) {
-  const std::size_t count = spheres.size();
+std::optional<double> radius_from_neighbours(const RawSpheres& spheres, const SetParts* parts) {
+  const CountOfParts all = count_of_all(parts, static_cast<std::int64_t>(spheres.size()));
+  const auto count = static_cast<std::size_t>(all.all);
   if (count == 0) return std::nullopt;
-  std::vector<Vec3d> centres(count);
-  for (std::size_t i = 0; i < count; ++i) centres[i] = {spheres.x[i], spheres.y[i], spheres.z[i]};
-  const NearestPlace nearest(std::move(centres));
+  const auto centre = [&](std::size_t i) { return Vec3d{spheres.x[i], spheres.y[i], spheres.z[i]}; };
+  std::optional<NearestPlace> nearest;
+  if (spheres.size() > 0) {
+    std::vector<Vec3d> centres(spheres.size());
+    for (std::size_t i = 0; i < centres.size(); ++i) centres[i] = centre(i);
+    nearest.emplace(std::move(centres));
+  }
 
   const std::size_t searches = std::min(count, kMostSearches);
-  std::vector<double> distances(searches);
+  const std::vector<Vec3d> from = searched(spheres, all, searches, parts);
+  std::vector<double> distances(searches, std::numeric_limits<double>::infinity());
   const std::size_t bundles = (searches + kSearchesOfABundle - 1) / kSearchesOfABundle;
   parallel_for(0, static_cast<std::int64_t>(bundles), [&](std::int64_t bundle) {
     const std::size_t begin = static_cast<std::size_t>(bundle) * kSearchesOfABundle;
-    for (std::size_t k = begin; k < std::min(searches, begin + kSearchesOfABundle); ++k) {
-      const auto i = static_cast<std::size_t>(std::uint64_t{k} * count / searches);
-      distances[k] = nearest.distance_from({spheres.x[i], spheres.y[i], spheres.z[i]});
-    }
+    for (std::size_t k = begin; nearest && k < std::min(searches, begin + kSearchesOfABundle); ++k)
+      distances[k] = nearest->distance_from(from[k]);
   });
+  if (parts != nullptr) {
+    // The nearest of all parts.
+    for (double& distance : distances) distance = -distance;
+    greatest_of_all(parts, distances);
+    for (double& distance : distances) distance = -distance;
+  }
   if (std::isinf(distances.front())) return std::nullopt;  // one has no other place, so none has
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>((searches - 1) / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return std::min(0.5 * *middle, double(std::numeric_limits<float>::max()));  // larger ones are no radii
 }
 
-void fill_radii(RawSpheres& spheres) {
+void fill_radii(RawSpheres& spheres, const SetParts* parts) {
   const std::size_t count = spheres.size();
   std::size_t unknown = 0;
   spheres.r.resize(count);
@@ -70,10 +96,10 @@ void fill_radii(RawSpheres& spheres) {
     unknown += spheres.r[i] > 0 ? 0 : 1;
   }
   if (unknown < count) spheres.rules.push_back("radii: van der Waals, by element");
-  if (unknown == 0) return;
+  if (unknown == 0 && parts == nullptr) return;
 
   const bool of_first_frame = spheres.unknown_radius.has_value();
-  if (!of_first_frame) spheres.unknown_radius = radius_from_neighbours(spheres);
+  if (!of_first_frame) spheres.unknown_radius = radius_from_neighbours(spheres, parts);
   const double radius = spheres.unknown_radius.value_or(kRadiusOfOnePlace);
   for (double& r : spheres.r)
     if (!(r > 0)) r = radius;

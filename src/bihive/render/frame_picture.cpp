@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bihive/geometry/each_sphere.h"
+#include "bihive/geometry/set_parts.h"
 #include "bihive/math/elementary.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/tree_picture.h"
@@ -70,7 +71,7 @@ bool covers_spheres(const SphereSet& spheres, const Camera& camera, const Render
   for_each_sphere(spheres, [&](std::int64_t, Vec3d centre, double radius) {
     if (!meets) meets = in_view.meets(centre, radius);
   });
-  return meets;
+  return greatest_of_all(spheres.parts(), meets ? 1 : 0) > 0;
 }
 
 // The labels that `covers(area)` names get a side each: title above, legend right, scale bar below, and the axes, which

@@ -42,6 +42,13 @@ class Span {
     low_ = std::max(low_, radius * low_slope_ - place + low_tangent_ * depth);
     high_ = std::max(high_, radius * high_slope_ + place + high_tangent_ * depth);
   }
+  /// With what the others have, of which each has a part of the spheres.
+  void add_others(const SetParts* parts) {
+    std::vector<double> numbers{low_, high_};
+    greatest_of_all(parts, numbers);
+    low_ = numbers[0];
+    high_ = numbers[1];
+  }
   /// The smallest distance at which both planes hold.
   double distance() const { return empty() ? 0 : (low_ + high_) / (low_tangent_ + high_tangent_); }
   /// The shift with as much room at both planes, from that distance on.
@@ -65,6 +72,12 @@ struct Extent {
   void add(double place, double radius) {
     low = std::min(low, place - radius);
     high = std::max(high, place + radius);
+  }
+  void add_others(const SetParts* parts) {
+    std::vector<double> numbers{-low, high};
+    greatest_of_all(parts, numbers);
+    low = -numbers[0];
+    high = numbers[1];
   }
   double size() const { return high > low ? high - low : 0; }
   double middle() const { return high >= low ? low + 0.5 * (high - low) : 0; }
@@ -92,6 +105,8 @@ void frame_parallel(const SphereSet& spheres, const std::vector<Vec3d>& points, 
     along.add(dot(centre, up), radius);
     front = std::max(front, dot(centre, side.back) + radius);
   });
+  for (Extent* extent : {&across, &along}) extent->add_others(spheres.parts());
+  front = greatest_of_all(spheres.parts(), front);
   const double shorter = std::min(width_px, height_px);
   const double side_length = std::max(across.size() * shorter / width_px / across_part.size(),
                                       along.size() * shorter / height_px / along_part.size());
@@ -139,7 +154,7 @@ Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const S
   const Vec3d right = normalized(cross(side.up, side.back));
   const Vec3d up = cross(side.back, right);
   const SphereSet::Bounds bounds = spheres.bounds();
-  const Vec3d middle = spheres.empty() ? Vec3d{} : bounds.lo + 0.5 * (bounds.hi - bounds.lo);
+  const Vec3d middle = spheres.whole_size() == 0 ? Vec3d{} : bounds.lo + 0.5 * (bounds.hi - bounds.lo);
 
   // The tangents of the angles that the free part of the picture spans to either side.
   const double shorter = std::min(width_px, height_px);
@@ -156,6 +171,8 @@ Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const S
     along.add(dot(centre, up), depth, radius);
     distance = std::max(distance, depth + radius);
   });
+  for (Span* span : {&across, &along}) span->add_others(spheres.parts());
+  distance = greatest_of_all(spheres.parts(), distance);
   distance = std::max({distance, across.distance(), along.distance()});
   if (!(distance > 0)) distance = 1;
   const Vec3d shift = across.shift(distance) * right + along.shift(distance) * up;

@@ -7,7 +7,7 @@
 
 namespace bihive {
 
-/// Each function is for all ranks at the same time, each in the same order.
+/// Each function is for all ranks at the same time, each in the same order. It may throw if another rank has failed.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -18,6 +18,8 @@ class Ranks {
   virtual std::vector<Bytes> gather(const Bytes& of_this_rank) = 0;
   /// What rank 0 gives; what the others give does not matter.
   virtual Bytes from_first(Bytes of_first) = 0;
+  /// Each number becomes the greatest of all ranks' numbers at its place. As many on all.
+  virtual void take_greatest(std::vector<double>& numbers) = 0;
   /// What each rank gives this one, from what each gives to each.
   virtual std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) = 0;
 };

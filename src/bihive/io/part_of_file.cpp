@@ -1,0 +1,95 @@
+#include "bihive/io/part_of_file.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "bihive/base/memory.h"
+#include "bihive/io/binary_number.h"
+#include "bihive/io/npy_layout.h"
+#include "bihive/io/raw_spheres.h"
+#include "bihive/io/trajectory/random_file.h"
+#include "bihive/io/without_throwing.h"
+
+namespace bihive {
+namespace {
+
+// A header is much shorter.
+constexpr std::int64_t kHeadBytes = 1 << 16;
+// Read at a time.
+constexpr std::int64_t kRowsAtOnce = 1 << 18;
+
+Result<NpyLayout> layout_of(const RandomFile& file) {
+  const Result<std::string> head = file.read(0, std::min(kHeadBytes, file.size()));
+  if (!head) return head.error();
+  return npy_layout(*head, static_cast<std::uint64_t>(file.size()), file.path());
+}
+
+bool has_rows_of_spheres(const NpyLayout& layout) {
+  return layout.shape.size() == 2 && (layout.shape[1] == 3 || layout.shape[1] == 4) && !layout.fortran_order;
+}
+
+Result<RawSpheres> rows_of(const RandomFile& file, const NpyLayout& layout, std::int64_t first, std::int64_t end) {
+  const auto columns = static_cast<std::size_t>(layout.shape[1]);
+  const std::size_t row_bytes = columns * layout.type.size;
+  const double wanted = static_cast<double>(end - first) * static_cast<double>(columns * sizeof(double));
+  if (Status status = check_memory(wanted, "a part of the NPY array"); !status)
+    return Error{status.error().message, file.path(), 0, 0, ""};
+  RawSpheres spheres;
+  spheres.format = "NPY";
+  std::vector<double>* const targets[4] = {&spheres.x, &spheres.y, &spheres.z, &spheres.r};
+  const char* const names[4] = {"x", "y", "z", "the radius"};
+  for (std::size_t column = 0; column < columns; ++column)
+    targets[column]->resize(static_cast<std::size_t>(end - first));
+  std::string bytes;
+  for (std::int64_t row = first; row < end; row += kRowsAtOnce) {
+    const std::int64_t count = std::min(kRowsAtOnce, end - row);
+    bytes.resize(static_cast<std::size_t>(count) * row_bytes);
+    const std::int64_t place =
+        static_cast<std::int64_t>(layout.data_begin) + row * static_cast<std::int64_t>(row_bytes);
+    if (Status status = file.read_into(place, static_cast<std::int64_t>(bytes.size()), bytes.data()); !status)
+      return status.error();
+    for (std::int64_t i = 0; i < count; ++i)
+      for (std::size_t column = 0; column < columns; ++column) {
+        const double value =
+            number_at(bytes.data() + static_cast<std::size_t>(i) * row_bytes + column * layout.type.size, layout.type);
+        if (const char* fault = column < 3 ? coordinate_fault(value) : radius_fault(value))
+          return Error{"row " + std::to_string(row + i) + " (from 0): " + names[column] + " " + fault + ": " +
+                           std::to_string(value),
+                       file.path(), 0, 0, ""};
+        (*targets[column])[static_cast<std::size_t>(row - first + i)] = value;
+      }
+  }
+  spheres.rules.push_back("NPY " + layout.dtype + ": columns x, y, z" +
+                          (columns == 4 ? std::string(", radius") : std::string()));
+  return spheres;
+}
+
+}  // namespace
+
+bool can_read_part(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
+  const Result<RandomFile> file = RandomFile::open(path);
+  if (!file) return false;
+  const Result<NpyLayout> layout = layout_of(*file);
+  return layout && has_rows_of_spheres(*layout);
+}
+
+Result<RawSpheres> read_part(const std::string& path, const SetParts& parts) {
+  return without_throwing(path, [&]() -> Result<RawSpheres> {
+    const Result<RandomFile> file = RandomFile::open(path);
+    if (!file) return file.error();
+    const Result<NpyLayout> layout = layout_of(*file);
+    if (!layout) return layout.error();
+    if (!has_rows_of_spheres(*layout)) return Error{"parts of this file cannot be read", path, 0, 0, ""};
+    const std::int64_t rows = layout->shape[0];
+    const std::int64_t count = parts.count();
+    const auto bound = [&](std::int64_t part) { return rows / count * part + rows % count * part / count; };
+    return rows_of(*file, *layout, bound(parts.part()), bound(parts.part() + 1));
+  });
+}
+
+}  // namespace bihive
