@@ -1,56 +1,22 @@
-"""Pictures and films by the ranks of mpirun: bihive-mpi, and shards of bihive, as docs/many_machines.md says."""
+"""Pictures and films by three ranks of mpirun: bihive-mpi, and shards of bihive, as docs/many_machines.md says."""
 
-import itertools
 import json
 import os
-import shutil
-import signal
 import subprocess
-import time
 import unittest
 
-from program import BIHIVE, PATIENCE_S, ProgramTest, main
+from program import BIHIVE, PATIENCE_S, main
+from ranks import BIHIVE_MPI, FRAMES, OnRanks, is_open_mpi
 
-BIHIVE_MPI = os.environ.get("BIHIVE_MPI")
-MPIRUN = shutil.which("mpirun")
-FRAMES = 7
 # Each rank draws the shard of its own number.
 SHARD_OF_RANK = 'exec "$0" "$@" --shard $OMPI_COMM_WORLD_RANK/$OMPI_COMM_WORLD_SIZE'
 
 
-def frame(number):
-    places = [f"C {i + 0.1 * number * i:.2f} {0.3 * i * i:.2f} {0.2 * number:.2f}\n" for i in range(5)]
-    return f"5\nframe {number}\n" + "".join(places)
-
-
-def is_open_mpi():
-    """Whether mpirun is Open MPI's: another one names the ranks in other ways."""
-    if MPIRUN is None:
-        return False
-    said = subprocess.run([MPIRUN, "--version"], capture_output=True, text=True, timeout=PATIENCE_S)
-    return "Open MPI" in said.stdout
-
-
-class OnRanks(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.write("run.xyz", "".join(map(frame, range(FRAMES))))
-
-    def mpirun(self, count, *command):
-        options = ["--oversubscribe", "--bind-to", "none", "-n", str(count)]
-        if os.geteuid() == 0:
-            options.append("--allow-run-as-root")
-        return [MPIRUN, *options, *command]
-
-    def run_ranks(self, count, *command):
-        return subprocess.run(self.mpirun(count, *command), cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S)
-
+@unittest.skipUnless(is_open_mpi(), "there is no Open MPI here: install openmpi-bin")
+class Shards(OnRanks):
     def on_ranks(self, count, *arguments):
         return self.run_ranks(count, "sh", "-c", SHARD_OF_RANK, BIHIVE, *arguments)
 
-
-@unittest.skipUnless(is_open_mpi(), "there is no Open MPI here: install openmpi-bin")
-class Shards(OnRanks):
     def test_a_film_of_three_ranks_equals_that_of_one_process(self):
         small = ["--size", "48x32", "--samples", "1", "--threads", "1"]
         self.succeed("film", "run.xyz", "-o", "whole/%d.png", *small)
@@ -70,62 +36,15 @@ class Shards(OnRanks):
         self.assertFalse(os.path.exists(self.path("parts")))
 
 
-def is_running(process):
-    """Whether it runs; one whose parent has not asked for its end yet does not."""
-    try:
-        with open(f"/proc/{process}/stat") as file:
-            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
-    except OSError:
-        return False
-
-
 # Rank 2 draws another picture.
 OWN_SIZE = 'exec "$0" render run.xyz --size 5x$((OMPI_COMM_WORLD_RANK / 2 + 3)) "$@"'
 
 
 @unittest.skipUnless(BIHIVE_MPI and is_open_mpi(), "bihive-mpi was not built: install libopenmpi-dev and openmpi-bin")
 class Program(OnRanks):
-    def errors(self, done):
-        """The lines of the program, without those of mpirun."""
-        return [line for line in done.stderr.splitlines() if line.startswith("bihive: ")]
-
-    def leftovers(self):
-        return sorted(name for name in os.listdir(self.folder) if name != "run.xyz")
-
-    def hash_of(self, done):
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)["picture_hash"]
-
-    def test_any_number_of_ranks_gives_the_same_picture(self):
-        looks = [
-            ["--size", "160x120"],
-            ["--size", "97x203", "--style", "illustrative", "--samples", "auto"],
-            ["--size", "160x120", "--style", "glossy", "--background", "none", "--aperture", "1"],
-            ["--size", "64x400", "--view", "normal", "--crop", "3,17,60,391"],
-            ["--size", "120x90", "--view", "distance"],  # which rank 0 draws alone
-        ]
-        for options in looks:
-            alone = self.hash_of(self.run_bihive("render", "demo", "-o", "alone.png", "--json", *options))
-            for ranks in (1, 2, 3, 4):
-                with self.subTest(options=options, ranks=ranks):
-                    words = ["render", "demo", "-o", "ranks.png", "--json", "--threads", "1", *options]
-                    self.assertEqual(self.hash_of(self.run_ranks(ranks, BIHIVE_MPI, *words)), alone)
-
-    def test_distributed_spheres_give_the_same_picture(self):
-        looks = [
-            ["--size", "80x60"],
-            ["--size", "97x103", "--style", "illustrative", "--samples", "auto", "--background", "none"],
-            ["--size", "80x60", "--style", "glossy", "--aperture", "1", "--samples", "3"],
-            ["--size", "80x60", "--select", "all", "--opacity", "0.4", "--legend", "--title", "hi"],
-            ["--size", "60x100", "--view", "id", "--crop", "3,17,60,91"],
-            ["--size", "60x50", "--view", "distance"],  # which rank 0 draws alone
-        ]
-        for options in looks:
-            alone = self.hash_of(self.run_bihive("render", "demo", "-o", "alone.png", "--json", *options))
-            for ranks in (1, 3, 4):
-                with self.subTest(options=options, ranks=ranks):
-                    words = ["render", "demo", "-o", "ranks.png", "--json", "--threads", "1", "--distribute", *options]
-                    self.assertEqual(self.hash_of(self.run_ranks(ranks, BIHIVE_MPI, *words)), alone)
+    def test_three_ranks_give_the_same_picture(self):
+        self.expect_picture_of_one_process((3,), "demo", ["--size", "97x103", "--style", "glossy"])
+        self.expect_picture_of_one_process((3,), "demo", ["--size", "60x50", "--view", "distance"])  # by rank 0 alone
 
     def test_fewer_spheres_than_ranks(self):
         self.write("one.xyz", "2\n\nC 0 0 0\nC 0 0 0\n")
@@ -211,28 +130,22 @@ class Program(OnRanks):
             self.assertIn("/dev/full", self.errors(done)[0])
             self.assertEqual(self.leftovers(), [])
 
-    def test_ctrl_c_and_a_rank_that_dies(self):
-        words = ["render", "demo", "-o", "a.png", "--size", "6000x4000", "--threads", "1"]
-        kinds = ("mpirun is interrupted", "a rank is killed")
-        for kind, more in itertools.product(kinds, ([], ["--distribute"])):
-            with self.subTest(kind=kind, more=more):
-                running = subprocess.Popen(self.mpirun(3, BIHIVE_MPI, *words, *more), cwd=self.folder, stdout=subprocess.DEVNULL,
-                                           stderr=subprocess.DEVNULL)
-                ranks = []
-                while len(ranks) < 3:
-                    self.assertIsNone(running.poll(), "it ended before it was stopped")
-                    found = subprocess.run(["pgrep", "-P", str(running.pid)], capture_output=True, text=True)
-                    ranks = [int(line) for line in found.stdout.split()]
-                    time.sleep(0.05)
-                time.sleep(1)
-                if kind == "a rank is killed":
-                    os.kill(ranks[1], signal.SIGKILL)
-                else:
-                    running.send_signal(signal.SIGINT)
-                self.assertNotEqual(running.wait(timeout=60), 0)
-                for rank in ranks:
-                    self.assertFalse(is_running(rank), "nothing runs on")
-                self.assertEqual(self.leftovers(), [])
+    def test_parts_of_a_file(self):
+        self.succeed("scene", "scenario1", "--count", "200", "-o", "set.npy")
+        self.expect_picture_of_one_process((3,), "set.npy", ["--size", "80x60", "--recenter", "--view-from", "iso"])
+        with open(self.path("set.npy"), "rb") as file:
+            content = file.read()
+        self.write("bad.npy", content[:-4] + b"\x00\x00\xc0\x7f")  # a radius of the last rank that is not a number
+        done = self.run_ranks(3, BIHIVE_MPI, "render", "bad.npy", "-o", "a.png", "--distribute")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
+        self.assertIn("row 199 (from 0): the radius is not finite", self.errors(done)[0])
+        elsewhere = 'test $OMPI_COMM_WORLD_RANK = 0 || cd /; exec "$0" render set.npy --distribute "$@"'
+        done = self.run_ranks(3, "sh", "-c", elsewhere, BIHIVE_MPI, "-o", "a.png")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
+        self.assertIn("set.npy", self.errors(done)[0])
+        self.assertFalse(os.path.exists(self.path("a.png")))
 
 
 if __name__ == "__main__":

@@ -29,8 +29,7 @@ class RanksHere {
       threads.emplace_back([&, rank] {
         test::RankThread here(rank, meeting_);
         Scene mine = test::part_of_scene(whole, first_has_all ? (rank == 0 ? 0 : 1) : rank, first_has_all ? 1 : ranks);
-        scenes_[static_cast<std::size_t>(rank)] =
-            SpreadScene::make(std::move(mine), settings, {}, here).value();
+        scenes_[static_cast<std::size_t>(rank)] = SpreadScene::make(std::move(mine), settings, {}, here).value();
       });
     for (std::thread& thread : threads) thread.join();
   }

@@ -61,8 +61,8 @@ class DrawingThreads {
         conversation_.give(number, film);
         return Done{};
       };
-      Result<RenderedBands> rendered = render_bands(artist->scene(), artist->tracer(), settings_, next, give, {},
-                                                    &CancellableSection::token());
+      Result<RenderedBands> rendered =
+          render_bands(artist->scene(), artist->tracer(), settings_, next, give, {}, &CancellableSection::token());
       stop_if_asked();
       const RenderCounts rays = value_or_fail(std::move(rendered)).rays;
       const std::lock_guard lock(mutex_);

@@ -11,8 +11,8 @@
 
 namespace bihive::cli {
 
-/// Several bands for each of those who draw, so that an expensive corner does not keep one of them alone. Low bands cost
-/// more, because effects that look at neighbouring pixels draw the border of a band anew.
+/// Several bands for each of those who draw, so that an expensive corner does not keep one of them alone. Low bands
+/// cost more, because effects that look at neighbouring pixels draw the border of a band anew.
 class PictureBands {
  public:
   PictureBands(const RenderSettings& settings, int who_draw);

@@ -38,9 +38,8 @@ void run_render(const RenderOptions& asked) {
       value_or_fail(Tracer::build(scene, structure_of(prepared.engine), options.tree, settings.threads));
   const Timer drawing;
   const std::unique_ptr<PictureFile> file =
-      leads()
-          ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})
-          : nullptr;
+      leads() ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})
+              : nullptr;
   // Nothing may fail between this and the drawing, for the other ranks wait for rank 0 there.
   if (team() != nullptr) team()->agree({});
   const Drawn drawn = [&] {
@@ -50,9 +49,8 @@ void run_render(const RenderOptions& asked) {
     try {
       if (team() != nullptr && prepared.can_share)
         return draw_with_team(scene, tracer, settings, file.get(), update, *team());
-      return file == nullptr
-                 ? Drawn{}
-                 : draw_picture(scene, tracer, prepared.engine, settings, prepared.layers, *file, update);
+      return file == nullptr ? Drawn{}
+                             : draw_picture(scene, tracer, prepared.engine, settings, prepared.layers, *file, update);
     } catch (const Interrupted&) {
       CancellableSection::leave_if_cancelled();
       throw;
@@ -62,8 +60,7 @@ void run_render(const RenderOptions& asked) {
   if (file == nullptr) return;
   value_or_fail(file->finish());
   const double write_ms = drawing.elapsed_ms() - drawn.render_ms;
-  report_render(options,
-                {prepared, tracer.engine(), scene.spheres.size(), tracer.build_ms(), write_ms, drawn, *file});
+  report_render(options, {prepared, tracer.engine(), scene.spheres.size(), tracer.build_ms(), write_ms, drawn, *file});
 }
 
 }  // namespace bihive::cli

@@ -1,5 +1,7 @@
 // bihive-mpi render --distribute: each rank gets some of the spheres. Rank 0 reads them, or each rank a part.
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,7 +36,12 @@ bool reads_parts(const RenderOptions& options) {
                           (!options.focus || std::holds_alternative<double>(*options.focus));
   if (!plain_input || !plain_look || is_built_in_scene(input.input)) return false;
   const Style style = choose_style(options.style);
-  return !style.colour_by && !style.picture.labels.legend && can_read_part(file_of(input));
+  constexpr std::array kNumbersOfAll{"x", "y", "z", "r", "radius"};
+  const auto& by = style.colour_by;
+  const bool plain_colours =
+      !by || (std::find(kNumbersOfAll.begin(), kNumbersOfAll.end(), by->attribute) != kNumbersOfAll.end() &&
+              by->map != ColourMap::okabe_ito);
+  return plain_colours && !style.picture.labels.legend && can_read_part(file_of(input));
 }
 
 void refuse(const PreparedPicture& prepared) {
@@ -63,8 +70,8 @@ void run_render_spread(const RenderOptions& asked) {
 
   // Each rank builds a tree of its spheres.
   const std::vector<std::pair<std::string, std::string>> text = text_of(prepared.input.scene, prepared.described);
-  const std::shared_ptr<const SpreadScene> spread = value_or_fail(
-      SpreadScene::make(std::move(prepared.input.scene), prepared.settings, options.tree, ranks));
+  const std::shared_ptr<const SpreadScene> spread =
+      value_or_fail(SpreadScene::make(std::move(prepared.input.scene), prepared.settings, options.tree, ranks));
   const Timer drawing;
   RenderSettings of_file = prepared.settings;
   of_file.threads = 1;
@@ -82,8 +89,7 @@ void run_render_spread(const RenderOptions& asked) {
     Progress progress("rendering");
     const auto update = [&](double done) { progress.update(done); };
     try {
-      if (prepared.can_share)
-        return draw_spread(*spread, prepared.settings, file.get(), update, ranks, *conversation);
+      if (prepared.can_share) return draw_spread(*spread, prepared.settings, file.get(), update, ranks, *conversation);
       return draw_spread_alone(*artist, prepared.engine, prepared.settings, prepared.layers, file.get(), update,
                                *conversation);
     } catch (const Interrupted&) {
@@ -95,8 +101,7 @@ void run_render_spread(const RenderOptions& asked) {
   if (file == nullptr) return;
   value_or_fail(file->finish());
   const double write_ms = drawing.elapsed_ms() - drawn.render_ms;
-  report_render(options,
-                {prepared, Engine::wide, spread->whole_size(), spread->build_ms(), write_ms, drawn, *file});
+  report_render(options, {prepared, Engine::wide, spread->whole_size(), spread->build_ms(), write_ms, drawn, *file});
 }
 
 }  // namespace bihive::cli

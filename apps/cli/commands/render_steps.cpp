@@ -67,10 +67,8 @@ PreparedPicture prepare_render(const RenderOptions& options) {
   RenderSettings settings = prepare_picture(options, engine, input);
   std::vector<Layer> layers = choose_layers(options, input.scene, settings);
   ordered_json described = settings_json(options, settings, input.scene, layers);
-  const bool can_share =
-      !is_gpu(engine) && !is_drawn_whole(settings.view) && (layers.empty() || has_radiance(layers));
-  return {engine,    std::move(input),     settings, std::move(layers), std::move(described),
-          can_share, reading.elapsed_ms()};
+  const bool can_share = !is_gpu(engine) && !is_drawn_whole(settings.view) && (layers.empty() || has_radiance(layers));
+  return {engine, std::move(input), settings, std::move(layers), std::move(described), can_share, reading.elapsed_ms()};
 }
 
 void report_render(const RenderOptions& options, const FinishedPicture& finished) {

@@ -68,7 +68,8 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
     const double values[4] = {double(x[i]), double(y[i]), double(z[i]), double(r[i])};
     const char* const names[4] = {"x", "y", "z", "the radius"};
     for (int k = 0; k < 4; ++k) {
-      if (!std::isfinite(values[k])) return bad_sphere(first + i, std::string(names[k]) + " must be finite but", values[k]);
+      if (!std::isfinite(values[k]))
+        return bad_sphere(first + i, std::string(names[k]) + " must be finite but", values[k]);
       if (!(std::abs(values[k]) <= kLargest))
         return bad_sphere(first + i, std::string(names[k]) + " must fit single precision (3.4e38) but", values[k]);
       if (k < 3) extent = std::max(extent, std::abs(values[k]) + values[3]);

@@ -141,9 +141,8 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   const Vec3d recentred_by = options.recenter ? recenter(raw, *images, parts) : Vec3d{};
 
   // Round once.
-  Result<SphereSet> set = parts == nullptr
-                              ? SphereSet::from_world(raw.x, raw.y, raw.z, raw.r)
-                              : SphereSet::part_from_world(raw.x, raw.y, raw.z, raw.r, options.parts);
+  Result<SphereSet> set = parts == nullptr ? SphereSet::from_world(raw.x, raw.y, raw.z, raw.r)
+                                           : SphereSet::part_from_world(raw.x, raw.y, raw.z, raw.r, options.parts);
   if (!set) {
     Error error = set.error();
     error.file = name;

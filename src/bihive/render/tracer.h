@@ -63,10 +63,10 @@ class Tracer {
 
   /// The same for a scene, whose clips (scene/clips.h) cut its spheres open. Without clips it is the tracer of the
   /// scene's spheres.
-  /// `first`: so many spheres are traced, and rays may leave the others too; below 0: all. If that is not all, clips must
-  /// cut some sphere.
-  static Result<Tracer> build(const Scene& scene, Engine engine, const TreeParameters& parameters = {},
-                              int threads = 0, std::int64_t first = -1);
+  /// `first`: so many spheres are traced, and rays may leave the others too; below 0: all. If that is not all, clips
+  /// must cut some sphere.
+  static Result<Tracer> build(const Scene& scene, Engine engine, const TreeParameters& parameters = {}, int threads = 0,
+                              std::int64_t first = -1);
 
   /// A tracer on an existing tree of these spheres: for frame after frame with one WideBuilder (wide/wide_builder.h),
   /// or for several tracers on one tree.

@@ -52,8 +52,8 @@ class TransparentSpheres {
                                                                   const Scene* of_images = nullptr,
                                                                   std::int64_t first = -1);
 
-  /// The same where other processes hold the spheres: `scene` knows those that were seen so far. `to_eye`: for rays that
-  /// see, else for rays that ask for light. Both must outlive it.
+  /// The same where other processes hold the spheres: `scene` knows those that were seen so far. `to_eye`: for rays
+  /// that see, else for rays that ask for light. Both must outlive it.
   static std::shared_ptr<const TransparentSpheres> elsewhere(const Scene& scene, Elsewhere& elsewhere, bool to_eye,
                                                              bool has_tints);
 

@@ -92,6 +92,14 @@ std::optional<std::pair<double, double>> range_of(const SphereSet& spheres, cons
   } else {
     for (std::int64_t id = 0; id < spheres.size(); ++id) add(id, attribute.number_of(spheres, id));
   }
+  if (spheres.parts() != nullptr) {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    std::vector<double> ends{-kInfinite, -kInfinite};
+    if (range) ends = {-range->first, range->second};
+    spheres.parts()->take_greatest(ends);
+    range.reset();
+    if (ends[1] > -kInfinite) range.emplace(-ends[0], ends[1]);
+  }
   return range;
 }
 

@@ -15,9 +15,8 @@ bool is_to_eye(WhichSpheres which) {
 }  // namespace
 
 Result<std::shared_ptr<const PartOfSet>> PartOfSet::make(Scene spheres, std::vector<std::int64_t> whole_ids,
-                                                         std::int64_t count, const SphereColumns& has,
-                                                         OpacityRule rule, const TreeParameters& parameters,
-                                                         int threads) {
+                                                         std::int64_t count, const SphereColumns& has, OpacityRule rule,
+                                                         const TreeParameters& parameters, int threads) {
   if (spheres.spheres.size() >= static_cast<std::int64_t>(kNoPlace))
     return Error{"a rank cannot hold " + std::to_string(spheres.spheres.size()) + " spheres", "", 0, 0,
                  "take more ranks: each holds up to 2^32"};

@@ -24,8 +24,8 @@ class PartOfSet {
   PartOfSet& operator=(const PartOfSet&) = delete;
 
   /// `spheres`: a scene with this rank's spheres, `count` of them, which ascend by `whole_ids`; then, where clips cut
-  /// some sphere of the whole set, those of other ranks that rays may leave and that matter here, ascending too. Errors:
-  /// as Tracer::build().
+  /// some sphere of the whole set, those of other ranks that rays may leave and that matter here, ascending too.
+  /// Errors: as Tracer::build().
   static Result<std::shared_ptr<const PartOfSet>> make(Scene spheres, std::vector<std::int64_t> whole_ids,
                                                        std::int64_t count, const SphereColumns& has, OpacityRule rule,
                                                        const TreeParameters& parameters, int threads);

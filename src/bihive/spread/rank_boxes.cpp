@@ -108,9 +108,8 @@ void RankBoxes::find(const Ray& ray, std::vector<RankOnWay>& found) const {
     waiting[count++] = node.higher;
     waiting[count++] = node.lower;
   }
-  std::sort(found.begin() + before, found.end(), [](const RankOnWay& a, const RankOnWay& b) {
-    return a.t != b.t ? a.t < b.t : a.rank < b.rank;
-  });
+  std::sort(found.begin() + before, found.end(),
+            [](const RankOnWay& a, const RankOnWay& b) { return a.t != b.t ? a.t < b.t : a.rank < b.rank; });
 }
 
 }  // namespace bihive

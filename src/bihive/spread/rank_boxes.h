@@ -43,8 +43,8 @@ class RankBoxes {
  private:
   struct Node {
     RankBox box;
- std::int32_t first, last;     // ranks
-    std::int32_t lower, higher;   // nodes; -1: a single rank
+    std::int32_t first, last;    // ranks
+    std::int32_t lower, higher;  // nodes; -1: a single rank
   };
   std::int32_t make(std::int32_t first, std::int32_t last);
 

@@ -53,9 +53,12 @@ Bytes rays_question(QuestionKind kind, WhichSpheres which, RayOrder order, const
   const std::vector<std::int64_t>& chosen = *rays.chosen;
   for (const float* const* columns : {span.origin, span.direction})
     for (int axis = 0; axis < 3; ++axis)
-      put_chosen_rays<float>(chosen, [&](std::int64_t i) { return columns[axis][i]; }, out);
-  put_chosen_rays<double>(chosen, [&](std::int64_t i) { return span.t_min != nullptr ? span.t_min[i] : 0; }, out);
-  put_chosen_rays<double>(chosen, [&](std::int64_t i) { return (*rays.ends)[static_cast<std::size_t>(i)]; }, out);
+      put_chosen_rays<float>(
+          chosen, [&](std::int64_t i) { return columns[axis][i]; }, out);
+  put_chosen_rays<double>(
+      chosen, [&](std::int64_t i) { return span.t_min != nullptr ? span.t_min[i] : 0; }, out);
+  put_chosen_rays<double>(
+      chosen, [&](std::int64_t i) { return (*rays.ends)[static_cast<std::size_t>(i)]; }, out);
   put_column(*rays.places, out);
   put_column(*rays.guests, out);
   put_chosen_rays<std::uint8_t>(

@@ -47,7 +47,7 @@ class Taking {
 
 // Structs of numbers alone go as they are.
 template <class A, class T>
-  requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 void transfer(A& archive, T& value) {
   archive.plain(value);
 }
@@ -58,8 +58,7 @@ void transfer(A& archive, std::string& value) {
 template <class A, class T>
 void transfer(A& archive, std::vector<T>& values);
 template <class A, class T>
-  requires(!std::is_trivially_copyable_v<T>)
-void transfer(A& archive, std::optional<T>& value) {
+requires(!std::is_trivially_copyable_v<T>) void transfer(A& archive, std::optional<T>& value) {
   bool there = value.has_value();
   archive.plain(there);
   if (A::kTakes && there) value.emplace();

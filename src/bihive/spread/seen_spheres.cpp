@@ -60,8 +60,7 @@ void SeenSpheres::add(const std::vector<Address>& addresses, ByteReader& packed)
     for (const Slot& slot : before)
       if (slot.id != kNothing) insert(slot.key, slot.id);
   }
-  for (std::size_t i = 0; i < addresses.size(); ++i)
-    insert(key_of(addresses[i]), first + static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i < addresses.size(); ++i) insert(key_of(addresses[i]), first + static_cast<std::int64_t>(i));
 }
 
 void SeenSpheres::forget() {

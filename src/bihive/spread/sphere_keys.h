@@ -23,9 +23,9 @@ struct SphereKey {
 SphereKey key_of(float x, float y, float z);
 SphereKey key_of(const SphereSet& spheres, std::int64_t id);
 
-/// Where ranks begin: rank k has the keys from starts[k - 1] on, and before starts[k]. `samples`: of all spheres, in any
-/// order; the ranks get about as many of them each. One key fewer than ranks. Ranks may get nothing: where there are
-/// fewer keys than ranks.
+/// Where ranks begin: rank k has the keys from starts[k - 1] on, and before starts[k]. `samples`: of all spheres, in
+/// any order; the ranks get about as many of them each. One key fewer than ranks. Ranks may get nothing: where there
+/// are fewer keys than ranks.
 std::vector<SphereKey> starts_of_ranks(std::vector<SphereKey> samples, int ranks);
 int rank_of(const SphereKey& key, const std::vector<SphereKey>& starts);
 

@@ -76,7 +76,7 @@ RaySpan SpheresElsewhere::rays_here(const RaySpan& rays, const RaysOfRank& asked
   gather(batch_.inside, [&](std::int64_t i) { return rays.inside != nullptr ? rays.inside[i] : std::uint8_t{0}; });
   batch_.leaves.resize(count);
   for (std::size_t k = 0; k < count; ++k)
-    batch_.leaves[k] = asked.guests[k] != kNothing     ? here_.place_of_guest(asked.guests[k])
+    batch_.leaves[k] = asked.guests[k] != kNothing   ? here_.place_of_guest(asked.guests[k])
                        : asked.places[k] == kNoPlace ? kNothing
                                                      : static_cast<std::int64_t>(asked.places[k]);
   return batch_.span();
@@ -84,8 +84,7 @@ RaySpan SpheresElsewhere::rays_here(const RaySpan& rays, const RaysOfRank& asked
 
 // Asks what was chosen, and calls use(rays of a rank, span of them here or null, answer or null) for each rank.
 template <class Use>
-void SpheresElsewhere::ask(QuestionKind kind, WhichSpheres which, RayOrder order, const RaySpan& rays,
-                           const Use& use) {
+void SpheresElsewhere::ask(QuestionKind kind, WhichSpheres which, RayOrder order, const RaySpan& rays, const Use& use) {
   std::vector<Exchange::Question> questions;
   for (const RaysOfRank& asked : asked_) {
     counts_.asked += static_cast<std::int64_t>(asked.chosen.size());

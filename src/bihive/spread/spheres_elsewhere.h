@@ -38,7 +38,7 @@ class SpheresElsewhere final : public Elsewhere {
   struct RaysOfRank {
     int rank;
     std::vector<std::int64_t> chosen;
-    std::vector<Place> places;          // of the spheres that they leave
+    std::vector<Place> places;         // of the spheres that they leave
     std::vector<std::int64_t> guests;  // as in ChosenRays
   };
 
@@ -58,11 +58,11 @@ class SpheresElsewhere final : public Elsewhere {
   ExchangeCounts counts_;
 
   // Of the query at work.
-  std::vector<RankOnWay> ways_;      // ray after ray
-  std::vector<std::size_t> next_;    // of each ray: the next rank in ways_, and where its ranks end
+  std::vector<RankOnWay> ways_;    // ray after ray
+  std::vector<std::size_t> next_;  // of each ray: the next rank in ways_, and where its ranks end
   std::vector<std::size_t> end_;
-  std::vector<double> ends_;         // of each ray: where it ends by now
-  std::vector<RaysOfRank> asked_;    // of this round
+  std::vector<double> ends_;                  // of each ray: where it ends by now
+  std::vector<RaysOfRank> asked_;             // of this round
   std::vector<std::int32_t> number_of_rank_;  // in asked_, or -1
   RayBatch batch_;
 };

@@ -25,7 +25,7 @@ constexpr std::int64_t kSamplesOfAll = 1 << 16;
 constexpr std::int64_t kFewestSamples = 64, kMostSamples = 4096;  // of each rank
 
 // Spheres that a rank sends at a time, so that little memory is in use twice.
-constexpr std::int64_t kSpheresAtOnce = 1 << 21;
+constexpr std::int64_t kSpheresAtOnce = 1 << 18;
 
 // A thread forgets what it saw when it was so much.
 constexpr std::int64_t kMostSeen = 1 << 22;
@@ -126,8 +126,8 @@ SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const Sp
   return got;
 }
 
-// Where clips cut spheres, the surface that a ray leaves may also be a cap of a sphere elsewhere, which lies in the same
-// plane or on the same ball as one here: each rank knows all cut spheres, and those that equal a clip.
+// Where clips cut spheres, the surface that a ray leaves may also be a cap of a sphere elsewhere, which lies in the
+// same plane or on the same ball as one here: each rank knows all cut spheres, and those that equal a clip.
 std::vector<std::int64_t> possible_guests(const Scene& scene) {
   std::vector<std::int64_t> ids;
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
@@ -277,8 +277,8 @@ Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const 
   all.boxes = std::make_unique<RankBoxes>(gather(ranks, box_of(own.scene.spheres)), all.shell.spheres.scale());
   const std::int64_t count = add_guests(own, all.has, all.shell, ranks);
   Result<std::shared_ptr<const PartOfSet>> part =
-      PartOfSet::make(std::move(own.scene), std::move(own.whole_ids), count, all.has, settings.opacity_rule,
-                      parameters, settings.threads);
+      PartOfSet::make(std::move(own.scene), std::move(own.whole_ids), count, all.has, settings.opacity_rule, parameters,
+                      settings.threads);
   if (!part) return part.error();
   all.part = std::move(*part);
   return std::shared_ptr<const SpreadScene>(std::move(made));

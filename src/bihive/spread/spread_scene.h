@@ -1,8 +1,8 @@
 // A scene whose spheres lie on several ranks, each on one: for sets beyond the memory of one machine.
 //
-// Each rank keeps its spheres, their tree, and a scene without the others. Threads that draw have an Artist each, and ask
-// other ranks through an Exchange; their questions are answered by SpreadScene::answer(). Pictures have the bits of one
-// process that has all spheres, for any number of ranks.
+// Each rank keeps its spheres, their tree, and a scene without the others. Threads that draw have an Artist each, and
+// ask other ranks through an Exchange; their questions are answered by SpreadScene::answer(). Pictures have the bits of
+// one process that has all spheres, for any number of ranks.
 #pragma once
 
 #include <cstdint>
