@@ -8,11 +8,12 @@
 namespace bihive {
 namespace {
 
-// Equal bits: -0 is not 0.
+// Equal bits: -0 is not 0, and a NaN is itself.
 template <class T>
 bool all_alike(const std::vector<T>& values) {
-  return std::all_of(values.begin(), values.end(),
-                     [&](const T& value) { return std::memcmp(&value, values.data(), sizeof(T)) == 0; });
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
+  const std::size_t all = values.size() * sizeof(T);
+  return all <= sizeof(T) || std::memcmp(bytes, bytes + sizeof(T), all - sizeof(T)) == 0;
 }
 
 template <class T>

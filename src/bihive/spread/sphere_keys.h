@@ -1,8 +1,8 @@
 // Which spheres lie on one rank: those between two keys along a Morton curve, so that a rank's spheres are neighbours.
 #pragma once
 
-#include <compare>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "bihive/geometry/sphere_set.h"
@@ -16,7 +16,9 @@ struct SphereKey {
   std::uint64_t cell = 0;
   std::uint32_t x = 0, y = 0, z = 0;
 
-  auto operator<=>(const SphereKey&) const = default;
+  friend bool operator<(const SphereKey& a, const SphereKey& b) {
+    return std::tie(a.cell, a.x, a.y, a.z) < std::tie(b.cell, b.x, b.y, b.z);
+  }
 };
 
 /// Stored units.

@@ -153,6 +153,7 @@ void SpheresElsewhere::know(const std::vector<Address>& addresses) {
     Bytes own;
     if (of_rank.front().rank == exchange_.rank()) {
       std::vector<std::int64_t> places;
+      places.reserve(of_rank.size());
       for (const Address& address : of_rank) places.push_back(address.place);
       here_.pack(places, own);
     } else {
