@@ -134,8 +134,11 @@ cli::WorkOfRank MpiConversation::work_of_others() const {
 
 // Rank 0 knows when all threads that draw have ended, on all ranks: then nobody asks any more.
 void MpiConversation::end() {
-  if (rank_ == 0)
-    for (int rank = 0; rank < size_; ++rank) send({rank, kAllEnded, 0, {}});
+  if (rank_ == 0) {
+    // All at once: the messenger leaves after its own.
+    const std::lock_guard lock(mutex_);
+    for (int rank = 0; rank < size_; ++rank) outgoing_.push_back({rank, kAllEnded, 0, {}});
+  }
   messenger_.join();
 }
 
