@@ -145,6 +145,14 @@ class Program(OnRanks):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(len(self.errors(done)), 1, done.stderr)
         self.assertIn("set.npy", self.errors(done)[0])
+        os.mkdir(self.path("other"))
+        self.write("other/set.npy", content)
+        self.succeed("scene", "scenario1", "--count", "100", "-o", "set.npy")
+        elsewhere = 'test $OMPI_COMM_WORLD_RANK = 2 && cd other; exec "$0" render set.npy --distribute "$@"'
+        done = self.run_ranks(3, "sh", "-c", elsewhere, BIHIVE_MPI, "-o", "a.png")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
+        self.assertIn("different files", self.errors(done)[0])
         self.assertFalse(os.path.exists(self.path("a.png")))
 
 

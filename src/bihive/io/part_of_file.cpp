@@ -86,6 +86,15 @@ Result<RawSpheres> read_part(const std::string& path, const SetParts& parts) {
     if (!layout) return layout.error();
     if (!has_rows_of_spheres(*layout)) return Error{"parts of this file cannot be read", path, 0, 0, ""};
     const std::int64_t rows = layout->shape[0];
+
+    // Parts of different files would make a set that nobody has.
+    std::vector<double> facts{double(rows), double(layout->shape[1]), double(layout->type.size), double(file->size())};
+    std::vector<double> greatest = facts;
+    for (const double fact : facts) greatest.push_back(-fact);
+    parts.take_greatest(greatest);
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      if (greatest[i] != -greatest[facts.size() + i])
+        return Error{"the ranks see different files of this name", path, 0, 0, "let all ranks see the same folder"};
     const std::int64_t count = parts.count();
     const auto bound = [&](std::int64_t part) { return rows / count * part + rows % count * part / count; };
     return rows_of(*file, *layout, bound(parts.part()), bound(parts.part() + 1));
