@@ -7,7 +7,7 @@
 
 namespace bihive::cli {
 
-/// What is drawn: the same bits as by one process that has all spheres. `settings.threads`: those of this rank.
+/// Draws the same bits as one process that has all spheres. `settings.threads`: those of this rank.
 /// `file`: that of rank 0, null on the others, whose answer counts their own rays. Fails and throws as draw_picture().
 /// The conversation has begun, and ends here.
 Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, PictureFile* file,

@@ -29,7 +29,7 @@ PreparedPicture prepare_render(const RenderOptions& options);
 /// The film's share of a picture's options.
 RenderOptions with_film(const RenderOptions& asked);
 
-/// What was drawn, for the report.
+/// A picture that was drawn, for the report.
 struct FinishedPicture {
   const PreparedPicture& prepared;
   Engine engine;

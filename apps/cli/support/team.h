@@ -34,7 +34,7 @@ struct OtherRankFailed {
   int code;
 };
 
-/// What a rank has done for a picture.
+/// The work of a rank for a picture.
 struct WorkOfRank {
   RenderCounts rays;
   ExchangeCounts cost;  ///< where spheres are distributed
@@ -70,7 +70,7 @@ class BandTraffic {
   virtual WorkOfRank work_of_others() const = 0;
 };
 
-/// What ranks say to each other while they draw spheres that are distributed over them. Any number of threads may use
+/// Ranks talk like this while they draw spheres that are distributed over them. Any number of threads may use
 /// it at a time, from begin() to end().
 class Conversation : public Exchange, public BandTraffic {
  public:

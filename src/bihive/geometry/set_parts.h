@@ -1,4 +1,4 @@
-// What several processes find out together about a set of which each has a part.
+// Several processes have a part of a set each, and find out together what is true of the whole one.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class SetParts {
 
   /// Each number becomes the greatest of all processes' numbers at its place. As many on all.
   virtual void take_greatest(std::vector<double>& numbers) const = 0;
-  /// What each process gives, in the order of the parts.
+  /// The numbers of each process, in the order of the parts.
   virtual std::vector<std::vector<double>> gather(const std::vector<double>& numbers) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What the header of an NPY file says.
+// The header of an NPY file: type, shape, and where the numbers begin.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Which ranks a ray may meet, the nearest first.
+// The ranks that a ray may meet, the nearest first.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the ranks of a program do together before they draw.
+// The ranks of a program, as they work together before they draw.
 #pragma once
 
 #include <vector>
@@ -14,13 +14,13 @@ class Ranks {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  /// What each rank gives, in the order of the ranks.
+  /// The bytes of each rank, in the order of the ranks.
   virtual std::vector<Bytes> gather(const Bytes& of_this_rank) = 0;
-  /// What rank 0 gives; what the others give does not matter.
+  /// The bytes of rank 0; those of the others do not matter.
   virtual Bytes from_first(Bytes of_first) = 0;
   /// Each number becomes the greatest of all ranks' numbers at its place. As many on all.
   virtual void take_greatest(std::vector<double>& numbers) = 0;
-  /// What each rank gives this one, from what each gives to each.
+  /// The bytes of each rank for this one.
   virtual std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a thread that draws knows of spheres that other ranks hold: those that its rays have met.
+// The spheres of other ranks that a thread which draws knows: those that its rays have met.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Which spheres lie on one rank: those between two keys along a Morton curve, so that a rank's spheres are neighbours.
+// The spheres of one rank: those between two keys along a Morton curve, so that a rank's spheres are neighbours.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@
 
 namespace bihive {
 
-/// What the rays of a thread cost.
+/// The cost of the rays of a thread.
 struct ExchangeCounts {
   std::int64_t rays = 0;      ///< of queries
   std::int64_t asked = 0;     ///< rays times the ranks that they were asked on, this one too

@@ -26,7 +26,7 @@ struct CrossingBuffers {
   std::vector<std::size_t> first;    ///< of each ray, in `crossings`; and their number
 };
 
-/// What other processes said of rays of places before these rays' turn comes.
+/// Answers of other processes about rays of places, before these rays' turn comes.
 struct AnswersAhead {
   RayBatch rays;
   std::vector<std::uint8_t> hidden;
