@@ -36,6 +36,21 @@ class ManyRanks(OnRanks):
         for options in looks:
             self.expect_picture_of_one_process((1, 2, 3, 4, 7, 8), "demo", options)
 
+    def test_copies_and_layers(self):
+        self.write("cell.xyz", '2\nLattice="4 0 0 0 4 0 0 0 4"\nC 0 0 0\nO 1.5 1 2\n')
+        copies = ["render", "cell.xyz", "--json", "--size", "60x50", "--threads", "1", "--replicate", "3x3x2", "--cell"]
+        alone = self.hash_of(self.run_bihive(*copies, "-o", "alone.png"))
+        self.assertEqual(self.hash_of(self.run_ranks(3, BIHIVE_MPI, *copies, "-o", "ranks.png")), alone)
+        refused = self.run_ranks(3, BIHIVE_MPI, *copies, "-o", "ranks.png", "--distribute")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertEqual(len(self.errors(refused)), 1, refused.stderr)
+        for layers in ("radiance,depth,id,normal", "depth,id"):
+            words = ["render", "demo", "--size", "60x50", "--layers", layers, "--threads", "1"]
+            self.succeed(*words, "-o", "alone.exr")
+            done = self.run_ranks(3, BIHIVE_MPI, *words, "-o", "ranks.exr", "--distribute")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(self.read("ranks.exr"), self.read("alone.exr"), layers)
+
     def test_any_number_of_threads(self):
         for threads in ("2", "3"):
             self.expect_picture_of_one_process((2, 3), "demo", ["--size", "160x120"], threads)
