@@ -139,7 +139,7 @@ int run_ranks(std::vector<const char*> words) {
   // The program's own option.
   const std::size_t before = words.size();
   std::erase_if(words, [](const char* word) { return std::string(word) == kDistribute; });
-  MpiTeam team(words.size() < before);
+  MpiTeam team(MPI_COMM_WORLD, words.size() < before, MpiTeam::Counting::shared);
   cli::set_team(&team);
   std::vector<std::string> unsaid;
   if (team.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;

@@ -18,14 +18,14 @@ constexpr std::chrono::microseconds kPause{30};
 // Who waits looks so often whether a signal came.
 constexpr std::chrono::milliseconds kPatience{50};
 
-// Rows of a rank that are on their way, for each of its threads that draw.
-constexpr int kRowsOfThread = 4;
+// Tiles of a rank that are on their way, for each of its threads that draw.
+constexpr int kTilesOfThread = 4;
 
 }  // namespace
 
-MpiConversation::MpiConversation(std::function<Bytes(const Bytes&)> answer, int threads)
+MpiConversation::MpiConversation(MPI_Comm comm, std::function<Bytes(const Bytes&)> answer, int threads)
     : answer_(std::move(answer)), answering_(threads) {
-  MPI_Comm_dup(MPI_COMM_WORLD, &comm_);
+  MPI_Comm_dup(comm, &comm_);
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
 }
@@ -91,14 +91,14 @@ void MpiConversation::stop_counting() {
 void MpiConversation::give(std::int64_t number, const Film& film) {
   if (rank_ == 0) {
     const std::lock_guard lock(mutex_);
-    rows_.push_back({number, film});
-    has_rows_.notify_all();
+    tiles_.push_back({number, film});
+    has_tiles_.notify_all();
     return;
   }
-  Message message{0, kRows, 0, packed(number, film)};
+  Message message{0, kTile, 0, packed(number, film)};
   std::unique_lock lock(mutex_);
-  may_give_.wait(lock, [this] { return rows_on_way_ < kRowsOfThread * answering_; });
-  ++rows_on_way_;
+  may_give_.wait(lock, [this] { return tiles_on_way_ < kTilesOfThread * answering_; });
+  ++tiles_on_way_;
   outgoing_.push_back(std::move(message));
   left_something_.notify_one();
 }
@@ -110,15 +110,15 @@ void MpiConversation::end_giving(const cli::WorkOfRank& work, bool failed) {
 void MpiConversation::end_own_giving() {
   const std::lock_guard lock(mutex_);
   own_ended_ = true;
-  has_rows_.notify_all();
+  has_tiles_.notify_all();
 }
 
-std::optional<cli::GivenRows> MpiConversation::take(bool wait) {
+std::optional<cli::GivenTile> MpiConversation::take(bool wait) {
   std::unique_lock lock(mutex_);
-  if (wait) has_rows_.wait(lock, [this] { return !rows_.empty() || (own_ended_ && ended_ == size_ - 1); });
-  if (rows_.empty()) return std::nullopt;
-  cli::GivenRows first = std::move(rows_.front());
-  rows_.pop_front();
+  if (wait) has_tiles_.wait(lock, [this] { return !tiles_.empty() || (own_ended_ && ended_ == size_ - 1); });
+  if (tiles_.empty()) return std::nullopt;
+  cli::GivenTile first = std::move(tiles_.front());
+  tiles_.pop_front();
   return first;
 }
 
@@ -167,13 +167,13 @@ bool MpiConversation::send_all() {
       continue;
     }
     Sending& sending = sending_.emplace_back();
-    sending.is_rows = message.tag == kRows;
+    sending.is_tile = message.tag == kTile;
     ByteWriter(message.bytes).put(message.number);
     sending.bytes = std::move(message.bytes);
     MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, message.rank, message.tag, comm_,
               &sending.request);
   }
-  int arrived_rows = 0;
+  int arrived_tiles = 0;
   for (auto sending = sending_.begin(); sending != sending_.end();) {
     int arrived = 0;
     MPI_Test(&sending->request, &arrived, MPI_STATUS_IGNORE);
@@ -181,12 +181,12 @@ bool MpiConversation::send_all() {
       ++sending;
       continue;
     }
-    arrived_rows += sending->is_rows ? 1 : 0;
+    arrived_tiles += sending->is_tile ? 1 : 0;
     sending = sending_.erase(sending);
   }
-  if (arrived_rows > 0) {
+  if (arrived_tiles > 0) {
     const std::lock_guard lock(mutex_);
-    rows_on_way_ -= arrived_rows;
+    tiles_on_way_ -= arrived_tiles;
     may_give_.notify_all();
   }
   return !messages.empty();
@@ -234,16 +234,16 @@ void MpiConversation::take_message(Message message) {
     case kStopCounting:
       counter_ = std::int64_t{1} << 40;
       return;
-    case kRows:
-      rows_.push_back(unpacked_rows(message.bytes));
-      has_rows_.notify_all();
+    case kTile:
+      tiles_.push_back(unpacked_tile(message.bytes));
+      has_tiles_.notify_all();
       return;
     case kEnd: {
       const EndOfRank end = unpacked_end(message.bytes);
       ++ended_;
       somebody_failed_ = somebody_failed_ || end.failed;
       work_of_others_.add(end.work);
-      has_rows_.notify_all();
+      has_tiles_.notify_all();
       return;
     }
     case kAllEnded:

@@ -26,7 +26,7 @@ namespace bihive::mpi {
 class MpiConversation final : public cli::Conversation {
  public:
   /// For all ranks at the same time.
-  MpiConversation(std::function<Bytes(const Bytes&)> answer, int threads);
+  MpiConversation(MPI_Comm comm, std::function<Bytes(const Bytes&)> answer, int threads);
   ~MpiConversation() override;
   MpiConversation(const MpiConversation&) = delete;
   MpiConversation& operator=(const MpiConversation&) = delete;
@@ -43,12 +43,12 @@ class MpiConversation final : public cli::Conversation {
   void stop_counting() override;
   void give(std::int64_t number, const Film& film) override;
   void end_giving(const cli::WorkOfRank& work, bool failed) override;
-  std::optional<cli::GivenRows> take(bool wait) override;
+  std::optional<cli::GivenTile> take(bool wait) override;
   bool somebody_failed() const override;
   cli::WorkOfRank work_of_others() const override;
 
  private:
-  enum Tag : int { kQuestion = 1, kAnswer, kNumber, kStopCounting, kRows, kEnd, kAllEnded };
+  enum Tag : int { kQuestion = 1, kAnswer, kNumber, kStopCounting, kTile, kEnd, kAllEnded };
   struct Message {
     int rank;
     Tag tag;
@@ -58,7 +58,7 @@ class MpiConversation final : public cli::Conversation {
   struct Sending {
     Bytes bytes;
     MPI_Request request = MPI_REQUEST_NULL;
-    bool is_rows;
+    bool is_tile;
   };
   // Somebody who waits for answers.
   struct Waiter {
@@ -86,13 +86,13 @@ class MpiConversation final : public cli::Conversation {
   std::thread messenger_;
 
   mutable std::mutex mutex_;
-  std::condition_variable left_something_, may_give_, has_rows_, has_question_;
+  std::condition_variable left_something_, may_give_, has_tiles_, has_question_;
   std::deque<Message> outgoing_, questions_;
   std::map<std::int64_t, std::pair<Waiter*, std::size_t>> waiting_;  // by the question's number
   std::int64_t last_question_ = 0;
   std::int64_t counter_ = 0;  // rank 0
-  int rows_on_way_ = 0;
-  std::deque<cli::GivenRows> rows_;
+  int tiles_on_way_ = 0;
+  std::deque<cli::GivenTile> tiles_;
   int ended_ = 0;
   bool own_ended_ = false, somebody_failed_ = false, closing_ = false, no_more_questions_ = false;
   cli::WorkOfRank work_of_others_;

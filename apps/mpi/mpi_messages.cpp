@@ -14,15 +14,15 @@ std::vector<char> packed(std::int64_t number, const Film& film) {
   return bytes;
 }
 
-cli::GivenRows unpacked_rows(const std::vector<char>& bytes) {
+cli::GivenTile unpacked_tile(const std::vector<char>& bytes) {
   ByteReader in(bytes);
-  cli::GivenRows rows{in.take<std::int64_t>(), {}};
+  cli::GivenTile tile{in.take<std::int64_t>(), {}};
   const auto width = in.take<std::int32_t>();
   const auto height = in.take<std::int32_t>();
-  rows.film.resize(width, height, in.take<std::int32_t>() != 0);
-  in.take_array(rows.film.radiance.data(), rows.film.radiance.size());
-  in.take_array(rows.film.coverage.data(), rows.film.coverage.size());
-  return rows;
+  tile.film.resize(width, height, in.take<std::int32_t>() != 0);
+  in.take_array(tile.film.radiance.data(), tile.film.radiance.size());
+  in.take_array(tile.film.coverage.data(), tile.film.coverage.size());
+  return tile;
 }
 
 std::vector<char> packed(const EndOfRank& end) {

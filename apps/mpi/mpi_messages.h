@@ -8,9 +8,9 @@
 
 namespace bihive::mpi {
 
-/// Rows of a picture, and the end of them.
+/// A tile of a picture, and the end of them.
 std::vector<char> packed(std::int64_t number, const Film& film);
-cli::GivenRows unpacked_rows(const std::vector<char>& bytes);
+cli::GivenTile unpacked_tile(const std::vector<char>& bytes);
 
 struct EndOfRank {
   cli::WorkOfRank work;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <numeric>
 #include <utility>
 
 #include "mpi_conversation.h"
@@ -10,7 +11,7 @@
 namespace bihive::mpi {
 namespace {
 
-enum Tag : int { kRows = 1, kEnd = 2, kScattered = 3 };
+enum Tag : int { kTile = 1, kEnd, kScattered, kAskNumber, kNumber };
 
 // No message is longer, because MPI counts bytes with 31 bits.
 constexpr std::size_t kLongestMessage = std::size_t{1} << 29;
@@ -24,24 +25,30 @@ void for_each_message(char* bytes, std::size_t count, const Use& use) {
 
 }  // namespace
 
-MpiTeam::MpiTeam(bool distributes) : distributes_(distributes) {
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+MpiTeam::MpiTeam(MPI_Comm comm, bool distributes, Counting counting) : distributes_(distributes) {
+  MPI_Comm_dup(comm, &comm_);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &size_);
   MPI_Comm machine = MPI_COMM_NULL;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
+  MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
   MPI_Comm_size(machine, &size_on_machine_);
   MPI_Comm_free(&machine);
-  // The counter lies with rank 0. Epochs last as long as the team.
-  MPI_Win_allocate(rank_ == 0 ? sizeof(std::int64_t) : 0, sizeof(std::int64_t), MPI_INFO_NULL, MPI_COMM_WORLD,
-                   &counter_, &window_);
-  if (rank_ == 0) *counter_ = 0;
-  MPI_Barrier(MPI_COMM_WORLD);
-  MPI_Win_lock_all(0, window_);
+  counter_ = std::make_unique<SharedCounter>(comm_, counting == Counting::shared);
 }
 
 MpiTeam::~MpiTeam() {
-  MPI_Win_unlock_all(window_);
-  MPI_Win_free(&window_);
+  counter_.reset();
+  MPI_Comm_free(&comm_);
+}
+
+std::unique_ptr<cli::Team> MpiTeam::part(int number) {
+  go_on_if_all_do();
+  MPI_Comm part = MPI_COMM_NULL;
+  MPI_Comm_split(comm_, number, rank_, &part);
+  // Open MPI 4.1.4 gives the windows of several such parts of one machine the same file in shared memory.
+  auto team = std::make_unique<MpiTeam>(part, distributes_, Counting::by_messages);
+  MPI_Comm_free(&part);
+  return team;
 }
 
 // The lowest rank that failed, and its code.
@@ -49,9 +56,9 @@ int MpiTeam::share(int code) {
   const std::lock_guard lock(mutex_);
   const int mine = code == 0 ? INT_MAX : rank_;
   int lowest = INT_MAX;
-  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, comm_);
   if (lowest == INT_MAX) return 0;
-  MPI_Bcast(&code, 1, MPI_INT, lowest, MPI_COMM_WORLD);
+  MPI_Bcast(&code, 1, MPI_INT, lowest, comm_);
   code_ = code;
   speaks_ = lowest == rank_;
   return code;
@@ -77,7 +84,7 @@ void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
   for (const cli::Fingerprint& one : seen) wanted.push_back(one.hash);
   {
     const std::lock_guard lock(mutex_);
-    MPI_Bcast(wanted.data(), static_cast<int>(wanted.size()), MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    MPI_Bcast(wanted.data(), static_cast<int>(wanted.size()), MPI_UINT64_T, 0, comm_);
   }
   std::string differs;
   for (std::size_t i = 0; i < seen.size() && differs.empty(); ++i)
@@ -89,21 +96,40 @@ void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
              "give all ranks the same program and the same words"});
 }
 
+void MpiTeam::begin_picture() {
+  go_on_if_all_do();
+  const std::lock_guard lock(mutex_);
+  if (rank_ == 0) counter_->set(0);
+  ended_ = 0;
+  somebody_failed_ = false;
+  work_of_others_ = {};
+  MPI_Barrier(comm_);
+}
+
 std::int64_t MpiTeam::next_number() {
   const std::lock_guard lock(mutex_);
-  const std::int64_t one = 1;
-  std::int64_t number = 0;
-  MPI_Fetch_and_op(&one, &number, MPI_INT64_T, 0, 0, MPI_SUM, window_);
-  MPI_Win_flush(0, window_);
+  return counter_->is_shared() || rank_ == 0 ? counter_->add(1) : asked_number();
+}
+
+// Rank 0 answers when it looks for messages, so ranks ask for a number while they work on the one before.
+void MpiTeam::ask_for_number() {
+  MPI_Irecv(&number_, 1, MPI_INT64_T, 0, kNumber, comm_, &number_request_);
+  MPI_Send(nullptr, 0, MPI_BYTE, 0, kAskNumber, comm_);
+  awaits_number_ = true;
+}
+
+std::int64_t MpiTeam::asked_number() {
+  if (!awaits_number_) ask_for_number();
+  MPI_Wait(&number_request_, MPI_STATUS_IGNORE);
+  awaits_number_ = false;
+  const std::int64_t number = number_;
+  ask_for_number();
   return number;
 }
 
 void MpiTeam::stop_counting() {
   const std::lock_guard lock(mutex_);
-  const std::int64_t beyond = std::int64_t{1} << 40;
-  std::int64_t before = 0;
-  MPI_Fetch_and_op(&beyond, &before, MPI_INT64_T, 0, 0, MPI_SUM, window_);
-  MPI_Win_flush(0, window_);
+  counter_->add(std::int64_t{1} << 40);
 }
 
 void MpiTeam::give(std::int64_t number, const Film& film) {
@@ -113,54 +139,74 @@ void MpiTeam::give(std::int64_t number, const Film& film) {
   next_sending_ = 1 - next_sending_;
   MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
   sending.bytes = std::move(bytes);
-  MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, 0, kRows, MPI_COMM_WORLD,
-            &sending.request);
+  MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, 0, kTile, comm_, &sending.request);
 }
 
 void MpiTeam::end_giving(const cli::WorkOfRank& work, bool failed) {
   const std::vector<char> end = packed(EndOfRank{work, failed});
   const std::lock_guard lock(mutex_);
   for (Sending& sending : sending_) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
-  MPI_Send(end.data(), static_cast<int>(end.size()), MPI_BYTE, 0, kEnd, MPI_COMM_WORLD);
+  if (awaits_number_) MPI_Wait(&number_request_, MPI_STATUS_IGNORE);
+  awaits_number_ = false;
+  MPI_Send(end.data(), static_cast<int>(end.size()), MPI_BYTE, 0, kEnd, comm_);
 }
 
-// Whether there was a message.
-bool MpiTeam::receive_one(bool wait) {
+// Begins to receive what has come, and takes what is here. `wait`: for something.
+void MpiTeam::receive_one(bool wait) {
   int there = 1;
   MPI_Status status;
-  if (wait)
-    MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &status);
+  if (wait && receiving_.empty())
+    MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, comm_, &status);
   else
-    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
-  if (there == 0) return false;
-  int count = 0;
-  MPI_Get_count(&status, MPI_BYTE, &count);
-  std::vector<char> bytes(static_cast<std::size_t>(count));
-  MPI_Recv(bytes.data(), count, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  if (status.MPI_TAG == kRows) {
-    received_.push_back(unpacked_rows(bytes));
-    return true;
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, comm_, &there, &status);
+  if (there != 0) {
+    int count = 0;
+    MPI_Get_count(&status, MPI_BYTE, &count);
+    Receiving& one = receiving_.emplace_back(
+        Receiving{status.MPI_SOURCE, status.MPI_TAG, std::vector<char>(static_cast<std::size_t>(count))});
+    MPI_Irecv(one.bytes.data(), count, MPI_BYTE, one.source, one.tag, comm_, &one.request);
   }
-  const EndOfRank end = unpacked_end(bytes);
-  ++ended_;
-  somebody_failed_ = somebody_failed_ || end.failed;
-  work_of_others_.add(end.work);
-  return true;
-}
-
-void MpiTeam::receive() {
-  const std::lock_guard lock(mutex_);
-  while (receive_one(/*wait=*/false)) {
+  for (auto one = receiving_.begin(); one != receiving_.end();) {
+    int arrived = 0;
+    MPI_Test(&one->request, &arrived, MPI_STATUS_IGNORE);
+    if (arrived == 0) {
+      ++one;
+      continue;
+    }
+    take_message(one->source, one->tag, one->bytes);
+    one = receiving_.erase(one);
   }
 }
 
-std::optional<cli::GivenRows> MpiTeam::take(bool wait) {
-  const std::lock_guard lock(mutex_);
-  while (receive_one(/*wait=*/false)) {
+void MpiTeam::take_message(int source, int tag, const std::vector<char>& bytes) {
+  if (tag == kTile) {
+    received_.push_back(unpacked_tile(bytes));
+  } else if (tag == kAskNumber) {
+    const std::int64_t number = counter_->add(1);
+    MPI_Send(&number, 1, MPI_INT64_T, source, kNumber, comm_);
+  } else {
+    const EndOfRank end = unpacked_end(bytes);
+    ++ended_;
+    somebody_failed_ = somebody_failed_ || end.failed;
+    work_of_others_.add(end.work);
   }
-  while (wait && received_.empty() && ended_ < size_ - 1) receive_one(/*wait=*/true);
+}
+
+void MpiTeam::move_on() {
+  const std::lock_guard lock(mutex_);
+  if (rank_ == 0) return receive_one(/*wait=*/false);
+  for (Sending& sending : sending_) {
+    int arrived = 0;
+    MPI_Test(&sending.request, &arrived, MPI_STATUS_IGNORE);
+  }
+}
+
+std::optional<cli::GivenTile> MpiTeam::take(bool wait) {
+  const std::lock_guard lock(mutex_);
+  receive_one(/*wait=*/false);
+  while (wait && received_.empty() && (ended_ < size_ - 1 || !receiving_.empty())) receive_one(/*wait=*/true);
   if (received_.empty()) return std::nullopt;
-  cli::GivenRows first = std::move(received_.front());
+  cli::GivenTile first = std::move(received_.front());
   received_.pop_front();
   return first;
 }
@@ -170,14 +216,25 @@ std::vector<Bytes> MpiTeam::gather(const Bytes& of_this_rank) {
   const std::lock_guard lock(mutex_);
   const auto own = static_cast<std::int64_t>(of_this_rank.size());
   std::vector<std::int64_t> sizes(static_cast<std::size_t>(size_));
-  MPI_Allgather(&own, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
+  MPI_Allgather(&own, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, comm_);
   std::vector<Bytes> all(sizes.size());
+  const std::int64_t sum = std::accumulate(sizes.begin(), sizes.end(), std::int64_t{0});
+  if (sum <= static_cast<std::int64_t>(kLongestMessage)) {
+    std::vector<int> counts(sizes.begin(), sizes.end()), places(sizes.size());
+    std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
+    Bytes together(static_cast<std::size_t>(sum));
+    MPI_Allgatherv(of_this_rank.data(), static_cast<int>(own), MPI_BYTE, together.data(), counts.data(), places.data(),
+                   MPI_BYTE, comm_);
+    for (std::size_t rank = 0; rank < all.size(); ++rank)
+      all[rank].assign(together.begin() + places[rank], together.begin() + places[rank] + counts[rank]);
+    return all;
+  }
   for (int rank = 0; rank < size_; ++rank) {
     Bytes& bytes = all[static_cast<std::size_t>(rank)];
     if (rank == rank_) bytes = of_this_rank;
     bytes.resize(static_cast<std::size_t>(sizes[static_cast<std::size_t>(rank)]));
     for_each_message(bytes.data(), bytes.size(),
-                     [&](char* first, int count) { MPI_Bcast(first, count, MPI_BYTE, rank, MPI_COMM_WORLD); });
+                     [&](char* first, int count) { MPI_Bcast(first, count, MPI_BYTE, rank, comm_); });
   }
   return all;
 }
@@ -186,17 +243,17 @@ Bytes MpiTeam::from_first(Bytes of_first) {
   go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   auto size = static_cast<std::int64_t>(of_first.size());
-  MPI_Bcast(&size, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
+  MPI_Bcast(&size, 1, MPI_INT64_T, 0, comm_);
   of_first.resize(static_cast<std::size_t>(size));
   for_each_message(of_first.data(), of_first.size(),
-                   [](char* first, int count) { MPI_Bcast(first, count, MPI_BYTE, 0, MPI_COMM_WORLD); });
+                   [this](char* first, int count) { MPI_Bcast(first, count, MPI_BYTE, 0, comm_); });
   return of_first;
 }
 
 void MpiTeam::take_greatest(std::vector<double>& numbers) {
   go_on_if_all_do();
   const std::lock_guard lock(mutex_);
-  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_MAX, comm_);
 }
 
 std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
@@ -204,7 +261,7 @@ std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
   const std::lock_guard lock(mutex_);
   std::vector<std::int64_t> sizes, coming(for_each_rank.size());
   for (const Bytes& bytes : for_each_rank) sizes.push_back(static_cast<std::int64_t>(bytes.size()));
-  MPI_Alltoall(sizes.data(), 1, MPI_INT64_T, coming.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
+  MPI_Alltoall(sizes.data(), 1, MPI_INT64_T, coming.data(), 1, MPI_INT64_T, comm_);
   std::vector<Bytes> got(for_each_rank.size());
   std::vector<MPI_Request> requests;
   for (int rank = 0; rank < size_; ++rank) {
@@ -216,10 +273,10 @@ std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
     }
     bytes.resize(static_cast<std::size_t>(coming[static_cast<std::size_t>(rank)]));
     for_each_message(bytes.data(), bytes.size(), [&](char* first, int count) {
-      MPI_Irecv(first, count, MPI_BYTE, rank, kScattered, MPI_COMM_WORLD, &requests.emplace_back());
+      MPI_Irecv(first, count, MPI_BYTE, rank, kScattered, comm_, &requests.emplace_back());
     });
     for_each_message(const_cast<char*>(given.data()), given.size(), [&](char* first, int count) {
-      MPI_Isend(first, count, MPI_BYTE, rank, kScattered, MPI_COMM_WORLD, &requests.emplace_back());
+      MPI_Isend(first, count, MPI_BYTE, rank, kScattered, comm_, &requests.emplace_back());
     });
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
@@ -227,7 +284,7 @@ std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
 }
 
 std::unique_ptr<cli::Conversation> MpiTeam::converse(std::function<Bytes(const Bytes&)> answer, int threads) {
-  return std::make_unique<MpiConversation>(std::move(answer), threads);
+  return std::make_unique<MpiConversation>(comm_, std::move(answer), threads);
 }
 
 }  // namespace bihive::mpi

@@ -10,17 +10,20 @@
 #include <optional>
 #include <vector>
 
+#include "shared_counter.h"
 #include "support/failure.h"
 #include "support/team.h"
 
 namespace bihive::mpi {
 
-/// All ranks of MPI_COMM_WORLD make one at the same time, after MPI_Init_thread with MPI_THREAD_SERIALIZED or more, and
-/// destroy it before MPI_Finalize.
+/// All ranks of the communicator make one at the same time, after MPI_Init_thread with MPI_THREAD_SERIALIZED or more,
+/// and destroy it before MPI_Finalize.
 class MpiTeam final : public cli::Team {
  public:
-  /// `distributes`: the spheres are distributed over the ranks.
-  explicit MpiTeam(bool distributes);
+  enum class Counting { shared, by_messages };
+  /// Has a copy of the communicator. `distributes`: the spheres are distributed over the ranks. `counting`: numbers go
+  /// by messages also where no counter can be shared.
+  MpiTeam(MPI_Comm comm, bool distributes, Counting counting);
   ~MpiTeam() override;
   MpiTeam(const MpiTeam&) = delete;
   MpiTeam& operator=(const MpiTeam&) = delete;
@@ -38,31 +41,39 @@ class MpiTeam final : public cli::Team {
   std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) override;
 
   void agree(const std::vector<cli::Fingerprint>& seen) override;
+  std::unique_ptr<cli::Team> part(int number) override;
+  void begin_picture() override;
   std::int64_t next_number() override;
   void stop_counting() override;
   void give(std::int64_t number, const Film& film) override;
   void end_giving(const cli::WorkOfRank& work, bool failed) override;
-  void receive() override;
-  std::optional<cli::GivenRows> take(bool wait) override;
+  void move_on() override;
+  std::optional<cli::GivenTile> take(bool wait) override;
   bool somebody_failed() const override { return somebody_failed_; }
   cli::WorkOfRank work_of_others() const override { return work_of_others_; }
 
-  /// All ranks come here at their end, unless a rank that failed made them leave agree(). Returns 0, or the code of the
-  /// lowest rank that failed.
-  int end_with(int code);
-  /// Then: whether this rank is the one to say why.
+  int end_with(int code) override;
+  /// After end_with(): whether this rank is the one to say why.
   bool speaks() const { return speaks_; }
 
  private:
   int share(int code);
   void go_on_if_all_do();
-  bool receive_one(bool wait);
+  void receive_one(bool wait);
+  void take_message(int source, int tag, const std::vector<char>& bytes);
+  void ask_for_number();
+  std::int64_t asked_number();
 
+  MPI_Comm comm_ = MPI_COMM_NULL;
   bool distributes_;
   int rank_ = 0, size_ = 1, size_on_machine_ = 1;
   std::mutex mutex_;  // MPI takes one thread at a time
-  MPI_Win window_ = MPI_WIN_NULL;
-  std::int64_t* counter_ = nullptr;
+  std::unique_ptr<SharedCounter> counter_;
+
+  // Where the counter is not shared: an answer of rank 0 that is on its way.
+  bool awaits_number_ = false;
+  std::int64_t number_ = 0;
+  MPI_Request number_request_ = MPI_REQUEST_NULL;
 
   // On their way from this rank: the bytes must stay.
   struct Sending {
@@ -72,7 +83,15 @@ class MpiTeam final : public cli::Team {
   Sending sending_[2];
   int next_sending_ = 0;
 
-  std::deque<cli::GivenRows> received_;
+  // On their way to this rank. A rank that draws lets its messages move on only now and then, so nobody waits for one.
+  struct Receiving {
+    int source, tag;
+    std::vector<char> bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+  std::deque<Receiving> receiving_;
+
+  std::deque<cli::GivenTile> received_;
   int ended_ = 0;
   bool somebody_failed_ = false;
   int code_ = 0;  // of all

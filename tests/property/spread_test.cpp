@@ -4,47 +4,30 @@
 #include <cstring>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "bihive/render/renderer.h"
 #include "bihive/scene/generators.h"
-#include "bihive/spread/spread_scene.h"
+#include "bihive/spread/ranks_in_process.h"
 #include "support/effort.h"
 #include "support/random_scene.h"
-#include "support/ranks_here.h"
 
 namespace bihive {
 namespace {
 
-// A scene on ranks that are threads of this process.
-class RanksHere {
- public:
-  /// `first_of_all`: rank 0 has all spheres at first; else each rank has some that follow each other.
-  RanksHere(const Scene& whole, const RenderSettings& settings, int ranks, bool first_has_all)
-      : meeting_(ranks), scenes_(static_cast<std::size_t>(ranks)) {
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < ranks; ++rank)
-      threads.emplace_back([&, rank] {
-        test::RankThread here(rank, meeting_);
-        Scene mine = test::part_of_scene(whole, first_has_all ? (rank == 0 ? 0 : 1) : rank, first_has_all ? 1 : ranks);
-        scenes_[static_cast<std::size_t>(rank)] = SpreadScene::make(std::move(mine), settings, {}, here).value();
-      });
-    for (std::thread& thread : threads) thread.join();
-  }
+std::unique_ptr<RanksInProcess> spread(const Scene& whole, const RenderSettings& settings, int ranks,
+                                       FirstSpheres first = FirstSpheres::in_order) {
+  Result<std::unique_ptr<RanksInProcess>> made = RanksInProcess::make(whole, settings, {}, ranks, first);
+  return std::move(*made);
+}
 
-  Rendered draw(int rank, RenderSettings settings) {
-    test::LocalExchange exchange(rank, scenes_);
-    const std::unique_ptr<SpreadScene::Artist> artist = scenes_[static_cast<std::size_t>(rank)]->artist(exchange);
-    settings.threads = 1;
-    return render(artist->scene(), artist->tracer(), settings).value();
-  }
-
- private:
-  test::Meeting meeting_;
-  std::vector<std::shared_ptr<const SpreadScene>> scenes_;
-};
+Rendered draw(RanksInProcess& ranks, int rank, RenderSettings settings) {
+  const std::unique_ptr<Exchange> exchange = ranks.exchange(rank);
+  const std::unique_ptr<SpreadScene::Artist> artist = ranks.scene(rank).artist(*exchange);
+  settings.threads = 1;
+  return render(artist->scene(), artist->tracer(), settings).value();
+}
 
 void expect_same(const Rendered& expected, const Rendered& drawn, const std::string& what) {
   ASSERT_EQ(expected.film.radiance.size(), drawn.film.radiance.size());
@@ -66,8 +49,9 @@ TEST(Spread, pictures_are_those_of_one_process) {
     const RenderSettings settings = test::random_settings(seed);
     const Rendered expected = render(scene, Tracer::build(scene, Engine::wide).value(), settings).value();
     for (const int ranks : {1, 2, 3, 4, 7, 8, 100}) {
-      RanksHere here(scene, settings, ranks, seed % 2 == 0);
-      expect_same(expected, here.draw(static_cast<int>(seed) % ranks, settings),
+      const auto here =
+          spread(scene, settings, ranks, seed % 2 == 0 ? FirstSpheres::all_on_rank_0 : FirstSpheres::in_order);
+      expect_same(expected, draw(*here, static_cast<int>(seed) % ranks, settings),
                   scene.name + " on " + std::to_string(ranks) + " ranks");
       if (::testing::Test::HasFailure()) return;
     }
@@ -82,9 +66,9 @@ TEST(Spread, other_views) {
       settings.view = view;
       settings.transparent = seed % 2 == 0;
       const Rendered expected = render(scene, Tracer::build(scene, Engine::wide).value(), settings).value();
-      RanksHere here(scene, settings, 3, false);
-      expect_same(expected, here.draw(1, settings), scene.name + ", view " + std::to_string(static_cast<int>(view)));
-      EXPECT_EQ(expected.film.coverage, here.draw(2, settings).film.coverage);
+      const auto here = spread(scene, settings, 3);
+      expect_same(expected, draw(*here, 1, settings), scene.name + ", view " + std::to_string(static_cast<int>(view)));
+      EXPECT_EQ(expected.film.coverage, draw(*here, 2, settings).film.coverage);
     }
   }
 }
@@ -125,8 +109,8 @@ TEST(Spread, spheres_that_coincide_touch_or_lie_in_each_other) {
       settings.ambient_occlusion = {2 * unit, 7};
       const Rendered expected = render(scene, Tracer::build(scene, Engine::wide).value(), settings).value();
       for (const int ranks : {2, 5, 40}) {
-        RanksHere here(scene, settings, ranks, false);
-        expect_same(expected, here.draw(0, settings), std::to_string(unit) + ", " + std::to_string(ranks) + " ranks");
+        const auto here = spread(scene, settings, ranks);
+        expect_same(expected, draw(*here, 0, settings), std::to_string(unit) + ", " + std::to_string(ranks) + " ranks");
       }
     }
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bihive/base/timer.h"
-#include "commands/picture_bands.h"
+#include "commands/tiles_in_order.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 
@@ -27,12 +27,12 @@ void stop_if_asked() {
   if (CancellableSection::token().cancelled()) throw Interrupted{};
 }
 
-// The threads of this rank that draw bands.
+// The threads of this rank that draw tiles.
 class DrawingThreads {
  public:
-  DrawingThreads(const SpreadScene& spread, const RenderSettings& settings, const PictureBands& bands,
+  DrawingThreads(const SpreadScene& spread, const RenderSettings& settings, const PictureTiles& tiles,
                  Conversation& conversation)
-      : spread_(spread), settings_(settings), bands_(bands), conversation_(conversation) {
+      : spread_(spread), settings_(settings), tiles_(tiles), conversation_(conversation) {
     settings_.threads = 1;
   }
 
@@ -54,15 +54,15 @@ class DrawingThreads {
       const auto next = [&]() -> std::optional<Tile> {
         artist->rest();
         number = conversation_.next_number();
-        if (number >= bands_.count()) return std::nullopt;
-        return bands_.pixels(number);
+        if (number >= tiles_.count()) return std::nullopt;
+        return tiles_.pixels(number);
       };
       const auto give = [&](const Film& film, const Tile&) -> Status {
         conversation_.give(number, film);
         return Done{};
       };
       Result<RenderedBands> rendered =
-          render_bands(artist->scene(), artist->tracer(), settings_, next, give, {}, &CancellableSection::token());
+          render_parts(artist->scene(), artist->tracer(), settings_, next, give, {}, &CancellableSection::token());
       stop_if_asked();
       const RenderCounts rays = value_or_fail(std::move(rendered)).rays;
       const std::lock_guard lock(mutex_);
@@ -76,7 +76,7 @@ class DrawingThreads {
 
   const SpreadScene& spread_;
   RenderSettings settings_;
-  const PictureBands& bands_;
+  const PictureTiles& tiles_;
   Conversation& conversation_;
   std::vector<std::thread> threads_;
   std::mutex mutex_;
@@ -98,8 +98,8 @@ void rethrow(const std::exception_ptr& failure) {
 Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, PictureFile* file,
                   const ProgressCallback& progress, Team& team, Conversation& conversation) {
   const Timer timer;
-  const PictureBands bands(settings, team.size() * drawing_threads(settings));
-  DrawingThreads drawing(spread, settings, bands, conversation);
+  const PictureTiles tiles(settings, team.size() * drawing_threads(settings));
+  DrawingThreads drawing(spread, settings, tiles, conversation);
   drawing.run(drawing_threads(settings));
   Drawn drawn;
   Status written = Done{};
@@ -114,9 +114,9 @@ Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, Pic
       drawing.join();
       conversation.end_own_giving();
     });
-    BandsInOrder in_order(bands, *file, progress);
+    TilesInOrder in_order(tiles, *file, progress);
     try {
-      while (std::optional<GivenRows> given = conversation.take(/*wait=*/true)) {
+      while (std::optional<GivenTile> given = conversation.take(/*wait=*/true)) {
         if (!failure) in_order.add(given->number, std::move(given->film));
         if (!in_order.status() || conversation.somebody_failed()) conversation.stop_counting();
       }

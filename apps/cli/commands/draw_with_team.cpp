@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
-#include "commands/picture_bands.h"
+#include "commands/tiles_in_order.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 
@@ -16,7 +16,7 @@ void stop_if_signalled() {
 }
 
 // Ranks above 0.
-RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const PictureBands& bands,
+RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, const PictureTiles& tiles,
                   Team& team) {
   RenderCounts rays;
   std::exception_ptr failure;
@@ -24,15 +24,16 @@ RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings
     std::int64_t number = 0;
     const auto next = [&]() -> std::optional<Tile> {
       number = team.next_number();
-      if (number >= bands.count()) return std::nullopt;
-      return bands.pixels(number);
+      if (number >= tiles.count()) return std::nullopt;
+      return tiles.pixels(number);
     };
     const auto give = [&](const Film& film, const Tile&) -> Status {
       team.give(number, film);
       return Done{};
     };
+    const auto while_drawing = [&](double) { team.move_on(); };
     Result<RenderedBands> rendered =
-        render_bands(scene, tracer, settings, next, give, {}, &CancellableSection::token());
+        render_parts(scene, tracer, settings, next, give, while_drawing, &CancellableSection::token());
     stop_if_signalled();
     rays = value_or_fail(std::move(rendered)).rays;
   } catch (...) {
@@ -43,11 +44,11 @@ RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings
   return rays;
 }
 
-// Rank 0, which draws too, and puts the bands of all into the file in their order.
+// Rank 0, which draws too, and puts the tiles of all into the file in their order.
 class Leader {
  public:
-  Leader(const PictureBands& bands, PictureFile& file, const ProgressCallback& progress, Team& team)
-      : bands_(bands), in_order_(bands, file, progress), team_(team) {}
+  Leader(const PictureTiles& tiles, PictureFile& file, const ProgressCallback& progress, Team& team)
+      : tiles_(tiles), in_order_(tiles, file, progress), team_(team) {}
 
   RenderCounts lead(const Scene& scene, const Tracer& tracer, const RenderSettings& settings) {
     RenderCounts rays;
@@ -57,24 +58,23 @@ class Leader {
       const auto next = [&]() -> std::optional<Tile> {
         write_what_came();
         number = team_.next_number();
-        if (number >= bands_.count()) return std::nullopt;
-        return bands_.pixels(number);
+        if (number >= tiles_.count()) return std::nullopt;
+        return tiles_.pixels(number);
       };
       const auto keep = [&](const Film& film, const Tile&) -> Status {
         add(number, film);
         return Done{};
       };
-      // The other ranks wait for whoever receives, so that goes on while this one draws.
-      const auto while_drawing = [&](double) { team_.receive(); };
+      const auto while_drawing = [&](double) { team_.move_on(); };
       Result<RenderedBands> rendered =
-          render_bands(scene, tracer, settings, next, keep, while_drawing, &CancellableSection::token());
+          render_parts(scene, tracer, settings, next, keep, while_drawing, &CancellableSection::token());
       stop_if_signalled();
       rays = value_or_fail(std::move(rendered)).rays;
     } catch (...) {
       failure = std::current_exception();
       team_.stop_counting();
     }
-    while (std::optional<GivenRows> given = team_.take(/*wait=*/true)) {
+    while (std::optional<GivenTile> given = team_.take(/*wait=*/true)) {
       if (!failure) add(given->number, std::move(given->film));
       if (team_.somebody_failed()) team_.stop_counting();
     }
@@ -87,7 +87,7 @@ class Leader {
 
  private:
   void write_what_came() {
-    while (std::optional<GivenRows> given = team_.take(/*wait=*/false)) add(given->number, std::move(given->film));
+    while (std::optional<GivenTile> given = team_.take(/*wait=*/false)) add(given->number, std::move(given->film));
     if (team_.somebody_failed()) team_.stop_counting();
   }
 
@@ -96,8 +96,8 @@ class Leader {
     if (!in_order_.status()) team_.stop_counting();
   }
 
-  const PictureBands& bands_;
-  BandsInOrder in_order_;
+  const PictureTiles& tiles_;
+  TilesInOrder in_order_;
   Team& team_;
 };
 
@@ -106,9 +106,10 @@ class Leader {
 Drawn draw_with_team(const Scene& scene, const Tracer& tracer, const RenderSettings& settings, PictureFile* file,
                      const ProgressCallback& progress, Team& team) {
   const Timer timer;
-  const PictureBands bands(settings, team.size());
-  const RenderCounts rays = file == nullptr ? help(scene, tracer, settings, bands, team)
-                                            : Leader(bands, *file, progress, team).lead(scene, tracer, settings);
+  team.begin_picture();
+  const PictureTiles tiles(settings, team.size());
+  const RenderCounts rays = file == nullptr ? help(scene, tracer, settings, tiles, team)
+                                            : Leader(tiles, *file, progress, team).lead(scene, tracer, settings);
   Drawn drawn = drawn_with(rays);
   drawn.render_ms = timer.elapsed_ms();
   return drawn;

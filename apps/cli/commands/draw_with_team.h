@@ -1,4 +1,4 @@
-// One picture by several processes: bands of rows, handed out by a counter that all share.
+// One picture by several processes: tiles, handed out by a counter that all share.
 #pragma once
 
 #include "commands/draw_picture.h"

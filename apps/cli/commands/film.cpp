@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -28,6 +29,7 @@
 #include "support/messages.h"
 #include "support/outputs.h"
 #include "support/peak_memory.h"
+#include "support/team.h"
 
 namespace bihive::cli {
 namespace {
@@ -138,13 +140,13 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
 // is left if no picture is whole.
 FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
                        const std::vector<std::int64_t>& wanted, const std::vector<std::int64_t>& missing,
-                       FilmFolder& folder, FilmSink& sink) {
+                       FilmFolder& folder, FilmSink* sink, Team* team) {
   const auto nothing_is_whole = [&] {
-    return std::none_of(wanted.begin(), wanted.end(), [&](std::int64_t number) { return sink.has(number); });
+    return std::none_of(wanted.begin(), wanted.end(), [&](std::int64_t number) { return sink->has(number); });
   };
   try {
-    const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink);
-    if (!options.shard) sink.finish();
+    const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink, team);
+    if (!options.shard) sink->finish();
     return times;
   } catch (const Interrupted&) {
     // The folder of a shard belongs to the others too.
@@ -205,6 +207,72 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
   print_film_report(options, plan, report);
 }
 
+// Where there are more ranks than pictures, several ranks draw each picture together, and the first of them writes it.
+// Null: alone.
+std::unique_ptr<Team> team_of_picture(FilmOptions& options, std::int64_t pictures) {
+  if (team() == nullptr || team()->size() <= pictures) return nullptr;
+  const auto teams = static_cast<int>(pictures);
+  const int number = team()->rank() % teams;
+  options.shard = Shard{number, teams};
+  return team()->part(number);
+}
+
+// A rank that fails says so to its team. The others leave without a word.
+template <class Run>
+void run_in_team(Team* team, const Run& run) {
+  if (team == nullptr) return run();
+  try {
+    run();
+  } catch (const OtherRankFailed&) {
+    throw OtherRankFailed{kSuccess};
+  } catch (...) {
+    team->end_with(kBadInput);
+    throw;
+  }
+  if (team->end_with(kSuccess) != kSuccess) throw OtherRankFailed{kSuccess};
+}
+
+std::vector<std::int64_t> from_first(const std::vector<std::int64_t>& numbers, Team& team) {
+  Bytes bytes;
+  ByteWriter(bytes).put_array(numbers.data(), numbers.size());
+  bytes = team.from_first(std::move(bytes));
+  std::vector<std::int64_t> of_first(bytes.size() / sizeof(std::int64_t));
+  ByteReader(bytes).take_array(of_first.data(), of_first.size());
+  return of_first;
+}
+
+// All that follows when it is known what the film shows.
+void make_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const Style& style,
+                   const FrameSource& source, FilmPlan plan, FilmFolder& folder, Team* team, const Timer& timer) {
+  const CancellableSection section;
+  if (!folder.kept()) plan.fixed = fixed_by_film(source, plan, options, style);
+  CancellableSection::leave_if_cancelled();
+  value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
+  const bool writes = team == nullptr || team->rank() == 0;
+  std::unique_ptr<FilmSink> sink;
+  if (writes) folder.take(plan, /*alone=*/!options.shard);
+  try {
+    if (writes) sink = open_sink(plan, options, kind, ffmpeg);
+  } catch (...) {
+    if (!options.shard && !folder.kept()) folder.leave_nothing();
+    throw;
+  }
+  const std::vector<std::int64_t> wanted = wanted_pictures(plan, options);
+  std::vector<std::int64_t> missing;
+  if (writes)
+    std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
+                 [&](std::int64_t number) { return !sink->has(number); });
+  if (team != nullptr) missing = from_first(missing, *team);
+
+  // Make it.
+  FilmReport report;
+  report.kept = static_cast<std::int64_t>(wanted.size() - missing.size());
+  report.times = make_missing(source, plan, options, style, wanted, missing, folder, sink.get(), team);
+  if (!options.shard) folder.finish(plan);
+  report.all_ms = timer.elapsed_ms();
+  if (!options.silent) print_film_report(options, plan, report);
+}
+
 }  // namespace
 
 void run_film(const FilmOptions& asked) {
@@ -236,30 +304,9 @@ void run_film(const FilmOptions& asked) {
     plan = *folder.kept();
   }
 
-  const CancellableSection section;
-  if (!folder.kept()) plan.fixed = fixed_by_film(source, plan, options, style);
-  CancellableSection::leave_if_cancelled();
-  value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
-  folder.take(plan, /*alone=*/!options.shard);
-  std::unique_ptr<FilmSink> sink;
-  try {
-    sink = open_sink(plan, options, kind, ffmpeg);
-  } catch (...) {
-    if (!options.shard && !folder.kept()) folder.leave_nothing();
-    throw;
-  }
-  const std::vector<std::int64_t> wanted = wanted_pictures(plan, options);
-  std::vector<std::int64_t> missing;
-  for (const std::int64_t number : wanted)
-    if (!sink->has(number)) missing.push_back(number);
-
-  // Make it.
-  FilmReport report;
-  report.kept = static_cast<std::int64_t>(wanted.size() - missing.size());
-  report.times = make_missing(source, plan, options, style, wanted, missing, folder, *sink);
-  if (!options.shard) folder.finish(plan);
-  report.all_ms = timer.elapsed_ms();
-  if (!options.silent) print_film_report(options, plan, report);
+  const std::unique_ptr<Team> team = team_of_picture(options, plan.asked.pictures);
+  run_in_team(team.get(),
+              [&] { make_pictures(options, kind, ffmpeg, style, source, plan, folder, team.get(), timer); });
 }
 
 }  // namespace bihive::cli

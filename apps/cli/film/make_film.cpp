@@ -11,6 +11,7 @@
 #include "bihive/base/timer.h"
 #include "bihive/render/draw_labels.h"
 #include "commands/draw_picture.h"
+#include "commands/draw_with_team.h"
 #include "commands/picture_settings.h"
 #include "film/picture_queue.h"
 #include "support/failure.h"
@@ -68,8 +69,8 @@ class PixelsInMemory final : public PictureFile {
 class FilmSteps {
  public:
   FilmSteps(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-            const std::vector<std::int64_t>& pictures, FilmSink& sink)
-      : source_(source), plan_(plan), options_(options), style_(style), pictures_(pictures), sink_(sink) {}
+            const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team)
+      : source_(source), plan_(plan), options_(options), style_(style), pictures_(pictures), sink_(sink), team_(team) {}
 
   FilmTimes run() {
     std::vector<std::thread> threads;
@@ -89,7 +90,9 @@ class FilmSteps {
 
     // The writer is done, so that this thread may use the sink.
     if (failure_ || CancellableSection::token().cancelled()) {
-      guarded([this] { sink_.pause(); });
+      guarded([this] {
+        if (sink_ != nullptr) sink_->pause();
+      });
       if (CancellableSection::token().cancelled()) throw Interrupted{};
       std::rethrow_exception(failure_);
     }
@@ -163,11 +166,11 @@ class FilmSteps {
       const BuiltPicture& picture = **next;
       FilmPicture drawn;
       drawn.number = picture.number;
-      PixelsInMemory pixels(picture, drawn.pixels);
-      draw_picture(picture.input.scene, *picture.tracer, choose_engine(options_), picture.settings, {}, pixels,
-                   [&](double share) {
-                     progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
-                   });
+      const auto update = [&](double share) {
+        progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
+      };
+      draw(picture, drawn.pixels, update);
+      if (sink_ == nullptr) continue;
       const nlohmann::ordered_json described =
           settings_json(picture.options, picture.settings, picture.input.scene, {});
       for (auto& [name, text] : text_of(picture.input.scene, described)) drawn.text.emplace_back(name, latin1(text));
@@ -178,10 +181,24 @@ class FilmSteps {
     drawn_.end();
   }
 
+  // With a team the picture is whole when all have done their share.
+  void draw(const BuiltPicture& picture, PngPixels& drawn, const ProgressCallback& update) {
+    PixelsInMemory pixels(picture, drawn);
+    const RenderEngine engine = choose_engine(options_);
+    const bool is_shared = team_ != nullptr && !is_gpu(engine) && !is_drawn_whole(picture.settings.view);
+    if (team_ != nullptr) team_->agree({});
+    if (is_shared)
+      draw_with_team(picture.input.scene, *picture.tracer, picture.settings, sink_ != nullptr ? &pixels : nullptr,
+                     update, *team_);
+    else if (sink_ != nullptr)
+      draw_picture(picture.input.scene, *picture.tracer, engine, picture.settings, {}, pixels, update);
+    if (team_ != nullptr) team_->agree({});
+  }
+
   void write_all() {
     while (const std::optional<FilmPicture> picture = drawn_.pop()) {
       const Timer timer;
-      sink_.add(*picture);
+      sink_->add(*picture);
       times_.write_ms += timer.elapsed_ms();
     }
   }
@@ -191,7 +208,8 @@ class FilmSteps {
   const RenderOptions& options_;
   const Style& style_;
   const std::vector<std::int64_t>& pictures_;
-  FilmSink& sink_;
+  FilmSink* sink_;
+  Team* team_;
   PictureQueue<ReadPicture> read_{1, CancellableSection::token()};
   PictureQueue<std::unique_ptr<BuiltPicture>> built_{1, CancellableSection::token()};
   PictureQueue<FilmPicture> drawn_{1, CancellableSection::token()};
@@ -203,8 +221,8 @@ class FilmSteps {
 }  // namespace
 
 FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-                    const std::vector<std::int64_t>& pictures, FilmSink& sink) {
-  return FilmSteps(source, plan, options, style, pictures, sink).run();
+                    const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team) {
+  return FilmSteps(source, plan, options, style, pictures, sink, team).run();
 }
 
 }  // namespace bihive::cli

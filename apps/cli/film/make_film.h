@@ -8,6 +8,7 @@
 #include "film/film_plan.h"
 #include "film/film_sink.h"
 #include "film/frame_source.h"
+#include "support/team.h"
 
 namespace bihive::cli {
 
@@ -22,8 +23,9 @@ struct FilmTimes {
 
 /// Reads, builds, traces and writes these pictures, each step on a thread of its own; between two steps one picture
 /// waits at most. Shows progress. After a signal or a failure the sink has paused: it throws Interrupted, or the
-/// failure. The caller has a CancellableSection.
+/// failure. The caller has a CancellableSection. `team`: null, or those who draw each picture together; its rank 0 has
+/// the sink, and the others have none. Throws OtherRankFailed where another one of them has failed.
 FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-                    const std::vector<std::int64_t>& pictures, FilmSink& sink);
+                    const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team);
 
 }  // namespace bihive::cli

@@ -23,8 +23,8 @@ struct Fingerprint {
   std::uint64_t hash;
 };
 
-/// The light of some rows.
-struct GivenRows {
+/// The light of a tile of a picture.
+struct GivenTile {
   std::int64_t number;
   Film film;
 };
@@ -49,22 +49,22 @@ struct WorkOfRank {
   }
 };
 
-/// The bands of a picture on their way from the threads that draw to rank 0, which writes.
-class BandTraffic {
+/// The tiles of a picture on their way from the threads that draw to rank 0, which writes.
+class TileTraffic {
  public:
-  virtual ~BandTraffic() = default;
+  virtual ~TileTraffic() = default;
   /// The next number, which all ranks count together from 0. After stop_counting(), on any rank, numbers are beyond any
   /// picture.
   virtual std::int64_t next_number() = 0;
   virtual void stop_counting() = 0;
 
-  /// Gives rows to rank 0; waits while too many are on their way.
+  /// Gives a tile to rank 0; waits while too many are on their way.
   virtual void give(std::int64_t number, const Film& film) = 0;
   /// Ranks above 0. The last that such a rank says of a picture.
   virtual void end_giving(const WorkOfRank& work, bool failed) = 0;
 
-  /// Rank 0. The next rows that were received; nothing: none are there. `wait`: none will come.
-  virtual std::optional<GivenRows> take(bool wait) = 0;
+  /// Rank 0. The next tile that was received; nothing: none are there. `wait`: none will come.
+  virtual std::optional<GivenTile> take(bool wait) = 0;
   virtual bool somebody_failed() const = 0;
   /// Rank 0, when all have ended.
   virtual WorkOfRank work_of_others() const = 0;
@@ -72,16 +72,16 @@ class BandTraffic {
 
 /// Ranks talk like this while they draw spheres that are distributed over them. Any number of threads may use
 /// it at a time, from begin() to end().
-class Conversation : public Exchange, public BandTraffic {
+class Conversation : public Exchange, public TileTraffic {
  public:
   virtual void begin() = 0;
-  /// Rank 0, whose own threads give rows too, says by it that none will come.
+  /// Rank 0, whose own threads give tiles too, says by it that none will come.
   virtual void end_own_giving() = 0;
   /// Comes back when all ranks have come here.
   virtual void end() = 0;
 };
 
-class Team : public Ranks, public BandTraffic {
+class Team : public Ranks, public TileTraffic {
  public:
   /// Whether the spheres are distributed over the ranks.
   virtual bool distributes() const = 0;
@@ -91,9 +91,17 @@ class Team : public Ranks, public BandTraffic {
   /// All ranks come here. Fails on a rank that sees something else than rank 0; throws OtherRankFailed on the others,
   /// and on all that are well if a rank has failed before.
   virtual void agree(const std::vector<Fingerprint>& seen) = 0;
+  /// All ranks come here at their end, unless a rank that failed made them leave another function. `code`: 0, or why
+  /// this rank fails. Returns 0, or the code of the lowest rank that failed.
+  virtual int end_with(int code) = 0;
 
-  /// Rank 0, from one thread at a time. Receives what has come.
-  virtual void receive() = 0;
+  /// All ranks come here. The team of those that give the same number, with ranks in the order of this team.
+  virtual std::unique_ptr<Team> part(int number) = 0;
+  /// All ranks come here before each picture that they share: numbers begin at 0.
+  virtual void begin_picture() = 0;
+
+  /// Lets messages of tiles move on. Ranks call it now and then while they draw, from one thread at a time.
+  virtual void move_on() = 0;
 };
 
 /// Null: alone.

@@ -29,4 +29,13 @@ Film part_of(const Film& film, const Tile& part) {
   return cut;
 }
 
+void paste(const Film& part, int x, int y, Film& film) {
+  for (int row = 0; row < part.height; ++row) {
+    const std::size_t from = part.number_of(0, row);
+    const std::size_t to = film.number_of(x, y + row);
+    std::copy_n(part.radiance.data() + from, part.width, film.radiance.data() + to);
+    if (!part.coverage.empty()) std::copy_n(part.coverage.data() + from, part.width, film.coverage.data() + to);
+  }
+}
+
 }  // namespace bihive

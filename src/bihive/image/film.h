@@ -50,4 +50,8 @@ std::vector<Tile> tiles_of(const Tile& part, int tile_px);
 /// These pixels of a film as a film of their own. They must be inside it.
 Film part_of(const Film& film, const Tile& part);
 
+/// Copies a film into another one, which is large enough and has coverage if the first has, with its left upper pixel
+/// at (x, y).
+void paste(const Film& part, int x, int y, Film& film);
+
 }  // namespace bihive

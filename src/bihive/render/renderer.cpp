@@ -474,8 +474,8 @@ bool is_drawn_whole(View view) {
   return view == View::tree || view == View::distance;
 }
 
-Result<RenderedBands> render_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
-                                   const NextBand& next, const BandCallback& take, const ProgressCallback& progress,
+Result<RenderedBands> render_parts(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                   const NextPart& next, const BandCallback& take, const ProgressCallback& progress,
                                    const CancelToken* cancel) {
   BIHIVE_CHECK(!is_drawn_whole(settings.view));
   if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
@@ -486,21 +486,21 @@ Result<RenderedBands> render_bands(const Scene& scene, const Tracer& tracer, con
   std::optional<Renderer> renderer;
   RenderedBands rendered;
   Film film;
-  for (std::optional<Tile> band = next(); band; band = next()) {
+  for (std::optional<Tile> part = next(); part; part = next()) {
     if (renderer) {
-      renderer->move_to(*band, std::move(film));
+      renderer->move_to(*part, std::move(film));
     } else {
-      RenderSettings of_band = settings;
-      of_band.crop = *band;
-      renderer.emplace(scene, tracer, of_band, progress, cancel, Film{}, std::move(*transparency));
+      RenderSettings of_part = settings;
+      of_part.crop = *part;
+      renderer.emplace(scene, tracer, of_part, progress, cancel, Film{}, std::move(*transparency));
     }
     run_all(*renderer);
     if (renderer->cancelled()) return was_cancelled();
-    Rendered of_rows = renderer->take();
-    add_counts(of_rows.rays, rendered.rays);
+    Rendered drawn = renderer->take();
+    add_counts(drawn.rays, rendered.rays);
     rendered.render_ms += timer.elapsed_ms();
-    if (Status status = take(of_rows.film, *band); !status) return status.error();
-    film = std::move(of_rows.film);
+    if (Status status = take(drawn.film, *part); !status) return status.error();
+    film = std::move(drawn.film);
     timer = Timer();
   }
   return rendered;
@@ -531,7 +531,7 @@ Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, 
     y = band.y1;
     return band;
   };
-  return render_bands(scene, tracer, settings, next, take, of_picture, cancel);
+  return render_parts(scene, tracer, settings, next, take, of_picture, cancel);
 }
 
 class SlicedPicture::Implementation {

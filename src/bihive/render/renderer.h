@@ -44,16 +44,16 @@ struct RenderedBands {
   double render_ms = 0;  ///< without the time in the callback
 };
 
-/// The next band to draw, whole rows of drawn_pixels(); nothing: there are no more.
-using NextBand = std::function<std::optional<Tile>()>;
+/// The next part to draw, some of drawn_pixels(); nothing: there are no more.
+using NextPart = std::function<std::optional<Tile>()>;
 
 /// Views that are drawn whole: no part of them has the bits of the picture.
 bool is_drawn_whole(View view);
 
-/// Bands of a picture in any order, so that several processes can share it. Each has the bits of the whole picture.
-/// Progress is that of the band. Not for views that are drawn whole (a programmer's error).
-Result<RenderedBands> render_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
-                                   const NextBand& next, const BandCallback& take,
+/// Parts of a picture in any order, so that several processes can share it. Each has the bits of the whole picture.
+/// Progress is that of the part. Not for views that are drawn whole (a programmer's error).
+Result<RenderedBands> render_parts(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
+                                   const NextPart& next, const BandCallback& take,
                                    const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr);
 
 /// The same picture from the top in bands of `band_rows` rows, at least one; the last may have fewer. So a picture

@@ -1,0 +1,208 @@
+#include "bihive/spread/ranks_in_process.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+#include "bihive/base/check.h"
+#include "bihive/base/timer.h"
+#include "bihive/spread/ranks.h"
+#include "bihive/spread/sphere_columns.h"
+
+namespace bihive {
+namespace {
+
+// What each rank gives, for each rank.
+using Given = std::vector<std::vector<Bytes>>;
+
+// Where the threads meet.
+class Meeting {
+ public:
+  explicit Meeting(int size) : size_(size) { begin(); }
+  int size() const { return size_; }
+
+  /// Waits for all. Valid as long as somebody keeps it.
+  std::shared_ptr<const Given> meet(int rank, std::vector<Bytes> gives) {
+    std::unique_lock lock(mutex_);
+    (*given_)[static_cast<std::size_t>(rank)] = std::move(gives);
+    const std::int64_t number = number_;
+    const std::shared_ptr<const Given> all = given_;
+    if (++there_ == size_) {
+      begin();
+      ++number_;
+      everybody_came_.notify_all();
+    } else {
+      everybody_came_.wait(lock, [&] { return number_ != number; });
+    }
+    return all;
+  }
+
+ private:
+  void begin() {
+    given_ = std::make_shared<Given>(static_cast<std::size_t>(size_));
+    there_ = 0;
+  }
+
+  int size_;
+  std::mutex mutex_;
+  std::condition_variable everybody_came_;
+  std::shared_ptr<Given> given_;
+  int there_ = 0;
+  std::int64_t number_ = 0;
+};
+
+class RankThread final : public Ranks {
+ public:
+  RankThread(int rank, Meeting& meeting) : rank_(rank), meeting_(meeting) {}
+  int rank() const override { return rank_; }
+  int size() const override { return meeting_.size(); }
+  std::int64_t sent_bytes() const { return sent_bytes_; }
+
+  std::vector<Bytes> gather(const Bytes& own) override {
+    sent_bytes_ += static_cast<std::int64_t>(own.size()) * (size() - 1);
+    const std::shared_ptr<const Given> given = meeting_.meet(rank_, {own});
+    std::vector<Bytes> all;
+    all.reserve(given->size());
+    for (const std::vector<Bytes>& one : *given) all.push_back(one.front());
+    return all;
+  }
+
+  Bytes from_first(Bytes of_first) override {
+    if (rank_ != 0) of_first.clear();
+    return meeting_.meet(rank_, {std::move(of_first)})->front().front();
+  }
+
+  void take_greatest(std::vector<double>& numbers) override {
+    Bytes own;
+    ByteWriter(own).put_array(numbers.data(), numbers.size());
+    const std::shared_ptr<const Given> given = meeting_.meet(rank_, {own});
+    for (const std::vector<Bytes>& one : *given) {
+      std::vector<double> others(numbers.size());
+      ByteReader(one.front()).take_array(others.data(), others.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = std::max(numbers[i], others[i]);
+    }
+  }
+
+  std::vector<Bytes> scatter(const std::vector<Bytes>& for_each) override {
+    for (std::size_t rank = 0; rank < for_each.size(); ++rank)
+      if (static_cast<int>(rank) != rank_) sent_bytes_ += static_cast<std::int64_t>(for_each[rank].size());
+    const std::shared_ptr<const Given> given = meeting_.meet(rank_, for_each);
+    std::vector<Bytes> mine;
+    mine.reserve(given->size());
+    for (const std::vector<Bytes>& one : *given) mine.push_back(one[static_cast<std::size_t>(rank_)]);
+    return mine;
+  }
+
+ private:
+  int rank_;
+  Meeting& meeting_;
+  std::int64_t sent_bytes_ = 0;
+};
+
+// The scene with the spheres from `first` to before `end`.
+Scene with_spheres(const Scene& whole, std::int64_t first, std::int64_t end) {
+  std::vector<std::int64_t> ids(static_cast<std::size_t>(end - first));
+  std::iota(ids.begin(), ids.end(), first);
+  Bytes packed;
+  pack_spheres(whole, SphereColumns::of(whole), {}, ids, packed);
+  Scene made = without_spheres(whole);
+  ByteReader reader(packed);
+  ids.clear();
+  append_spheres(reader, SphereColumns::of(whole), made, ids);
+  return made;
+}
+
+struct Rank {
+  std::shared_ptr<const SpreadScene> scene;
+  std::int64_t sent_bytes = 0;
+  std::mutex mutex;
+  AnswersOfRank answers;
+};
+
+class ExchangeInProcess final : public Exchange {
+ public:
+  ExchangeInProcess(int rank, std::vector<Rank>& ranks) : rank_(rank), all_(ranks) {}
+  int rank() const override { return rank_; }
+  int ranks() const override { return static_cast<int>(all_.size()); }
+
+  std::vector<Bytes> ask(std::vector<Question> questions) override {
+    std::vector<Bytes> answers;
+    answers.reserve(questions.size());
+    for (const Question& question : questions) {
+      Rank& asked = all_[static_cast<std::size_t>(question.rank)];
+      const Timer timer;
+      answers.push_back(asked.scene->answer(question.bytes));
+      const double ms = timer.elapsed_ms();
+      const std::lock_guard lock(asked.mutex);
+      ++asked.answers.questions;
+      asked.answers.bytes_in += static_cast<std::int64_t>(question.bytes.size());
+      asked.answers.bytes_out += static_cast<std::int64_t>(answers.back().size());
+      asked.answers.ms += ms;
+    }
+    return answers;
+  }
+
+ private:
+  int rank_;
+  std::vector<Rank>& all_;
+};
+
+class Implementation final : public RanksInProcess {
+ public:
+  explicit Implementation(int ranks) : ranks_(static_cast<std::size_t>(ranks)) {}
+
+  Status distribute(const Scene& whole, const RenderSettings& settings, const TreeParameters& parameters,
+                    FirstSpheres first) {
+    Meeting meeting(size());
+    std::vector<Status> failed(ranks_.size(), Done{});
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < size(); ++rank)
+      threads.emplace_back([&, rank] {
+        RankThread here(rank, meeting);
+        const std::int64_t count = whole.spheres.size();
+        Scene scene = first == FirstSpheres::in_order
+                          ? with_spheres(whole, count * rank / size(), count * (rank + 1) / size())
+                          : with_spheres(whole, 0, rank == 0 ? count : 0);
+        Result<std::shared_ptr<const SpreadScene>> made =
+            SpreadScene::make(std::move(scene), settings, parameters, here);
+        Rank& of_rank = ranks_[static_cast<std::size_t>(rank)];
+        of_rank.sent_bytes = here.sent_bytes();
+        if (made)
+          of_rank.scene = std::move(*made);
+        else
+          failed[static_cast<std::size_t>(rank)] = made.error();
+      });
+    for (std::thread& thread : threads) thread.join();
+    for (const Status& status : failed)
+      if (!status) return status;
+    return Done{};
+  }
+
+  int size() const override { return static_cast<int>(ranks_.size()); }
+  const SpreadScene& scene(int rank) const override { return *of(rank).scene; }
+  std::int64_t sent_bytes(int rank) const override { return of(rank).sent_bytes; }
+  std::unique_ptr<Exchange> exchange(int rank) override { return std::make_unique<ExchangeInProcess>(rank, ranks_); }
+  AnswersOfRank answers(int rank) const override { return of(rank).answers; }
+
+ private:
+  const Rank& of(int rank) const { return ranks_[static_cast<std::size_t>(rank)]; }
+
+  std::vector<Rank> ranks_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<RanksInProcess>> RanksInProcess::make(const Scene& whole, const RenderSettings& settings,
+                                                             const TreeParameters& parameters, int ranks,
+                                                             FirstSpheres first) {
+  BIHIVE_CHECK_GE(ranks, 1);
+  auto made = std::make_unique<Implementation>(ranks);
+  if (const Status status = made->distribute(whole, settings, parameters, first); !status) return status.error();
+  return std::unique_ptr<RanksInProcess>(std::move(made));
+}
+
+}  // namespace bihive
