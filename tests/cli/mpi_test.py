@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from program import BIHIVE, PATIENCE_S, main
-from ranks import BIHIVE_MPI, FRAMES, OnRanks, is_open_mpi
+from ranks import BIHIVE_MPI, FRAMES, OnRanks, frame, is_open_mpi
 
 # Each rank draws the shard of its own number.
 SHARD_OF_RANK = 'exec "$0" "$@" --shard $OMPI_COMM_WORLD_RANK/$OMPI_COMM_WORLD_SIZE'
@@ -65,6 +65,18 @@ class Program(OnRanks):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.read("ranks.y4m"), self.read("whole.y4m"))
         self.assertEqual(done.stdout.count("ranks.y4m"), 1, done.stdout)
+
+    def test_three_ranks_share_two_pictures(self):
+        film = ["film", "run.xyz", "--frames", "2:4", "--size", "150x100", "--threads", "1"]
+        self.succeed(*film, "-o", "whole/%d.png")
+        done = self.run_ranks(3, BIHIVE_MPI, *film, "-o", "ranks/%d.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([self.read(f"ranks/{i}.png") for i in (0, 1)], [self.read(f"whole/{i}.png") for i in (0, 1)])
+        # A rank that fails ends all, also the one that has no picture of its own.
+        self.write("bad.xyz", frame(0) + frame(1).replace("C 1", "C x"))
+        done = self.run_ranks(3, BIHIVE_MPI, "film", "bad.xyz", "-o", "bad/%d.png", *film[4:])
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
 
     def test_one_rank_says_what_is_wrong_for_all(self):
         wrong = [
