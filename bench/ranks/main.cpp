@@ -1,17 +1,16 @@
-// Counts what a picture costs on many ranks, all of which are simulated in this process.
-//   bihive-ranks RANKS[,RANKS...] render INPUT [options of bihive render]
-// Prints a JSON array, an object for each number of ranks (README.md). Each rank draws on one thread.
+// Simulates a picture that many ranks draw, all of them in this process: messages, bytes, work, and the time that it
+// would take. README.md says what is simulated.
+//   bihive-ranks RANKS[,RANKS...] [--rate GBIT_PER_S] [--latency US] render INPUT [options of bihive render]
 #include <algorithm>
-#include <atomic>
-#include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
-#include <mutex>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
-#include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -29,52 +28,144 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// An exchange that knows how long it took.
-class TimedExchange final : public Exchange {
+struct Network {
+  double ms_per_byte, latency_ms;
+};
+
+// A rank with one core: what it has done so far, in milliseconds.
+struct RankTimes {
+  double core = 0;             // busy with rays, its own and those of others
+  double network = 0;          // sending and receiving
+  double threads[2] = {0, 0};  // until when its threads draw, with the time that they wait for others
+  std::int64_t messages = 0, bytes = 0, rounds = 0;
+
+  // When a thread can begin with a tile.
+  double ready(int thread) const { return std::max(threads[thread], core); }
+  double end() const { return std::max({ready(0), ready(1), network}); }
+};
+
+// Other ranks answer at once, and the clocks of all go on by what it would have taken.
+class SimulatedExchange final : public Exchange {
  public:
-  explicit TimedExchange(std::unique_ptr<Exchange> exchange) : exchange_(std::move(exchange)) {}
-  int rank() const override { return exchange_->rank(); }
-  int ranks() const override { return exchange_->ranks(); }
+  SimulatedExchange(int rank, RanksInProcess& all, const Network& network, std::vector<RankTimes>& times)
+      : rank_(rank), all_(all), network_(network), times_(times) {}
+  int rank() const override { return rank_; }
+  int ranks() const override { return all_.size(); }
+
   std::vector<Bytes> ask(std::vector<Question> questions) override {
-    const Timer timer;
-    std::vector<Bytes> answers = exchange_->ask(std::move(questions));
-    ms_ += timer.elapsed_ms();
+    const Timer all_answers;
+    std::vector<Bytes> answers;
+    RankTimes& own = of(rank_);
+    double sum_ms = 0, slowest_ms = 0;
+    for (const Question& question : questions) {
+      const Timer timer;
+      answers.push_back(all_.scene(question.rank).answer(question.bytes));
+      const double answer_ms = timer.elapsed_ms();
+      const std::size_t bytes = question.bytes.size() + answers.back().size();
+      RankTimes& asked = of(question.rank);
+      asked.core += answer_ms;
+      const double sent_ms = static_cast<double>(bytes) * network_.ms_per_byte;
+      for (RankTimes* const one : {&asked, &own}) {
+        one->network += sent_ms;
+        one->messages += 2;
+        one->bytes += static_cast<std::int64_t>(bytes);
+      }
+      sum_ms += sent_ms;
+      slowest_ms = std::max(slowest_ms, answer_ms);
+    }
+    ++own.rounds;
+    waited_ms_ += network_.latency_ms + sum_ms + slowest_ms;
+    real_ms_ += all_answers.elapsed_ms();
     return answers;
   }
-  double ms() const { return ms_; }
+
+  /// A tile begins.
+  void begin(double at_ms) {
+    begin_ms_ = at_ms;
+    waited_ms_ = real_ms_ = 0;
+    timer_ = Timer();
+  }
+  /// The work of this rank for the tile, and its time with that of the waiting.
+  double own_ms() const { return timer_.elapsed_ms() - real_ms_; }
+  double now_ms() const { return begin_ms_ + own_ms() + waited_ms_; }
 
  private:
-  std::unique_ptr<Exchange> exchange_;
-  double ms_ = 0;
+  RankTimes& of(int rank) { return times_[static_cast<std::size_t>(rank)]; }
+
+  int rank_;
+  RanksInProcess& all_;
+  const Network& network_;
+  std::vector<RankTimes>& times_;
+  double begin_ms_ = 0, waited_ms_ = 0;
+  double real_ms_ = 0;  // of the answers here, which are the work of others
+  Timer timer_;
 };
 
-// What a rank did of a picture.
-struct Drawn {
-  double ms = 0;  // without the answers of others
-  ExchangeCounts counts;
+// A rank that draws.
+struct Drawer {
+  std::unique_ptr<SimulatedExchange> exchange;
+  std::unique_ptr<SpreadScene::Artist> artist;
 };
 
-// Draws the tiles of a rank into the film. Tiles are handed out in turn.
-Drawn draw(RanksInProcess& ranks, int rank, RenderSettings settings, const PictureTiles& tiles, Film& film) {
-  settings.threads = 1;
-  TimedExchange exchange(ranks.exchange(rank));
-  const Timer timer;
-  const std::unique_ptr<SpreadScene::Artist> artist = ranks.scene(rank).artist(exchange);
-  const Tile all = drawn_pixels(settings);
-  std::int64_t number = rank - ranks.size();
-  const auto next = [&]() -> std::optional<Tile> {
-    artist->rest();
-    number += ranks.size();
-    if (number >= tiles.count()) return std::nullopt;
-    return tiles.pixels(number);
-  };
-  const auto take = [&](const Film& tile, const Tile& pixels) -> Status {
-    paste(tile, pixels.x0 - all.x0, pixels.y0 - all.y0, film);
-    return Done{};
-  };
-  cli::value_or_fail(render_parts(artist->scene(), artist->tracer(), settings, next, take));
-  return {timer.elapsed_ms() - exchange.ms(), artist->counts()};
-}
+// The next tile goes to the thread that is free first, as the counter of the ranks has it.
+class SimulatedPicture {
+ public:
+  SimulatedPicture(RanksInProcess& ranks, const RenderSettings& settings, const Network& network)
+      : ranks_(ranks),
+        settings_(settings),
+        network_(network),
+        tiles_(settings, 2 * ranks.size()),
+        times_(static_cast<std::size_t>(ranks.size())),
+        drawers_(times_.size()) {
+    settings_.threads = 1;
+  }
+
+  void draw(Film& film) {
+    for (std::int64_t number = 0; number < tiles_.count(); ++number) {
+      std::size_t rank = 0;
+      int thread = 0;
+      for (std::size_t i = 0; i < times_.size(); ++i)
+        for (const int j : {0, 1})
+          if (times_[i].ready(j) < times_[rank].ready(thread)) rank = i, thread = j;
+      draw_tile(tiles_.pixels(number), rank, thread, film);
+    }
+  }
+
+  ExchangeCounts counts() const {
+    ExchangeCounts sum;
+    for (const Drawer& drawer : drawers_)
+      if (drawer.artist != nullptr) sum.add(drawer.artist->counts());
+    return sum;
+  }
+  std::int64_t tiles() const { return tiles_.count(); }
+  const std::vector<RankTimes>& times() const { return times_; }
+
+ private:
+  void draw_tile(const Tile& pixels, std::size_t rank, int thread, Film& film) {
+    Drawer& drawer = drawers_[rank];
+    if (drawer.artist == nullptr) {
+      drawer.exchange = std::make_unique<SimulatedExchange>(static_cast<int>(rank), ranks_, network_, times_);
+      drawer.artist = ranks_.scene(static_cast<int>(rank)).artist(*drawer.exchange);
+    }
+    drawer.artist->rest();
+    RankTimes& times = times_[rank];
+    drawer.exchange->begin(times.ready(thread));
+    RenderSettings of_tile = settings_;
+    of_tile.crop = pixels;
+    const Film drawn = cli::value_or_fail(render(drawer.artist->scene(), drawer.artist->tracer(), of_tile)).film;
+    times.core += drawer.exchange->own_ms();
+    times.threads[thread] = drawer.exchange->now_ms();
+    const Tile all = drawn_pixels(settings_);
+    paste(drawn, pixels.x0 - all.x0, pixels.y0 - all.y0, film);
+  }
+
+  RanksInProcess& ranks_;
+  RenderSettings settings_;
+  Network network_;
+  PictureTiles tiles_;
+  std::vector<RankTimes> times_;
+  std::vector<Drawer> drawers_;
+};
 
 // The mean and the largest of some numbers, one of each rank.
 template <class Number>
@@ -89,60 +180,45 @@ bool same_bits(const Film& a, const Film& b) {
          std::memcmp(a.radiance.data(), b.radiance.data(), a.radiance.size() * sizeof(Vec3f)) == 0;
 }
 
+// of(rank) for each rank.
+template <class Of>
+auto each(int ranks, const Of& of) {
+  std::vector<decltype(of(0))> numbers;
+  for (int rank = 0; rank < ranks; ++rank) numbers.push_back(of(rank));
+  return numbers;
+}
+
 ordered_json measure(const Scene& scene, const RenderSettings& settings, const TreeParameters& parameters, int count,
-                     const Film& expected) {
+                     const Network& network, const Film& expected) {
   const std::unique_ptr<RanksInProcess> ranks =
       cli::value_or_fail(RanksInProcess::make(scene, settings, parameters, count, FirstSpheres::in_order));
-  const PictureTiles tiles(settings, count);
+  SimulatedPicture picture(*ranks, settings, network);
   Film film;
   film.resize(expected.width, expected.height, !expected.coverage.empty());
-  std::vector<Drawn> drawn(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  std::vector<std::thread> threads;
-  for (int i = 0; i < std::max(1, settings.threads); ++i)
-    threads.emplace_back([&] {
-      try {
-        for (int rank = next++; rank < std::min<std::int64_t>(count, tiles.count()); rank = next++)
-          drawn[static_cast<std::size_t>(rank)] = draw(*ranks, rank, settings, tiles, film);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-      }
-    });
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  picture.draw(film);
 
-  ExchangeCounts sum;
-  std::vector<std::int64_t> spheres, sent, messages, bytes, rounds;
-  std::vector<double> busy;
-  for (int rank = 0; rank < count; ++rank) {
-    const Drawn& one = drawn[static_cast<std::size_t>(rank)];
-    const AnswersOfRank answers = ranks->answers(rank);
-    sum.add(one.counts);
-    spheres.push_back(ranks->scene(rank).size());
-    sent.push_back(ranks->sent_bytes(rank));
-    messages.push_back(one.counts.messages + 2 * answers.questions);
-    bytes.push_back(one.counts.bytes + answers.bytes_in + answers.bytes_out);
-    rounds.push_back(one.counts.rounds);
-    busy.push_back(one.ms + answers.ms);
-  }
+  const std::vector<RankTimes>& times = picture.times();
+  const auto of_times = [&](const auto& of) {
+    return each(count, [&](int rank) { return of(times[std::size_t(rank)]); });
+  };
+  const std::vector<double> ends = of_times([](const RankTimes& one) { return one.end(); });
+  const ExchangeCounts counts = picture.counts();
   ordered_json json = ordered_json::object();
   json["ranks"] = count;
   json["same_bits"] = same_bits(film, expected);
-  json["spheres"] = of_ranks(spheres);
-  json["sent_bytes"] = of_ranks(sent);
-  json["tiles"] = tiles.count();
-  json["rays"] = sum.rays;
-  json["asked"] = sum.asked;
-  json["messages"] = sum.messages;
-  json["bytes"] = sum.bytes;
-  json["rounds"] = sum.rounds;
-  json["messages_of_rank"] = of_ranks(messages);
-  json["bytes_of_rank"] = of_ranks(bytes);
-  json["rounds_of_rank"] = of_ranks(rounds);
-  json["busy_ms_of_rank"] = of_ranks(busy);
+  json["simulated_ms"] = *std::max_element(ends.begin(), ends.end());
+  json["tiles"] = picture.tiles();
+  json["rays"] = counts.rays;
+  json["asked"] = counts.asked;
+  json["messages"] = counts.messages;
+  json["bytes"] = counts.bytes;
+  json["rounds"] = counts.rounds;
+  json["spheres_of_rank"] = of_ranks(each(count, [&](int rank) { return ranks->scene(rank).size(); }));
+  json["sent_bytes_of_rank"] = of_ranks(each(count, [&](int rank) { return ranks->sent_bytes(rank); }));
+  json["messages_of_rank"] = of_ranks(of_times([](const RankTimes& one) { return one.messages; }));
+  json["bytes_of_rank"] = of_ranks(of_times([](const RankTimes& one) { return one.bytes; }));
+  json["rounds_of_rank"] = of_ranks(of_times([](const RankTimes& one) { return one.rounds; }));
+  json["core_ms_of_rank"] = of_ranks(of_times([](const RankTimes& one) { return one.core; }));
   return json;
 }
 
@@ -158,33 +234,50 @@ std::vector<int> counts_in(const std::string& words) {
   return counts;
 }
 
+double number_in(const std::string& word) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  if (word.empty() || *end != '\0' || !(number >= 0)) cli::fail_usage("not a number: " + word, "see bench/README.md");
+  return number;
+}
+
+constexpr const char* kUsage = "bihive-ranks RANKS[,RANKS...] [--rate GBIT_PER_S] [--latency US] render INPUT ...";
+
 void run(int argc, const char* const* argv) {
-  if (argc < 3) cli::fail_usage("usage: bihive-ranks RANKS[,RANKS...] render INPUT [options of bihive render]", "");
+  if (argc < 3) cli::fail_usage("too few words", kUsage);
   const std::vector<int> counts = counts_in(argv[1]);
+  double gbit_per_s = 10, latency_us = 50;
+  int at = 2;
+  for (; at + 1 < argc && std::string(argv[at]) != "render"; at += 2) {
+    const std::string option = argv[at];
+    if (option != "--rate" && option != "--latency") cli::fail_usage("no option " + option, kUsage);
+    (option == "--rate" ? gbit_per_s : latency_us) = number_in(argv[at + 1]);
+  }
+  const Network network{8e-6 / gbit_per_s, latency_us / 1000};
   std::vector<const char*> words{argv[0]};
-  words.insert(words.end(), argv + 2, argv + argc);
+  words.insert(words.end(), argv + at, argv + argc);
   const cli::Request request = cli::parse_command_line(static_cast<int>(words.size()), words.data());
   const auto* const asked = std::get_if<cli::RenderOptions>(&request);
-  if (asked == nullptr) cli::fail_usage("bihive-ranks draws pictures", "write: bihive-ranks 16,1024 render INPUT");
+  if (asked == nullptr) cli::fail_usage("bihive-ranks draws pictures", kUsage);
   const cli::RenderOptions options = cli::with_film(*asked);
   cli::PreparedPicture prepared = cli::prepare_render(options);
   const Scene& scene = prepared.input.scene;
   RenderSettings& settings = prepared.settings;
-  settings.threads = static_cast<int>(options.threads);
+  settings.threads = 1;
   if (const Status status = SpreadScene::refusal(scene, settings); !status) cli::fail(status.error());
 
-  const Tracer tracer = cli::value_or_fail(Tracer::build(scene, Engine::wide, options.tree, settings.threads));
-  const Timer timer;
-  const Film expected = cli::value_or_fail(render(scene, tracer, settings)).film;
-  ordered_json all = ordered_json::array();
-  ordered_json alone = ordered_json::object();
-  alone["ranks"] = 0;
-  alone["spheres"] = scene.spheres.size();
-  alone["render_ms"] = timer.elapsed_ms();
-  alone["threads"] = settings.threads;
-  all.push_back(alone);
-  for (const int count : counts) all.push_back(measure(scene, settings, options.tree, count, expected));
-  std::printf("%s\n", all.dump(1).c_str());
+  // One process with all spheres.
+  const Tracer tracer = cli::value_or_fail(Tracer::build(scene, Engine::wide, options.tree));
+  const Rendered expected = cli::value_or_fail(render(scene, tracer, settings));
+  ordered_json json = ordered_json::object();
+  json["spheres"] = scene.spheres.size();
+  json["render_ms"] = expected.render_ms;
+  json["gbit_per_s"] = gbit_per_s;
+  json["latency_us"] = latency_us;
+  json["simulated"] = ordered_json::array();
+  for (const int count : counts)
+    json["simulated"].push_back(measure(scene, settings, options.tree, count, network, expected.film));
+  std::printf("%s\n", json.dump(1).c_str());
 }
 
 }  // namespace

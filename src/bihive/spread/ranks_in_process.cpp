@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "bihive/base/check.h"
-#include "bihive/base/timer.h"
 #include "bihive/spread/ranks.h"
 #include "bihive/spread/sphere_columns.h"
 
@@ -119,36 +118,25 @@ Scene with_spheres(const Scene& whole, std::int64_t first, std::int64_t end) {
 struct Rank {
   std::shared_ptr<const SpreadScene> scene;
   std::int64_t sent_bytes = 0;
-  std::mutex mutex;
-  AnswersOfRank answers;
 };
 
 class ExchangeInProcess final : public Exchange {
  public:
-  ExchangeInProcess(int rank, std::vector<Rank>& ranks) : rank_(rank), all_(ranks) {}
+  ExchangeInProcess(int rank, const std::vector<Rank>& ranks) : rank_(rank), all_(ranks) {}
   int rank() const override { return rank_; }
   int ranks() const override { return static_cast<int>(all_.size()); }
 
   std::vector<Bytes> ask(std::vector<Question> questions) override {
     std::vector<Bytes> answers;
     answers.reserve(questions.size());
-    for (const Question& question : questions) {
-      Rank& asked = all_[static_cast<std::size_t>(question.rank)];
-      const Timer timer;
-      answers.push_back(asked.scene->answer(question.bytes));
-      const double ms = timer.elapsed_ms();
-      const std::lock_guard lock(asked.mutex);
-      ++asked.answers.questions;
-      asked.answers.bytes_in += static_cast<std::int64_t>(question.bytes.size());
-      asked.answers.bytes_out += static_cast<std::int64_t>(answers.back().size());
-      asked.answers.ms += ms;
-    }
+    for (const Question& question : questions)
+      answers.push_back(all_[static_cast<std::size_t>(question.rank)].scene->answer(question.bytes));
     return answers;
   }
 
  private:
   int rank_;
-  std::vector<Rank>& all_;
+  const std::vector<Rank>& all_;
 };
 
 class Implementation final : public RanksInProcess {
@@ -186,7 +174,6 @@ class Implementation final : public RanksInProcess {
   const SpreadScene& scene(int rank) const override { return *of(rank).scene; }
   std::int64_t sent_bytes(int rank) const override { return of(rank).sent_bytes; }
   std::unique_ptr<Exchange> exchange(int rank) override { return std::make_unique<ExchangeInProcess>(rank, ranks_); }
-  AnswersOfRank answers(int rank) const override { return of(rank).answers; }
 
  private:
   const Rank& of(int rank) const { return ranks_[static_cast<std::size_t>(rank)]; }

@@ -20,13 +20,6 @@ enum class FirstSpheres {
   in_order,  ///< each rank has some that follow each other
 };
 
-/// The part of a rank in questions of other ranks.
-struct AnswersOfRank {
-  std::int64_t questions = 0;
-  std::int64_t bytes_in = 0, bytes_out = 0;
-  double ms = 0;  ///< of the thread that answered
-};
-
 class RanksInProcess {
  public:
   virtual ~RanksInProcess() = default;
@@ -42,8 +35,6 @@ class RanksInProcess {
   /// What `rank` asks is answered on the thread that asks, at once. Threads may ask at the same time. Must not outlive
   /// this object.
   virtual std::unique_ptr<Exchange> exchange(int rank) = 0;
-  /// While nobody asks.
-  virtual AnswersOfRank answers(int rank) const = 0;
 };
 
 }  // namespace bihive

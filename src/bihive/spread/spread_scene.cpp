@@ -186,10 +186,9 @@ Bytes common_stand_ins(const SomeSpheres& own, const RenderSettings& settings, c
     append_spheres(reader, has, all.scene, all.whole_ids);
   }
   sort_by_whole_id(all, has, shell);
-  std::vector<std::int64_t> ids(all.whole_ids.size());
-  std::iota(ids.begin(), ids.end(), std::int64_t{0});
+  // Many ranks have many; those that stand for them stand for all.
   Bytes together;
-  pack_spheres(all.scene, has, all.whole_ids, ids, together);
+  pack_spheres(all.scene, has, all.whole_ids, stand_ins(all.scene, settings), together);
   return together;
 }
 
