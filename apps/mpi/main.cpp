@@ -16,6 +16,7 @@
 
 #include "../shared/last_line.h"
 #include "bihive/base/parallel.h"
+#include "bihive/base/timer.h"
 #include "bihive/base/version.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
@@ -41,7 +42,7 @@ constexpr const char* kHelp =
     "joins them. Without --threads the ranks of a machine share its cores, or keep to those that mpirun gives them.\n"
     "\n"
     "--distribute: each sphere lies on one rank, for sets beyond the memory of a machine. For render alone. Each rank\n"
-    "reads its part of an NPY file; other files are read by rank 0.\n"
+    "reads its part of an NPY or GSD file or of a LAMMPS dump; other files are read by rank 0.\n"
     "\n"
     "Examples:\n"
     "  mpirun -n 4 bihive-mpi render demo -o molecule.png --size 8000x6000\n"
@@ -87,13 +88,17 @@ void run_request(MpiTeam& team, cli::Request request) {
     if (of_rank.picture.threads == 0) of_rank.picture.threads = threads_of_rank(team);
     of_rank.shard = cli::Shard{team.rank(), team.size()};
     of_rank.silent = true;
-    cli::run_film(of_rank);
-    team.agree({});
+    const Timer timer;
+    Bytes drawn;
+    ByteWriter(drawn).put(cli::run_film(of_rank));
+    const std::vector<Bytes> drawn_by_ranks = team.gather(drawn);
     if (team.rank() != 0) return;
     FilmOptions joined;
     joined.picture.output = film->picture.output;
     joined.picture.json = film->picture.json;
     joined.join = true;
+    joined.ms_of_others = timer.elapsed_ms();
+    for (const Bytes& one : drawn_by_ranks) joined.drawn_by_others += ByteReader(one).take<std::int64_t>();
     cli::run_film(joined);
   } else if (const cli::HelpText* const help = std::get_if<cli::HelpText>(&request)) {
     cli::print(help->asked_for ? help->text : kHelp);
@@ -143,6 +148,7 @@ int run_ranks(std::vector<const char*> words) {
   cli::set_team(&team);
   std::vector<std::string> unsaid;
   if (team.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;
+  if (team.rank() == 0) cli::show_progress_in_lines();
   Said said;
   {
     // Rank 0 warns for all.

@@ -10,7 +10,8 @@ from markdown import commands_block
 def load(folder):
     """The reports of scripts/bench: part -> report. Raises origin.Mixed where a report is not of one machine and commit."""
     reports = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))}
-    reports = {name: report for name, report in reports.items() if report.get("part") == name}
+    names = dict(sections.SECTIONS)
+    reports = {name: report for name, report in reports.items() if report.get("part") == name and name in names}
     for name, report in reports.items():
         origin.check(f"{name}.json", report)
     return reports

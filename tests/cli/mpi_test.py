@@ -2,11 +2,12 @@
 
 import json
 import os
+import random
 import subprocess
 import unittest
 
 from program import BIHIVE, PATIENCE_S, main
-from ranks import BIHIVE_MPI, FRAMES, OnRanks, frame, is_open_mpi
+from ranks import BIHIVE_MPI, FRAMES, OnRanks, frame, gsd_file, is_open_mpi
 
 # Each rank draws the shard of its own number.
 SHARD_OF_RANK = 'exec "$0" "$@" --shard $OMPI_COMM_WORLD_RANK/$OMPI_COMM_WORLD_SIZE'
@@ -141,6 +142,41 @@ class Program(OnRanks):
             self.assertEqual(len(self.errors(done)), 1, done.stderr)
             self.assertIn("/dev/full", self.errors(done)[0])
             self.assertEqual(self.leftovers(), [])
+
+    def test_parts_of_a_gsd_file(self):
+        numbers = random.Random(3)
+        count = 1 << 16  # fewer are read by rank 0
+        places = [numbers.uniform(-20, 20) for _ in range(3 * count)]
+        radii = [numbers.uniform(0.1, 0.4) for _ in range(count)]
+        with open(self.path("set.gsd"), "wb") as file:
+            file.write(gsd_file(places, radii, [numbers.randrange(2) for _ in range(count)]))
+        for options in ([], ["--radius", "0.2", "--color-by", "z"]):
+            self.expect_picture_of_one_process((3,), "set.gsd", ["--size", "80x60", *options])
+
+    def test_parts_of_a_dump(self):
+        numbers = random.Random(4)
+        count = 1 << 16
+        head = "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp pp\n0 40\n0 40\n0 40\nITEM: ATOMS id type xs ys zs radius\n"
+        rows = [f"{i + 1} {numbers.choice((1, 2, 12))} {numbers.random():.5g} {numbers.random()} {numbers.random():.3f} 0.3\n"
+                for i in range(count)]
+        whole = head.format(count) + "".join(rows)
+        self.write("set.dump", whole + "\n")
+        self.expect_picture_of_one_process((3,), "set.dump", ["--size", "80x60"])
+        # Rank 0 reads a file with several frames.
+        self.write("two.dump", whole + whole)
+        self.expect_picture_of_one_process((3,), "two.dump", ["--size", "80x60"])
+        # Each rank knows the numbers of its lines.
+        rows[-5] = "1 1 0.5 x 0.5 0.3\n"
+        self.write("bad.dump", head.format(count) + "".join(rows))
+        alone = self.run_bihive("render", "bad.dump", "-o", "a.png")
+        done = self.run_ranks(3, BIHIVE_MPI, "render", "bad.dump", "-o", "a.png", "--distribute")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(self.errors(done), self.errors(alone))
+        self.write("few.dump", head.format(count + 1) + "".join(rows))
+        done = self.run_ranks(3, BIHIVE_MPI, "render", "few.dump", "-o", "a.png", "--distribute")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
+        self.assertIn("promises 65537 atoms", self.errors(done)[0])
 
     def test_parts_of_a_file(self):
         self.succeed("scene", "scenario1", "--count", "200", "-o", "set.npy")

@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import struct
 import subprocess
 
 from program import PATIENCE_S, ProgramTest
@@ -15,6 +16,24 @@ FRAMES = 7
 def frame(number):
     places = [f"C {i + 0.1 * number * i:.2f} {0.3 * i * i:.2f} {0.2 * number:.2f}\n" for i in range(5)]
     return f"5\nframe {number}\n" + "".join(places)
+
+
+def gsd_file(places, radii, types):
+    """A GSD file of HOOMD-blue with one frame: places x, y, z of all particles in one list, and types 0 ("A") and 1 ("B")."""
+    count = len(radii)
+    floats = {"particles/position": (3, places), "particles/diameter": (1, [2 * radius for radius in radii])}
+    chunks = [(name, count, columns, 9, struct.pack(f"<{len(values)}f", *values)) for name, (columns, values) in floats.items()]
+    chunks.append(("particles/typeid", count, 1, 3, struct.pack(f"<{count}I", *types)))
+    chunks.append(("particles/types", 2, 2, 5, b"A\0B\0"))
+    names = b"".join(name.encode() + b"\0" for name, *_ in chunks)
+    names += bytes(-len(names) % 64)
+    index, place = b"", 256 + len(names)
+    for number, (_, rows, columns, kind, data) in enumerate(chunks):
+        index += struct.pack("<QQqIHBB", 0, rows, place, columns, number, kind, 0)
+        place += len(data)
+    head = struct.pack("<QQQQQII64s64s80x", 0x65DF65DF65DF65DF, place, len(chunks), 256, len(names) // 64, 0x10004,
+                       0x20000, b"test", b"hoomd")
+    return head + names + b"".join(data for *_, data in chunks) + index
 
 
 def is_open_mpi():

@@ -130,9 +130,12 @@ struct FilmOptions {
   std::string codec;  ///< ffmpeg's words for the film's codec, one space between them; empty: by the output's ending
   std::optional<Shard> shard;
   bool join = false;
-  bool silent = false;  ///< no report: another process makes that of the film
+  bool silent = false;               ///< no report: another process makes that of the film
+  std::int64_t drawn_by_others = 0;  ///< with join: of the pictures, those that were drawn just now
+  double ms_of_others = 0;
 };
-void run_film(const FilmOptions& options);
+/// Returns how many pictures it has drawn.
+std::int64_t run_film(const FilmOptions& options);
 
 struct StylesOptions {
   bool json = false;

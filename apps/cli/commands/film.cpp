@@ -178,7 +178,8 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
     fail({fmt::format("{} of {} pictures are missing, the first is number {}", missing, plan.asked.pictures, first),
           output, 0, 0, "run the shards that lack them again"});
   FilmReport report;
-  report.kept = plan.asked.pictures;
+  report.times.pictures = options.drawn_by_others;
+  report.kept = plan.asked.pictures - options.drawn_by_others;
   if (kind != FilmKind::pictures) {
     const CancellableSection section;
     folder.take(plan, /*alone=*/true);
@@ -203,7 +204,7 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
     sink->finish();
     folder.finish(plan);
   }
-  report.all_ms = timer.elapsed_ms();
+  report.all_ms = timer.elapsed_ms() + options.ms_of_others;
   print_film_report(options, plan, report);
 }
 
@@ -241,9 +242,10 @@ std::vector<std::int64_t> from_first(const std::vector<std::int64_t>& numbers, T
   return of_first;
 }
 
-// All that follows when it is known what the film shows.
-void make_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const Style& style,
-                   const FrameSource& source, FilmPlan plan, FilmFolder& folder, Team* team, const Timer& timer) {
+// All that follows when it is known what the film shows. Returns how many pictures were drawn.
+std::int64_t make_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const Style& style,
+                           const FrameSource& source, FilmPlan plan, FilmFolder& folder, Team* team,
+                           const Timer& timer) {
   const CancellableSection section;
   if (!folder.kept()) plan.fixed = fixed_by_film(source, plan, options, style);
   CancellableSection::leave_if_cancelled();
@@ -271,11 +273,12 @@ void make_pictures(const FilmOptions& options, FilmKind kind, const std::string&
   if (!options.shard) folder.finish(plan);
   report.all_ms = timer.elapsed_ms();
   if (!options.silent) print_film_report(options, plan, report);
+  return writes ? report.times.pictures : 0;
 }
 
 }  // namespace
 
-void run_film(const FilmOptions& asked) {
+std::int64_t run_film(const FilmOptions& asked) {
   const Timer timer;
   FilmOptions options = asked;
   const FilmKind kind = film_kind(options.picture.output);
@@ -285,7 +288,10 @@ void run_film(const FilmOptions& asked) {
   check_film_output(options, kind);
   // A link stays, and the film is made beside the file that it leads to.
   if (kind != FilmKind::pictures) options.picture.output = behind_links(options.picture.output);
-  if (options.join) return join_shards(options, kind, ffmpeg);
+  if (options.join) {
+    join_shards(options, kind, ffmpeg);
+    return 0;
+  }
   choose_engine(options.picture);
   warn_of_each_text_once();
 
@@ -305,8 +311,10 @@ void run_film(const FilmOptions& asked) {
   }
 
   const std::unique_ptr<Team> team = team_of_picture(options, plan.asked.pictures);
+  std::int64_t drawn = 0;
   run_in_team(team.get(),
-              [&] { make_pictures(options, kind, ffmpeg, style, source, plan, folder, team.get(), timer); });
+              [&] { drawn = make_pictures(options, kind, ffmpeg, style, source, plan, folder, team.get(), timer); });
+  return drawn;
 }
 
 }  // namespace bihive::cli

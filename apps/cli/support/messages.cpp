@@ -19,9 +19,11 @@ namespace {
 
 constexpr double kFirstDrawMs = 1000;
 constexpr double kRedrawMs = 100;
+constexpr double kFirstLineMs = 5000, kNextLineMs = 10000;
 constexpr int kBarCharacters = 24;
 
 std::atomic<bool> g_once{false};
+bool g_in_lines = false;  // progress, where there is no terminal
 thread_local std::vector<std::string>* t_collected = nullptr;
 
 // File names and other texts of users may hold anything.
@@ -82,8 +84,14 @@ std::string readable_ms(double ms) {
   return fmt::format("{:.0f} min {:.0f} s", std::floor(ms / 60e3), std::floor(std::fmod(ms / 1000, 60)));
 }
 
+void show_progress_in_lines() {
+  g_in_lines = true;
+}
+
 Progress::Progress(std::string what)
-    : what_(std::move(what)), next_draw_ms_(kFirstDrawMs), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : what_(std::move(what)),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      next_draw_ms_(terminal_ ? kFirstDrawMs : kFirstLineMs) {}
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
@@ -91,11 +99,16 @@ Progress::~Progress() {
 
 void Progress::update(double done) {
   const double elapsed = timer_.elapsed_ms();
-  if (!terminal_ || elapsed < next_draw_ms_ || done >= 1) return;
-  next_draw_ms_ = elapsed + kRedrawMs;
+  if (!(terminal_ || g_in_lines) || elapsed < next_draw_ms_ || done >= 1) return;
+  next_draw_ms_ = elapsed + (terminal_ ? kRedrawMs : kNextLineMs);
+  const std::string left = done > 0 ? readable_ms(std::ceil(elapsed * (1 - done) / done / 1000) * 1000) + " left" : "";
+  if (!terminal_) {
+    fmt::print(stderr, "{}: {:.0f} %{}{}\n", what_, 100 * done, left.empty() ? "" : ", ", left);
+    std::fflush(stderr);
+    return;
+  }
   drawn_ = true;
   const int filled = std::clamp(static_cast<int>(done * kBarCharacters), 0, kBarCharacters);
-  const std::string left = done > 0 ? readable_ms(std::ceil(elapsed * (1 - done) / done / 1000) * 1000) + " left" : "";
   fmt::print(stderr, "\r\033[K{} [{:<{}}] {:3.0f} % {}", what_, std::string(static_cast<std::size_t>(filled), '#'),
              kBarCharacters, 100 * done, left);
   std::fflush(stderr);

@@ -36,6 +36,10 @@ void finish_output();
 /// 1234.5 as "1.23 s", 12.34 as "12.3 ms".
 std::string readable_ms(double ms);
 
+/// From now on Progress writes lines, seconds apart, where there is no terminal: for a program whose output mpirun
+/// takes.
+void show_progress_in_lines();
+
 /// A line with the finished share and the remaining time. It is rewritten in place, on a terminal only, and only if the
 /// work takes over a second. It is cleared at the end. Only one thread at a time may call update().
 class Progress {
@@ -53,8 +57,8 @@ class Progress {
  private:
   std::string what_;
   Timer timer_;
-  double next_draw_ms_;
   bool terminal_;
+  double next_draw_ms_;
   bool drawn_ = false;
 };
 

@@ -21,6 +21,19 @@ class SetParts {
   virtual std::vector<std::vector<double>> gather(const std::vector<double>& numbers) const = 0;
 };
 
+/// The rows of a file that a process reads.
+struct RowRange {
+  std::int64_t first = 0, end = 0;
+  std::int64_t count() const { return end - first; }
+};
+/// Part k of n has the rows from about rows * k / n on; `parts` null: all.
+inline RowRange rows_of_part(const SetParts* parts, std::int64_t rows) {
+  if (parts == nullptr) return {0, rows};
+  const std::int64_t count = parts->count();
+  const auto bound = [&](std::int64_t part) { return rows / count * part + rows % count * part / count; };
+  return {bound(parts->part()), bound(parts->part() + 1)};
+}
+
 /// The same where there may be one process alone; `parts` null: it has the whole set.
 inline void greatest_of_all(const SetParts* parts, std::vector<double>& numbers) {
   if (parts != nullptr) parts->take_greatest(numbers);

@@ -9,7 +9,9 @@
 #include "bihive/base/memory.h"
 #include "bihive/io/binary_number.h"
 #include "bihive/io/npy_layout.h"
+#include "bihive/io/part_of_dump.h"
 #include "bihive/io/raw_spheres.h"
+#include "bihive/io/trajectory/gsd.h"
 #include "bihive/io/trajectory/random_file.h"
 #include "bihive/io/without_throwing.h"
 
@@ -29,6 +31,19 @@ Result<NpyLayout> layout_of(const RandomFile& file) {
 
 bool has_rows_of_spheres(const NpyLayout& layout) {
   return layout.shape.size() == 2 && (layout.shape[1] == 3 || layout.shape[1] == 4) && !layout.fortran_order;
+}
+
+// Parts of different files would make a set that nobody has. `facts`: besides the size.
+Status see_alike(const RandomFile& file, const SetParts& parts, std::vector<double> facts) {
+  facts.push_back(double(file.size()));
+  std::vector<double> greatest = facts;
+  for (const double fact : facts) greatest.push_back(-fact);
+  parts.take_greatest(greatest);
+  for (std::size_t i = 0; i < facts.size(); ++i)
+    if (greatest[i] != -greatest[facts.size() + i])
+      return Error{"the ranks see different files of this name", file.path(), 0, 0,
+                   "let all ranks see the same folder"};
+  return Done{};
 }
 
 Result<RawSpheres> rows_of(const RandomFile& file, const NpyLayout& layout, std::int64_t first, std::int64_t end) {
@@ -67,37 +82,74 @@ Result<RawSpheres> rows_of(const RandomFile& file, const NpyLayout& layout, std:
   return spheres;
 }
 
+Result<RawSpheres> part_of_npy(const RandomFile& file, const SetParts& parts) {
+  const Result<NpyLayout> layout = layout_of(file);
+  if (!layout) return layout.error();
+  if (!has_rows_of_spheres(*layout)) return Error{"parts of this file cannot be read", file.path(), 0, 0, ""};
+  const std::int64_t rows = layout->shape[0];
+  const Status alike = see_alike(file, parts, {double(rows), double(layout->shape[1]), double(layout->type.size)});
+  if (!alike) return alike.error();
+  const RowRange own = rows_of_part(&parts, rows);
+  return rows_of(file, *layout, own.first, own.end);
+}
+
+// Fewer are not worth it, and with many ranks some would have none.
+constexpr std::int64_t kFewestParticles = 1 << 16;
+
+bool has_many_particles(const GsdFile& file) {
+  return file.schema() == "hoomd" && file.rows(0, "particles/position").value_or(0) >= kFewestParticles;
+}
+
+enum class Kind { none, npy, gsd, dump };
+
+Kind kind_of(const RandomFile& file) {
+  const Result<std::string> head = file.read(0, std::min<std::int64_t>(8, file.size()));
+  if (head && GsdFile::looks_like(*head)) return Kind::gsd;
+  if (layout_of(file)) return Kind::npy;
+  return can_read_part_of_dump(file) ? Kind::dump : Kind::none;
+}
+
 }  // namespace
 
 bool can_read_part(const std::string& path) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return false;
-  const Result<RandomFile> file = RandomFile::open(path);
+  Result<RandomFile> file = RandomFile::open(path);
   if (!file) return false;
-  const Result<NpyLayout> layout = layout_of(*file);
-  return layout && has_rows_of_spheres(*layout);
+  switch (kind_of(*file)) {
+    case Kind::gsd: {
+      const Result<GsdFile> opened = GsdFile::open(std::move(*file));
+      return opened && has_many_particles(*opened);
+    }
+    case Kind::npy:
+      return has_rows_of_spheres(*layout_of(*file));
+    case Kind::dump:
+      return true;
+    case Kind::none:
+      break;
+  }
+  return false;
 }
 
 Result<RawSpheres> read_part(const std::string& path, const SetParts& parts) {
   return without_throwing(path, [&]() -> Result<RawSpheres> {
-    const Result<RandomFile> file = RandomFile::open(path);
+    Result<RandomFile> file = RandomFile::open(path);
     if (!file) return file.error();
-    const Result<NpyLayout> layout = layout_of(*file);
-    if (!layout) return layout.error();
-    if (!has_rows_of_spheres(*layout)) return Error{"parts of this file cannot be read", path, 0, 0, ""};
-    const std::int64_t rows = layout->shape[0];
-
-    // Parts of different files would make a set that nobody has.
-    std::vector<double> facts{double(rows), double(layout->shape[1]), double(layout->type.size), double(file->size())};
-    std::vector<double> greatest = facts;
-    for (const double fact : facts) greatest.push_back(-fact);
-    parts.take_greatest(greatest);
-    for (std::size_t i = 0; i < facts.size(); ++i)
-      if (greatest[i] != -greatest[facts.size() + i])
-        return Error{"the ranks see different files of this name", path, 0, 0, "let all ranks see the same folder"};
-    const std::int64_t count = parts.count();
-    const auto bound = [&](std::int64_t part) { return rows / count * part + rows % count * part / count; };
-    return rows_of(*file, *layout, bound(parts.part()), bound(parts.part() + 1));
+    const Kind kind = kind_of(*file);
+    if (const Status alike = see_alike(*file, parts, {double(static_cast<int>(kind))}); !alike) return alike.error();
+    switch (kind) {
+      case Kind::gsd: {
+        const Result<GsdFile> opened = GsdFile::open(std::move(*file));
+        if (!opened) return opened.error();
+        return read_gsd_frame(*opened, 0, &parts);
+      }
+      case Kind::dump:
+        return part_of_dump(*file, parts);
+      case Kind::npy:
+      case Kind::none:
+        break;
+    }
+    return part_of_npy(*file, parts);
   });
 }
 

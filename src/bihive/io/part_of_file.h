@@ -10,8 +10,8 @@ namespace bihive {
 
 struct RawSpheres;
 
-/// Whether parts of this file can be read: NPY with three or four columns, in C order, not packed, as it lies on a
-/// disk. Other files are read as a whole.
+/// Whether parts of this file can be read: NPY with three or four columns, in C order; GSD and LAMMPS dumps of
+/// one frame with many particles. Not packed, as it lies on a disk. Other files are read as a whole.
 bool can_read_part(const std::string& path);
 
 /// The rows of this process. Part k of n has the rows from about rows * k / n on. For all processes at the same time.

@@ -26,7 +26,8 @@ constexpr KeptArray kKeptArrays[] = {{"particles/mass", {"mass"}},
 
 class GsdFrame {
  public:
-  GsdFrame(const GsdFile& file, std::int64_t frame) : file_(file), frame_(frame) {}
+  GsdFrame(const GsdFile& file, std::int64_t frame, const SetParts* parts)
+      : file_(file), frame_(frame), parts_(parts) {}
 
   Result<RawSpheres> read() {
     if (frame_ < 0 || frame_ >= file_.frame_count()) return no_such_frame(file_.path(), frame_, file_.frame_count());
@@ -48,14 +49,14 @@ class GsdFrame {
 
   // An array with one row for each particle.
   Status take(const std::string& name, std::int64_t columns, std::optional<GsdArray>& array) const {
-    Result<std::optional<GsdArray>> found = file_.array(frame_, name);
+    Result<std::optional<GsdArray>> found = file_.array(frame_, name, parts_);
     if (!found) return found.error();
     array = std::move(*found);
-    if (!array || !count_) return Done{};
+    if (!array || !rows_) return Done{};
     // An array of frame 0 stands for later frames only as long as the particles are as many.
-    if (array->rows != *count_ || array->columns != columns)
+    if (array->rows != *rows_ || array->columns != columns)
       return wrong(name, "has " + std::to_string(array->rows) + " x " + std::to_string(array->columns) +
-                             " numbers for " + std::to_string(*count_) + " particles");
+                             " numbers for " + std::to_string(*rows_) + " particles");
     return Done{};
   }
 
@@ -64,7 +65,8 @@ class GsdFrame {
     if (Status status = take("particles/position", 3, array); !status) return status;
     if (!array) return wrong("particles/position", "is missing");
     if (array->columns != 3) return wrong("particles/position", "has not three columns");
-    count_ = array->rows;
+    rows_ = array->rows;
+    count_ = rows_of_part(parts_, array->rows).count();
     for (std::size_t i = 0; i < array->values.size(); ++i) {
       if (coordinate_fault(array->values[i])) return wrong("particles/position", "has a number that is not finite");
       (i % 3 == 0 ? spheres_.x : i % 3 == 1 ? spheres_.y : spheres_.z).push_back(array->values[i]);
@@ -92,7 +94,7 @@ class GsdFrame {
       }
     }
     if (column.texts.empty()) column.texts = {"A"};  // the schema's own
-    for (std::int64_t i = 0; i < *count_; ++i) {
+    for (std::int64_t i = 0; i < count_; ++i) {
       const double id = ids ? ids->values[static_cast<std::size_t>(i)] : 0;
       if (!(id >= 0 && id < static_cast<double>(column.texts.size())))
         return wrong("particles/typeid", "names a type that does not exist");
@@ -154,7 +156,9 @@ class GsdFrame {
 
   const GsdFile& file_;
   std::int64_t frame_;
-  std::optional<std::int64_t> count_;
+  const SetParts* parts_;
+  std::optional<std::int64_t> rows_;  // particles of the frame
+  std::int64_t count_ = 0;            // of this process
   RawSpheres spheres_;
 };
 
@@ -166,8 +170,8 @@ Result<RawSpheres> read_gsd(std::string_view bytes, const std::string& file, std
   return read_gsd_frame(*opened, frame);
 }
 
-Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame) {
-  return GsdFrame(file, frame).read();
+Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, const SetParts* parts) {
+  return GsdFrame(file, frame, parts).read();
 }
 
 }  // namespace bihive

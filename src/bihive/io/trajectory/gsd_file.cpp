@@ -143,14 +143,28 @@ Status GsdFile::read_head() {
   return Done{};
 }
 
-Result<std::optional<GsdArray>> GsdFile::array(std::int64_t frame, const std::string& name) const {
+const GsdFile::Chunk* GsdFile::find(std::int64_t frame, const std::string& name) const {
   auto found = chunks_.find({name, frame});
   if (found == chunks_.end()) found = chunks_.find({name, 0});
-  if (found == chunks_.end()) return std::optional<GsdArray>();
-  const Chunk& chunk = found->second;
+  return found == chunks_.end() ? nullptr : &found->second;
+}
+
+std::optional<std::int64_t> GsdFile::rows(std::int64_t frame, const std::string& name) const {
+  const Chunk* const chunk = find(frame, name);
+  if (chunk == nullptr) return std::nullopt;
+  return chunk->rows;
+}
+
+Result<std::optional<GsdArray>> GsdFile::array(std::int64_t frame, const std::string& name,
+                                               const SetParts* parts) const {
+  const Chunk* const found = find(frame, name);
+  if (found == nullptr) return std::optional<GsdArray>();
+  const Chunk& chunk = *found;
   GsdArray made{chunk.rows, chunk.columns, {}};
-  const std::int64_t count = chunk.rows * chunk.columns;
-  const Result<std::string> bytes = file_.read(chunk.place, count * kTypeBytes[chunk.type]);
+  const RowRange rows = rows_of_part(parts, chunk.rows);
+  const std::int64_t row_bytes = std::int64_t{chunk.columns} * kTypeBytes[chunk.type];
+  const std::int64_t count = rows.count() * chunk.columns;
+  const Result<std::string> bytes = file_.read(chunk.place + rows.first * row_bytes, rows.count() * row_bytes);
   if (!bytes) return bytes.error();
   made.values.resize(static_cast<std::size_t>(count));
   ByteReader reader(*bytes, ByteOrder::little);

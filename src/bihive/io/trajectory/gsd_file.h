@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/geometry/set_parts.h"
 #include "bihive/io/trajectory/random_file.h"
 
 namespace bihive {
@@ -17,7 +18,7 @@ namespace bihive {
 /// One array: rows x columns numbers, as binary64.
 struct GsdArray {
   std::int64_t rows = 0, columns = 0;
-  std::vector<double> values;  ///< row after row
+  std::vector<double> values;  ///< row after row: all, or those of a part
 };
 
 /// Any number of threads may read at a time.
@@ -35,8 +36,12 @@ class GsdFile {
   const std::string& path() const { return file_.path(); }
 
   /// The array of that name in that frame; if the frame has none, that of frame 0, as the schema of HOOMD-blue says.
-  /// Nothing: neither has one. Errors: damaged bytes.
-  Result<std::optional<GsdArray>> array(std::int64_t frame, const std::string& name) const;
+  /// Nothing: neither has one. `parts`: with the values of this process' rows alone; null: of all. Errors: damaged
+  /// bytes.
+  Result<std::optional<GsdArray>> array(std::int64_t frame, const std::string& name,
+                                        const SetParts* parts = nullptr) const;
+  /// Its rows, without reading it; nothing as above.
+  std::optional<std::int64_t> rows(std::int64_t frame, const std::string& name) const;
 
  private:
   explicit GsdFile(RandomFile file) : file_(std::move(file)) {}
@@ -48,6 +53,7 @@ class GsdFile {
     std::uint32_t columns;
     std::uint8_t type;
   };
+  const Chunk* find(std::int64_t frame, const std::string& name) const;
 
   RandomFile file_;
   std::string schema_;

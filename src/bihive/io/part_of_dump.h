@@ -1,0 +1,23 @@
+// A part of a LAMMPS dump: some of its lines.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bihive/base/result.h"
+#include "bihive/geometry/set_parts.h"
+#include "bihive/io/raw_spheres.h"
+#include "bihive/io/trajectory/random_file.h"
+
+namespace bihive {
+
+/// Whether the file begins as a dump of many atoms, all of whose columns are numbers, and is as large as one frame
+/// alone makes it.
+bool can_read_part_of_dump(const RandomFile& file);
+
+/// The atoms whose lines begin in this process' share of the bytes. For all processes at the same time. Errors as those
+/// of the reader of the whole file; more or fewer lines than atoms; types that are no whole numbers, which would need
+/// the others' too.
+Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts);
+
+}  // namespace bihive
