@@ -150,7 +150,7 @@ class Program(OnRanks):
         radii = [numbers.uniform(0.1, 0.4) for _ in range(count)]
         with open(self.path("set.gsd"), "wb") as file:
             file.write(gsd_file(places, radii, [numbers.randrange(2) for _ in range(count)]))
-        for options in ([], ["--radius", "0.2", "--color-by", "z"]):
+        for options in ([], ["--radius", "0.2", "--colour-by", "z"]):
             self.expect_picture_of_one_process((3,), "set.gsd", ["--size", "80x60", *options])
 
     def test_parts_of_a_dump(self):

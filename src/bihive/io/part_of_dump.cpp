@@ -55,7 +55,7 @@ std::optional<DumpHead> head_of(const RandomFile& file) {
     at = newline + 1;
     ++head.lines;
     (atoms ? head.after_count : head.before_count) += line;
-    const std::string_view words = trim(line);
+    const std::string_view words = trim(std::string_view(line).substr(0, line.size() - 1));
     if (words == "ITEM: NUMBER OF ATOMS" && !atoms) {
       const std::size_t end = bytes->find('\n', at);
       if (end == std::string::npos) return std::nullopt;
