@@ -184,6 +184,7 @@ bool same_bits(const Film& a, const Film& b) {
 template <class Of>
 auto each(int ranks, const Of& of) {
   std::vector<decltype(of(0))> numbers;
+  numbers.reserve(static_cast<std::size_t>(ranks));
   for (int rank = 0; rank < ranks; ++rank) numbers.push_back(of(rank));
   return numbers;
 }

@@ -150,6 +150,15 @@ void SphereSet::append_stored(const StoredSpheres& spheres) {
   r_.insert(r_.end(), spheres.r.begin(), spheres.r.end());
 }
 
+void SphereSet::order_stored(const std::vector<std::int64_t>& ids) {
+  for (auto* values : {&x_, &y_, &z_, &r_}) {
+    std::vector<float> ordered;
+    ordered.reserve(ids.size());
+    for (const std::int64_t id : ids) ordered.push_back((*values)[static_cast<std::size_t>(id)]);
+    *values = std::move(ordered);
+  }
+}
+
 void SphereSet::keep_first(std::int64_t count) {
   for (auto* values : {&x_, &y_, &z_, &r_}) values->resize(static_cast<std::size_t>(count));
 }

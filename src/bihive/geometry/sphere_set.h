@@ -51,6 +51,8 @@ class SphereSet {
   static SphereSet from_stored(StoredSpheres spheres, int scale_exponent);
   /// Adds spheres in the set's own stored units, behind the others. The set has no images.
   void append_stored(const StoredSpheres& spheres);
+  /// The spheres with these ids, in this order, without touching the attributes.
+  void order_stored(const std::vector<std::int64_t>& ids);
   /// Keeps the first `count` spheres, without touching the attributes.
   void keep_first(std::int64_t count);
 

@@ -148,6 +148,7 @@ class Implementation final : public RanksInProcess {
     Meeting meeting(size());
     std::vector<Status> failed(ranks_.size(), Done{});
     std::vector<std::thread> threads;
+    threads.reserve(ranks_.size());
     for (int rank = 0; rank < size(); ++rank)
       threads.emplace_back([&, rank] {
         RankThread here(rank, meeting);

@@ -1,6 +1,8 @@
 #include "bihive/spread/sphere_columns.h"
 
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 namespace bihive {
 namespace {
@@ -77,6 +79,19 @@ void append_spheres(ByteReader& in, const SphereColumns& has, Scene& scene, std:
   for (auto* column : {&stored.x, &stored.y, &stored.z, &stored.r}) append(in, count, *column);
   scene.spheres.append_stored(stored);
   for_each_column(has, scene, [&](auto& column) { append(in, count, column); });
+}
+
+void order_spheres(const std::vector<std::int64_t>& ids, const SphereColumns& has, Scene& scene,
+                   std::vector<std::int64_t>& whole_ids) {
+  const auto order = [&](auto& column) {
+    std::remove_reference_t<decltype(column)> ordered;
+    ordered.reserve(ids.size());
+    for (const std::int64_t id : ids) ordered.push_back(column[static_cast<std::size_t>(id)]);
+    column = std::move(ordered);
+  };
+  order(whole_ids);
+  scene.spheres.order_stored(ids);
+  for_each_column(has, scene, order);
 }
 
 void keep_first_spheres(std::int64_t count, const SphereColumns& has, Scene& scene,

@@ -27,6 +27,10 @@ void pack_spheres(const Scene& scene, const SphereColumns& has, const std::vecto
 /// and the distinct texts of the scene that packed, and their ids in the whole set to `whole_ids`.
 void append_spheres(ByteReader& packed, const SphereColumns& has, Scene& scene, std::vector<std::int64_t>& whole_ids);
 
+/// The spheres with these ids, in this order. One column after the other, so it needs little memory.
+void order_spheres(const std::vector<std::int64_t>& ids, const SphereColumns& has, Scene& scene,
+                   std::vector<std::int64_t>& whole_ids);
+
 /// Keeps the first `count` spheres.
 void keep_first_spheres(std::int64_t count, const SphereColumns& has, Scene& scene,
                         std::vector<std::int64_t>& whole_ids);

@@ -87,25 +87,14 @@ struct SomeSpheres {
 };
 
 // Orders them by their ids in the whole set.
-void sort_by_whole_id(SomeSpheres& spheres, const SphereColumns& has, const Scene& shell) {
+void sort_by_whole_id(SomeSpheres& spheres, const SphereColumns& has) {
   if (std::is_sorted(spheres.whole_ids.begin(), spheres.whole_ids.end())) return;
   std::vector<std::int64_t> order(spheres.whole_ids.size());
   std::iota(order.begin(), order.end(), std::int64_t{0});
   std::sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
     return spheres.whole_ids[static_cast<std::size_t>(a)] < spheres.whole_ids[static_cast<std::size_t>(b)];
   });
-  SomeSpheres sorted{shell, {}};
-  Bytes packed;
-  for (std::size_t first = 0; first < order.size(); first += std::size_t(kSpheresAtOnce)) {
-    const std::size_t end = std::min(order.size(), first + std::size_t(kSpheresAtOnce));
-    packed.clear();
-    pack_spheres(spheres.scene, has, spheres.whole_ids,
-                 {order.begin() + static_cast<std::ptrdiff_t>(first), order.begin() + static_cast<std::ptrdiff_t>(end)},
-                 packed);
-    ByteReader reader(packed);
-    append_spheres(reader, has, sorted.scene, sorted.whole_ids);
-  }
-  spheres = std::move(sorted);
+  order_spheres(order, has, spheres.scene, spheres.whole_ids);
 }
 
 // Sends all spheres to their ranks.
@@ -128,7 +117,7 @@ SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const Sp
     }
   }
   had = {};
-  sort_by_whole_id(got, has, shell);
+  sort_by_whole_id(got, has);
   return got;
 }
 
@@ -162,7 +151,7 @@ std::int64_t add_guests(SomeSpheres& own, const SphereColumns& has, const Scene&
     ByteReader reader(all[static_cast<std::size_t>(rank)]);
     append_spheres(reader, has, guests.scene, guests.whole_ids);
   }
-  sort_by_whole_id(guests, has, shell);
+  sort_by_whole_id(guests, has);
   // Without a cut sphere anywhere all spheres are whole or gone.
   const bool here = cut_set_of(own.scene) != nullptr;
   if (!here && cut_set_of(guests.scene) == nullptr) return count;
@@ -185,7 +174,7 @@ Bytes common_stand_ins(const SomeSpheres& own, const RenderSettings& settings, c
     ByteReader reader(bytes);
     append_spheres(reader, has, all.scene, all.whole_ids);
   }
-  sort_by_whole_id(all, has, shell);
+  sort_by_whole_id(all, has);
   // Many ranks have many; those that stand for them stand for all.
   Bytes together;
   pack_spheres(all.scene, has, all.whole_ids, stand_ins(all.scene, settings), together);
