@@ -15,7 +15,7 @@ namespace {
 // The messenger looks so often whether something has arrived, when it has nothing to send.
 constexpr std::chrono::microseconds kPause{30};
 
-// Who waits looks so often whether a signal came.
+// A thread that waits looks so often whether a signal came.
 constexpr std::chrono::milliseconds kPatience{50};
 
 // Tiles of a rank that are on their way, for each of its threads that draw.

@@ -70,7 +70,7 @@ class MpiTeam final : public cli::Team {
   std::mutex mutex_;  // MPI takes one thread at a time
   std::unique_ptr<SharedCounter> counter_;
 
-  // Where the counter is not shared: an answer of rank 0 that is on its way.
+  // If the counter is not shared: an answer of rank 0 that is on its way.
   bool awaits_number_ = false;
   std::int64_t number_ = 0;
   MPI_Request number_request_ = MPI_REQUEST_NULL;

@@ -195,12 +195,13 @@ class Program(OnRanks):
         self.assertIn("set.npy", self.errors(done)[0])
         os.mkdir(self.path("other"))
         self.write("other/set.npy", content)
-        self.succeed("scene", "scenario1", "--count", "100", "-o", "set.npy")
         elsewhere = 'test $OMPI_COMM_WORLD_RANK = 2 && cd other; exec "$0" render set.npy --distribute "$@"'
-        done = self.run_ranks(3, "sh", "-c", elsewhere, BIHIVE_MPI, "-o", "a.png")
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(len(self.errors(done)), 1, done.stderr)
-        self.assertIn("different files", self.errors(done)[0])
+        for other in (["scenario1", "--count", "100"], ["scenario3", "--count", "200", "--radius", "0.5"]):
+            self.succeed("scene", *other, "-o", "set.npy")
+            done = self.run_ranks(3, "sh", "-c", elsewhere, BIHIVE_MPI, "-o", "a.png")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(len(self.errors(done)), 1, done.stderr)
+            self.assertIn("different files", self.errors(done)[0])
         self.assertFalse(os.path.exists(self.path("a.png")))
 
 

@@ -208,7 +208,7 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
   print_film_report(options, plan, report);
 }
 
-// Where there are more ranks than pictures, several ranks draw each picture together, and the first of them writes it.
+// If there are more ranks than pictures, several ranks draw each picture together, and the first of them writes it.
 // Null: alone.
 std::unique_ptr<Team> team_of_picture(FilmOptions& options, std::int64_t pictures) {
   if (team() == nullptr || team()->size() <= pictures) return nullptr;

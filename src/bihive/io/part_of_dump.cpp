@@ -77,7 +77,7 @@ std::optional<DumpHead> head_of(const RandomFile& file) {
   return std::nullopt;
 }
 
-// Where the first line begins at `place` or behind it.
+// The beginning of the first line at `place` or behind it.
 Result<std::int64_t> next_line(const RandomFile& file, std::int64_t first, std::int64_t place) {
   if (place <= first) return first;
   for (std::int64_t at = place - 1; at < file.size(); at += kDumpHeadBytes) {

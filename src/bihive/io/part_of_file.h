@@ -15,7 +15,8 @@ struct RawSpheres;
 bool can_read_part(const std::string& path);
 
 /// The rows of this process. Part k of n has the rows from about rows * k / n on. For all processes at the same time.
-/// Errors as those of the reader of the whole file, and if the processes see files of different shapes or sizes.
+/// Errors as those of the reader of the whole file, and if the processes see files of different shapes, sizes or
+/// contents, as far as samples tell.
 Result<RawSpheres> read_part(const std::string& path, const SetParts& parts);
 
 }  // namespace bihive

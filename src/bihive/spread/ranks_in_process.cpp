@@ -15,10 +15,10 @@
 namespace bihive {
 namespace {
 
-// What each rank gives, for each rank.
+// The bytes of each rank for each rank.
 using Given = std::vector<std::vector<Bytes>>;
 
-// Where the threads meet.
+// The meeting place of the threads.
 class Meeting {
  public:
   explicit Meeting(int size) : size_(size) { begin(); }

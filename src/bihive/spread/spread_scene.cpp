@@ -59,8 +59,8 @@ SphereColumns columns_of_all(const Scene& scene, Ranks& ranks) {
   return has;
 }
 
-// Where the ranks begin, from samples of all spheres at even distances. Rank 0 alone looks at them: there may be more
-// than another rank has spheres.
+// The first key of each rank, from samples of all spheres at even distances. Rank 0 alone looks at them: there may be
+// more than another rank has spheres.
 std::vector<SphereKey> common_starts(const SphereSet& spheres, std::int64_t whole_size, Ranks& ranks) {
   const std::int64_t samples_of_all = std::max(kSamplesOfAll, kFewestSamples * ranks.size());
   const std::int64_t step = std::max<std::int64_t>(1, whole_size / samples_of_all);
