@@ -42,7 +42,7 @@ constexpr const char* kHelp =
     "joins them. Without --threads the ranks of a machine share its cores, or keep to those that mpirun gives them.\n"
     "\n"
     "--distribute: each sphere lies on one rank, for sets beyond the memory of a machine. For render alone. Each rank\n"
-    "reads its part of an NPY or GSD file or of a LAMMPS dump; other files are read by rank 0.\n"
+    "reads its part of an NPY, GSD or H5MD file or of a LAMMPS dump; other files are read by rank 0.\n"
     "\n"
     "Examples:\n"
     "  mpirun -n 4 bihive-mpi render demo -o molecule.png --size 8000x6000\n"

@@ -1,5 +1,6 @@
 """Pictures and films by three ranks of mpirun: bihive-mpi, and shards of bihive, as docs/many_machines.md says."""
 
+import importlib.util
 import json
 import os
 import random
@@ -177,6 +178,31 @@ class Program(OnRanks):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(len(self.errors(done)), 1, done.stderr)
         self.assertIn("promises 65537 atoms", self.errors(done)[0])
+
+    @unittest.skipUnless(importlib.util.find_spec("h5py"), "needs h5py")
+    def test_parts_of_an_h5md_file(self):
+        import h5py
+        import numpy
+
+        numbers = numpy.random.default_rng(5)
+        count = 1 << 16
+        places = (40 * numbers.random((2, count, 3))).astype("f4")
+        kinds = numbers.integers(1, 4, (2, count)).astype("i4")
+        with h5py.File(self.path("set.h5md"), "w") as file:
+            for name, values in (("position", places), ("species", kinds)):
+                group = file.create_group("particles/all/" + name)
+                group.create_dataset("value", data=values)
+                group.create_dataset("step", data=numpy.arange(2))
+            file["particles/all/charge"] = numbers.random(count)
+        self.expect_picture_of_one_process((3,), "set.h5md", ["--size", "80x60"])
+        # Types that are no whole numbers are numbered as they come, so they need all rows.
+        with h5py.File(self.path("set.h5md"), "r+") as file:
+            del file["particles/all/species/value"]
+            file["particles/all/species/value"] = kinds + 0.5
+        done = self.run_ranks(3, BIHIVE_MPI, "render", "set.h5md", "-o", "a.png", "--distribute")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(len(self.errors(done)), 1, done.stderr)
+        self.assertIn("types whole ones", self.errors(done)[0])
 
     def test_parts_of_a_file(self):
         self.succeed("scene", "scenario1", "--count", "200", "-o", "set.npy")

@@ -32,13 +32,11 @@ struct DumpHead {
   double line_bytes = 0;  // of the first atoms, in the mean
 };
 
-bool all_are_numbers(std::string_view columns) {
+bool can_be_divided(std::string_view columns) {
   TextScanner scanner(columns, "");
   scanner.next_line();
-  for (std::string_view name; scanner.next_field(name);) {
-    const ColumnRole role = usual_role(std::string(name));
-    if (role == ColumnRole::species || role == ColumnRole::text || role == ColumnRole::atomic_number) return false;
-  }
+  for (std::string_view name; scanner.next_field(name);)
+    if (needs_all_rows(usual_role(name))) return false;
   return true;
 }
 
@@ -64,7 +62,7 @@ std::optional<DumpHead> head_of(const RandomFile& file) {
       at = end + 1;
       ++head.lines;
     } else if (words.substr(0, 11) == "ITEM: ATOMS") {
-      if (!atoms || !all_are_numbers(words.substr(11))) return std::nullopt;
+      if (!atoms || !can_be_divided(words.substr(11))) return std::nullopt;
       const std::string_view rest = std::string_view(*bytes).substr(at);
       const auto lines = std::count(rest.begin(), rest.end(), '\n');
       if (lines == 0) return std::nullopt;
@@ -132,15 +130,10 @@ Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts) {
   lines = std::string();
 
   Result<RawSpheres> spheres = read_lammps_dump(text, file.path(), 0);
-  if (!spheres) {
-    Error error = spheres.error();
-    if (error.line > head->lines) error.line += all.before;
-    return error;
-  }
-  if (greatest_of_all(&parts, spheres->attributes.texts.empty() ? 0 : 1) > 0)
-    return Error{"parts of a dump are read only if its types are whole numbers", file.path(), 0, 0,
-                 "leave out --distribute, or convert it: bihive convert DUMP -o set.npy"};
-  return spheres;
+  if (spheres) return spheres;
+  Error error = spheres.error();
+  if (error.line > head->lines) error.line += all.before;
+  return error;
 }
 
 }  // namespace bihive

@@ -11,13 +11,12 @@
 
 namespace bihive {
 
-/// Whether the file begins as a dump of many atoms, all of whose columns are numbers, and is as large as one frame
+/// Whether the file begins as a dump of many atoms, no column of which needs all rows, and is as large as one frame
 /// alone makes it.
 bool can_read_part_of_dump(const RandomFile& file);
 
 /// The atoms whose lines begin in this process' share of the bytes. For all processes at the same time. Errors as those
-/// of the reader of the whole file; more or fewer lines than atoms; types that are no whole numbers, which would need
-/// the others' too.
+/// of the reader of the whole file; more or fewer lines than atoms.
 Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts);
 
 }  // namespace bihive

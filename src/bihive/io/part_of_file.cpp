@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bihive/base/memory.h"
+#include "bihive/io/arrays/array_frames.h"
 #include "bihive/io/binary_number.h"
 #include "bihive/io/npy_layout.h"
 #include "bihive/io/part_of_dump.h"
@@ -118,13 +119,31 @@ bool has_many_particles(const GsdFile& file) {
   return file.schema() == "hoomd" && file.rows(0, "particles/position").value_or(0) >= kFewestParticles;
 }
 
-enum class Kind { none, npy, gsd, dump };
+// What a column is may depend on the rows of a part: a text, a number, or nothing.
+Status have_equal_columns(const RawSpheres& spheres, const std::string& path, const SetParts& parts) {
+  const SphereAttributes& attributes = spheres.attributes;
+  std::string columns = spheres.r.empty() ? "" : "r ";
+  if (!attributes.type.empty()) columns += "type ";
+  if (!attributes.opacity.empty()) columns += "opacity ";
+  for (const NamedNumbers& column : attributes.numbers) columns += "/" + column.name;
+  const double number = static_cast<double>(std::hash<std::string>()(columns) >> 12);
+  std::vector<double> greatest{number, -number, attributes.texts.empty() ? 0.0 : 1.0};
+  parts.take_greatest(greatest);
+  if (greatest[0] == -greatest[1] && greatest[2] == 0) return Done{};
+  return Error{"parts of this file can be read only if all columns are numbers, and types whole ones", path, 0, 0,
+               "leave out --distribute, or convert the file: bihive convert FILE -o set.npy"};
+}
+
+enum class Kind { none, npy, gsd, dump, arrays };
 
 Kind kind_of(const RandomFile& file) {
   const Result<std::string> head = file.read(0, std::min<std::int64_t>(8, file.size()));
   if (head && GsdFile::looks_like(*head)) return Kind::gsd;
   if (layout_of(file)) return Kind::npy;
-  return can_read_part_of_dump(file) ? Kind::dump : Kind::none;
+  if (can_read_part_of_dump(file)) return Kind::dump;
+  Result<RandomFile> again = RandomFile::open(file.path());
+  if (again && particles_in_parts(std::move(*again)).value_or(0) >= kFewestParticles) return Kind::arrays;
+  return Kind::none;
 }
 
 }  // namespace
@@ -142,6 +161,7 @@ bool can_read_part(const std::string& path) {
     case Kind::npy:
       return has_rows_of_spheres(*layout_of(*file));
     case Kind::dump:
+    case Kind::arrays:
       return true;
     case Kind::none:
       break;
@@ -162,7 +182,13 @@ Result<RawSpheres> read_part(const std::string& path, const SetParts& parts) {
         return read_gsd_frame(*opened, 0, &parts);
       }
       case Kind::dump:
-        return part_of_dump(*file, parts);
+      case Kind::arrays: {
+        Result<RawSpheres> part =
+            kind == Kind::dump ? part_of_dump(*file, parts) : part_of_arrays(std::move(*file), parts);
+        if (!part) return part;
+        if (const Status equal = have_equal_columns(*part, path, parts); !equal) return equal.error();
+        return part;
+      }
       case Kind::npy:
       case Kind::none:
         break;

@@ -10,7 +10,7 @@ namespace bihive {
 
 struct RawSpheres;
 
-/// Whether parts of this file can be read: NPY with three or four columns, in C order; GSD and LAMMPS dumps of
+/// Whether parts of this file can be read: NPY with three or four columns, in C order; GSD, H5MD and LAMMPS dumps of
 /// one frame with many particles. Not packed, as it lies on a disk. Other files are read as a whole.
 bool can_read_part(const std::string& path);
 

@@ -36,6 +36,11 @@ ColumnRole usual_role(std::string_view name) {
   return found == roles.end() ? ColumnRole::number : found->second;
 }
 
+bool needs_all_rows(ColumnRole role) {
+  return role == ColumnRole::species || role == ColumnRole::text || role == ColumnRole::atomic_number ||
+         role == ColumnRole::red || role == ColumnRole::green || role == ColumnRole::blue;
+}
+
 std::vector<TableColumn> columns_without_names(std::size_t count) {
   std::vector<TableColumn> columns;
   if (count != 3 && count != 4) {

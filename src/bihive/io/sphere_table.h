@@ -41,6 +41,9 @@ struct TableColumn {
 /// The role that a column's name stands for in most formats (upper or lower case): x, y, z, radius, diameter, element,
 /// symbol, species, atomic_number, type, red, green, blue, opacity, transparency; else `number`.
 ColumnRole usual_role(std::string_view name);
+/// Whether the meaning of such a column depends on all rows: colours may range to 1 or to 255, and elements are none if
+/// all are unknown.
+bool needs_all_rows(ColumnRole role);
 
 /// Gives the chosen columns their parts, and takes these from other columns. Returns the reason why it cannot, or an
 /// empty text.

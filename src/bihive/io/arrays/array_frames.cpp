@@ -6,6 +6,7 @@
 #include "bihive/io/arrays/array_file.h"
 #include "bihive/io/arrays/particle_layout.h"
 #include "bihive/io/named_arrays.h"
+#include "bihive/io/sphere_table.h"
 #include "bihive/io/text_scanner.h"
 
 namespace bihive {
@@ -186,6 +187,26 @@ Result<std::shared_ptr<const RawFrames>> open_array_frames(RandomFile file, cons
   Result<std::vector<ArrayFacts>> sets = chosen_sets(opened, name);
   if (!sets) return sets.error();
   return std::shared_ptr<const RawFrames>(std::make_shared<DataSetFrames>(*arrays, std::move(*sets), choice));
+}
+
+std::optional<std::int64_t> particles_in_parts(RandomFile file) {
+  const Result<std::string> head = file.read(0, std::min<std::int64_t>(8, file.size()));
+  if (!head || !looks_like_hdf5(*head)) return std::nullopt;
+  const Result<std::shared_ptr<const ArrayFile>> arrays = open_hdf5(std::move(file));
+  if (!arrays || !is_h5md(**arrays, "")) return std::nullopt;
+  const Result<ParticleLayout> layout = h5md_layout(**arrays, "");
+  if (!layout || bihive::frame_count(*layout) < 1) return std::nullopt;
+  for (const ParticleColumn& column : layout->columns)
+    if (needs_all_rows(usual_role(column.name)) || !(*arrays)->labels(*column.of.array).empty()) return std::nullopt;
+  return particle_count(*layout);
+}
+
+Result<RawSpheres> part_of_arrays(RandomFile file, const SetParts& parts) {
+  const Result<std::shared_ptr<const ArrayFile>> arrays = open_hdf5(std::move(file));
+  if (!arrays) return arrays.error();
+  const Result<ParticleLayout> layout = h5md_layout(**arrays, "");
+  if (!layout) return layout.error();
+  return read_particles(**arrays, *layout, 0, ColumnChoice{}, &parts);
 }
 
 Result<std::shared_ptr<const Trajectory>> open_array_trajectory(RandomFile file, const std::string& inside) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "bihive/base/memory.h"
@@ -13,8 +14,10 @@
 namespace bihive {
 namespace {
 
-// The numbers of one frame; of arrays that do not move, all.
-Result<std::vector<double>> numbers_at(const ArrayFile& file, const FramedArray& of, std::int64_t frame) {
+// The numbers of one frame; of arrays that do not move, all. `rows`: these of them, for arrays with a row for each
+// particle.
+Result<std::vector<double>> numbers_at(const ArrayFile& file, const FramedArray& of, std::int64_t frame,
+                                       std::optional<RowRange> rows = {}) {
   std::vector<std::int64_t> begin(of.array->lengths.size(), 0), lengths = of.array->lengths;
   if (of.moves) {
     if (frame >= lengths[0])
@@ -23,6 +26,11 @@ Result<std::vector<double>> numbers_at(const ArrayFile& file, const FramedArray&
                    file.path(), 0, 0, ""};
     begin[0] = frame;
     lengths[0] = 1;
+  }
+  if (rows) {
+    const std::size_t particles = of.moves ? 1 : 0;
+    begin[particles] = rows->first;
+    lengths[particles] = rows->count();
   }
   Result<std::vector<double>> values = file.read(*of.array, begin, lengths);
   if (values && of.unit != 1)
@@ -117,10 +125,11 @@ std::int64_t particle_count(const ParticleLayout& layout) {
 }
 
 Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame,
-                                  const ColumnChoice& choice) {
-  const std::int64_t count = particle_count(layout);
+                                  const ColumnChoice& choice, const SetParts* parts) {
+  const RowRange rows = rows_of_part(parts, particle_count(layout));
+  const std::int64_t count = rows.count();
   const std::int64_t axes = layout.places.lengths()[1];
-  const Result<std::vector<double>> places = numbers_at(file, layout.places, frame);
+  const Result<std::vector<double>> places = numbers_at(file, layout.places, frame, rows);
   if (!places) return places.error();
 
   // The columns of a table: the places, then all that the file says of each particle.
@@ -131,7 +140,7 @@ Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& l
   const ParticleColumn* labelled = nullptr;
   std::vector<double> labelled_values;
   for (const ParticleColumn& column : layout.columns) {
-    Result<std::vector<double>> values = numbers_at(file, column.of, frame);
+    Result<std::vector<double>> values = numbers_at(file, column.of, frame, rows);
     if (!values) return values.error();
     const std::size_t width = values->size() / static_cast<std::size_t>(std::max<std::int64_t>(count, 1));
     if (width == 0 || columns.size() + width > SphereTable::kMostColumns) continue;
@@ -162,7 +171,8 @@ Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& l
     for (std::size_t k = 0; k < sources.size(); ++k)
       row[3 + k] = arrays[sources[k].first][i * widths[sources[k].first] + sources[k].second];
     if (const std::string fault = table.add_numbers(row.data()); !fault.empty())
-      return bad("frame " + std::to_string(frame) + ", particle " + std::to_string(i) + " (from 0): " + fault);
+      return bad("frame " + std::to_string(frame) + ", particle " +
+                 std::to_string(rows.first + static_cast<std::int64_t>(i)) + " (from 0): " + fault);
   }
   const std::string names = table.column_names();
   RawSpheres spheres = std::move(table).take();
