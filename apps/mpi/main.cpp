@@ -89,16 +89,16 @@ void run_request(MpiTeam& team, cli::Request request) {
     of_rank.shard = cli::Shard{team.rank(), team.size()};
     of_rank.silent = true;
     const Timer timer;
-    Bytes drawn;
-    ByteWriter(drawn).put(cli::run_film(of_rank));
-    const std::vector<Bytes> drawn_by_ranks = team.gather(drawn);
+    Bytes done;
+    ByteWriter(done).put(cli::run_film(of_rank));
+    const std::vector<Bytes> done_by_ranks = team.gather(done);
     if (team.rank() != 0) return;
     FilmOptions joined;
     joined.picture.output = film->picture.output;
     joined.picture.json = film->picture.json;
     joined.join = true;
-    joined.ms_of_others = timer.elapsed_ms();
-    for (const Bytes& one : drawn_by_ranks) joined.drawn_by_others += ByteReader(one).take<std::int64_t>();
+    joined.ms_of_shards = timer.elapsed_ms();
+    for (const Bytes& one : done_by_ranks) joined.of_shards.add(ByteReader(one).take<cli::FilmTimes>());
     cli::run_film(joined);
   } else if (const cli::HelpText* const help = std::get_if<cli::HelpText>(&request)) {
     cli::print(help->asked_for ? help->text : kHelp);

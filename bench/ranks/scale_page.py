@@ -1,5 +1,7 @@
 """docs/scale.md and its charts, made of docs/scale/ranks.json alone."""
 
+import math
+
 import markdown
 import origin
 import svg
@@ -32,12 +34,15 @@ the latency of the network, its bytes at the rate, and the work of the answer. T
 write to one rank at the same time is not simulated: its bytes are added up, and the picture takes at least that long.
 """
 
+MEMORY = (
+    "Leave a third free: arrays grow by doubling, so memory grows in steps. 200 million spheres on 4 ranks took up to 4.35 GB a rank ([many_machines.md](many_machines.md)), where the line says @LINE@."
+)
+
 LIMITS = """\
 - The rank nearest to the eye gets most rays: beyond some hundred ranks it sets the time, and more ranks make memory smaller but hardly the picture faster. A larger picture, or
   ambient occlusion, has more work to share.
 - Tiles have 64 x 16 pixels at least, so a picture of 1920 x 1080 has 2,040, and no more threads draw than that.
 - The set-up supposes a file system that gives each rank its part as fast as this machine's memory does, and a network between all ranks at the full rate.
-- Memory grows in steps, because arrays grow by doubling: 200 million spheres on 4 ranks took up to 4.35 GB a rank ([many_machines.md](many_machines.md)), where the line says @LINE@.
 - The work of a ray in a tree of more spheres than were measured goes on as the last two points do.
 """
 
@@ -59,6 +64,8 @@ def memory_section(model):
         f"{model.memory_base / 1e6:.0f} MB and {model.memory_of_sphere:.0f} bytes for each sphere of the rank.",
         "",
         *markdown.table(["ranks", "measured, GB", "line, GB"], rows),
+        MEMORY.replace("@LINE@", f"{model.memory(2e8, 4) / 1e9:.1f}"),
+        "",
         "The model, in GB a rank:",
         "",
         *markdown.table(
@@ -202,14 +209,22 @@ def model_section(model):
         [f"{run['result']['spheres']:,}", run["look"], number_of(run["result"]["render_ms"])] for run in sorted(model.of("tree"), key=lambda run: run["look"])
     ]
     lines += ["The work of a picture by the spheres of a tree, in milliseconds of one core:", "", *markdown.table(["spheres", "rays", "ms"], work)]
-    checked = LIMITS.replace("@LINE@", f"{model.memory(2e8, 4) / 1e9:.1f}")
-    return [*lines, "## Limits", "", *checked.splitlines(), ""], {}
+    return [*lines, "## Limits", "", *LIMITS.splitlines(), ""], {}
+
+
+def summary(model):
+    """How many ranks a set needs."""
+    fits = (16e9 * 2 / 3 - model.memory_base) / model.memory_of_sphere
+    return (
+        f"**In short**: take so many ranks that the set fits into their memory. A rank with 16 GB takes some {fits / 1e6:,.0f} million spheres, with a third left free; so 10^9 spheres need "
+        f"{math.ceil(1e9 / fits)} such ranks, 10^10 {math.ceil(1e10 / fits)}, 10^12 {math.ceil(1e12 / fits):,}. More ranks make the picture faster up to some hundred ranks."
+    )
 
 
 def files_of(report):
     """Name below docs -> content."""
     model = Model(report)
-    lines = [*HEAD.splitlines(), "", *origin.lines_of(report)]
+    lines = [*HEAD.splitlines(), "", summary(model), "", *origin.lines_of(report)]
     files = {}
     for section in (memory_section, hosts_section, simulation_section, model_section):
         body, charts = section(model)

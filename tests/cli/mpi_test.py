@@ -53,6 +53,9 @@ class Program(OnRanks):
         alone = self.hash_of(self.run_bihive("render", "one.xyz", "-o", "alone.png", "--json", "--size", "40x30"))
         words = ["render", "one.xyz", "-o", "ranks.png", "--json", "--size", "40x30", "--threads", "1", "--distribute"]
         self.assertEqual(self.hash_of(self.run_ranks(4, BIHIVE_MPI, *words)), alone)
+        # A rank without rows has no radii, and the set has.
+        self.succeed("scene", "scenario1", "--count", "2", "-o", "two.npy")
+        self.expect_picture_of_one_process((3, 4), "two.npy", ["--size", "40x30"])
 
     def test_the_rays_are_those_of_all_ranks(self):
         words = ["render", "demo", "-o", "a.png", "--json", "--size", "160x120", "--style", "plain"]
@@ -177,7 +180,7 @@ class Program(OnRanks):
         done = self.run_ranks(3, BIHIVE_MPI, "render", "few.dump", "-o", "a.png", "--distribute")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(len(self.errors(done)), 1, done.stderr)
-        self.assertIn("promises 65537 atoms", self.errors(done)[0])
+        self.assertIn("few.dump:4: the dump promises 65537 atoms, but 65536 lines follow", self.errors(done)[0])
 
     @unittest.skipUnless(importlib.util.find_spec("h5py"), "needs h5py")
     def test_parts_of_an_h5md_file(self):

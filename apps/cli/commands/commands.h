@@ -118,6 +118,23 @@ Result<Shard> shard_from(const std::string& text);
 /// The frames that give the colours of numbers their range.
 enum class RangeOfColours { first, film, frame };
 
+/// Milliseconds of each step, summed over the pictures. The steps go on at the same time.
+struct FilmTimes {
+  double read_ms = 0;   ///< from the file to spheres
+  double build_ms = 0;  ///< looks and trees
+  double trace_ms = 0;  ///< rays, labels and pixels
+  double write_ms = 0;  ///< files, or the wait for ffmpeg
+  std::int64_t pictures = 0;
+
+  void add(const FilmTimes& more) {
+    read_ms += more.read_ms;
+    build_ms += more.build_ms;
+    trace_ms += more.trace_ms;
+    write_ms += more.write_ms;
+    pictures += more.pictures;
+  }
+};
+
 struct FilmOptions {
   RenderOptions picture;           ///< of every picture; its output is the film's
   std::vector<std::string> words;  ///< the options of a picture, as they stand on the command line
@@ -130,12 +147,12 @@ struct FilmOptions {
   std::string codec;  ///< ffmpeg's words for the film's codec, one space between them; empty: by the output's ending
   std::optional<Shard> shard;
   bool join = false;
-  bool silent = false;               ///< no report: another process makes that of the film
-  std::int64_t drawn_by_others = 0;  ///< with join: of the pictures, those that were drawn just now
-  double ms_of_others = 0;
+  bool silent = false;  ///< no report: another process makes that of the film
+  FilmTimes of_shards;  ///< with join: what others did for it just now
+  double ms_of_shards = 0;
 };
-/// Returns how many pictures it has drawn.
-std::int64_t run_film(const FilmOptions& options);
+/// Returns what it has done.
+FilmTimes run_film(const FilmOptions& options);
 
 struct StylesOptions {
   bool json = false;

@@ -178,8 +178,8 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
     fail({fmt::format("{} of {} pictures are missing, the first is number {}", missing, plan.asked.pictures, first),
           output, 0, 0, "run the shards that lack them again"});
   FilmReport report;
-  report.times.pictures = options.drawn_by_others;
-  report.kept = plan.asked.pictures - options.drawn_by_others;
+  report.times = options.of_shards;
+  report.kept = plan.asked.pictures - report.times.pictures;
   if (kind != FilmKind::pictures) {
     const CancellableSection section;
     folder.take(plan, /*alone=*/true);
@@ -204,7 +204,7 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
     sink->finish();
     folder.finish(plan);
   }
-  report.all_ms = timer.elapsed_ms() + options.ms_of_others;
+  report.all_ms = timer.elapsed_ms() + options.ms_of_shards;
   print_film_report(options, plan, report);
 }
 
@@ -242,10 +242,9 @@ std::vector<std::int64_t> from_first(const std::vector<std::int64_t>& numbers, T
   return of_first;
 }
 
-// All that follows when it is known what the film shows. Returns how many pictures were drawn.
-std::int64_t make_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const Style& style,
-                           const FrameSource& source, FilmPlan plan, FilmFolder& folder, Team* team,
-                           const Timer& timer) {
+// All that follows when it is known what the film shows.
+FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const Style& style,
+                        const FrameSource& source, FilmPlan plan, FilmFolder& folder, Team* team, const Timer& timer) {
   const CancellableSection section;
   if (!folder.kept()) plan.fixed = fixed_by_film(source, plan, options, style);
   CancellableSection::leave_if_cancelled();
@@ -273,12 +272,14 @@ std::int64_t make_pictures(const FilmOptions& options, FilmKind kind, const std:
   if (!options.shard) folder.finish(plan);
   report.all_ms = timer.elapsed_ms();
   if (!options.silent) print_film_report(options, plan, report);
-  return writes ? report.times.pictures : 0;
+  // The rank that writes a picture counts it.
+  if (!writes) report.times.pictures = 0;
+  return report.times;
 }
 
 }  // namespace
 
-std::int64_t run_film(const FilmOptions& asked) {
+FilmTimes run_film(const FilmOptions& asked) {
   const Timer timer;
   FilmOptions options = asked;
   const FilmKind kind = film_kind(options.picture.output);
@@ -290,7 +291,7 @@ std::int64_t run_film(const FilmOptions& asked) {
   if (kind != FilmKind::pictures) options.picture.output = behind_links(options.picture.output);
   if (options.join) {
     join_shards(options, kind, ffmpeg);
-    return 0;
+    return {};
   }
   choose_engine(options.picture);
   warn_of_each_text_once();
@@ -311,10 +312,10 @@ std::int64_t run_film(const FilmOptions& asked) {
   }
 
   const std::unique_ptr<Team> team = team_of_picture(options, plan.asked.pictures);
-  std::int64_t drawn = 0;
+  FilmTimes times;
   run_in_team(team.get(),
-              [&] { drawn = make_pictures(options, kind, ffmpeg, style, source, plan, folder, team.get(), timer); });
-  return drawn;
+              [&] { times = make_pictures(options, kind, ffmpeg, style, source, plan, folder, team.get(), timer); });
+  return times;
 }
 
 }  // namespace bihive::cli

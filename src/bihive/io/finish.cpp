@@ -31,7 +31,8 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
           0, 0, "give --radius a number from 0"};
     raw.r.assign(raw.size(), *options.radius);
     raw.rules.push_back("radii: all " + readable_number(*options.radius) + ", as asked for");
-  } else if (raw.r.empty()) {
+  } else if (greatest_of_all(options.parts.get(), raw.r.empty() ? 0 : 1) == 0) {
+    // No part has radii; one without spheres cannot tell.
     fill_radii(raw, options.parts.get());
   }
   if (options.radius_scale != 1) {

@@ -27,7 +27,7 @@ constexpr double kMostOfLines = 1.5;
 struct DumpHead {
   std::string before_count, after_count;
   std::int64_t atoms = 0;
-  std::int64_t lines = 0;
+  std::int64_t lines = 0, count_line = 0;
   std::int64_t end = 0;   // where the first atom begins
   double line_bytes = 0;  // of the first atoms, in the mean
 };
@@ -60,7 +60,7 @@ std::optional<DumpHead> head_of(const RandomFile& file) {
       atoms = parse_int(trim(std::string_view(*bytes).substr(at, end - at)));
       if (!atoms) return std::nullopt;
       at = end + 1;
-      ++head.lines;
+      head.count_line = ++head.lines;
     } else if (words.substr(0, 11) == "ITEM: ATOMS") {
       if (!atoms || !can_be_divided(words.substr(11))) return std::nullopt;
       const std::string_view rest = std::string_view(*bytes).substr(at);
@@ -122,9 +122,10 @@ Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts) {
   const std::int64_t rows = lines_in(*lines);
   const CountOfParts all = count_of_all(&parts, rows);
   if (all.all != head->atoms)
-    return Error{"the dump promises " + std::to_string(head->atoms) + " atoms in one frame, but has " +
-                     std::to_string(all.all) + " lines for them",
-                 file.path(), 0, 0, "leave out --distribute, or give the first frame a file of its own"};
+    return Error{
+        "the dump promises " + std::to_string(head->atoms) + " atoms, but " + std::to_string(all.all) + " lines follow",
+        file.path(), head->count_line, 0,
+        "is the file whole? With several frames leave out --distribute, or give the first a file of its own"};
   std::string text = head->before_count + std::to_string(rows) + "\n" + head->after_count;
   text += *lines;
   lines = std::string();
