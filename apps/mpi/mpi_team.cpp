@@ -151,8 +151,8 @@ void MpiTeam::end_giving(const cli::WorkOfRank& work, bool failed) {
   MPI_Send(end.data(), static_cast<int>(end.size()), MPI_BYTE, 0, kEnd, comm_);
 }
 
-// Begins to receive what has come, and takes what is here. `wait`: for something.
-void MpiTeam::receive_one(bool wait) {
+// Begins to receive a message, and takes what is here. Returns whether one had come. `wait`: for something.
+bool MpiTeam::receive_one(bool wait) {
   int there = 1;
   MPI_Status status;
   if (wait && receiving_.empty())
@@ -176,6 +176,13 @@ void MpiTeam::receive_one(bool wait) {
     take_message(one->source, one->tag, one->bytes);
     one = receiving_.erase(one);
   }
+  return there != 0;
+}
+
+// Of many ranks many messages come while this one draws a tile.
+void MpiTeam::receive_all() {
+  while (receive_one(/*wait=*/false)) {
+  }
 }
 
 void MpiTeam::take_message(int source, int tag, const std::vector<char>& bytes) {
@@ -194,7 +201,7 @@ void MpiTeam::take_message(int source, int tag, const std::vector<char>& bytes) 
 
 void MpiTeam::move_on() {
   const std::lock_guard lock(mutex_);
-  if (rank_ == 0) return receive_one(/*wait=*/false);
+  if (rank_ == 0) return receive_all();
   for (Sending& sending : sending_) {
     int arrived = 0;
     MPI_Test(&sending.request, &arrived, MPI_STATUS_IGNORE);
@@ -203,7 +210,7 @@ void MpiTeam::move_on() {
 
 std::optional<cli::GivenTile> MpiTeam::take(bool wait) {
   const std::lock_guard lock(mutex_);
-  receive_one(/*wait=*/false);
+  receive_all();
   while (wait && received_.empty() && (ended_ < size_ - 1 || !receiving_.empty())) receive_one(/*wait=*/true);
   if (received_.empty()) return std::nullopt;
   cli::GivenTile first = std::move(received_.front());

@@ -59,7 +59,8 @@ class MpiTeam final : public cli::Team {
  private:
   int share(int code);
   void go_on_if_all_do();
-  void receive_one(bool wait);
+  bool receive_one(bool wait);
+  void receive_all();
   void take_message(int source, int tag, const std::vector<char>& bytes);
   void ask_for_number();
   std::int64_t asked_number();
