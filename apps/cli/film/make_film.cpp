@@ -170,13 +170,14 @@ class FilmSteps {
         progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
       };
       draw(picture, drawn.pixels, update);
-      if (sink_ == nullptr) continue;
-      const nlohmann::ordered_json described =
-          settings_json(picture.options, picture.settings, picture.input.scene, {});
-      for (auto& [name, text] : text_of(picture.input.scene, described)) drawn.text.emplace_back(name, latin1(text));
+      if (sink_ != nullptr) {
+        const nlohmann::ordered_json described =
+            settings_json(picture.options, picture.settings, picture.input.scene, {});
+        for (auto& [name, text] : text_of(picture.input.scene, described)) drawn.text.emplace_back(name, latin1(text));
+      }
       times_.trace_ms += timer.elapsed_ms();
       ++done;
-      if (!drawn_.push(std::move(drawn))) break;
+      if (sink_ != nullptr && !drawn_.push(std::move(drawn))) break;
     }
     drawn_.end();
   }
