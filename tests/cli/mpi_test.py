@@ -169,6 +169,10 @@ class Program(OnRanks):
         # Rank 0 reads a file with several frames.
         self.write("two.dump", whole + whole)
         self.expect_picture_of_one_process((3,), "two.dump", ["--size", "80x60"])
+        # One row of the last rank makes all colours bytes, so rank 0 reads them.
+        colours = [f"{row.strip()} 0 1 0.5\n" for row in rows[:-1]] + [f"{rows[-1].strip()} 0 255 0\n"]
+        self.write("colours.dump", head.format(count).replace("radius", "radius red green blue") + "".join(colours))
+        self.expect_picture_of_one_process((3,), "colours.dump", ["--size", "80x60"])
         # Each rank knows the numbers of its lines.
         rows[-5] = "1 1 0.5 x 0.5 0.3\n"
         self.write("bad.dump", head.format(count) + "".join(rows))

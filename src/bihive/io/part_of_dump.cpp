@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -16,9 +17,6 @@ namespace {
 
 // All before the first atom is much shorter.
 constexpr std::int64_t kDumpHeadBytes = 1 << 16;
-
-// Fewer are not worth it, and with many processes some would have none.
-constexpr std::int64_t kFewestAtoms = 1 << 16;
 
 // Lines differ in length, but not by so much that two frames are taken for one.
 constexpr double kMostOfLines = 1.5;
@@ -94,11 +92,12 @@ std::int64_t lines_in(std::string_view text) {
 
 }  // namespace
 
-bool can_read_part_of_dump(const RandomFile& file) {
+std::optional<std::int64_t> atoms_in_parts(const RandomFile& file) {
   const std::optional<DumpHead> head = head_of(file);
-  if (!head || head->atoms < kFewestAtoms) return false;
+  if (!head) return std::nullopt;
   const double expected = static_cast<double>(head->atoms) * head->line_bytes;
-  return static_cast<double>(file.size() - head->end) < kMostOfLines * expected;
+  if (static_cast<double>(file.size() - head->end) >= kMostOfLines * expected) return std::nullopt;
+  return head->atoms;
 }
 
 Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <optional>
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/set_parts.h"
@@ -11,9 +11,9 @@
 
 namespace bihive {
 
-/// Whether the file begins as a dump of many atoms, no column of which needs all rows, and is as large as one frame
-/// alone makes it.
-bool can_read_part_of_dump(const RandomFile& file);
+/// The atoms of a file that begins as a dump, no column of which needs all rows (io/sphere_table.h), and that is as
+/// large as one frame alone makes it. Nothing: parts of it cannot be read.
+std::optional<std::int64_t> atoms_in_parts(const RandomFile& file);
 
 /// The atoms whose lines begin in this process' share of the bytes. For all processes at the same time. Errors as those
 /// of the reader of the whole file; more or fewer lines than atoms.

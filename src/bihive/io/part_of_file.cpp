@@ -119,7 +119,7 @@ bool has_many_particles(const GsdFile& file) {
   return file.schema() == "hoomd" && file.rows(0, "particles/position").value_or(0) >= kFewestParticles;
 }
 
-// What a column is may depend on the rows of a part: a text, a number, or nothing.
+// The rows of a part may decide whether a column is a text, numbers, or nothing.
 Status have_equal_columns(const RawSpheres& spheres, const std::string& path, const SetParts& parts) {
   const SphereAttributes& attributes = spheres.attributes;
   std::string columns = spheres.r.empty() ? "" : "r ";
@@ -140,7 +140,7 @@ Kind kind_of(const RandomFile& file) {
   const Result<std::string> head = file.read(0, std::min<std::int64_t>(8, file.size()));
   if (head && GsdFile::looks_like(*head)) return Kind::gsd;
   if (layout_of(file)) return Kind::npy;
-  if (can_read_part_of_dump(file)) return Kind::dump;
+  if (atoms_in_parts(file).value_or(0) >= kFewestParticles) return Kind::dump;
   Result<RandomFile> again = RandomFile::open(file.path());
   if (again && particles_in_parts(std::move(*again)).value_or(0) >= kFewestParticles) return Kind::arrays;
   return Kind::none;
