@@ -177,7 +177,8 @@ ordered_json of_ranks(const std::vector<Number>& numbers) {
 
 bool same_bits(const Film& a, const Film& b) {
   return a.radiance.size() == b.radiance.size() &&
-         std::memcmp(a.radiance.data(), b.radiance.data(), a.radiance.size() * sizeof(Vec3f)) == 0;
+         std::memcmp(a.radiance.data(), b.radiance.data(), a.radiance.size() * sizeof(Vec3f)) == 0 &&
+         a.coverage == b.coverage;
 }
 
 // of(rank) for each rank.
@@ -254,6 +255,7 @@ void run(int argc, const char* const* argv) {
     if (option != "--rate" && option != "--latency") cli::fail_usage("no option " + option, kUsage);
     (option == "--rate" ? gbit_per_s : latency_us) = number_in(argv[at + 1]);
   }
+  if (gbit_per_s == 0) cli::fail_usage("--rate 0: nothing would arrive", kUsage);
   const Network network{8e-6 / gbit_per_s, latency_us / 1000};
   std::vector<const char*> words{argv[0]};
   words.insert(words.end(), argv + at, argv + argc);

@@ -30,8 +30,8 @@ the same. Timings of two runs differ by ten percent and more.
 SIMULATION = """\
 All ranks of a simulation are in one process, which takes their parts in turn: it distributes the spheres, draws each tile by the code of its rank, and lets the others
 answer. So rays, messages and bytes are counted, not estimated, and each picture has the bits of one process. The clock of a rank goes on by the time of its work here; a question takes
-the latency of the network, its bytes at the rate, and the work of the answer. The next tile goes to the thread that is free first; a rank has two. What a network does when many
-write to one rank at the same time is not simulated: its bytes are added up, and the picture takes at least that long.
+the latency of the network, its bytes at the rate, and the work of the answer. The next tile goes to the thread that is free first; a rank has two. Many ranks may write to
+one at the same time; the simulation adds up the bytes of that one, and the picture takes at least as long as they take.
 """
 
 MEMORY = (

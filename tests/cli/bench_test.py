@@ -132,6 +132,33 @@ class BenchTest(ProgramTest):
             self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
             self.assert_one_error_line(done.stderr)
 
+    def ranks(self, *arguments):
+        program = os.path.join(os.path.dirname(BENCH), "bihive-ranks")
+        return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=PATIENCE_S, cwd=self.folder)
+
+    def test_simulated_ranks(self):
+        picture = ["render", "demo", "-o", "a.png", "--size", "64x48", "--style", "plain"]
+        done = self.ranks("1,5", "--rate", "1", "--latency", "10", *picture)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        one, five = json.loads(done.stdout)["simulated"]
+        self.assertEqual((one["ranks"], one["same_bits"], one["messages"], one["bytes"]), (1, True, 0, 0))
+        self.assertEqual((five["ranks"], five["same_bits"]), (5, True))
+        # Each message and its bytes count for both ranks.
+        for what in ("messages", "bytes"):
+            self.assertGreater(five[what], 0)
+            self.assertAlmostEqual(five[what + "_of_rank"]["mean"] * 5, 2 * five[what])
+        # The network alone takes so long for the bytes of a rank.
+        self.assertGreaterEqual(five["simulated_ms"], five["bytes_of_rank"]["largest"] * 8e-6)
+        self.assertFalse(os.path.exists(self.path("a.png")))
+
+    def test_bad_usage_of_ranks(self):
+        picture = ["render", "demo", "-o", "a.png"]
+        for arguments in [[], ["0", *picture], ["1,x", *picture], ["2", "--rate", "0", *picture], ["2", "--speed", "3", *picture],
+                          ["2", "film", "demo", "-o", "a.mp4"]]:
+            done = self.ranks(*arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assert_one_error_line(done.stderr)
+
     def test_help(self):
         text = self.succeed("--help")
         for word in ["--peer", "--threads", "--only", "--reps", "--json", "u1e7", "Examples"]:
