@@ -3,6 +3,7 @@
 import contextlib
 import signal
 import gzip
+import json
 import os
 import struct
 import subprocess
