@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bihive/base/json_text.h"
 #include "bihive/scene/names.h"
 
 namespace bihive::window {
@@ -57,8 +58,10 @@ Request take(const json& document) {
 }  // namespace
 
 Result<Request> request_from_json(std::string_view text) {
+  const Result<json> document = json_from_text<json>(text);
+  if (!document) return Error{"this program is started by `bihive view`: " + document.error().message, "", 0, 0, ""};
   try {
-    return take(json::parse(text));
+    return take(*document);
   } catch (const json::exception& error) {
     return Error{std::string("this program is started by `bihive view`: ") + error.what(), "", 0, 0, ""};
   }

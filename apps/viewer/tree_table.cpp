@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bihive/base/json_text.h"
 #include "theme.h"
 
 namespace bihive::window {
@@ -53,7 +54,7 @@ void TreeTable::update(const Viewer& viewer, bool settled) {
 }
 
 void TreeTable::read(const std::string& text) {
-  const json tree = json::parse(text);
+  const json tree = *json_from_text<json>(text);
   rows_.clear();
   error_ = tree.value("error", "");
   if (!error_.empty()) return;

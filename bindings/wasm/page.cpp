@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bihive/base/json_text.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
 #include "bihive/scene/camera_lights.h"
@@ -67,10 +68,10 @@ Result<StatedValues> stated_values() {
 constexpr double kThesisSeconds = 600, kQuickThesisSeconds = 60;
 
 MeasuringDevice device_from(const std::string& text) {
-  const ordered_json json = ordered_json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const Result<ordered_json> json = json_from_text<ordered_json>(text);
   MeasuringDevice device;
-  if (!json.is_object()) return device;
-  for (const auto& [name, value] : json.items()) {
+  if (!json || !json->is_object()) return device;
+  for (const auto& [name, value] : json->items()) {
     if (!value.is_string()) continue;
     if (name == "device")
       device.words = value.get<std::string>();
@@ -138,8 +139,8 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
                    {"has_cell", facts->has_cell},
                    {"copies", facts->copies},
                    {"attributes", facts->attributes}};
-  json["settings"] = ordered_json::parse(settings());
-  json["look"] = ordered_json::parse(look());
+  json["settings"] = *json_from_text<ordered_json>(settings());
+  json["look"] = *json_from_text<ordered_json>(look());
   json["coloured_by"] = coloured_by_json(viewer_.scene());
   return text_of(json);
 }

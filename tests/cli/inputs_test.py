@@ -7,28 +7,15 @@ import json
 import os
 import struct
 import subprocess
-import sys
 
 import numpy
-from program import BIHIVE, PATIENCE_S, ProgramTest, main, png_pixels
+from program import ProgramTest, main, png_pixels
 
 XYZ = "2\n\nO 0 0 0\nC 1 1 1\n"
 SMALL = ["--size", "24x16", "--samples", "1"]
 
 
 class Sizes(ProgramTest):
-    def peak(self, *words, **environment):
-        """The finished process, and the most memory that it had, in bytes."""
-        # A build with the address sanitizer keeps 256 MB of what was freed, to find its use: here it counts as the program's.
-        environment["ASAN_OPTIONS"] = ":".join(filter(None, [os.environ.get("ASAN_OPTIONS"), "quarantine_size_mb=0", "thread_local_quarantine_size_kb=0"]))
-        script = ("import json, resource, subprocess, sys; done = subprocess.run(sys.argv[1:], capture_output=True, text=True); "
-                  "print(json.dumps([done.returncode, done.stdout, done.stderr, "
-                  "resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss]))")
-        done = subprocess.run([sys.executable, "-c", script, BIHIVE, *words], cwd=self.folder, capture_output=True, text=True,
-                              timeout=PATIENCE_S, env={**os.environ, **environment})
-        code, out, err, kilobytes = json.loads(done.stdout)
-        return code, out, err, kilobytes * 1024
-
     def test_an_array_without_numbers(self):
         """81 bytes, and a side that nobody counts up to."""
         head = b"{'descr': '<f4', 'fortran_order': True, 'shape': (0, 1099511627776), }\n"

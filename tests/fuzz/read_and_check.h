@@ -46,20 +46,37 @@ inline void check_attributes(const SphereAttributes& attributes, std::size_t siz
   for (const float opacity : attributes.opacity) require(opacity >= 0 && opacity <= 1);
 }
 
-/// One reader's answer. The first byte of the input chooses the frame.
-inline void read_raw(Result<RawSpheres> (*reader)(std::string_view, const std::string&, std::int64_t),
-                     const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return;
-  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const Result<RawSpheres> raw = reader(text, "fuzz", data[0] % 4);
+/// One part of --columns and its column, from one byte. A part that comes twice stays as it was.
+inline void choose_column(std::uint8_t byte, ColumnChoice& columns) {
+  static const char* const parts[] = {
+      "x",    "y",   "z",     "r",    "radius",  "diameter",     "element", "atomic_number",
+      "type", "red", "green", "blue", "opacity", "transparency", "symbol",  "any"};
+  static const char* const names[] = {"1", "2", "3", "4",      "5",   "6", "7", "8",
+                                      "9", "x", "Y", "radius", "red", "a", "0", ""};
+  // The last name leaves the part out.
+  if (byte % 16 != 15) columns.emplace(parts[byte / 16], names[byte % 16]);
+}
+
+/// The answer of a reader of that frame.
+inline void check_raw(const Result<RawSpheres>& raw, std::int64_t frame) {
   if (!raw) return check_error(raw.error());
-  require(raw->frames > data[0] % 4 && !raw->format.empty());
+  require(raw->frames > frame && !raw->format.empty());
   require(raw->y.size() == raw->size() && raw->z.size() == raw->size());
   require(raw->r.empty() || raw->r.size() == raw->size());
   for (const auto* axis : {&raw->x, &raw->y, &raw->z})
     for (const double value : *axis) require(std::isfinite(value));
   for (const double r : raw->r) require(r >= 0 && std::isfinite(r));
   check_attributes(raw->attributes, raw->size());
+}
+
+/// One reader's answer. The first byte of the input chooses the frame.
+inline void read_raw(Result<RawSpheres> (*reader)(std::string_view, const std::string&, std::int64_t),
+                     const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const Result<RawSpheres> raw = reader(text, "fuzz", data[0] % 4);
+  check_raw(raw, data[0] % 4);
+  if (!raw) return;
 
   // The assemblies that the file states, if they are few.
   const std::vector<std::string> ids = raw->assemblies.ids();
@@ -164,6 +181,10 @@ inline void read_whole(const std::uint8_t* data, std::size_t size) {
   constexpr int kMore = 216;
   const int more = data[0] >= kMore ? (data[0] - kMore) / 8 : -1;
   if (more >= 0) choose_more(more, options);
+  // Columns by the input's length.
+  if (more == 4)
+    for (const std::size_t part : {size, size / 3, size * 7})
+      choose_column(static_cast<std::uint8_t>(part), options.columns);
   const Result<SphereFile> file = more >= 3 ? read_spheres(FileInMemory(bytes).path(), options)
                                             : read_spheres_from_memory(bytes, names[data[0] / 8 % 9], options);
   if (!file) return check_error(file.error());

@@ -132,6 +132,12 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(self.offences({"src/bihive/base/a.cpp": "\n" * 800}), [])
         self.assertEqual(len(self.offences({"src/bihive/base/a.cpp": "\n" * 801})), 1)
 
+    def test_json_is_parsed_by_one_function(self):
+        for call in ("json::parse(text)", "ordered_json::parse(a, b)", "nlohmann::json::sax_parse(text, &sax)", "Json::accept(text)"):
+            self.one_offence({"apps/cli/main.cpp": f"auto a = {call};\n"}, "json_from_text()")
+        self.assertEqual(self.offences({"apps/cli/main.cpp": "auto a = StatedValues::parse(text);\n"}), [])
+        self.assertEqual(self.offences({"src/bihive/base/json_text.h": "Json::parse(text);\n"}), [])
+
     def test_this_project(self):
         self.assertEqual(check_includes.offences(SOURCE.resolve()), [])
 

@@ -42,7 +42,7 @@ TEST(StatedValues, GivesNumbersListsAndPrint) {
 }
 
 TEST(StatedValues, SaysWhatIsWrongWithAFile) {
-  EXPECT_EQ(message_of(StatedValues::parse("{", "file.json")), "file.json: /: expected a JSON document");
+  EXPECT_EQ(message_of(StatedValues::parse("{", "file.json")), "file.json: it is not valid JSON");
   EXPECT_EQ(message_of(StatedValues::parse("[]", "file.json")),
             "file.json: /values: expected an object with one entry a value");
   EXPECT_EQ(message_of(with(R"("a": {"value": "x", "sentence": ""})")),

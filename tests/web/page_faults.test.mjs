@@ -308,7 +308,7 @@ test('columns are a field and an address, also for a file that cannot be read wi
   await asked.context.close();
 });
 
-test('numbers of a link that no radius and no count can be are refused', async () => {
+test('numbers of a link that no radius and no count can be are refused, and so is a deep document', async () => {
   const link = (source) => `${server.url}#state=${Buffer.from(source).toString('base64url')}`;
   for (const source of [
     '{"source": {"built_in": "scenario1", "reading": {"radius": 1e39}}}',
@@ -316,6 +316,7 @@ test('numbers of a link that no radius and no count can be are refused', async (
     '{"source": {"built_in": "scenario1", "count": 1e300}}',
     '{"source": {"built_in": "scenario1", "count": -5}}',
     '{"source": {"built_in": "scenario1", "count": 2.5}}',
+    `{"source": {"built_in": "scenario1"}, "look": {"rows": ${'['.repeat(1000)}${']'.repeat(1000)}}}`,
   ]) {
     const { page, context } = await open_page(browser, link(source), small);
     assert.match(await shown_error(page), /The link is damaged/, source);

@@ -41,9 +41,15 @@ function is_source(value: unknown): value is Source {
   return typeof source['url'] === 'string';
 }
 
+// The depth that the library reads (base/json_text.h). Beyond the browser's own, copies of a document would throw.
+const most_depth = 64;
+
+const is_deep = (value: unknown, left: number): boolean =>
+  typeof value === 'object' && value !== null && (left === 0 || Object.values(value).some((one) => is_deep(one, left - 1)));
+
 /** A state as a document gives it; null where it is none. The module checks settings and look. */
 export function state_from(document: unknown): State | null {
-  if (typeof document !== 'object' || document === null) return null;
+  if (typeof document !== 'object' || document === null || is_deep(document, most_depth)) return null;
   const { source, settings, look } = document as Record<string, unknown>;
   if (!is_source(source)) return null;
   return {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bihive/base/json_text.h"
 #include "bihive/spread/scene_bytes.h"
 #include "bihive/spread/spread_scene.h"
 
@@ -22,7 +23,7 @@ void share_picture(PreparedPicture& prepared, bool with_spheres, Team& team) {
     ByteReader in(bytes);
     prepared.engine = in.take<RenderEngine>();
     prepared.can_share = in.take<bool>();
-    prepared.described = nlohmann::ordered_json::parse(in.take_text());
+    prepared.described = *json_from_text<nlohmann::ordered_json>(in.take_text());
     take_scene(in, prepared.input.scene, prepared.settings);
     prepared.settings.threads = threads;
   }

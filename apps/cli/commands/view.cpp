@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "bihive/base/json_text.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/names.h"
 #include "bihive/scene/style.h"
@@ -116,7 +117,7 @@ ordered_json request_of(const ViewOptions& options) {
   if (input.wrapping != Wrapping::none) request["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
   if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
-  request["look"] = ordered_json::parse(viewer_look_to_json(look_of(options)));
+  request["look"] = *json_from_text<ordered_json>(viewer_look_to_json(look_of(options)));
   if (!options.screenshot.empty()) request["screenshot"] = options.screenshot;
 
   const auto limit = [](std::int64_t value) {

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
 #include "bihive/scene/names.h"
 #include "commands/picture_settings.h"
@@ -69,7 +70,7 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   object["options"] = asked.options;
   object["turntable_deg"] = asked.path.turntable_deg;
   object["camera"] =
-      asked.path.keys.empty() ? ordered_json() : ordered_json::parse(camera_keys_to_json(asked.path.keys));
+      asked.path.keys.empty() ? ordered_json() : *json_from_text<ordered_json>(camera_keys_to_json(asked.path.keys));
   object["colour_range"] = asked.range_of_colours;
   object["codec"] = asked.codec;
   return object;
@@ -123,7 +124,8 @@ std::string film_plan_to_json(const FilmPlan& plan) {
 FilmPlan read_film_plan(const std::string& path) {
   const std::string text = value_or_fail(read_file(path));
   try {
-    const ordered_json document = ordered_json::parse(text);
+    const Result<ordered_json> parsed = json_from_text<ordered_json>(text, path);
+    const ordered_json document = parsed ? *parsed : ordered_json();
     if (document.at("bihive_film") == kFormat) {
       FilmPlan plan;
       plan.asked = asked_of(document.at("asked"), path);

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
 #include "support/failure.h"
 
@@ -39,7 +40,8 @@ OlderRun parse_run(const Json& document, const std::string& file) {
 }  // namespace
 
 OlderRun read_older_run(const std::string& file) {
-  const Json document = Json::parse(value_or_fail(read_file(file)), nullptr, /*allow_exceptions=*/false);
+  const Result<Json> parsed = json_from_text<Json>(value_or_fail(read_file(file)), file);
+  const Json document = parsed ? *parsed : Json();
   const auto format = document.is_object() ? document.find("bihive_results") : document.end();
   if (format == document.end() || *format != 2 || !document.contains("experiments"))
     fail({"expected results.json of bihive thesis, format 2", file, 0, 0, "make one with bihive thesis all --out DIR"});

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "bihive/base/json_text.h"
 #include "thesis/report_template.h"
 
 namespace bihive::cli::thesis {
@@ -115,7 +116,7 @@ ReportFront verdict_page(const std::vector<ReportSection>& sections) {
                    {},         Json::array()};
   page.table.title = "What the thesis claims, and what became of it here";
   std::map<std::string, int> counts;
-  const Json claims = Json::parse(thesis_claims_json());
+  const Json claims = *json_from_text<Json>(thesis_claims_json());
   for (const Json& claim : claims["claims"]) {
     const auto experiment = claim["experiment"].get<std::string>();
     const auto section = std::find_if(sections.begin(), sections.end(),

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
 #include "support/failure.h"
 #include "thesis/compare.h"
@@ -86,13 +87,14 @@ ShownFile shown_from(const Json& document) {
 
 // Each file is read once: it may be a pipe.
 void read_device(const std::string& file, std::vector<DeviceRun>& runs, std::vector<ShownFile>& shown) {
-  const Json document = Json::parse(value_or_fail(read_file(file)), nullptr, /*allow_exceptions=*/false);
+  const Result<Json> document = json_from_text<Json>(value_or_fail(read_file(file)));
+  if (!document) fail_device(file, document.error().message);
   try {
-    const Json& experiment = document.at("experiment");
+    const Json& experiment = document->at("experiment");
     if (experiment == kRun)
-      runs.push_back(run_from(document));
+      runs.push_back(run_from(*document));
     else if (experiment == kShown)
-      shown.push_back(shown_from(document));
+      shown.push_back(shown_from(*document));
     else
       throw wrong("another experiment");
   } catch (const Json::exception& error) {

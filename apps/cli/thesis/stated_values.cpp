@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
 #include "bihive/thesis/builtin_values.h"
 
@@ -27,7 +28,8 @@ std::string_view builtin_values(const std::string& experiment) {
 }  // namespace
 
 Values::Values(const std::string& bytes, const std::string& file)
-    : stated_(value_or_fail(StatedValues::parse(bytes, file))), document_(Json::parse(bytes)) {}
+    : stated_(value_or_fail(StatedValues::parse(bytes, file))),
+      document_(value_or_fail(json_from_text<Json>(bytes, file))) {}
 
 Values load_values(const std::string& experiment, const std::string& folder) {
   const std::string file = folder + "/" + experiment + "/values.json";

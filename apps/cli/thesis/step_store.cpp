@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bihive/base/json_text.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "support/failure.h"
@@ -25,7 +26,9 @@ std::optional<StepStore::Saved> StepStore::load(const std::string& experiment, c
   // A damaged file or a file of another run counts as missing.
   const Result<std::string> bytes = read_file(path(experiment, step));
   if (!bytes) return std::nullopt;
-  Json document = Json::parse(*bytes, nullptr, /*allow_exceptions=*/false);
+  Result<Json> parsed = json_from_text<Json>(*bytes);
+  if (!parsed) return std::nullopt;
+  Json& document = *parsed;
   if (!document.is_object() || !document.contains("key") || !document.contains("result")) return std::nullopt;
   if (document["key"] != key(values) || !document.contains("load")) return std::nullopt;
   try {

@@ -1,14 +1,21 @@
 #include "bihive/io/kept_index.h"
 
-#include <array>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "bihive/base/memory.h"
 #include "bihive/io/trajectory/byte_reader.h"
 
 namespace bihive {
 namespace {
 
 // The digit at the end is the version.
-constexpr std::string_view kIndexMark = "bihive frames 1\n";
+constexpr std::string_view kIndexMark = "bihive frames 2\n";
 constexpr std::size_t kSumBytes = 8;
 constexpr std::size_t kPlaceBytes = 24;
 
@@ -24,6 +31,17 @@ void put(std::string& bytes, std::uint64_t number) {
 }
 void put(std::string& bytes, std::int64_t number) {
   put(bytes, static_cast<std::uint64_t>(number));
+}
+
+std::array<std::int64_t, 7> head_of(const IndexedFile& file) {
+  const FileStamp& stamp = file.stamp;
+  return {static_cast<std::int64_t>(file.format),
+          file.size,
+          stamp.written_s,
+          stamp.written_ns,
+          stamp.changed_s,
+          stamp.changed_ns,
+          stamp.inode};
 }
 
 void put(std::string& bytes, const std::vector<TextPlace>& places) {
@@ -52,11 +70,27 @@ std::string kept_index_path(const std::string& path) {
   return path + ".bihive-index";
 }
 
+Result<std::optional<std::string>> read_kept_index(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+  if (descriptor < 0 && errno == ENOENT) return std::optional<std::string>();
+  if (descriptor < 0) return Error{errno == ELOOP ? "is a link" : std::strerror(errno), path, 0, 0, ""};
+  struct stat facts = {};
+  const bool known = fstat(descriptor, &facts) == 0;
+  const RandomFile file = RandomFile::of_descriptor(descriptor, path);
+  if (!known || !S_ISREG(facts.st_mode)) return Error{"is no file", path, 0, 0, ""};
+  if (facts.st_uid != geteuid() && facts.st_uid != 0) return Error{"belongs to another user", path, 0, 0, ""};
+  if ((facts.st_mode & S_IWOTH) != 0) return Error{"may be written by everybody", path, 0, 0, ""};
+  if (Status status = check_memory(static_cast<double>(file.size()), "an index"); !status)
+    return Error{status.error().message, path, 0, 0, ""};
+  Result<std::string> bytes = file.read(0, file.size());
+  if (!bytes) return bytes.error();
+  return std::optional<std::string>(std::move(*bytes));
+}
+
 std::string encode_index(const FrameIndex& index, const IndexedFile& file) {
   std::string bytes(kIndexMark);
-  for (const std::int64_t number : {static_cast<std::int64_t>(file.format), file.size, file.written_ns, index.lines,
-                                    std::int64_t{index.text_behind}})
-    put(bytes, number);
+  for (const std::int64_t number : head_of(file)) put(bytes, number);
+  for (const std::int64_t number : {index.lines, std::int64_t{index.text_behind}}) put(bytes, number);
   for (const auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines}) put(bytes, *places);
   put(bytes, sum_of(bytes));
   return bytes;
@@ -71,20 +105,20 @@ std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile
   if (sum != sum_of(content)) return std::nullopt;
 
   ByteReader reader(content.substr(kIndexMark.size()), ByteOrder::little);
-  std::array<std::int64_t, 5> head{};
-  for (std::int64_t& number : head)
-    if (!reader.take(number)) return std::nullopt;
-  if (head[0] != static_cast<std::int64_t>(file.format) || head[1] != file.size || head[2] != file.written_ns)
-    return std::nullopt;
+  for (const std::int64_t expected : head_of(file)) {
+    std::int64_t number = 0;
+    if (!reader.take(number) || number != expected) return std::nullopt;
+  }
   FrameIndex index;
-  index.lines = head[3];
-  index.text_behind = head[4] != 0;
+  std::int64_t text_behind = 0;
+  if (!reader.take(index.lines) || !reader.take(text_behind)) return std::nullopt;
+  index.text_behind = text_behind != 0;
   for (auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines})
     if (!take(reader, *places, file.size)) return std::nullopt;
-  // Frames follow each other without a gap.
+  // Frames follow each other without a gap, and each has a line at least.
   std::int64_t end = 0;
   for (const TextPlace& place : index.frames) {
-    if (place.begin != end) return std::nullopt;
+    if (place.begin != end || place.end == place.begin) return std::nullopt;
     end = place.end;
   }
   const bool lines_fit = !index.frames.empty() && index.lines >= index.frames.back().lines_before && index.lines <= end;

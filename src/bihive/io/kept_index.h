@@ -8,14 +8,16 @@
 
 #include "bihive/io/detect.h"
 #include "bihive/io/frame_index.h"
+#include "bihive/io/trajectory/random_file.h"
 
 namespace bihive {
 
-/// The file of an index. Where any of it differs, the index is of no use.
+/// The file of an index. Where any of it differs, the index is of no use. The stamp holds what nobody can choose: an
+/// index that came with the file from elsewhere, in an archive for example, does not fit.
 struct IndexedFile {
   Format format;
-  std::int64_t size = 0;        ///< bytes
-  std::int64_t written_ns = 0;  ///< when it was written last
+  std::int64_t size = 0;  ///< bytes
+  FileStamp stamp;
 };
 
 /// FILE.bihive-index
@@ -24,8 +26,12 @@ std::string kept_index_path(const std::string& path);
 /// The bytes of an index: a mark, the file it belongs to, the places in 64 bits, little endian, and a sum of all.
 std::string encode_index(const FrameIndex& index, const IndexedFile& file);
 
-/// Nothing: damaged, of another version, or of another file. Places are checked: they lie in the file, one behind the
-/// other.
+/// The bytes at kept_index_path(), if an index lies there that this user made: a file itself and no link, of this user
+/// or of root, that not everybody may write. Nothing: there is none. Error: it is not to be trusted, or not readable.
+Result<std::optional<std::string>> read_kept_index(const std::string& path);
+
+/// Nothing: damaged, of another version, or of another file. Places are checked: they lie in the file, one after the
+/// other, and no frame is empty.
 std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile& file);
 
 }  // namespace bihive

@@ -1,6 +1,7 @@
 // NPZ of NumPy: a zip archive of arrays.
 #include <utility>
 
+#include "bihive/base/memory.h"
 #include "bihive/io/named_arrays.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/readers.h"
@@ -21,6 +22,7 @@ Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std
       {},
       "",
       "name them when they are written: numpy.savez(FILE, x=..., y=..., z=..., radius=...) or positions=..."};
+  double total = 0;
   for (const ZipMember& member : *members) {
     constexpr std::string_view ending = ".npy";
     const std::string_view name = member.name;
@@ -31,6 +33,9 @@ Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std
     Result<std::string> unpacked = unpack_member(member, file);
     if (!unpacked) return unpacked.error();
     Result<NpyArray> array = parse_npy(*unpacked, file);
+    if (array) total += static_cast<double>(array->values.size() * sizeof(double));
+    if (Status status = check_memory(total, "its arrays"); !status)
+      return Error{status.error().message, file, 0, 0, ""};
     if (!array)
       all.left_out += " " + bare;
     else

@@ -1,7 +1,5 @@
 #include "bihive/io/raw_frames.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -226,21 +224,25 @@ class IndexedText : public RawFrames {
 
   // From the index beside the file, or by a pass that writes it.
   Result<RawSpheres> open_with_index(std::int64_t wanted) {
-    if (file_.written_ns() == 0) {
+    if (!file_.has_path()) {
       warn(file_.path() + ": there is no index of a packed file or a pipe");
       return open(wanted);
     }
     const std::string path = kept_index_path(file_.path());
-    const IndexedFile of{format_, file_.size(), file_.written_ns()};
-    if (access(path.c_str(), F_OK) == 0) {
-      const Result<std::string> bytes = read_file(path);
-      std::optional<FrameIndex> index = bytes ? decode_index(*bytes, of) : std::nullopt;
-      const Result<std::string> last = file_.read(file_.size() - 1, 1);
-      if (index && last) {
-        index_ = std::move(*index);
-        set_may_be_cut(last->front() != '\n');
-        return read(wanted);
+    const IndexedFile of{format_, file_.size(), file_.stamp()};
+    const Result<std::optional<std::string>> bytes = read_kept_index(path);
+    if (!bytes) {
+      warn(path + ": " + bytes.error().message + ", so it is not used");
+      return open(wanted);
+    }
+    if (*bytes) {
+      std::optional<FrameIndex> index = decode_index(**bytes, of);
+      if (index && take_kept(std::move(*index))) {
+        Result<RawSpheres> read = this->read(wanted);
+        if (read || wanted < 0 || wanted >= index_.count()) return read;
       }
+      kept_ = false;
+      index_ = {};
       warn(path + ": is damaged, or belongs to another version of the file; it is made anew");
     }
     Result<RawSpheres> read = open(wanted);
@@ -278,7 +280,33 @@ class IndexedText : public RawFrames {
     const std::string what = index_.count() == 1 ? "the file" : "frame " + std::to_string(frame);
     if (Status status = check_memory(static_cast<double>(place.end - place.begin), what); !status)
       return Error{status.error().message, file_.path(), 0, 0, ""};
-    return pass(place, FramePass{frame, frame, nullptr, &index_, &file_});
+    if (!kept_) return pass(place, FramePass{frame, frame, nullptr, &index_, &file_});
+
+    // An index that was kept may be wrong: its bytes must be this one frame, and the lines must go on after it.
+    FrameIndex found;
+    Result<RawSpheres> read = pass(place, FramePass{frame, frame, &found, &index_, &file_});
+    const bool is_last = frame + 1 == index_.count();
+    const std::int64_t lines = is_last ? index_.lines : index_.frames[static_cast<std::size_t>(frame) + 1].lines_before;
+    const bool fits = read && found.count() == 1 && found.frames[0].begin == place.begin &&
+                      found.frames[0].end == place.end && found.lines == lines;
+    if (fits) return read;
+    // The file itself may have a fault.
+    if (Result<RawSpheres> plain = pass({0, file_.size(), 0}, FramePass{frame}); !plain) return plain;
+    return Error{"the index of its frames does not fit it", file_.path(), 0, 0,
+                 "remove " + kept_index_path(file_.path())};
+  }
+
+  // Takes an index from the disk. False: frames follow its last one, or it does not know of the text that does.
+  bool take_kept(FrameIndex index) {
+    const Result<std::string> last = file_.read(file_.size() - 1, 1);
+    if (!last) return false;
+    index_ = std::move(index);
+    kept_ = true;
+    set_may_be_cut(last->front() != '\n');
+    FrameIndex found;
+    const Result<RawSpheres> rest = pass({index_.frames.back().end, file_.size(), index_.lines},
+                                         FramePass{FramePass::kNone, index_.count(), &found});
+    return rest && found.frames.empty() && found.text_behind == index_.text_behind;
   }
 
   // The reader's error where it meets the end of the file before that frame.
@@ -302,6 +330,7 @@ class IndexedText : public RawFrames {
   PassReader reader_;
   ColumnChoice columns_;
   FrameIndex index_;
+  bool kept_ = false;  // the index comes from the disk
 };
 
 template <class Kind>

@@ -245,7 +245,8 @@ class VtkXmlReader {
     if (!type) return error(array, "the type " + quote(value_of(array, "type")) + " is not read");
     const std::int64_t total = points * components_of(array);
     const std::string format = value_of(array, "format");
-    if (Status memory = check_memory(double(total) * sizeof(double), "an array of the file"); !memory)
+    numbers_ += double(total);
+    if (Status memory = check_memory(numbers_ * sizeof(double), "the arrays of the file"); !memory)
       return error(array, memory.error().message);
     if (format == "ascii") return decode_text(array, total, values);
     std::string_view source = array.content;
@@ -262,6 +263,8 @@ class VtkXmlReader {
     const auto size = static_cast<std::size_t>(total) * type->size;
     Result<std::string> bytes = compressed_ ? unpack(array, source, raw, size) : plain(array, source, raw, size);
     if (!bytes) return bytes.error();
+    // Arrays lie beside each other. If they lay in each other, few bytes would be many numbers.
+    if (stored_ > bytes_.size()) return error(array, "the arrays have more bytes than the file");
     NumberType of = *type;
     of.big_endian = big_endian_;
     values.reserve(values.size() + static_cast<std::size_t>(total));
@@ -303,7 +306,7 @@ class VtkXmlReader {
   }
 
   // The number of bytes, then the bytes.
-  Result<std::string> plain(const DataArray& array, std::string_view source, bool raw, std::size_t size) const {
+  Result<std::string> plain(const DataArray& array, std::string_view source, bool raw, std::size_t size) {
     std::string bytes = take(source, raw, header_bytes_ + size);
     if (bytes.size() < header_bytes_) return error(array, "it ends before its length");
     // Some programs pad the length, so that the bytes begin anew.
@@ -313,13 +316,14 @@ class VtkXmlReader {
       return error(array, "expected " + std::to_string(size) + " bytes, but it states " + std::to_string(stated) +
                               " and has " + std::to_string(bytes.size() - header_bytes_));
     bytes.erase(0, header_bytes_);
+    stored_ += bytes.size();
     return bytes;
   }
 
   // The number of blocks, the bytes of one and of the last, the packed bytes of each; then the blocks. In base64 the
   // numbers stand by themselves.
 #if BIHIVE_HAS_ZLIB
-  Result<std::string> unpack(const DataArray& array, std::string_view source, bool raw, std::size_t size) const {
+  Result<std::string> unpack(const DataArray& array, std::string_view source, bool raw, std::size_t size) {
     std::string_view start = source;
     const std::string first = take(start, raw, header_bytes_);
     if (first.size() < header_bytes_) return error(array, "it ends before its length");
@@ -338,6 +342,7 @@ class VtkXmlReader {
     }
     const std::string packed =
         take(source, raw, static_cast<std::size_t>(std::min<std::uint64_t>(packed_total, source.size())));
+    stored_ += packed.size();
     std::string bytes;
     std::size_t at = 0;
     for (std::size_t i = 0; i < blocks; ++i) {
@@ -374,6 +379,8 @@ class VtkXmlReader {
   std::string_view appended_;
   bool appended_is_raw_ = false, big_endian_ = false, compressed_ = false;
   std::size_t header_bytes_ = 4;
+  double numbers_ = 0;      // of all arrays so far
+  std::size_t stored_ = 0;  // their bytes in the file
   std::size_t counted_ = 0;
   std::int64_t line_ = 1;
 };

@@ -77,20 +77,19 @@ std::string columns_of(std::string_view properties, std::vector<TableColumn>& co
 // The table that a frame's comment line describes.
 Result<SphereTable> table_of(const TextScanner& scanner, const ColumnChoice& choice) {
   const auto properties = value_in(scanner.line(), "properties=");
-  if (!properties) {
-    std::vector<TableColumn> plain = plain_columns();
-    if (const std::string fault = choose_columns(choice, plain); !fault.empty())
-      return scanner.line_error(fault, "name more columns by Properties=... on this line");
-    SphereTable table(plain);
-    table.allow_more_fields();
-    return table;
-  }
   std::vector<TableColumn> columns;
-  std::string fault = columns_of(*properties, columns);
+  std::string fault;
+  if (properties)
+    fault = columns_of(*properties, columns);
+  else
+    columns = plain_columns();
   if (fault.empty()) fault = choose_columns(choice, columns);
   SphereTable table(columns);
   if (fault.empty()) fault = table.columns_fault();
-  if (!fault.empty()) return scanner.line_error(fault, "Properties needs pos:R:3");
+  if (!fault.empty())
+    return scanner.line_error(
+        fault, properties ? "Properties needs pos:R:3" : "name more columns by Properties=... on this line");
+  if (!properties) table.allow_more_fields();
   return table;
 }
 

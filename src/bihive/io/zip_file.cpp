@@ -60,6 +60,7 @@ Result<std::vector<ZipMember>> zip_members(std::string_view bytes, const std::st
   if (count > kMostMembers) return bad("has more than 10,000 members");
 
   std::vector<ZipMember> members;
+  std::uint64_t packed_total = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
     if (at > bytes.size() || bytes.size() - at < 46 || bytes.substr(at, 4) != kEntryMark)
       return bad("is damaged: its directory ends too early");
@@ -78,6 +79,7 @@ Result<std::vector<ZipMember>> zip_members(std::string_view bytes, const std::st
       return bad("is damaged: " + quote(member.name) + " is not where the directory says");
     const std::uint64_t begin = place + 30 + number_in(bytes, place + 26, 2) + number_in(bytes, place + 28, 2);
     if (begin > bytes.size() || packed > bytes.size() - begin) return bad("is cut inside of " + quote(member.name));
+    if ((packed_total += packed) > bytes.size()) return bad("is damaged: its members lie in each other");
     member.packed = bytes.substr(begin, packed);
     members.push_back(member);
     at += 46 + name + extra + more;

@@ -10,6 +10,7 @@
 #include <valijson/validator.hpp>
 #include <vector>
 
+#include "bihive/base/json_text.h"
 #include "bihive/io/text_scanner.h"
 #include "bihive/scene/scene_file.h"
 
@@ -100,7 +101,7 @@ Error syntax_error(std::string_view text, const SyntaxCheck& check, const std::s
 // --- Schema -----------------------------------------------------------------------------------------------------
 
 const json& schema_document() {
-  static const json schema = json::parse(scene_schema());
+  static const json schema = *json_from_text<json>(scene_schema());
   return schema;
 }
 
@@ -203,9 +204,10 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
 }  // namespace
 
 Result<json> parse_json(std::string_view text, const std::string& name) {
+  if (Status status = check_json_depth(text, name); !status) return status.error();
   SyntaxCheck check;
   if (!json::sax_parse(text.begin(), text.end(), &check)) return syntax_error(text, check, name);
-  return json::parse(text.begin(), text.end(), nullptr, /*allow_exceptions=*/false);
+  return json_from_text<json>(text, name);
 }
 
 Status check_against_schema(const json& document, const std::string& name) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bihive/base/json_text.h"
 #include "bihive/scene/builtin_styles.h"
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/look_json.h"
@@ -104,7 +105,7 @@ Result<Style> style_named(std::string_view name) {
   std::string known;
   for (const auto& [style, text] : builtin_styles()) {
     // A test holds the texts of the program against the schema; they need no judge at run time.
-    if (style == name) return style_from(json::parse(text()), style);
+    if (style == name) return style_from(*json_from_text<json>(text()), style);
     known += (known.empty() ? "" : ", ") + style;
   }
   return Error{"there is no style \"" + std::string(name) + "\"", "", 0, 0, "there are " + known + ", or a file"};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bihive/base/json_text.h"
 #include "bihive/math/quartiles.h"
 
 namespace bihive {
@@ -147,14 +148,16 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
                              {"max_prims", plan.max_prims[each.best()]},
                              {"percent", each.gain_percent()}});
   json["stated"] = ordered_json::object();
-  const ordered_json stated = ordered_json::parse(values.text());
+  const ordered_json stated = *json_from_text<ordered_json>(values.text());
   for (const auto& [name, entry] : stated["values"].items())
     if (entry["kind"] == "stated") json["stated"][name] = entry;
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::optional<SavedFrameRates> saved_frame_rates(const std::string& json) {
-  const ordered_json document = ordered_json::parse(json, nullptr, /*allow_exceptions=*/false);
+  const Result<ordered_json> parsed = json_from_text<ordered_json>(json);
+  if (!parsed) return std::nullopt;
+  const ordered_json& document = *parsed;
   SavedFrameRates saved;
   try {
     if (document.at("experiment") != "figure-4.4") return std::nullopt;

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "bihive/base/json_text.h"
+
 namespace bihive {
 namespace {
 
@@ -58,8 +60,9 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
   StatedValues stated;
   stated.file_ = std::move(file);
   stated.text_ = bytes;
-  const json document = json::parse(bytes, nullptr, /*allow_exceptions=*/false);
-  if (document.is_discarded()) return stated.error_at("/", "a JSON document");
+  const Result<json> parsed = json_from_text<json>(bytes, stated.file_);
+  if (!parsed) return parsed.error();
+  const json& document = *parsed;
   if (!document.is_object() || !document.contains("values") || !document["values"].is_object())
     return stated.error_at("/values", "an object with one entry a value");
   for (const auto& [name, entry] : document["values"].items()) {

@@ -10,6 +10,16 @@ const ArrayFacts* ArrayFile::find(std::string_view name) const {
   return nullptr;
 }
 
+const RefusedArray* ArrayFile::find_refused(std::string_view name, bool faults) const {
+  const auto is_above = [](std::string_view group, std::string_view array) {
+    return array.substr(0, group.size()) == group &&
+           (group.empty() || array.size() == group.size() || array[group.size()] == '/');
+  };
+  for (const RefusedArray& array : refused())
+    if ((array.is_fault || !faults) && (is_above(name, array.name) || is_above(array.name, name))) return &array;
+  return nullptr;
+}
+
 Result<std::vector<double>> ArrayFile::read_all(const ArrayFacts& array) const {
   return read(array, std::vector<std::int64_t>(array.lengths.size(), 0), array.lengths);
 }

@@ -19,6 +19,14 @@ struct ArrayFacts {
   std::vector<std::int64_t> lengths;  ///< of each dimension; none: one number
 };
 
+/// An array that the file names and that is not read.
+struct RefusedArray {
+  std::string name;
+  std::string what;  ///< a sentence: "the data set '/x' keeps its numbers in another file ('y.raw')"
+  std::string hint;
+  bool is_fault = true;  ///< false: the rest of the file is read without it
+};
+
 /// Any number of threads may read at a time.
 class ArrayFile {
  public:
@@ -27,6 +35,8 @@ class ArrayFile {
   virtual const std::string& path() const = 0;
   /// Every array of numbers.
   virtual const std::vector<ArrayFacts>& arrays() const = 0;
+  /// Groups and arrays that are named in it but are not read, as no reader opens another file or loads a plug-in.
+  virtual const std::vector<RefusedArray>& refused() const { return none_refused_; }
   /// The part of an array that begins at `begin` and has `lengths` numbers along each dimension, row after row. It lies
   /// within the array. Errors: damaged bytes, a library that fails, more than the memory holds.
   virtual Result<std::vector<double>> read(const ArrayFacts& array, const std::vector<std::int64_t>& begin,
@@ -40,6 +50,12 @@ class ArrayFile {
   /// The array of that name, or null.
   const ArrayFacts* find(std::string_view name) const;
   Result<std::vector<double>> read_all(const ArrayFacts& array) const;
+  /// The first refused array that belongs to what is asked for: it itself, the group above it, or all below it (an
+  /// empty name: the whole file). Null if there is none. `faults`: those alone that are faults.
+  const RefusedArray* find_refused(std::string_view name, bool faults) const;
+
+ private:
+  std::vector<RefusedArray> none_refused_;
 };
 
 /// Whether the first bytes are those of the format.

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <new>
 #include <utility>
 
 #include "bihive/base/check.h"
 #include "bihive/base/memory.h"
 #include "bihive/io/arrays/array_file.h"
 #include "bihive/io/arrays/hdf5_functions.h"
+#include "bihive/io/arrays/hdf5_storage.h"
 #include "bihive/io/text_scanner.h"
 #include "bihive/io/without_throwing.h"
 
@@ -25,22 +27,20 @@ constexpr std::size_t kMostTextBytes = 4096;
 constexpr unsigned kHdf5ReadOnly = 0;
 constexpr hid_t kHdf5Default = 0;
 
-// An open object of the library.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  hid_t id() const { return id_; }
-  bool ok() const { return id_ >= 0; }
+// Bytes in memory get a name that no file can have: the library refuses one that is there.
+constexpr const char* kNoFile = "/dev/null/in_memory";
 
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
+using Handle = Hdf5Handle;
+
+// Called before the library follows a link into another file, which ends there.
+extern "C" herr_t refuse_link(const char*, const char*, const char* file, const char*, unsigned*, hid_t, void* linked) {
+  try {
+    *static_cast<std::string*>(linked) = file == nullptr || *file == '\0' ? "?" : file;
+  } catch (const std::bad_alloc&) {
+    // The link is refused without its name.
+  }
+  return -1;
+}
 
 class Hdf5File : public ArrayFile {
  public:
@@ -48,6 +48,7 @@ class Hdf5File : public ArrayFile {
   ~Hdf5File() override {
     const Hdf5Turn turn(h_);
     if (id_ >= 0) h_.H5Fclose(id_);
+    if (links_ >= 0) h_.H5Pclose(links_);
     if (descriptor_ >= 0) close(descriptor_);
   }
   Hdf5File(const Hdf5File&) = delete;
@@ -55,11 +56,15 @@ class Hdf5File : public ArrayFile {
 
   const std::string& path() const override { return file_.path(); }
   const std::vector<ArrayFacts>& arrays() const override { return arrays_; }
+  const std::vector<RefusedArray>& refused() const override { return refused_; }
 
   Status open() {
-    const Result<std::string> image = file_.written_ns() == 0 ? image_of_file() : std::string();
+    const Result<std::string> image = !file_.has_path() ? image_of_file() : std::string();
     if (!image) return image.error();
     const Hdf5Turn turn(h_);
+    links_ = h_.H5Pcreate(h_.link_access);
+    if (links_ < 0 || h_.H5Pset_elink_cb(links_, refuse_link, &linked_file_) < 0)
+      return damaged("libhdf5 takes no rule for links");
     if (image->empty()) {
       // The library opens files by name. This name is that of the file which is open here.
       descriptor_ = file_.another_descriptor();
@@ -71,11 +76,11 @@ class Hdf5File : public ArrayFile {
       if (!access.ok() || h_.H5Pset_fapl_core(access.id(), kGrowth, false) < 0 ||
           h_.H5Pset_file_image(access.id(), const_cast<char*>(image->data()), image->size()) < 0)
         return damaged("libhdf5 takes no bytes");
-      id_ = h_.H5Fopen(path().c_str(), kHdf5ReadOnly, access.id());
+      id_ = h_.H5Fopen(kNoFile, kHdf5ReadOnly, access.id());
     }
     if (id_ < 0) return damaged("libhdf5 cannot open it");
     std::size_t objects = 0;
-    const Handle root(h_.H5Oopen(id_, "/", kHdf5Default), h_.H5Oclose);
+    const Handle root(h_.H5Oopen(id_, "/", links_), h_.H5Oclose);
     return root.ok() ? list(root.id(), "", 0, objects) : damaged("libhdf5 cannot open it");
   }
 
@@ -83,16 +88,18 @@ class Hdf5File : public ArrayFile {
                                    const std::vector<std::int64_t>& lengths) const override {
     double total = sizeof(double);
     for (const std::int64_t length : lengths) total *= static_cast<double>(length);
-    if (Status status = check_memory(total, "the data set " + quote(array.name)); !status)
-      return Error{status.error().message, path(), 0, 0, ""};
-    std::vector<double> values(static_cast<std::size_t>(total / sizeof(double)));
-    if (values.empty()) return values;
+    if (total == 0) return std::vector<double>();
     const std::vector<hsize_t> from(begin.begin(), begin.end()), count(lengths.begin(), lengths.end());
     const int rank = static_cast<int>(count.size());
 
     const Hdf5Turn turn(h_);
-    const Handle set(h_.H5Oopen(id_, array.name.c_str(), kHdf5Default), h_.H5Oclose);
+    const Handle set(h_.H5Oopen(id_, array.name.c_str(), links_), h_.H5Oclose);
     if (!set.ok()) return cannot_read(array);
+    if (const std::string missing = missing_bytes(h_, set.id(), file_.size(), from, count); !missing.empty())
+      return Error{"the data set " + quote(array.name) + ": " + missing, path(), 0, 0, ""};
+    if (Status status = check_memory(total, "the data set " + quote(array.name)); !status)
+      return Error{status.error().message, path(), 0, 0, ""};
+    std::vector<double> values(static_cast<std::size_t>(total / sizeof(double)));
     const Handle space(h_.H5Dget_space(set.id()), h_.H5Sclose);
     if (!space.ok()) return cannot_read(array);
     if (rank > 0 && h_.H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, from.data(), nullptr, count.data(), nullptr) < 0)
@@ -138,7 +145,7 @@ class Hdf5File : public ArrayFile {
   std::vector<std::pair<double, std::string>> labels(const ArrayFacts& array) const override {
     std::vector<std::pair<double, std::string>> found;
     const Hdf5Turn turn(h_);
-    const Handle set(h_.H5Oopen(id_, array.name.c_str(), kHdf5Default), h_.H5Oclose);
+    const Handle set(h_.H5Oopen(id_, array.name.c_str(), links_), h_.H5Oclose);
     if (!set.ok()) return found;
     const Handle type(h_.H5Dget_type(set.id()), h_.H5Tclose);
     if (!type.ok() || h_.H5Tget_class(type.id()) != H5T_ENUM) return found;
@@ -179,10 +186,15 @@ class Hdf5File : public ArrayFile {
       const ssize_t length =
           h_.H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, link, sizeof link, kHdf5Default);
       if (length <= 0 || length >= static_cast<ssize_t>(sizeof link)) continue;
-      // A link to nowhere is none.
-      const Handle object(h_.H5Oopen(group, link, kHdf5Default), h_.H5Oclose);
-      if (!object.ok()) continue;
       const std::string path_of_object = name + "/" + link;
+      linked_file_.clear();
+      const Handle object(h_.H5Oopen(group, link, links_), h_.H5Oclose);
+      if (!linked_file_.empty())
+        refused_.push_back(
+            {path_of_object, quote(path_of_object) + " is a link into another file (" + quote(linked_file_) + ")",
+             "bihive opens no file that another one names: copy all into one file, for example with h5py", true});
+      // A link to nowhere is none.
+      if (!object.ok()) continue;
       const H5I_type_t kind = h_.H5Iget_type(object.id());
       if (kind == H5I_DATASET) take(object.id(), path_of_object);
       if (kind == H5I_GROUP && depth < kMostGroupsInGroups)
@@ -193,10 +205,15 @@ class Hdf5File : public ArrayFile {
 
   void take(hid_t set, const std::string& name) {
     const Handle type(h_.H5Dget_type(set), h_.H5Tclose);
-    const Handle space(h_.H5Dget_space(set), h_.H5Sclose);
-    if (!type.ok() || !space.ok()) return;
+    if (!type.ok()) return;
     const H5T_class_t kind = h_.H5Tget_class(type.id());
     if (kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_ENUM) return;
+    if (RefusedArray refused = refusal_of(h_, set, name); !refused.what.empty()) {
+      refused_.push_back(std::move(refused));
+      return;
+    }
+    const Handle space(h_.H5Dget_space(set), h_.H5Sclose);
+    if (!space.ok()) return;
     const int rank = h_.H5Sget_simple_extent_ndims(space.id());
     if (rank < 0 || rank > kMostDimensions) return;
     hsize_t lengths[kMostDimensions] = {};
@@ -215,7 +232,7 @@ class Hdf5File : public ArrayFile {
   void with_attribute(const std::string& object, const std::string& attribute,
                       const std::function<void(hid_t, hid_t)>& take_it) const {
     const Hdf5Turn turn(h_);
-    const Handle owner(h_.H5Oopen(id_, object.c_str(), kHdf5Default), h_.H5Oclose);
+    const Handle owner(h_.H5Oopen(id_, object.c_str(), links_), h_.H5Oclose);
     if (!owner.ok() || h_.H5Aexists(owner.id(), attribute.c_str()) <= 0) return;
     const Handle found(h_.H5Aopen(owner.id(), attribute.c_str(), kHdf5Default), h_.H5Aclose);
     if (!found.ok()) return;
@@ -227,8 +244,10 @@ class Hdf5File : public ArrayFile {
   const Hdf5Functions& h_;
   RandomFile file_;
   int descriptor_ = -1;
-  hid_t id_ = -1;
+  hid_t id_ = -1, links_ = -1;
+  std::string linked_file_;  // the file of the link that was met last
   std::vector<ArrayFacts> arrays_;
+  std::vector<RefusedArray> refused_;
 };
 
 }  // namespace

@@ -27,14 +27,16 @@ Result<Hdf5Functions> load_hdf5() {
 #undef BIHIVE_HDF5_LOAD
   const auto* const native_double = reinterpret_cast<const hid_t*>(dlsym(library, "H5T_NATIVE_DOUBLE_g"));
   const auto* const file_access = reinterpret_cast<const hid_t*>(dlsym(library, "H5P_CLS_FILE_ACCESS_ID_g"));
+  const auto* const link_access = reinterpret_cast<const hid_t*>(dlsym(library, "H5P_CLS_LINK_ACCESS_ID_g"));
   // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
   unsigned major = 0, minor = 0, release = 0;
-  if (native_double == nullptr || file_access == nullptr || functions.H5open() < 0 ||
+  if (native_double == nullptr || file_access == nullptr || link_access == nullptr || functions.H5open() < 0 ||
       functions.H5get_libversion(&major, &minor, &release) < 0 || major != H5_VERS_MAJOR || minor != H5_VERS_MINOR)
     return Error{std::string(kLibrary) + " is of another version than bihive was built for", "", 0, 0,
                  "build bihive again"};
   functions.native_double = *native_double;
   functions.file_access = *file_access;
+  functions.link_access = *link_access;
   return functions;
 }
 
@@ -49,9 +51,13 @@ Result<const Hdf5Functions*> hdf5_functions() {
 Hdf5Turn::Hdf5Turn(const Hdf5Functions& hdf5) : hdf5_(hdf5), lock_(hdf5_lock()) {
   hdf5_.H5Eget_auto2(H5E_DEFAULT, &print_, &print_to_);
   hdf5_.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  // Other users of the library in this process keep their plug-ins.
+  hdf5_.H5PLget_loading_state(&plug_ins_);
+  hdf5_.H5PLset_loading_state(0);
 }
 
 Hdf5Turn::~Hdf5Turn() {
+  hdf5_.H5PLset_loading_state(plug_ins_);
   hdf5_.H5Eset_auto2(H5E_DEFAULT, print_, print_to_);
 }
 

@@ -13,12 +13,24 @@
   X(H5open)                       \
   X(H5get_libversion)             \
   X(H5free_memory)                \
+  X(H5Zfilter_avail)              \
+  X(H5PLget_loading_state)        \
+  X(H5PLset_loading_state)        \
   X(H5Fopen)                      \
   X(H5Fclose)                     \
   X(H5Pcreate)                    \
   X(H5Pclose)                     \
   X(H5Pset_fapl_core)             \
   X(H5Pset_file_image)            \
+  X(H5Pset_elink_cb)              \
+  X(H5Pget_layout)                \
+  X(H5Pget_chunk)                 \
+  X(H5Pget_external_count)        \
+  X(H5Pget_external)              \
+  X(H5Pget_virtual_count)         \
+  X(H5Pget_virtual_filename)      \
+  X(H5Pget_nfilters)              \
+  X(H5Pget_filter2)               \
   X(H5Gget_info)                  \
   X(H5Lget_name_by_idx)           \
   X(H5Oopen)                      \
@@ -26,6 +38,9 @@
   X(H5Iget_type)                  \
   X(H5Dget_space)                 \
   X(H5Dget_type)                  \
+  X(H5Dget_create_plist)          \
+  X(H5Dget_storage_size)          \
+  X(H5Dget_chunk_storage_size)    \
   X(H5Dread)                      \
   X(H5Screate_simple)             \
   X(H5Sclose)                     \
@@ -59,13 +74,13 @@ struct Hdf5Functions {
 #define BIHIVE_HDF5_DECLARE(name) decltype(&::name) name = nullptr;
   BIHIVE_HDF5_FUNCTIONS(BIHIVE_HDF5_DECLARE)
 #undef BIHIVE_HDF5_DECLARE
-  hid_t native_double = -1, file_access = -1;
+  hid_t native_double = -1, file_access = -1, link_access = -1;
 };
 
 /// Loads the library when it is called first. Error: it is not there, or of another version than the headers.
 Result<const Hdf5Functions*> hdf5_functions();
 
-/// One thread at a time is in the library, which prints nothing meanwhile.
+/// One thread at a time is in the library, which prints nothing and loads no plug-ins meanwhile.
 class Hdf5Turn {
  public:
   explicit Hdf5Turn(const Hdf5Functions& hdf5);
@@ -78,6 +93,7 @@ class Hdf5Turn {
   std::unique_lock<std::mutex> lock_;
   H5E_auto2_t print_ = nullptr;
   void* print_to_ = nullptr;
+  unsigned plug_ins_ = 0;
 };
 
 }  // namespace bihive

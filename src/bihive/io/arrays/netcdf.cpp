@@ -288,12 +288,15 @@ class NetcdfFile : public ArrayFile {
       if (padded > size) return records == 0 ? Status(Done{}) : damaged("its records lie outside of it");
       record_bytes_ += padded;
     }
-    std::uint64_t whole = records;
+    // Variables lie beside each other. If they lay in each other, few bytes would be many numbers.
+    std::uint64_t whole = record_bytes_ > size ? 0 : records, fixed_bytes = 0;
     for (const auto& [name, variable] : variables_) {
       if (variable.begin > size) return damaged("the variable " + quote(name) + " lies outside of it");
       const std::uint64_t left = size - variable.begin;
       if (!variable.grows && variable.row_bytes > left)
         return damaged("the variable " + quote(name) + " lies outside of it");
+      if (!variable.grows && (fixed_bytes += variable.row_bytes) > size)
+        return damaged("its variables have more bytes than it has");
       if (variable.grows)
         whole = std::min(whole, variable.row_bytes > left || record_bytes_ == 0
                                     ? 0

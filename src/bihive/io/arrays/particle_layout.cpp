@@ -139,9 +139,13 @@ Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& l
   std::vector<std::size_t> widths;
   const ParticleColumn* labelled = nullptr;
   std::vector<double> labelled_values;
+  double total = 0;  // bytes; several names may stand for the same ones
   for (const ParticleColumn& column : layout.columns) {
     Result<std::vector<double>> values = numbers_at(file, column.of, frame, rows);
     if (!values) return values.error();
+    total += static_cast<double>(values->size() * sizeof(double));
+    if (Status status = check_memory(total, "its arrays"); !status)
+      return Error{status.error().message, file.path(), 0, 0, ""};
     const std::size_t width = values->size() / static_cast<std::size_t>(std::max<std::int64_t>(count, 1));
     if (width == 0 || columns.size() + width > SphereTable::kMostColumns) continue;
     if (column.name == "type" && labelled == nullptr && !file.labels(*column.of.array).empty()) {

@@ -12,8 +12,9 @@
 namespace bihive {
 namespace {
 
-std::int64_t time_written_ns(const struct stat& facts) {
-  return std::int64_t{facts.st_mtim.tv_sec} * 1000000000 + facts.st_mtim.tv_nsec;
+FileStamp stamp_of(const struct stat& facts) {
+  return {facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_ctim.tv_sec, facts.st_ctim.tv_nsec,
+          static_cast<std::int64_t>(facts.st_ino)};
 }
 
 }  // namespace
@@ -28,7 +29,7 @@ Result<RandomFile> RandomFile::open(const std::string& path) {
   if (!S_ISREG(facts.st_mode))
     return Error{"this is no file whose frames can be read in any order", path, 0, 0, "write it to a file first"};
   file.size_ = facts.st_size;
-  file.written_ns_ = time_written_ns(facts);
+  file.stamp_ = stamp_of(facts);
   file.has_path_ = true;
   return file;
 }
@@ -48,7 +49,7 @@ RandomFile RandomFile::of_descriptor(int file, const std::string& name) {
   struct stat facts = {};
   if (fstat(file, &facts) == 0) {
     made.size_ = facts.st_size;
-    made.written_ns_ = time_written_ns(facts);
+    made.stamp_ = stamp_of(facts);
   }
   return made;
 }
@@ -70,13 +71,15 @@ RandomFile::RandomFile(RandomFile&& other) noexcept
       owned_(std::move(other.owned_)),
       bytes_(other.bytes_),
       size_(other.size_),
-      written_ns_(other.written_ns_),
+      stamp_(other.stamp_),
       has_path_(other.has_path_) {}
 
 bool RandomFile::changed() const {
   struct stat facts = {};
   if (file_ < 0 || fstat(file_, &facts) != 0) return false;
-  return facts.st_size < size_ || (facts.st_size == size_ && time_written_ns(facts) != written_ns_);
+  const FileStamp now = stamp_of(facts);
+  return facts.st_size < size_ ||
+         (facts.st_size == size_ && (now.written_s != stamp_.written_s || now.written_ns != stamp_.written_ns));
 }
 
 int RandomFile::another_descriptor() const {

@@ -10,6 +10,16 @@
 
 namespace bihive {
 
+/// What the system knows of a file: it changes with the file's content. Seconds and nanoseconds stand apart, as times
+/// beyond 2262 have more nanoseconds than 64 bits hold.
+struct FileStamp {
+  std::int64_t written_s = 0, written_ns = 0;  ///< when its content was written last: anybody can set it
+  std::int64_t changed_s = 0, changed_ns = 0;  ///< when content, name or owner changed last: the system alone sets it
+  std::int64_t inode = 0;
+
+  bool operator==(const FileStamp&) const = default;
+};
+
 class RandomFile {
  public:
   /// A regular file. Errors: missing, a folder, a pipe, unreadable.
@@ -29,8 +39,10 @@ class RandomFile {
   const std::string& path() const { return path_; }
   /// Bytes when it was opened.
   std::int64_t size() const { return size_; }
-  /// When it was written last, in nanoseconds; 0 if it is no file on the disk with its own path.
-  std::int64_t written_ns() const { return has_path_ ? written_ns_ : 0; }
+  /// Whether it is a file on the disk with its own path, not one that was unpacked or came through a pipe.
+  bool has_path() const { return has_path_; }
+  /// When it was opened; zeros for bytes in memory.
+  const FileStamp& stamp() const { return stamp_; }
   /// Whether it is a file on the disk that became shorter or was written to since it was opened. One that only grew
   /// has the bytes that it had, as far as can be told from outside.
   bool changed() const;
@@ -51,7 +63,7 @@ class RandomFile {
   std::unique_ptr<const std::string> owned_;
   std::string_view bytes_;
   std::int64_t size_ = 0;
-  std::int64_t written_ns_ = 0;  // when it was written last
+  FileStamp stamp_;
   bool has_path_ = false;
 };
 
