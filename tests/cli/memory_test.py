@@ -63,7 +63,7 @@ class Memory(ProgramTest):
 
         done = limited("render", "scenario1", "--count", "30000000", "-o", "a.png", "--size", "10x10")
         self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
-        self.assertIn("and this control group allows 503 MB", done.stderr)
+        self.assertIn("and this control group, which allows 503 MB, leaves", done.stderr)
         self.assertEqual(os.listdir(self.folder), [])
         done = limited("render", "demo", "-o", "a.png", "--size", "10x10")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
