@@ -14,6 +14,7 @@
 #include "bihive/base/parallel.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
+#include "film/film_sink.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
@@ -66,9 +67,12 @@ void keep_within_control_group(const Request& request) {
   if (std::holds_alternative<WebOptions>(request) || std::holds_alternative<ViewOptions>(request) ||
       std::holds_alternative<ThesisOptions>(request) || std::holds_alternative<HelpText>(request))
     return;
+  const auto* const film = std::get_if<FilmOptions>(&request);
+  // ffmpeg would inherit the limit, which is not its own.
+  if (film != nullptr && (film->join || film_kind(film->picture.output) == FilmKind::encoded)) return;
   // Stacks of threads are reserved, but hardly used: make the threads first. A film has some of its own.
   constexpr double kStack = 8 << 20, kOwnThreadsOfFilm = 4;
-  const double of_film = std::holds_alternative<FilmOptions>(request) ? kOwnThreadsOfFilm * kStack : 0;
+  const double of_film = film != nullptr ? kOwnThreadsOfFilm * kStack : 0;
   const int threads = hardware_threads();
   const char* const text = turn_group_limit_into_failing_allocations(2 * threads * kStack + of_film);
   if (text == nullptr) return;

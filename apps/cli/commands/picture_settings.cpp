@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bihive/base/memory.h"
 #include "bihive/base/version.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
@@ -210,7 +209,6 @@ bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
 void check_memory_of(RenderEngine engine, const Input& input, const RenderOptions& options,
                      const RenderSettings& settings) {
   if (comes_whole(engine, settings)) value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
-  turn_group_limit_into_failing_allocations();
   const Tile drawn = drawn_pixels(settings);
   const double row = predict_film_bytes(settings, drawn.width()) + kFileBytes * drawn.width();
   const double band = comes_whole(engine, settings) ? 0 : row * rows_of_band(drawn.height(), row);
