@@ -10,8 +10,11 @@
 #include <variant>
 
 #include "../shared/last_line.h"
+#include "bihive/base/memory.h"
+#include "bihive/base/parallel.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
+#include "film/film_sink.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
@@ -58,12 +61,34 @@ void fill_closed_streams() {
     if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
 }
 
+// Where a control group limits the memory, allocations fail before the kernel kills the program. Servers and windows
+// live long beside others that come and go, and refuse by what is predicted alone.
+void keep_within_control_group(const Request& request) {
+  if (std::holds_alternative<WebOptions>(request) || std::holds_alternative<ViewOptions>(request) ||
+      std::holds_alternative<ThesisOptions>(request) || std::holds_alternative<HelpText>(request))
+    return;
+  const auto* const film = std::get_if<FilmOptions>(&request);
+  // ffmpeg would inherit the limit, which is not its own.
+  if (film != nullptr && (film->join || film_kind(film->picture.output) == FilmKind::encoded)) return;
+  // Stacks of threads are reserved, but hardly used: make the threads first. A film has some of its own.
+  constexpr double kStack = 8 << 20, kOwnThreadsOfFilm = 4;
+  const double of_film = film != nullptr ? kOwnThreadsOfFilm * kStack : 0;
+  const int threads = hardware_threads();
+  const char* const text = turn_group_limit_into_failing_allocations(2 * threads * kStack + of_film);
+  if (text == nullptr) return;
+  name_limit_of_memory(text);
+  parallel_for(0, 4 * threads, [](std::int64_t) {});
+  turn_group_limit_into_failing_allocations(of_film);
+}
+
 int run(int argc, const char* const* argv) {
   try {
     fill_closed_streams();
     handle_signals();
     if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
-    const int code = std::visit(Run{}, parse_command_line(argc, argv, describe));
+    const Request request = parse_command_line(argc, argv, describe);
+    keep_within_control_group(request);
+    const int code = std::visit(Run{}, request);
     finish_output();
     return code;
   } catch (const Failure& failure) {
@@ -71,9 +96,9 @@ int run(int argc, const char* const* argv) {
     std::fputs(failure.shown.c_str(), stderr);
     return failure.code;
   } catch (const std::bad_alloc&) {
-    say_without_memory(kNoMemory);
+    say_no_memory();
   } catch (const std::length_error&) {
-    say_without_memory(kNoMemory);
+    say_no_memory();
   } catch (const std::exception& error) {
     say_error(error.what());
   }
@@ -88,7 +113,7 @@ int main(int argc, char** argv) {
   try {
     return bihive::cli::run(argc, argv);
   } catch (const std::exception&) {
-    bihive::say_without_memory(bihive::kNoMemory);
+    bihive::say_no_memory();
   }
   return bihive::cli::kBadInput;
 }

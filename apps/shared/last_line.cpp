@@ -19,6 +19,8 @@ constexpr int kExitCode = 1;
 
 void (*g_before_end)() = nullptr;
 
+char g_no_memory[200];  // empty: kNoMemory
+
 void prepare_end() {
   if (g_before_end != nullptr) g_before_end();
 }
@@ -30,7 +32,7 @@ void prepare_end() {
     if (abi::__cxa_current_exception_type() != nullptr) throw;
     say_without_memory("the program ended itself");
   } catch (const std::bad_alloc&) {
-    say_without_memory(kNoMemory);
+    say_no_memory();
   } catch (const std::exception& error) {
     say_without_memory(error.what());
   } catch (...) {
@@ -48,7 +50,7 @@ void on_no_memory() {
   void* const small = std::malloc(kSmall);
   if (small == nullptr) {
     prepare_end();
-    say_without_memory(kNoMemory);
+    say_no_memory();
     _exit(kExitCode);
   }
   std::free(small);
@@ -71,6 +73,14 @@ void say_without_memory(const char* text) {
   const char* const wipe = isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "";
   const int length = std::snprintf(line, sizeof(line), "%sbihive: error: %.400s\n", wipe, text);
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, static_cast<std::size_t>(length));
+}
+
+void say_no_memory() {
+  say_without_memory(g_no_memory[0] != '\0' ? g_no_memory : kNoMemory);
+}
+
+void name_limit_of_memory(const char* text) {
+  std::snprintf(g_no_memory, sizeof(g_no_memory), "%s", text);
 }
 
 // With a limit of address space the C library must not reserve 64 MB of it for each thread.

@@ -10,6 +10,12 @@ inline constexpr const char* kNoMemory = "not enough memory";
 /// Threads that fail together say it once: all but the first wait for the end.
 void say_without_memory(const char* text);
 
+/// The same for lack of memory: kNoMemory, or the text that name_limit_of_memory() gave.
+void say_no_memory();
+
+/// What is said when there is no memory, at most 199 bytes: it names the limit.
+void name_limit_of_memory(const char* text);
+
 /// From now on, lack of memory and exceptions that nobody catches end the program with one line and exit code 1. Before
 /// that `before_end` is called, on any thread: it may use no memory. Null: nothing is called. To be called before the
 /// shared libraries make their variables, some of which need memory (.preinit_array).

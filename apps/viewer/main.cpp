@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   try {
     return bihive::window::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    bihive::say_without_memory(bihive::kNoMemory);
+    bihive::say_no_memory();
   } catch (const std::exception& error) {
     bihive::say_without_memory(error.what());
   }

@@ -11,6 +11,7 @@
 #include "bihive/image/png_pixels.h"
 #include "bihive/image/transfer.h"
 #include "bihive/render/draw_labels.h"
+#include "bihive/render/memory.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/camera_lights.h"
@@ -21,6 +22,7 @@
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/title_text.h"
 #include "c_errors.h"
+#include "c_spheres.h"
 
 /// A scene, the tracer of its spheres, and the side from which to look at them. The tracer refers to the scene.
 struct bihive_scene {
@@ -102,12 +104,7 @@ int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb,
     if (xyz == nullptr || radii == nullptr) return fail("the spheres are NULL");
     const auto look = style_or_default(style);
     if (!look) return fail(look.error());
-    std::vector<double> columns[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      columns[axis].resize(static_cast<std::size_t>(count));
-      for (std::size_t i = 0; i < columns[axis].size(); ++i) columns[axis][i] = xyz[3 * i + axis];
-    }
-    auto spheres = SphereSet::from_world(columns[0], columns[1], columns[2], std::vector<double>(radii, radii + count));
+    auto spheres = spheres_of(xyz, radii, count);
     if (!spheres) return fail(spheres.error());
     SphereFile file;
     file.spheres = std::move(*spheres);
@@ -163,6 +160,7 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
       settings.adaptive_samples = false;
       settings.samples_per_pixel = samples;
     }
+    if (Status status = check_picture_memory(width, height); !status) return fail(status.error());
     Result<std::string> title = fill_title(settings.labels.title, {{"spheres", double(drawn.spheres.size())}});
     if (!title) return fail(title.error());
     settings.labels.title = *title;

@@ -15,6 +15,7 @@
 #include "bihive/wide/queries.h"
 #include "bihive/wide/wide_builder.h"
 #include "c_errors.h"
+#include "c_spheres.h"
 
 struct bihive_tree {
   std::shared_ptr<const bihive::WideTree> tree;
@@ -119,13 +120,7 @@ int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int t
     if (count < 0) return fail("the number of spheres is negative");
     if (count > 0 && (xyz == nullptr || radii == nullptr)) return fail("the spheres are NULL");
     if (threads < 0) return fail("the number of threads is negative; 0 takes all");
-    std::vector<double> columns[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      columns[axis].resize(static_cast<std::size_t>(count));
-      for (std::size_t i = 0; i < columns[axis].size(); ++i) columns[axis][i] = xyz[3 * i + axis];
-    }
-    const std::vector<double> r(radii, radii + count);
-    const auto spheres = SphereSet::from_world(columns[0], columns[1], columns[2], r);
+    const auto spheres = spheres_of(xyz, radii, count);
     if (!spheres) return fail(spheres.error());
     WideBuilder builder;
     const auto built = builder.build(*spheres, {}, threads);

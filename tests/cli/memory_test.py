@@ -39,6 +39,11 @@ class Memory(ProgramTest):
         environment = {**os.environ, "BIHIVE_MEMORY": str(memory)}
         return self.fail_input(*arguments, env=environment)
 
+    def run_in_group(self, folder, *words):
+        script = 'echo $$ > "$0/cgroup.procs" && exec "$@"'
+        return subprocess.run(["sh", "-c", script, folder, BIHIVE, *words], cwd=self.folder, capture_output=True,
+                              text=True, timeout=PATIENCE_S)
+
     def test_a_tree(self):
         small_picture = ["render", "demo", "-o", "a.png", "--size", "10x10"]
         for arguments in (small_picture, ["stats", "demo"]):
@@ -57,16 +62,42 @@ class Memory(ProgramTest):
         self.addCleanup(os.rmdir, folder)
 
         def limited(*words):
-            script = 'echo $$ > "$0/cgroup.procs" && exec "$@"'
-            return subprocess.run(["sh", "-c", script, folder, BIHIVE, *words], cwd=self.folder, capture_output=True,
-                                  text=True, timeout=PATIENCE_S)
+            return self.run_in_group(folder, *words)
 
         done = limited("render", "scenario1", "--count", "30000000", "-o", "a.png", "--size", "10x10")
         self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
-        self.assertIn("and this control group allows 503 MB", done.stderr)
+        self.assertIn("and this control group, which allows 503 MB, leaves", done.stderr)
         self.assertEqual(os.listdir(self.folder), [])
         done = limited("render", "demo", "-o", "a.png", "--size", "10x10")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_what_a_control_group_does_not_hold_is_refused_before_the_kernel_kills(self):
+        """From far too little to enough: done, or one line that names the limit."""
+        self.succeed("scene", "scenario2", "--count", "200000", "-o", "s.npy")
+        self.succeed("convert", "s.npy", "-o", "s.xyz")
+        picture = ["-o", "a.png", "--size", "320x240", "--samples", "1"]
+        commands = (["render", "s.npy", *picture], ["render", "s.xyz", *picture], ["info", "s.npy"], ["stats", "s.xyz"],
+                    ["convert", "s.npy", "-o", "b.csv"], ["render", "demo", *picture[:2], "--size", "1500x1500"])
+        ends = set()
+        for megabytes in (16, 24, 32, 40, 48, 64, 200):
+            folder, reason = make_group(megabytes << 20)
+            if folder is None:
+                self.skipTest(reason)
+            self.addCleanup(os.rmdir, folder)
+            for words in commands:
+                with self.subTest(f"{megabytes} MB: {words}"):
+                    done = self.run_in_group(folder, *words)
+                    if megabytes == 16 and done.returncode == -9 and done.stderr == "":
+                        continue  # too little for the program alone
+                    self.assertIn(done.returncode, (0, 1), done.stderr)
+                    ends.add(done.returncode)
+                    if done.returncode == 1:
+                        self.assertIn("control group", done.stderr)
+                        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                    else:
+                        self.assertEqual(done.stderr, "")
+                    self.assertTrue(megabytes < 200 or done.returncode == 0, done.stderr)
+        self.assertEqual(ends, {0, 1})
 
     def test_a_window(self):
         """The window program refuses it before it opens a window, so this needs no screen."""

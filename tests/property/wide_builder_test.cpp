@@ -76,7 +76,7 @@ TEST(WideBuilderHostile, PeakMemoryIsBounded) {
         WideBuilder builder;
         const TreePointer tree = built(builder, test::sphere_set(set.make(n)), parameters);
         const WideMemoryPrediction prediction = predict_wide_memory(n, parameters);
-        EXPECT_LE(tree->allocated_bytes() + builder.scratch_bytes(), prediction.peak_bytes)
+        EXPECT_LE(tree->allocated_bytes() + builder.scratch_bytes(), prediction.most_bytes)
             << set.name << ", " << n << " spheres, " << parameters.max_prims << ", " << parameters.max_depth;
       }
 }
@@ -101,7 +101,12 @@ TEST(WideBuilderHostile, UsedMemoryIsAsPredicted) {
                                std::to_string(parameters.max_prims) + ", " + std::to_string(parameters.max_depth);
       EXPECT_GE(tree->used_bytes() - repeated, prediction.low_bytes) << what;
       EXPECT_LE(tree->used_bytes() - repeated, prediction.high_bytes) << what;
-      EXPECT_LE(tree->allocated_bytes() + builder.scratch_bytes(), prediction.peak_bytes) << what;
+      const std::int64_t peak = tree->allocated_bytes() + builder.scratch_bytes();
+      EXPECT_LE(peak, prediction.most_bytes) << what;
+      if (tree->size >= 50000 && parameters.max_prims == 0 && parameters.max_depth == 0) {
+        EXPECT_LE(static_cast<double>(prediction.peak_bytes), 1.5 * static_cast<double>(peak)) << what;
+        EXPECT_GE(1.5 * static_cast<double>(prediction.peak_bytes), static_cast<double>(peak)) << what;
+      }
     }
 }
 
@@ -124,7 +129,8 @@ void run_out_of_memory(const SphereSet& spheres) {
 TEST(WideBuilderHostile, TooLittleMemoryIsAnError) {
   const SphereSet spheres = test::sphere_set(test::random_world("random", 9, 2000000, 10, 0.01, 0.02));
   testing::FLAGS_gtest_death_test_style = "threadsafe";
-  EXPECT_EXIT(run_out_of_memory(spheres), testing::ExitedWithCode(0), "not enough memory for the tree of 2000000");
+  EXPECT_EXIT(run_out_of_memory(spheres), testing::ExitedWithCode(0),
+              "the tree of 2,000,000 spheres.*the limit of this process");
 }
 #endif
 

@@ -25,7 +25,10 @@ class MemoryGroups : public testing::Test {
     fs::create_directories((top / path).parent_path());
     std::ofstream(top / path) << text;
   }
-  double bytes() const { return memory_limit_of_groups((top / "cgroup").string(), (top / "root").string()).bytes; }
+  MemoryLimit left() const {
+    return memory_left_by_groups(limited_groups((top / "cgroup").string(), (top / "root").string()));
+  }
+  double bytes() const { return left().bytes; }
 };
 
 TEST_F(MemoryGroups, Version2TakesTheLowestOnTheWayUp) {
@@ -38,8 +41,32 @@ TEST_F(MemoryGroups, Version2TakesTheLowestOnTheWayUp) {
   EXPECT_EQ(bytes(), 300000000) << "a group has no more than the one above";
   write("root/user.slice/box/memory.max", "200000000\n");
   EXPECT_EQ(bytes(), 200000000);
-  EXPECT_EQ(memory_limit_of_groups((top / "cgroup").string(), (top / "root").string()).whose,
-            "this control group allows");
+  EXPECT_EQ(left().whose, "this control group, which allows 200 MB, leaves");
+}
+
+TEST_F(MemoryGroups, WhatIsInUseIsNotLeft) {
+  write("cgroup", "0::/user.slice/box\n");
+  write("root/user.slice/box/memory.max", "200000000\n");
+  write("root/user.slice/box/memory.current", "150000000\n");
+  EXPECT_EQ(bytes(), 50000000);
+  write("root/user.slice/box/memory.stat",
+        "anon 90000000\nfile 60000000\ninactive_file 30000000\nactive_file 10000000\n");
+  EXPECT_EQ(bytes(), 90000000) << "pages of files can be dropped";
+  write("root/user.slice/memory.max", "400000000\n");
+  write("root/user.slice/memory.current", "390000000\n");
+  EXPECT_EQ(bytes(), 10000000) << "other groups below the one above use it up";
+  write("root/user.slice/box/memory.current", "300000000\n");
+  EXPECT_EQ(bytes(), 0);
+}
+
+TEST_F(MemoryGroups, Version1CountsTheGroupsBelow) {
+  write("cgroup", "4:memory:/box\n");
+  write("root/memory/box/memory.limit_in_bytes", "100000000\n");
+  write("root/memory/box/memory.usage_in_bytes", "70000000\n");
+  write(
+      "root/memory/box/memory.stat",
+      "cache 5\ninactive_file 1000000\nactive_file 2000000\ntotal_inactive_file 3000000\ntotal_active_file 4000000\n");
+  EXPECT_EQ(bytes(), 37000000);
 }
 
 TEST_F(MemoryGroups, Version1HasAFolderOfItsOwn) {

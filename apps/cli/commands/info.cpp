@@ -167,7 +167,7 @@ void print_text(const Facts& facts) {
   const Vec3d shift = facts.input.recentred_by;
   if (shift != Vec3d{}) row("recentred by", fmt::format("{}, {}, {}", shift.x, shift.y, shift.z));
   row("spheres take", readable_bytes(static_cast<double>(facts.spheres.allocated_bytes())));
-  row("wide tree", bytes({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes}) + ", at most " +
+  row("wide tree", bytes({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes}) + ", about " +
                        readable_bytes(static_cast<double>(facts.wide_memory.peak_bytes)) + " while it is built");
   row("reference tree", bytes(facts.memory.allocated_bytes));
   row("", bytes(facts.memory.thesis_bytes) + " as the thesis counts");

@@ -199,6 +199,9 @@ RenderSettings prepare_picture(const RenderOptions& options, RenderEngine engine
   return settings;
 }
 
+// A pixel of a file's band: display values, and the bytes of the file, 8 bits of each colour.
+constexpr double kFileBytes = 2 * 3;
+
 bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
   return is_gpu(engine) || settings.view == View::distance || settings.view == View::tree;
 }
@@ -206,7 +209,10 @@ bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
 void check_memory_of(RenderEngine engine, const Input& input, const RenderOptions& options,
                      const RenderSettings& settings) {
   if (comes_whole(engine, settings)) value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
-  value_or_fail(check_tree_memory(input.scene.spheres, structure_of(engine), options.tree));
+  const Tile drawn = drawn_pixels(settings);
+  const double row = predict_film_bytes(settings, drawn.width()) + kFileBytes * drawn.width();
+  const double band = comes_whole(engine, settings) ? 0 : row * rows_of_band(drawn.height(), row);
+  value_or_fail(check_render_memory(input.scene.spheres, structure_of(engine), options.tree, settings, band));
 }
 
 ordered_json settings_json(const RenderOptions& options, const RenderSettings& settings, const Scene& scene,

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "bihive/base/memory.h"
 #include "bihive/base/timer.h"
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
@@ -23,6 +24,7 @@ void run_render(const RenderOptions& asked) {
   PreparedPicture prepared{};
   if (leads()) {
     prepared = prepare_render(options);
+    if (team() == nullptr) turn_group_limit_into_failing_allocations();
     check_memory_of(prepared.engine, prepared.input, options, prepared.settings);
   }
   prepared.settings.threads = static_cast<int>(options.threads);

@@ -62,7 +62,7 @@ void print_wide_table(const WideFacts& wide) {
   row("predicted high", grouped(wide.predicted.high_bytes));
   row("bytes really allocated", grouped(s.allocated_bytes));
   row("with working memory", grouped(wide.measured_peak_bytes));
-  row("predicted at most", grouped(wide.predicted.peak_bytes));
+  row("predicted", grouped(wide.predicted.peak_bytes));
   row("build", readable_ms(wide.build_ms));
 }
 

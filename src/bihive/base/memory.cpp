@@ -9,6 +9,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "bihive/base/memory_groups.h"
@@ -24,35 +25,56 @@ void lower(MemoryLimit& limit, double bytes, const char* whose) {
 
 #ifndef __EMSCRIPTEN__
 
-// Bytes of address space in use.
-double mapped_bytes() {
-  const std::string text = beginning_of_file("/proc/self/statm");
-  return std::strtod(text.c_str(), nullptr) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
+// The numbers of /proc/self/statm, in bytes: address space in use, and data that is not shared, with the stack.
+struct InUse {
+  double mapped = 0, data = 0;
+
+  InUse() {
+    const std::string text = beginning_of_file("/proc/self/statm");
+    const auto page = static_cast<double>(sysconf(_SC_PAGESIZE));
+    const char* at = text.c_str();
+    for (int field = 0; field < 6; ++field) {
+      char* end = nullptr;
+      const double pages = std::strtod(at, &end);
+      if (end == at) return;
+      if (field == 0) mapped = pages * page;
+      if (field == 5) data = pages * page;
+      at = end;
+    }
+  }
+};
+
+// The limit of data that the user gave the process (ulimit -d), and whether the process has lowered it itself.
+struct DataLimit {
+  rlim_t given = RLIM_INFINITY;
+  bool is_lowered = false;
+
+  static DataLimit& own() {
+    static DataLimit limit;
+    return limit;
+  }
+};
 
 void lower_by_process(MemoryLimit& limit) {
   rlimit said{};
   if (getrlimit(RLIMIT_AS, &said) == 0 && said.rlim_cur != RLIM_INFINITY)
-    lower(limit, std::max(0.0, static_cast<double>(said.rlim_cur) - mapped_bytes()),
+    lower(limit, std::max(0.0, static_cast<double>(said.rlim_cur) - InUse().mapped),
           "the limit of this process (ulimit -v) leaves");
-  if (getrlimit(RLIMIT_DATA, &said) == 0 && said.rlim_cur != RLIM_INFINITY)
-    lower(limit, static_cast<double>(said.rlim_cur), "the limit of this process (ulimit -d) allows");
+  if (DataLimit::own().is_lowered || getrlimit(RLIMIT_DATA, &said) != 0) said.rlim_cur = DataLimit::own().given;
+  if (said.rlim_cur != RLIM_INFINITY)
+    lower(limit, std::max(0.0, static_cast<double>(said.rlim_cur) - InUse().data),
+          "the limit of this process (ulimit -d) leaves");
 }
 
 #endif
 
-}  // namespace
-
-MemoryLimit memory_limit() {
+// The machine's memory and BIHIVE_MEMORY, which do not say what of them is in use.
+MemoryLimit limit_of_all() {
 #ifdef __EMSCRIPTEN__
   MemoryLimit limit{static_cast<double>(emscripten_get_heap_max()), "a page has"};
 #else
   MemoryLimit limit{static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)),
                     "this machine has"};
-  // Groups seldom change, and asking for them opens files.
-  static const MemoryLimit groups = memory_limit_of_groups("/proc/self/cgroup", "/sys/fs/cgroup");
-  if (groups.bytes < limit.bytes) limit = groups;
-  lower_by_process(limit);
 #endif
   const char* const wish = std::getenv("BIHIVE_MEMORY");  // NOLINT(concurrency-mt-unsafe)
   if (wish == nullptr) return limit;
@@ -62,16 +84,65 @@ MemoryLimit memory_limit() {
   return limit;
 }
 
+// The limits of control groups and of the process, of which something is in use.
+MemoryLimit limit_of_more() {
+  MemoryLimit limit{HUGE_VAL, ""};
+#ifndef __EMSCRIPTEN__
+  limit = memory_left_by_own_groups();
+  lower_by_process(limit);
+#endif
+  return limit;
+}
+
+}  // namespace
+
+MemoryLimit memory_limit() {
+  const MemoryLimit all = limit_of_all(), more = limit_of_more();
+  return more.bytes < all.bytes ? more : all;
+}
+
 double memory_bytes() {
   return memory_limit().bytes;
 }
 
-Status check_memory(double bytes, const std::string& what) {
-  const MemoryLimit limit = memory_limit();
-  if (bytes <= limit.bytes) return Done{};
-  return Error{what + " would take about " + readable_bytes(bytes) + " of memory, and " + limit.whose + " " +
+Status check_memory(double bytes, const std::string& what, double held_bytes, double overhead_bytes) {
+  MemoryLimit limit = limit_of_all();
+  double wanted = bytes + held_bytes;
+  if (wanted <= limit.bytes) {
+    wanted = bytes + overhead_bytes;
+    limit = limit_of_more();
+  }
+  if (wanted <= limit.bytes) return Done{};
+  return Error{what + " would take about " + readable_bytes(wanted) + " of memory, and " + limit.whose + " " +
                    readable_bytes(limit.bytes),
                "", 0, 0, ""};
+}
+
+Error no_memory_for(const std::string& what) {
+  const MemoryLimit limit = memory_limit();
+  return {"not enough memory for " + what + ": " + limit.whose + " " + readable_bytes(limit.bytes), "", 0, 0, ""};
+}
+
+const char* turn_group_limit_into_failing_allocations(double allowance_bytes) {
+#ifndef __EMSCRIPTEN__
+  const MemoryLimit left = memory_left_by_own_groups();
+  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  rlimit said{};
+  if (!(left.bytes < machine) || getrlimit(RLIMIT_DATA, &said) != 0) return nullptr;
+  DataLimit& own = DataLimit::own();
+  if (!own.is_lowered) own = {said.rlim_cur, true};
+  // Tables of pages, stacks of the kernel and the like count as well.
+  constexpr double kShareOfSystem = 1.0 / 64;
+  const double data = InUse().data + left.bytes * (1 - kShareOfSystem) + allowance_bytes;
+  const rlim_t most = std::min(own.given, said.rlim_max);
+  said.rlim_cur = data < static_cast<double>(most) ? static_cast<rlim_t>(data) : most;
+  if (setrlimit(RLIMIT_DATA, &said) != 0) return nullptr;
+  static const std::string text = "not enough memory: " + left.whose + " too little";
+  return text.c_str();
+#else
+  static_cast<void>(allowance_bytes);
+  return nullptr;
+#endif
 }
 
 }  // namespace bihive

@@ -4,9 +4,11 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -65,6 +67,52 @@ int threads_to_use(int wanted) {
   return std::min(wanted, made);
 }
 
+// Idle arenas, which later calls take again. oneTBB frees an arena only after a worker has looked into it, and on a busy
+// machine workers come late: an arena for each call would grow memory by 7 kB per call. A call takes an arena for
+// itself, so nested and concurrent calls have as many threads as ever.
+class Arenas {
+ public:
+  using Arena = std::unique_ptr<oneapi::tbb::task_arena>;
+
+  // Never destroyed: other threads may still use it when the program ends.
+  static Arenas& all() {
+    static auto* const arenas = new Arenas;
+    return *arenas;
+  }
+
+  Arena take(int threads) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      for (Arena& arena : idle_)
+        if (arena->max_concurrency() == threads) {
+          std::swap(arena, idle_.back());
+          Arena taken = std::move(idle_.back());
+          idle_.pop_back();
+          return taken;
+        }
+    }
+    return std::make_unique<oneapi::tbb::task_arena>(threads);
+  }
+
+  // Keeps the arena unless there are plenty.
+  void give_back(Arena arena) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (idle_.size() < kMostIdle) idle_.push_back(std::move(arena));
+  }
+
+ private:
+  static constexpr std::size_t kMostIdle = 64;
+
+  Arenas() {
+    idle_.reserve(kMostIdle);
+    // A child must not find the list locked by a thread that it does not have.
+    pthread_atfork([] { all().mutex_.lock(); }, [] { all().mutex_.unlock(); }, [] { all().mutex_.unlock(); });
+  }
+
+  std::mutex mutex_;
+  std::vector<Arena> idle_;
+};
+
 // Calls body() in an arena of that many threads.
 template <class Body>
 void in_arena(int threads, const Body& body) {
@@ -72,8 +120,9 @@ void in_arena(int threads, const Body& body) {
   std::optional<oneapi::tbb::global_control> limit;
   if (threads > hardware_threads())
     limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  oneapi::tbb::task_arena arena(threads);
-  arena.execute(body);
+  Arenas::Arena arena = Arenas::all().take(threads);
+  arena->execute(body);
+  Arenas::all().give_back(std::move(arena));
 }
 
 }  // namespace

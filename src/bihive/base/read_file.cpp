@@ -75,7 +75,8 @@ Result<std::string> read_open_file(int file, const std::string& name, bool* grew
     if (count == 0) break;
     if (!has_size && bytes.capacity() - bytes.size() < static_cast<std::size_t>(count)) {
       const std::size_t room = std::max(kLeastRoom, bytes.size() / 4 * 5 + kPiece);
-      if (Status status = check_memory(static_cast<double>(bytes.size() + room), "what is read"); !status) {
+      if (Status status = check_memory(static_cast<double>(room), "what is read", static_cast<double>(bytes.size()));
+          !status) {
         Error error = status.error();
         error.file = name;
         return error;

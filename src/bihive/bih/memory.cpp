@@ -52,6 +52,8 @@ MemoryPrediction predict_tree_memory(std::int64_t spheres, const BuildParameters
   prediction.nodes = {low.nodes(), high.nodes()};
   prediction.thesis_bytes = {as_thesis(low), as_thesis(high)};
   prediction.allocated_bytes = {as_allocated(low), as_allocated(high)};
+  const TreeShape usual{std::min(high.leaves, std::max(1.0, 1.45 * full_leaves)), 0, 0};
+  prediction.peak_bytes = as_allocated(usual) + usual.nodes() * static_cast<std::int64_t>(sizeof(Node));
   return prediction;
 }
 

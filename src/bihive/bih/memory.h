@@ -15,7 +15,9 @@ struct MemoryPrediction {
   };
   Range nodes;            ///< inner nodes and leaves, empty leaves too
   Range thesis_bytes;     ///< as the thesis counts (bih/statistics.h)
-  Range allocated_bytes;  ///< as this program allocates; the peak while building is below 3 times that
+  Range allocated_bytes;  ///< as this program allocates
+  /// The same while it is built, for sets of a usual kind: nodes are twice in memory while their array grows.
+  std::int64_t peak_bytes = 0;
 };
 
 MemoryPrediction predict_tree_memory(std::int64_t spheres, const BuildParameters& parameters);

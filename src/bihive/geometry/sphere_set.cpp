@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "bihive/base/memory.h"
+#include "bihive/base/readable.h"
+
 namespace bihive {
 namespace {
 
@@ -58,6 +61,11 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
   BIHIVE_CHECK_EQ(x.size(), y.size());
   BIHIVE_CHECK_EQ(x.size(), z.size());
   BIHIVE_CHECK_EQ(x.size(), r.size());
+
+  if (Status status = check_memory(static_cast<double>(x.size()) * 4 * sizeof(float),
+                                   "a set of " + grouped(static_cast<std::int64_t>(x.size())) + " spheres");
+      !status)
+    return status.error();
 
   // Check every number, and find the farthest bound from 0.
   const CountOfParts spheres = count_of_all(parts.get(), static_cast<std::int64_t>(x.size()));

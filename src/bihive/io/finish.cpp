@@ -17,8 +17,8 @@ namespace {
 // The user is told of a centre that moves by more than this share of its radius.
 constexpr double kHarmlessShift = 0.01;
 
-// Three coordinates and a radius as they are read, then as they are kept.
-constexpr double kBytesPerReadSphere = 4 * sizeof(double) + 4 * sizeof(float);
+// Three coordinates and a radius as they are read, and as they are kept.
+constexpr double kRadiusBytes = sizeof(double), kReadBytes = 4 * sizeof(double), kSetBytes = 4 * sizeof(float);
 
 // Such a set takes 3 MB. Its tree decides whether it fits.
 constexpr std::int64_t kSmallSet = 1 << 16;
@@ -133,7 +133,9 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   const auto count = static_cast<std::int64_t>(raw.size());
   if (count > kSmallSet)
     if (Status status =
-            check_memory(static_cast<double>(count) * kBytesPerReadSphere, "a set of " + grouped(count) + " spheres");
+            check_memory(static_cast<double>(count) * (raw.r.empty() ? kRadiusBytes + kSetBytes : kSetBytes),
+                         "a set of " + grouped(count) + " spheres",
+                         static_cast<double>(count) * (raw.r.empty() ? kReadBytes - kRadiusBytes : kReadBytes));
         !status)
       return Error{status.error().message, name, 0, 0, ""};
   if (Status applied = apply_radius_options(raw, name, options); !applied) return applied.error();

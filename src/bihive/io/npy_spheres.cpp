@@ -1,3 +1,4 @@
+#include "bihive/base/memory.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/readers.h"
 #include "bihive/io/sphere_table.h"
@@ -45,6 +46,11 @@ Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std
   if (frame != 0) return no_such_frame(file, frame, 1);
 
   // Take the columns apart.
+  if (Status status =
+          check_memory(static_cast<double>(array->values.size()) * sizeof(double), "the columns of the array",
+                       static_cast<double>(array->values.size()) * sizeof(double));
+      !status)
+    return Error{status.error().message, file, 0, 0, ""};
   const auto columns = static_cast<std::size_t>(array->shape[1]);
   RawSpheres spheres;
   spheres.format = "NPY";

@@ -154,9 +154,9 @@ std::string SphereTable::add_numbers(const double* row) {
 
 // Each number is kept once here, and once more while the set is made.
 std::string SphereTable::memory_fault() const {
-  const double bytes = 2 * sizeof(double) * static_cast<double>(columns_.size()) * static_cast<double>(rows_);
+  const double bytes = sizeof(double) * static_cast<double>(columns_.size()) * static_cast<double>(rows_);
   const Status status =
-      check_memory(bytes, std::to_string(rows_) + " rows of " + std::to_string(columns_.size()) + " columns");
+      check_memory(bytes, std::to_string(rows_) + " rows of " + std::to_string(columns_.size()) + " columns", bytes);
   return status ? "" : status.error().message;
 }
 

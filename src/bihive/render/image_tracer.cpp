@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "bihive/base/memory.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/render/coinciding_images.h"
@@ -90,7 +91,7 @@ Result<std::shared_ptr<const ImageTracer>> ImageTracer::build(const SphereSet& w
       made->tree_ = std::make_shared<const Tree>(build_reference_tree(spheres, parameters.for_reference()));
     return std::shared_ptr<const ImageTracer>(std::move(made));
   } catch (const std::bad_alloc&) {
-    return Error{"not enough memory for the tree of " + std::to_string(whole.size()) + " spheres", "", 0, 0, ""};
+    return no_memory_for("the tree of " + std::to_string(whole.size()) + " spheres");
   }
 }
 

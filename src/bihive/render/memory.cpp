@@ -1,20 +1,71 @@
 #include "bihive/render/memory.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parallel.h"
 #include "bihive/base/readable.h"
 #include "bihive/bih/memory.h"
 #include "bihive/wide/wide_builder.h"
 
 namespace bihive {
+namespace {
+
+std::string tree_of(const SphereSet& spheres) {
+  return "the tree of " + grouped(spheres.size()) + " spheres";
+}
+
+}  // namespace
+
+TreeBytes predict_tree_bytes(std::int64_t spheres, Engine engine, const TreeParameters& parameters) {
+  if (is_brute(engine)) return {};
+  if (engine == Engine::reference) {
+    const MemoryPrediction tree = predict_tree_memory(spheres, parameters.for_reference());
+    return {static_cast<double>(tree.peak_bytes), static_cast<double>(tree.allocated_bytes.low)};
+  }
+  const WideMemoryPrediction tree = predict_wide_memory(spheres, parameters.for_wide(spheres));
+  return {static_cast<double>(tree.peak_bytes), static_cast<double>(tree.low_bytes)};
+}
 
 Status check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters) {
-  if (is_brute(engine)) return Done{};
-  const std::int64_t bytes = engine == Engine::reference
-                                 ? predict_tree_memory(spheres.size(), parameters.for_reference()).allocated_bytes.low
-                                 : predict_wide_memory(spheres.size(), parameters.for_wide(spheres.size())).low_bytes;
-  return check_memory(static_cast<double>(bytes), "the tree of " + grouped(spheres.size()) + " spheres");
+  return check_memory(predict_tree_bytes(spheres.size(), engine, parameters).peak, tree_of(spheres),
+                      static_cast<double>(spheres.allocated_bytes()));
+}
+
+double predict_film_bytes(const RenderSettings& settings, double pixels) {
+  const double film = sizeof(Vec3f) + (settings.transparent ? sizeof(float) : 0);
+  return pixels * (settings.adaptive_samples ? 2 * film + 1 : film);
+}
+
+// Measured with 1 to 8 threads and the built-in styles (`bihive render demo --size 640x480 --threads N`).
+double predict_thread_bytes(const RenderSettings& settings) {
+  constexpr double kThread = 3e6, kRay = 270, kMostRays = 32768, kPixelsOfTile = 64 * 64;
+  const double samples = settings.adaptive_samples ? kMostRays : settings.samples_per_pixel;
+  const Tile drawn = drawn_pixels(settings);
+  const double pixels = static_cast<double>(drawn.width()) * drawn.height();
+  const double rays = std::min(kMostRays, std::min(kPixelsOfTile, pixels) * samples);
+  const double tiles = std::ceil(pixels / kPixelsOfTile);
+  const int threads = settings.threads > 0 ? settings.threads : hardware_threads();
+  return std::min<double>(threads, tiles) * (kThread + kRay * rays);
+}
+
+Status check_film_memory(const RenderSettings& settings, double held_bytes) {
+  const Tile drawn = drawn_pixels(settings);
+  const double pixels = settings.view == View::distance ? static_cast<double>(settings.width_px) * settings.height_px
+                                                        : static_cast<double>(drawn.width()) * drawn.height();
+  const double film = predict_film_bytes(settings, pixels);
+  return check_memory(std::max(0.0, film - held_bytes), "so large a picture", std::min(film, held_bytes));
+}
+
+Status check_render_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters,
+                           const RenderSettings& settings, double band_bytes) {
+  const TreeBytes tree = predict_tree_bytes(spheres.size(), engine, parameters);
+  const auto held = static_cast<double>(spheres.allocated_bytes());
+  if (Status status = check_memory(tree.peak, tree_of(spheres), held); !status) return status;
+  return check_memory(tree.built + band_bytes, tree_of(spheres) + " and its picture", held,
+                      predict_thread_bytes(settings));
 }
 
 Status check_picture_memory(int width_px, int height_px) {

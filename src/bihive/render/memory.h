@@ -1,18 +1,40 @@
-// Checks before a picture is made whether it fits this machine's memory. A picture that certainly does not fit is
-// refused; one that perhaps does not fit (bih/memory.h, wide/wide_builder.h) is tried.
+// Predicts the memory of a picture before it is made, from that of its trees (bih/memory.h, wide/wide_builder.h), film
+// and threads, and refuses what would not fit. Sets of a usual kind take 0.7 to 1.5 times what is predicted.
 #pragma once
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/render/tracer.h"
+#include "bihive/scene/render_settings.h"
 
 namespace bihive {
 
-/// The tree that the engine builds.
+/// Bytes of the tree that the engine builds: while it is built, and afterwards. For sets of a usual kind.
+struct TreeBytes {
+  double peak = 0, built = 0;
+};
+TreeBytes predict_tree_bytes(std::int64_t spheres, Engine engine, const TreeParameters& parameters);
+
+/// The tree that the engine builds, beside the spheres.
 Status check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters);
 
 /// A picture of this many pixels, as film, display values and file. Sides as in RenderSettings.
 Status check_picture_memory(int width_px, int height_px);
+
+/// Bytes of a film of `pixels` pixels, with what adaptive samples keep beside it.
+double predict_film_bytes(const RenderSettings& settings, double pixels);
+
+/// Bytes of the buffers of all threads that draw.
+double predict_thread_bytes(const RenderSettings& settings);
+
+/// The film of the pixels that are drawn together, and the buffers of all threads. `held_bytes`: of a film that is
+/// used again.
+Status check_film_memory(const RenderSettings& settings, double held_bytes);
+
+/// All that a picture takes after the spheres: the tree while it is built, or the built tree with the threads' buffers
+/// and `band_bytes` of film and file.
+Status check_render_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters,
+                           const RenderSettings& settings, double band_bytes);
 
 /// A picture of at most so many bytes is drawn at once: 3840 x 2160 pixels of 8 bits are. The limit sets the memory
 /// alone: `bihive render demo --style plain --samples 1 --size 6000x1680` took 0.8 to 0.9 seconds of processor time in

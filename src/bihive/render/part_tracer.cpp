@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "bihive/base/memory.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/render/image_tracer.h"
@@ -148,7 +149,7 @@ Status PartTracer::make(const SphereSet& whole, std::shared_ptr<const CutSet> cu
     if (Status status = whole_.make(whole, parameters, parameters.finds_all_hits); !status) return status;
     return make_cut(whole, cut, parameters);
   } catch (const std::bad_alloc&) {
-    return Error{"not enough memory for the parts of the set", "", 0, 0, ""};
+    return no_memory_for("the parts of the set");
   }
 }
 

@@ -14,6 +14,7 @@
 #include "bihive/base/timer.h"
 #include "bihive/render/after_effects.h"
 #include "bihive/render/edge_pixels.h"
+#include "bihive/render/memory.h"
 #include "bihive/render/pixel_order.h"
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tree_picture.h"
@@ -439,6 +440,11 @@ void run_all(Renderer& renderer) {
     renderer.run(first, first + renderer.tiles_in_a_pass());
 }
 
+double bytes_of(const Film& film) {
+  return static_cast<double>(film.radiance.capacity() * sizeof(film.radiance[0]) +
+                             film.coverage.capacity() * sizeof(film.coverage[0]));
+}
+
 Error was_cancelled() {
   return {"cancelled", "", 0, 0, ""};
 }
@@ -458,6 +464,7 @@ Result<RenderedBands> render_in_one_band(const Scene& scene, const Tracer& trace
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress, const CancelToken* cancel, Film film) {
   if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
+  if (Status status = check_film_memory(settings, bytes_of(film)); !status) return status.error();
   if (settings.view == View::tree) return render_tree_picture(scene, tracer, settings, progress, cancel);
   const Timer timer;
   Result<Transparency> transparency = transparency_of(scene, tracer, settings);
@@ -492,6 +499,7 @@ Result<RenderedBands> render_parts(const Scene& scene, const Tracer& tracer, con
     } else {
       RenderSettings of_part = settings;
       of_part.crop = *part;
+      if (Status status = check_film_memory(of_part, 0); !status) return status.error();
       renderer.emplace(scene, tracer, of_part, progress, cancel, Film{}, std::move(*transparency));
     }
     run_all(*renderer);
@@ -593,6 +601,7 @@ class SlicedPicture::Implementation {
 Result<SlicedPicture> SlicedPicture::begin(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                            Film film) {
   if (Status status = check_settings(scene, tracer, settings); !status) return status.error();
+  if (Status status = check_film_memory(settings, bytes_of(film)); !status) return status.error();
   Result<Transparency> transparency = transparency_of(scene, tracer, settings);
   if (!transparency) return transparency.error();
   return SlicedPicture(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bihive/base/check.h"
+#include "bihive/base/memory.h"
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
@@ -13,6 +14,7 @@
 #include "bihive/render/brute_force.h"
 #include "bihive/render/elsewhere.h"
 #include "bihive/render/image_tracer.h"
+#include "bihive/render/memory.h"
 #include "bihive/render/part_tracer.h"
 #include "bihive/render/pixel_order.h"
 #include "bihive/render/wide_brute_force.h"
@@ -68,11 +70,11 @@ Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const Tree
     tracer.wide_tree_ = std::move(*tree);
   }
   if (tracer.engine_ == Engine::reference) {
+    if (Status status = check_tree_memory(spheres, tracer.engine_, parameters); !status) return status.error();
     try {
       tracer.tree_ = std::make_shared<const Tree>(build_reference_tree(spheres, parameters.for_reference()));
     } catch (const std::bad_alloc&) {
-      return Error{"not enough memory for the reference tree of " + std::to_string(spheres.size()) + " spheres", "", 0,
-                   0, ""};
+      return no_memory_for("the reference tree of " + std::to_string(spheres.size()) + " spheres");
     }
   }
   if (!is_brute(tracer.engine_)) tracer.build_ms_ = timer.elapsed_ms();

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "bihive/base/memory.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/elsewhere.h"
 #include "bihive/render/part_tracer.h"
@@ -58,7 +59,7 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     made->transparent_ = std::move(part);
     return std::shared_ptr<const TransparentSpheres>(std::move(made));
   } catch (const std::bad_alloc&) {
-    return Error{"not enough memory for the transparent spheres", "", 0, 0, ""};
+    return no_memory_for("the transparent spheres");
   }
 }
 

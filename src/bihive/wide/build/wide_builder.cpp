@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <mutex>
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "bihive/base/memory.h"
 #include "bihive/base/parallel.h"
+#include "bihive/base/readable.h"
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/build/collapse.h"
 #include "bihive/wide/build/count_limit.h"
@@ -328,8 +331,17 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
   ensure_target();
   const std::int64_t count = spheres.size();
   if (Status status = check_wide_count(count); !status) return status.error();
+  const std::string what = "the tree of " + grouped(count) + " spheres";
   try {
     std::unique_ptr<WideTree> tree = state_->take_spare();
+    const std::int64_t kept = scratch_bytes() + tree->allocated_bytes();
+    const double needed = static_cast<double>(predict_wide_memory(count, parameters).peak_bytes);
+    if (Status status = check_memory(std::max(0.0, needed - static_cast<double>(kept)), what,
+                                     std::min(needed, static_cast<double>(kept)));
+        !status) {
+      state_->give_back(std::move(tree));
+      return status.error();
+    }
     state_->build(spheres, parameters, threads, *tree);
 
     // Its memory comes back when the last holder lets go.
@@ -339,8 +351,7 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
     };
     return std::shared_ptr<const WideTree>(tree.release(), recycle);
   } catch (const std::bad_alloc&) {
-    return Error{"not enough memory for the tree of " + std::to_string(count) + " spheres", "", 0, 0,
-                 "it takes about 60 bytes a sphere while it is made"};
+    return no_memory_for(what);
   }
 }
 

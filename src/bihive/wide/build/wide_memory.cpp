@@ -2,6 +2,8 @@
 #include <cstdint>
 
 #include "bihive/wide/build/binary_tree.h"
+#include "bihive/wide/build/split.h"
+#include "bihive/wide/build/tuning.h"
 #include "bihive/wide/wide_builder.h"
 
 namespace bihive {
@@ -19,11 +21,17 @@ double emptiest_node(std::int64_t full_leaf) {
   return full_leaf < 4 ? 3 : 6;
 }
 
+// A set of a usual kind: nodes and splits for each full leaf.
+constexpr double kUsualNodes = 0.075, kUsualSplits = 1.1;
+
+constexpr std::int64_t kCellCountBytes = kMostChunks * CellGrid::kCells * 4;
+constexpr std::int64_t kHugePage = std::int64_t{1} << 21;
+
 }  // namespace
 
 WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParameters& parameters) {
   constexpr auto kTree = static_cast<std::int64_t>(sizeof(WideTree));
-  if (spheres <= 0) return {kTree, kTree, kTree};
+  if (spheres <= 0) return {kTree, kTree, kTree, kTree};
   constexpr auto kNode = static_cast<std::int64_t>(sizeof(WideNode));
   std::int64_t full_leaf = parameters.max_prims > 0 ? parameters.max_prims : kWidth;
   if (parameters.max_depth == 1) full_leaf = spheres;
@@ -54,9 +62,20 @@ WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParamet
   // it grows, and borders of huge pages.
   constexpr double kSpheresTwice = 2 * 20 + 2, kRepeated = 2 * sizeof(RepeatedSphere);
   const double nodes = peak_nodes * double(kNode);
-  prediction.peak_bytes = static_cast<std::int64_t>((kSpheresTwice + kRepeated) * double(padded) +
+  prediction.most_bytes = static_cast<std::int64_t>((kSpheresTwice + kRepeated) * double(padded) +
                                                     2 * peak_leaves * double(sizeof(BinarySplit)) + 3 * nodes) +
                           (std::int64_t{16} << 20);
+
+  // Leaves are nearly full as a rule. Splits of them, and nodes: in subtrees, then together.
+  const double cells = spheres > kGridSpheres ? 2.0 * double(padded) + double(kCellCountBytes) : 0;
+  const double usual_nodes = std::min(double(leaves) * kUsualNodes + 2, most_nodes);
+  const double rounded = 16.0 * double(padded) < double(kHugePage) ? 0 : 3.0 * double(kHugePage);
+  prediction.peak_bytes =
+      kTree + static_cast<std::int64_t>(2 * 20 * double(padded) + cells +
+                                        std::max(double(leaves) * kUsualSplits, double(NodeArena::kPortionSplits)) *
+                                            double(sizeof(BinarySplit)) +
+                                        3 * usual_nodes * double(kNode) + rounded);
+  prediction.peak_bytes = std::min(prediction.peak_bytes, prediction.most_bytes);
   return prediction;
 }
 

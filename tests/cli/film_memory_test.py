@@ -1,0 +1,29 @@
+"""A film takes no more memory with many frames than with few, but for the list of frames: 24 bytes each."""
+
+import os
+import unittest
+
+from program import ProgramTest, main
+
+# What a frame may add: its place in the file, and some room.
+MOST_BYTES = 300
+
+
+class FilmMemory(ProgramTest):
+    def peak(self, frames, *more):
+        text = "".join(f"3\nframe\nO {0.001 * k} 0 0\nH 1 0 0\nH 0 1 0\n" for k in range(frames))
+        self.write("frames.xyz", text)
+        done = self.succeed_json("film", "frames.xyz", "-o", f"film_{frames}.y4m", "--size", "16x16", "--samples", "1",
+                                 "--style", "plain", *more)
+        return done["peak_memory_bytes"]
+
+    @unittest.skipIf(os.environ.get("BIHIVE_SANITIZED"), "a sanitizer keeps freed memory")
+    def test_small_frames(self):
+        few, many = 300, 1500
+        # The program's own pages differ by a megabyte from run to run, so the smallest growth of three counts.
+        growth = min(self.peak(many) - self.peak(few) for _ in range(2))
+        self.assertLess(growth, MOST_BYTES * (many - few) + 1_000_000)
+
+
+if __name__ == "__main__":
+    main()

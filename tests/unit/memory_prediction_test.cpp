@@ -1,0 +1,85 @@
+// What is predicted of the memory of trees and pictures, beside what the system measures of this process.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "bihive/bih/memory.h"
+#include "bihive/render/memory.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/tracer.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/wide/wide_builder.h"
+#include "support/hostile_sets.h"
+
+namespace bihive {
+namespace {
+
+constexpr double kMostFactor = 1.5;
+
+double status_bytes(const char* name) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind(name, 0) == 0) return 1024 * std::strtod(line.c_str() + std::strlen(name), nullptr);
+  return 0;
+}
+
+// The most that `work` takes beside what is held before it; below 0 if the system does not say.
+template <class Work>
+double measured_peak(const Work& work) {
+  std::ofstream("/proc/self/clear_refs") << "5";
+  const double before = status_bytes("VmRSS:");
+  if (status_bytes("VmHWM:") > before + (1 << 20)) return -1;
+  work();
+  return status_bytes("VmHWM:") - before;
+}
+
+void expect_near(double predicted, double measured, const std::string& what) {
+  if (measured < 0) GTEST_SKIP() << "the system does not forget the peak of this process";
+  std::printf("%s: predicted %.1f MB, measured %.1f MB, factor %.2f\n", what.c_str(), predicted / 1e6, measured / 1e6,
+              predicted / measured);
+  EXPECT_LE(predicted, kMostFactor * measured) << what;
+  EXPECT_GE(kMostFactor * predicted, measured) << what;
+}
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+TEST(MemoryPrediction, TreesTakeWhatIsPredicted) {
+  for (const bool one_radius : {true, false})
+    for (const int count : {200'000, 600'000}) {
+      const SphereSet spheres =
+          test::sphere_set(test::random_world("random", 4, count, 10, 0.02, one_radius ? 0.02 : 0.2));
+      for (const Engine engine : {Engine::wide, Engine::reference}) {
+        const double measured =
+            measured_peak([&] { EXPECT_TRUE(Tracer::build(spheres, engine, TreeParameters{}, 2).ok()); });
+        expect_near(predict_tree_bytes(count, engine, {}).peak, measured,
+                    std::to_string(count) + " spheres, " + (engine == Engine::wide ? "wide" : "reference") +
+                        (one_radius ? ", one radius" : ", many radii"));
+      }
+    }
+}
+
+TEST(MemoryPrediction, FilmsTakeWhatIsPredicted) {
+  const Result<LoadedScene> loaded = built_in_scene("four-spheres", {}, {}, nullptr);
+  ASSERT_TRUE(loaded.ok());
+  const Result<Tracer> tracer = Tracer::build(loaded->scene, Engine::wide);
+  ASSERT_TRUE(tracer.ok());
+  for (const bool transparent : {false, true})
+    for (const int height : {1500, 3000}) {
+      RenderSettings settings;
+      settings.width_px = 2000;
+      settings.height_px = height;
+      settings.threads = 2;
+      settings.transparent = transparent;
+      const double measured = measured_peak([&] { EXPECT_TRUE(render(loaded->scene, *tracer, settings).ok()); });
+      expect_near(predict_film_bytes(settings, 2000.0 * height) + predict_thread_bytes(settings), measured,
+                  "a film of 2000 x " + std::to_string(height) + (transparent ? ", transparent" : ""));
+    }
+}
+
+#endif
+
+}  // namespace
+}  // namespace bihive
