@@ -21,6 +21,8 @@
 #include "bihive/simd/target.h"
 #include "command_line.h"
 #include "mpi_team.h"
+#include "patience.h"
+#include "rank_watch.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
@@ -37,12 +39,15 @@ constexpr const char* kHelp =
     "bihive-mpi: one picture or film by many processes, with the same bits as by one\n"
     "Usage: mpirun -n N bihive-mpi render|film ... [--distribute]\n"
     "\n"
-    "The words behind are those of bihive render and bihive film: see bihive render --help, bihive film --help.\n"
+    "The options are those of bihive render and bihive film: see bihive render --help, bihive film --help.\n"
     "Rank 0 reads the input and writes the picture. Of films each rank reads and draws every N-th picture, and rank 0\n"
     "joins them. Without --threads the ranks of a machine share its cores, or keep to those that mpirun gives them.\n"
     "\n"
     "--distribute: each sphere lies on one rank, for sets beyond the memory of a machine. For render alone. Each rank\n"
     "reads its part of an NPY, GSD or H5MD file or of a LAMMPS dump; other files are read by rank 0.\n"
+    "\n"
+    "A rank that has been silent for 30 s ends all. BIHIVE_MPI_PATIENCE=SECONDS in the environment changes that, 0: "
+    "never.\n"
     "\n"
     "Examples:\n"
     "  mpirun -n 4 bihive-mpi render demo -o molecule.png --size 8000x6000\n"
@@ -70,10 +75,10 @@ std::uint64_t hash_of(const std::vector<std::string>& texts) {
   return hash;
 }
 
-// All ranks must be the same program, with the same words.
-void agree_on_words(MpiTeam& team, int argc, const char* const* argv) {
+// All ranks must be the same program with the same arguments: also those that only ask for help.
+void agree_on_arguments(MpiTeam& team, const std::vector<const char*>& arguments) {
   team.agree({{"the program", hash_of({std::string(version()), std::string(commit())})},
-              {"the command line", hash_of({argv + 1, argv + argc})}});
+              {"the command line", hash_of({arguments.begin() + 1, arguments.end()})}});
 }
 
 void run_request(MpiTeam& team, cli::Request request) {
@@ -107,22 +112,30 @@ void run_request(MpiTeam& team, cli::Request request) {
   }
 }
 
+bool is_distribute(const char* argument) {
+  return std::string(argument) == kDistribute;
+}
+
 // Why this rank fails; nothing: it does not.
 struct Said {
   int code = cli::kSuccess;
   std::string text, shown;
 };
 
-Said run(MpiTeam& team, int argc, const char* const* argv) {
+Said run(MpiTeam& team, const std::vector<const char*>& arguments) {
   try {
     cli::handle_signals();
+    agree_on_arguments(team, arguments);
     if (const Status status = check_target_environment(); !status) throw cli::Failure{cli::kBadUsage, status.error()};
-    if (argc < 2 || std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h") {
+    // The program's own option is none of bihive's.
+    std::vector<const char*> others = arguments;
+    std::erase_if(others, is_distribute);
+    const std::string first = others.size() > 1 ? others[1] : "";
+    if (others.size() < 2) return {cli::kBadUsage, "", kHelp};
+    if (first == "--help" || first == "-h") {
       cli::print(kHelp);
     } else {
-      cli::Request request = cli::parse_command_line(argc, argv);
-      agree_on_words(team, argc, argv);
-      run_request(team, std::move(request));
+      run_request(team, cli::parse_command_line(static_cast<int>(others.size()), others.data()));
     }
     cli::finish_output();
     return {};
@@ -140,11 +153,9 @@ Said run(MpiTeam& team, int argc, const char* const* argv) {
 }
 
 // All ranks end with the same code, and one of them says why.
-int run_ranks(std::vector<const char*> words) {
-  // The program's own option.
-  const std::size_t before = words.size();
-  std::erase_if(words, [](const char* word) { return std::string(word) == kDistribute; });
-  MpiTeam team(MPI_COMM_WORLD, words.size() < before, MpiTeam::Counting::shared);
+int run_ranks(const std::vector<const char*>& arguments) {
+  const bool distributes = std::any_of(arguments.begin(), arguments.end(), is_distribute);
+  MpiTeam team(MPI_COMM_WORLD, distributes, MpiTeam::Counting::shared);
   cli::set_team(&team);
   std::vector<std::string> unsaid;
   if (team.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;
@@ -154,11 +165,11 @@ int run_ranks(std::vector<const char*> words) {
     // Rank 0 warns for all.
     std::optional<cli::CollectedWarnings> collected;
     if (team.rank() != 0) collected.emplace(unsaid);
-    said = run(team, static_cast<int>(words.size()), words.data());
+    said = run(team, arguments);
   }
   const int code = team.end_with(said.code);
   if (team.speaks()) {
-    cli::say_error(said.text);
+    if (!said.text.empty()) cli::say_error(said.text);
     std::fputs(said.shown.c_str(), stderr);
   }
   cli::set_team(nullptr);
@@ -169,14 +180,27 @@ int run_ranks(std::vector<const char*> words) {
 }  // namespace bihive::mpi
 
 int main(int argc, char** argv) {
-  int provided = 0;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
-  if (provided < MPI_THREAD_SERIALIZED) {
-    bihive::cli::say_error("this MPI takes calls from the main thread alone");
-    MPI_Finalize();
-    return bihive::cli::kEnvironment;
+  using namespace bihive;  // NOLINT(google-build-using-namespace): of this function alone
+  const std::optional<int> patience_s = mpi::patience_from_environment();
+  if (!patience_s) {
+    cli::say_error("BIHIVE_MPI_PATIENCE must be seconds, or 0 to wait for ever");
+    return cli::kBadUsage;
   }
-  const int code = bihive::mpi::run_ranks({argv, argv + argc});
+  int provided = 0;
+  {
+    // Programs come to large machines slowly.
+    const mpi::WaitLimit limit(*patience_s * 3 / 2, "started this program");
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);
+  }
+  int code = cli::kEnvironment;
+  if (provided < MPI_THREAD_SERIALIZED) {
+    cli::say_error("this MPI takes calls from the main thread alone");
+  } else {
+    // Another MPI leaves nobody to watch.
+    const mpi::RankWatch watch(provided < MPI_THREAD_MULTIPLE ? 0 : *patience_s);
+    code = mpi::run_ranks({argv, argv + argc});
+  }
+  const mpi::WaitLimit limit(*patience_s, "ended");
   MPI_Finalize();
   return code;
 }

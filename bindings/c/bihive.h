@@ -8,8 +8,9 @@
  * - `threads`: 0 takes all that the machine has.
  * - A function that returns int returns 0, or 1 after a failure; bihive_error_text() then says what was wrong, where,
  * and what to do. Its outputs are then undefined, but a handle to be made is NULL. Nothing is thrown, printed or ended.
- * - A handle is freed by its own *_free, which takes NULL too. Several threads may use a tree at a time, and one a
- * scene.
+ * - A handle is freed by its own *_free, which takes NULL too, when no thread uses it any more. Until then any number
+ * of threads may use one handle at the same time: queries of a tree run beside each other, and pictures of a scene are
+ * drawn one after the other.
  */
 #ifndef BIHIVE_H
 #define BIHIVE_H

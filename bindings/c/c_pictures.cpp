@@ -1,6 +1,7 @@
 // Scenes and pictures of bihive.h.
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,7 @@ struct bihive_scene {
   bihive::LoadedScene loaded;
   std::optional<bihive::Tracer> tracer;
   std::optional<bihive::ViewFrom> side;
+  std::mutex in_use;  // each picture places the camera and the lights anew
 };
 
 namespace bihive::c {
@@ -39,7 +41,8 @@ Result<Style> style_or_default(const char* name) {
 }
 
 int take_scene(LoadedScene loaded, bihive_scene** scene) {
-  auto made = std::make_unique<bihive_scene>(bihive_scene{std::move(loaded), {}, {}});
+  auto made = std::make_unique<bihive_scene>();
+  made->loaded = std::move(loaded);
   auto tracer = Tracer::build(made->loaded.scene, Engine::automatic);
   if (!tracer) return fail(tracer.error());
   made->tracer.emplace(std::move(*tracer));
@@ -142,6 +145,7 @@ int bihive_scene_view_from(bihive_scene* scene, const char* side) {
     if (scene == nullptr || side == nullptr) return fail("the scene or the side is NULL");
     const ViewFrom* const found = value_named(kSides, side);
     if (found == nullptr) return fail("unknown side; known are front, back, left, right, top, bottom and iso");
+    const std::lock_guard<std::mutex> lock(scene->in_use);
     scene->side = *found;
     return kDone;
   });
@@ -150,6 +154,7 @@ int bihive_scene_view_from(bihive_scene* scene, const char* side) {
 int bihive_render(bihive_scene* scene, int width, int height, int samples, int threads, uint8_t* rgba) {
   return guarded([&] {
     if (check_picture(scene, width, height, samples, threads, rgba) != kDone) return kFailed;
+    const std::lock_guard<std::mutex> lock(scene->in_use);
     place_camera_and_lights(*scene, width, height);
     const Scene& drawn = scene->loaded.scene;
     RenderSettings settings = settings_from(drawn.picture);

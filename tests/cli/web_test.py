@@ -41,11 +41,12 @@ class WebTest(ProgramTest):
         for name in ["DISPLAY", "WAYLAND_DISPLAY"]:
             self.environment.pop(name, None)
 
-    def start(self, *arguments, port="0", browser=False, warns=False):
+    def start(self, *arguments, port="0", browser=False, descriptors=None):
         """The running server; its port is in self.port, its output in self.said."""
         words = [*arguments, "--json"] + ([] if browser else ["--no-browser"]) + (["--port", port] if port else [])
+        limit = ["prlimit", f"--nofile={descriptors}:{descriptors}"] if descriptors else []
         process = subprocess.Popen(
-            [BIHIVE, "web", *words], cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            [*limit, BIHIVE, "web", *words], cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
 
         def end():

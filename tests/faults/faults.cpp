@@ -5,6 +5,7 @@
 //   mmap, pthread_create, fchmod, fchown, flock, ftruncate, lseek, access; socket, bind, listen, accept, recv, send
 //   (also recvmsg and sendmsg), epoll (its making); read-short and write-short move one byte, read-eintr and
 //   write-eintr move none and say EINTR.
+// BIHIVE_FAULT_AFTER=path: calls count from the one that opens this path on.
 // BIHIVE_FAULT_ERRNO=number replaces the kind's usual error. BIHIVE_FAULT_NO_TMPFILE=1: no files without names.
 // BIHIVE_FAULT_REPORT=path: the library makes this file, and writes into it "fault" when a call failed, and at the end
 // of the program "open N", where N descriptors beyond the first three are still open.
@@ -46,9 +47,11 @@ struct Plan {
   int code;  // 0: the usual one
   bool no_tmpfile;
   const char* report;
+  const char* after;
   bool ready;
 };
 Plan plan;
+std::atomic<bool> begun{false};
 std::atomic<long> calls{0};
 // The C library's own dlopen() follows a null pointer where it finds no memory; oneTBB calls it. That is not for this
 // program to mend, so memory never ends in there.
@@ -78,6 +81,13 @@ void read_plan() {
   plan.code = code != nullptr ? atoi(code) : 0;
   plan.no_tmpfile = getenv("BIHIVE_FAULT_NO_TMPFILE") != nullptr;
   plan.report = getenv("BIHIVE_FAULT_REPORT");
+  plan.after = getenv("BIHIVE_FAULT_AFTER");
+  if (plan.after == nullptr) begun = true;
+}
+
+void note_opened(const char* path) {
+  if (!plan.ready) read_plan();
+  if (!begun && path != nullptr && strcmp(path, plan.after) == 0) begun = true;
 }
 
 void report(const char* line) {
@@ -108,6 +118,7 @@ void report_number(const char* name, long number) {
 // Whether this call of a kind fails; sets errno.
 bool fails(const char* kind, int code) {
   if (!plan.ready) read_plan();
+  if (!begun) return false;
   if (plan.at == 0) {
     for (int i = 0; i < kKindsCount; ++i)
       if (strcmp(kind, kKinds[i]) == 0) ++calls_of[i];
@@ -179,6 +190,7 @@ int open(const char* path, int flags, ...) {
   va_start(more, flags);
   const mode_t mode = va_arg(more, mode_t);
   va_end(more);
+  note_opened(path);
   if (fails("open", EMFILE)) return -1;
   return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }
@@ -197,6 +209,7 @@ int openat(int folder, const char* path, int flags, ...) {
 }
 int openat64(int folder, const char* path, int flags, ...) __attribute__((alias("openat")));
 FILE* fopen(const char* path, const char* mode) {
+  note_opened(path);
   if (fails("open", EMFILE)) return nullptr;
   return real<FILE* (*)(const char*, const char*)>("fopen")(path, mode);
 }

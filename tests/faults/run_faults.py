@@ -75,6 +75,9 @@ COMMANDS = {
     "styles": (["styles"], []),
     "help": (["render", "--help"], []),
     "usage": (["render", "in.xyz", "-o", "a.jpg"], []),
+    "mpi": (["render", "in.xyz", *SMALL, "-o", "a.png"], ["a.png"]),
+    "mpi-rank-0": (["render", "in.xyz", *SMALL, "-o", "a.png"], ["a.png"]),
+    "mpi-rank-1": (["film", "in.xyz", *SMALL, "--pictures", "2", "--turntable", "90", "-o", "out/%d.png"], []),
     "missing": (["info", "missing.xyz"], []),
     "version": (["--version"], []),
 }
@@ -83,12 +86,15 @@ OF_ITS_OWN = 100  # allocations of --version that other commands need not have
 # These end so without a fault, and may with one. Here is no screen for a window.
 EXPECTED = {"usage": 2, "missing": 1, "view": 3, "window": 3}
 WINDOW = {"view", "window"}  # they need bihive-view; of `view` the calls of bihive fail, of `window` those of bihive-view
+# bihive-mpi alone, and as two ranks, in one of which calls fail, once it has begun to read its input. What MPI itself makes of a
+# failing call is its own: the exit code and the lines are not judged.
+MPI = {"mpi": None, "mpi-rank-0": 0, "mpi-rank-1": 1}
 # What these leave is judged file by file: folders, and the film's description, which stands beside the film.
-FOLDER = {"thesis": ("out/",), "film": ("a.y4m.part/", "a.y4m.json"), "film-sequence": ("out/",)}
+FOLDER = {"thesis": ("out/",), "film": ("a.y4m.part/", "a.y4m.json"), "film-sequence": ("out/",), "mpi-rank-1": ("out/",)}
 # Asio hands a signal on through a pipe of its own. Where every write fails, none arrives, so nothing but SIGKILL ends it.
 EXCEPT = {"web": {"write+"}}
 # Left out by --short: they go the way of others, or have many calls.
-ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis", "film-sequence"}
+ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis", "film-sequence", *MPI}
 MOST = {"thesis": 100}  # of calls of a kind, of which there are too many
 
 # In this order; those with + let all later calls fail too.
@@ -197,6 +203,17 @@ def run_program(name, words, folder, environment):
             return "no end", b"", ""
 
 
+def on_two_ranks(words, rank, environment):
+    """The command on two ranks of mpirun, where this rank alone has the library of faults."""
+    faults = [f"{name}={value}" for name, value in environment.items() if name.startswith(("LD_PRELOAD", "BIHIVE_FAULT"))]
+    others = {name: value for name, value in environment.items() if not name.startswith(("LD_PRELOAD", "BIHIVE_FAULT"))}
+    others |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "BIHIVE_MPI_PATIENCE": "20"}
+    made = ["mpirun", "--oversubscribe", "--bind-to", "none"]
+    for number in range(2):
+        made += [":"] * number + ["-n", "1", *(["env", *faults] if number == rank else []), *words]
+    return made, others
+
+
 def request_for_window(bihive, words, folder):
     """What bihive passes to bihive-view. It looks for that beside itself first."""
     copy, other = os.path.join(folder, "bihive"), os.path.join(folder, "bihive-view")
@@ -225,6 +242,8 @@ class Case:
             with tempfile.TemporaryDirectory(prefix="bihive_faults_") as folder:
                 self.words = [request_for_window(self.program, self.words, folder)]
             self.program = beside(self.program, "bihive-view")
+        if name in MPI:
+            self.program = beside(self.program, "bihive-mpi")
         clean = self.run("", 0)
         expected = EXPECTED.get(name, 0)
         if clean["code"] != expected:
@@ -255,7 +274,12 @@ class Case:
             environment["BIHIVE_FAULT"] = f"{kind.rstrip('+')}:{at}{'+' if kind.endswith('+') else ''}"
         if not self.nameless:
             environment["BIHIVE_FAULT_NO_TMPFILE"] = "1"
-        code, out, err = run_program(self.name, [self.program, *self.words], folder, environment)
+        words = [self.program, *self.words]
+        if self.name in MPI:
+            environment["BIHIVE_FAULT_AFTER"] = "in.xyz"
+        if MPI.get(self.name) is not None:
+            words, environment = on_two_ranks(words, MPI[self.name], environment)
+        code, out, err = run_program(self.name, words, folder, environment)
         found = files_below(folder)
         notes = []
         if os.path.exists(report):
@@ -274,6 +298,9 @@ class Case:
             self.ended_by_glibc += 1
             result["code"], result["err"] = 1, "bihive: error: not enough memory\n"
         code, lines = result["code"], result["err"].splitlines()
+        if self.name in MPI and code != "no end":
+            code, lines = min(abs(code), 1), ["bihive: error: "] if code else []
+            result["notes"] = []
         if code not in {0, 1, 3, self.code}:
             wrong.append(f"exit code {code}")
         # Where the picture goes to stdout, "-: ..." is the report.
@@ -332,7 +359,7 @@ def leftovers(options):
 def step(case, kind, most, pool, jobs):
     """Lets calls of a kind fail: each until a run meets no fault, or so many of them. (runs, texts of wrong ones)"""
     # The part of all commands before they look at their words is tried once, by one of them.
-    before = case.shared if kind.startswith("malloc") and case.name not in (WHOLE, "window") else 0
+    before = case.shared if kind.startswith("malloc") and case.name not in (WHOLE, "window", *MPI) else 0
     if most and not case.outputs:
         most = max(1, most // 2)
     most = min(most, MOST[case.name]) if most and case.name in MOST else most or MOST.get(case.name, 0)
@@ -380,6 +407,9 @@ def main():
                 continue
             if name in WINDOW and not os.path.exists(beside(options.bihive, "bihive-view")):
                 print(f"{name}: left out, bihive-view was not built")
+                continue
+            if name in MPI and not (os.path.exists(beside(options.bihive, "bihive-mpi")) and shutil.which("mpirun")):
+                print(f"{name}: left out, bihive-mpi was not built")
                 continue
             for nameless in [True, False] if COMMANDS[name][1] else [True]:
                 case = Case(options, name, nameless, shared)

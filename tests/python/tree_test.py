@@ -253,7 +253,7 @@ class Queries(unittest.TestCase):
             (lambda: bh.Tree(self.spheres, engine="fast"), "engine"),
             (lambda: bh.Tree(self.spheres, max_prims=0), "max_prims"),
             (lambda: bh.Tree(self.spheres, threads=-1), "threads"),
-            (lambda: bh.Tree(self.spheres, select="mass > 1"), "expression"),
+            (lambda: bh.Tree(self.spheres, select="mass > 1"), "select"),
             (lambda: bh.Tree([1, 2]), "spheres"),
         ]:
             with self.assertRaises(bh.UsageError) as caught:

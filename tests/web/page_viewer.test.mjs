@@ -104,7 +104,7 @@ test('without being asked for, a page on this machine keeps nothing', async () =
 test('the installed page opens the files that the system gives it', async () => {
   const { name, spheres, bytes } = made_files.find((file) => file.name === 'three.pdb');
   const manifest = JSON.parse(readFileSync(join(folder, 'bihive.webmanifest'), 'utf8'));
-  assert.ok(manifest.file_handlers[0].accept['chemical/x-pdb'].includes('.pdb'));
+  assert.ok(manifest.file_handlers[0].accept['application/x-pdb'].includes('.pdb'));
   assert.ok(existsSync(join(folder, manifest.icons[0].src)));
   const context = await kit.browser.newContext(small);
   const page = await context.newPage();
@@ -119,6 +119,10 @@ test('the installed page opens the files that the system gives it', async () => 
   );
   await page.goto(kit.server.url);
   await settled(page);
+  // What Chromium does not take of it, such as an unknown type of a file, it only says here.
+  const taken = await (await context.newCDPSession(page)).send('Page.getAppManifest');
+  assert.deepEqual(taken.errors, []);
+  assert.ok(taken.data.includes('file_handlers'));
   await page.evaluate(() => dispatchEvent(new Event('launch now')));
   await page.waitForFunction((wanted) => document.getElementById('facts').textContent.startsWith(wanted), `${name}: ${spheres} spheres`);
   await context.close();

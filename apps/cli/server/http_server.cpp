@@ -1,6 +1,8 @@
 // The only file that spends many seconds on compiling Boost.Beast.
 #include "server/http_server.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/asio/io_context.hpp>
@@ -17,8 +19,9 @@
 #include <ctime>
 #include <limits>
 #include <optional>
-#include <set>
 #include <utility>
+
+#include "server/crowd.h"
 
 namespace bihive::cli {
 namespace {
@@ -35,12 +38,15 @@ constexpr std::chrono::seconds kPatience{30};
 // could drop the answer.
 constexpr std::chrono::seconds kPatienceAtTheEnd{2};
 constexpr std::size_t kMostDiscarded = 1 << 20;
-constexpr std::size_t kChunkBytes = 256 * 1024;
+// So much of an answer must be taken within the patience above, and lies in memory for each connection.
+constexpr std::size_t kChunkBytes = 64 * 1024;
+// On its way in the system. Left alone, Linux takes megabytes for each reader that is slow, until all of them suffer.
+constexpr int kSentBytes = 128 * 1024;
 constexpr std::uint32_t kMostHeaderBytes = 16 * 1024;
-constexpr int kMostConnections = 200;
-// A client has this time for its next request before another client may take its place.
-constexpr std::chrono::seconds kLeastPatience{2};
-constexpr std::chrono::milliseconds kRest{200};  // after an error, and while no place is free
+constexpr std::size_t kMostConnections = 1000;
+constexpr std::size_t kFewestConnections = 8;
+constexpr std::size_t kOtherDescriptors = 40;    // of the program
+constexpr std::chrono::milliseconds kRest{200};  // where the system has no descriptor or memory for a connection
 
 std::string text_of(beast::string_view text) {
   return {text.data(), text.size()};
@@ -70,33 +76,41 @@ Question question_from(const http::request_parser<http::empty_body>& parser) {
   return question;
 }
 
+// The number of connections for which there are descriptors; each may have FILE open too. Asks for as many as it wants.
+std::size_t room_for_connections() {
+  constexpr rlim_t kWanted = 2 * kMostConnections + kOtherDescriptors;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return kFewestConnections;
+  if (limit.rlim_cur < kWanted) {
+    const rlimit raised{std::min(kWanted, limit.rlim_max), limit.rlim_max};
+    if (setrlimit(RLIMIT_NOFILE, &raised) == 0) limit = raised;
+  }
+  const std::size_t descriptors = std::min(kWanted, limit.rlim_cur);
+  return std::max(kFewestConnections, (std::max(descriptors, kOtherDescriptors) - kOtherDescriptors) / 2);
+}
+
 // One connection: reads a request, sends the answer, and repeats. It lives as long as an operation is pending.
-class Connection : public std::enable_shared_from_this<Connection> {
+class Connection : public std::enable_shared_from_this<Connection>, public Crowd::Member {
  public:
-  Connection(Tcp::socket socket, const std::function<Answer(const Question&)>& handler,
-             std::function<void(Connection*)> at_end)
-      : stream_(std::move(socket)), handler_(handler), at_end_(std::move(at_end)) {
+  Connection(Tcp::socket socket, const std::function<Answer(const Question&)>& handler, Crowd& crowd)
+      : stream_(std::move(socket)), handler_(handler), crowd_(crowd) {
     error_code ignored;
     stream_.socket().set_option(Tcp::no_delay(true), ignored);
+    stream_.socket().set_option(Tcp::socket::send_buffer_size(kSentBytes), ignored);
   }
-  ~Connection() { at_end_(this); }
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
+  ~Connection() override { crowd_.leave(*this); }
 
-  /// When it began to wait for a request; nothing while it answers one.
-  const std::optional<std::chrono::steady_clock::time_point>& waits_since() const { return waits_since_; }
-  /// Ends it soon: its pending operation fails.
-  void drop() {
-    waits_since_.reset();
-    stream_.close();
-  }
+  /// Its pending operation fails.
+  void drop() override { stream_.close(); }
 
-  void read() {
-    waits_since_ = std::chrono::steady_clock::now();
+  void read(Crowd::Group group = Crowd::kResting) {
+    crowd_.move(*this, group);
+    answer_ = {};
     parser_.emplace();
     parser_->header_limit(kMostHeaderBytes);
     // The answer refuses bodies, not the parser.
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
+    // For all of the head, however slowly it comes.
     stream_.expires_after(kPatience);
     http::async_read_header(stream_, buffer_, *parser_,
                             [self = shared_from_this()](error_code code, std::size_t) { self->on_read(code); });
@@ -104,7 +118,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   void on_read(error_code code) {
-    waits_since_.reset();
+    if (!stream_.socket().is_open()) return;  // it was dropped
+    crowd_.move(*this, Crowd::kAnswered);
     if (!code) {
       answer_ = handler_(question_from(*parser_));
       if (!parser_->keep_alive()) answer_.close = true;
@@ -142,6 +157,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.expires_after(kPatience);
     http::async_write_header(stream_, *serializer_, [self = shared_from_this()](error_code code, std::size_t) {
       // For a message without a body of its own, Beast reports the end as an error.
+      if (!self->stream_.socket().is_open()) return;
       if (!code || code == http::error::end_of_stream) self->write_more();
     });
   }
@@ -162,12 +178,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.expires_after(kPatience);
     asio::async_write(stream_, asio::buffer(bytes, count),
                       [self = shared_from_this()](error_code code, std::size_t written) {
+                        if (code || !self->stream_.socket().is_open()) return;
                         self->sent_ += written;
-                        if (!code) self->write_more();
+                        self->crowd_.move(*self, Crowd::kAnswered);
+                        self->write_more();
                       });
   }
 
   void end() {
+    crowd_.move(*this, Crowd::kSilent);
     error_code ignored;
     stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
     stream_.expires_after(kPatienceAtTheEnd);
@@ -185,7 +204,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   beast::tcp_stream stream_;
   const std::function<Answer(const Question&)>& handler_;
-  std::function<void(Connection*)> at_end_;
+  Crowd& crowd_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   Answer answer_;
@@ -193,7 +212,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::response_serializer<http::empty_body>> serializer_;
   std::vector<char> chunk_;
   std::uint64_t sent_ = 0;
-  std::optional<std::chrono::steady_clock::time_point> waits_since_;
 };
 
 Error cannot_listen(const std::string& address, int port, const error_code& code) {
@@ -206,8 +224,6 @@ Error cannot_listen(const std::string& address, int port, const error_code& code
 struct HttpServer::State {
   explicit State(std::function<Answer(const Question&)> said) : handler(std::move(said)) {}
 
-  ~State() { full = false; }
-
   // From now on these signals end run(), not the program. Ignored signals stay ignored (nohup).
   void take_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -218,62 +234,32 @@ struct HttpServer::State {
     signals.async_wait([this](error_code, int) { context.stop(); });
   }
 
-  // Ends the connection that has waited longest for a request, so that those who only wait cannot keep others out.
-  // False if all are at work or began to wait a moment ago.
-  bool drop_longest_waiting() {
-    const auto longest = std::min_element(all.begin(), all.end(), [](const Connection* a, const Connection* b) {
-      if (!a->waits_since() || !b->waits_since()) return a->waits_since().has_value() && !b->waits_since();
-      return *a->waits_since() < *b->waits_since();
-    });
-    if (longest == all.end() || !(*longest)->waits_since()) return false;
-    if (std::chrono::steady_clock::now() - *(*longest)->waits_since() < kLeastPatience) return false;
-    (*longest)->drop();
-    return true;
-  }
-
   void accept() {
-    if (static_cast<int>(all.size()) >= kMostConnections && !drop_longest_waiting()) {
-      full = true;
-      rest();
-      return;
-    }
     acceptor.async_accept([this](error_code code, Tcp::socket socket) {
       if (code == asio::error::operation_aborted) return;
-      if (code) {  // for example, no more descriptors
-        drop_longest_waiting();
-        rest();
-        return;
+      if (!code) {
+        std::make_shared<Connection>(std::move(socket), handler, crowd)->read(Crowd::kSilent);
+        while (crowd.size() > most_connections) crowd.drop_one();
+      } else if (code == asio::error::no_descriptors ? !crowd.drop_one() : code != asio::error::connection_aborted) {
+        return rest();
       }
-      const auto connection =
-          std::make_shared<Connection>(std::move(socket), handler, [this](Connection* ended) { on_end(ended); });
-      all.insert(connection.get());
-      connection->read();
       accept();
     });
   }
 
-  // Accepts again after a short time, or when a connection ends.
   void rest() {
     pause.expires_after(kRest);
     pause.async_wait([this](error_code code) {
       if (code) return;
-      full = false;
+      crowd.drop_one();
       accept();
     });
   }
 
-  void on_end(Connection* ended) {
-    all.erase(ended);
-    if (!full) return;
-    full = false;
-    // None to cancel: the rest is over, and its handler, which is on the way, accepts.
-    if (pause.cancel() > 0) accept();
-  }
-
   std::function<Answer(const Question&)> handler;
-  std::set<Connection*> all;
-  bool full = false;
-  // Declared last, so that it is destroyed first: it ends pending connections, and these leave the set above.
+  Crowd crowd;
+  std::size_t most_connections = kFewestConnections;
+  // Declared last, so that it is destroyed first: it ends pending connections, and these leave the crowd above.
   asio::io_context context{1};
   asio::signal_set signals{context};
   Tcp::acceptor acceptor{context};
@@ -307,6 +293,7 @@ Result<int> HttpServer::listen(const std::string& address, const std::vector<int
 }
 
 void HttpServer::run_until_signal() {
+  state_->most_connections = room_for_connections();
   state_->accept();
   state_->context.run();
 }

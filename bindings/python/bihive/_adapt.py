@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _bihive
 from ._errors import InputWarning, bad_argument, found
-from ._spheres import Spheres, read
+from ._spheres import Spheres, check_readable, read
 
 __all__ = ["spheres_of"]
 
@@ -40,12 +40,12 @@ def is_ase(thing: Any) -> bool:
     return callable(getattr(thing, "get_positions", None)) and callable(getattr(thing, "get_atomic_numbers", None))
 
 
-def spheres_of(thing: Any) -> Spheres:
+def spheres_of(thing: Any, name: str = "spheres") -> Spheres:
     """Spheres as they are; those of a path, of ASE's Atoms, of MDAnalysis' Universe or AtomGroup."""
     if isinstance(thing, Spheres):
         return thing
     if isinstance(thing, (str, os.PathLike)):
-        return read(thing)
+        return read(check_readable(thing, name))
     if is_universe(thing):
         thing = thing.atoms
     if is_atom_group(thing):
@@ -54,7 +54,7 @@ def spheres_of(thing: Any) -> Spheres:
         return _of_ase(thing)
     kind = f"{type(thing).__module__}.{type(thing).__qualname__}"
     raise bad_argument(
-        "spheres",
+        name,
         f"expected Spheres, atoms of ASE or MDAnalysis, or a path, found {found(thing) if kind.startswith('builtins') else kind}",
         "make Spheres(xyz, radius=...) of arrays",
     )

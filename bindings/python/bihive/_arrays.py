@@ -6,13 +6,22 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import bad_argument, found
+from ._checks import whole_text
+from ._errors import bad_argument, found, shortened
 
 _CPU = 1  # kDLCPU of DLPack
+_MOST = 2**37  # numbers, half a terabyte of float32: only an array that repeats one number has more
 
 
 def as_array(name: str, value: Any) -> np.ndarray[Any, Any]:
     """Any array (buffer protocol, ``__array_interface__``, ``__array__``, DLPack on the CPU) or nested sequence."""
+    array = _as_array(name, value)
+    if array.size > _MOST:
+        raise bad_argument(name, f"has shape {array.shape}, more than any memory holds")
+    return array
+
+
+def _as_array(name: str, value: Any) -> np.ndarray[Any, Any]:
     if isinstance(value, np.ma.MaskedArray):
         if np.ma.is_masked(value):  # type: ignore[no-untyped-call]
             raise bad_argument(name, "has masked entries, and every sphere or ray needs a number", "leave them out before")
@@ -27,11 +36,11 @@ def as_array(name: str, value: Any) -> np.ndarray[Any, Any]:
         try:
             return np.from_dlpack(value)
         except (RuntimeError, TypeError, ValueError, BufferError) as error:
-            raise bad_argument(name, f"cannot be read by DLPack: {error}") from None
+            raise bad_argument(name, f"cannot be read by DLPack: {shortened(str(error))}") from None
     try:
         return np.asarray(value)
-    except (TypeError, ValueError) as error:
-        raise bad_argument(name, f"expected an array of numbers: {error}") from None
+    except (TypeError, ValueError, RecursionError) as error:
+        raise bad_argument(name, f"expected an array of numbers: {shortened(str(error))}") from None
 
 
 def numbers(name: str, value: Any) -> np.ndarray[Any, Any]:
@@ -47,7 +56,7 @@ def numbers(name: str, value: Any) -> np.ndarray[Any, Any]:
     if kind in "biuf" or (kind == "O" and array.size > 0):
         try:
             return array.astype(np.float64)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             pass
     if array.size == 0 and kind != "c":
         return array.astype(np.float64) if kind in "biufO" else np.zeros(array.shape)
@@ -97,4 +106,4 @@ def texts(name: str, value: Any, count: int) -> list[str]:
     for one in made:
         if not isinstance(one, (str, bytes)):
             raise bad_argument(name, f"expected texts or numbers, found {found(one)}")
-    return [one.decode("utf-8", "replace") if isinstance(one, bytes) else one for one in made]
+    return [one.decode("utf-8", "replace") if isinstance(one, bytes) else whole_text(name, one) for one in made]

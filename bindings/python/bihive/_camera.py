@@ -6,8 +6,9 @@ import json
 from dataclasses import dataclass, field, fields
 from typing import Any, Optional, Sequence, Union
 
-from ._errors import bad_argument
-from ._options import ACTIONS, action_words, boolean, option
+from ._checks import boolean, mapping
+from ._errors import UsageError, bad_argument, shortened
+from ._options import ACTIONS, action_words, option
 
 __all__ = ["Orthographic", "Perspective", "Look", "Style"]
 
@@ -119,6 +120,8 @@ class Style:
     def text(self) -> str:
         """The style file."""
         try:
-            return json.dumps({"bihive_style": 1, **self.keys})
-        except (TypeError, ValueError) as error:
-            raise bad_argument("style", f"cannot be written as JSON: {error}") from None
+            return json.dumps({"bihive_style": 1, **mapping("style", self.keys)})
+        except (TypeError, ValueError, RecursionError) as error:
+            if isinstance(error, UsageError):
+                raise
+            raise bad_argument("style", f"cannot be written as JSON: {shortened(str(error))}") from None

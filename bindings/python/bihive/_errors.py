@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import reprlib
 from typing import Any
 
 __all__ = ["Error", "InputError", "UsageError", "FileError", "MissingError", "InputWarning", "failure"]
@@ -63,11 +64,12 @@ def in_python(text: str) -> str:
 def failure(kind: str, message: str, file: str, line: int, column: int, hint: str, shown: str) -> Error:
     """The exception of a failure in the compiled part, which calls this."""
     argument = _OPTION.match(message)
+    message, hint = shortened(message, _LONGEST_MESSAGE), shortened(hint, _LONGEST_MESSAGE)
     hint = "" if hint.endswith("--help") else in_python(hint)
-    place = ":".join([file, *(str(number) for number in (line, column) if number > 0)]) if file else ""
+    place = ":".join([shortened(file), *(str(number) for number in (line, column) if number > 0)]) if file else ""
     text = (place + ": " if place else "") + in_python(message) + ("; " + hint if hint else "")
-    if shown:
-        text += "\n" + shown.rstrip("\n")
+    if 0 < len(shown) <= _LONGEST_MESSAGE:
+        text += "\n" + "\n".join(printable(line) for line in shown.rstrip("\n").split("\n"))
     made: dict[str, type[Error]] = {"usage": UsageError, "missing": MissingError}
     return made.get(kind, InputError)(
         text,
@@ -84,7 +86,27 @@ def bad_argument(argument: str, message: str, hint: str = "") -> UsageError:
     return UsageError(f"{argument}: {message}" + (f"; {hint}" if hint else ""), argument=argument, hint=hint)
 
 
+_LONGEST = 160  # of a part of a message that a file or an argument may have written
+_LONGEST_MESSAGE = 300
+_REPR = reprlib.Repr()
+_REPR.maxstring = _REPR.maxother = 60
+
+
+def printable(text: str) -> str:
+    """With escapes for what is no character of a line: controls, marks of direction, surrogates."""
+    return text if text.isprintable() else "".join(one if one.isprintable() else ascii(one)[1:-1] for one in text)
+
+
+def shortened(text: str, longest: int = _LONGEST) -> str:
+    text = printable(text[: longest + 1])
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
 def found(value: Any) -> str:
-    """A value in a message, shortened."""
-    text = repr(value)
+    """A value in a message, shortened, in one line."""
+    try:
+        text = " ".join(_REPR.repr(value).split())
+    except Exception:
+        return f"an object of type {type(value).__name__}"
+    text = printable(text)
     return text if len(text) <= 60 else text[:57] + "..."

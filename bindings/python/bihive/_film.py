@@ -9,7 +9,8 @@ import numpy as np
 
 from ._adapt import is_atom_group, is_universe, spheres_of
 from ._camera import Style
-from ._errors import FileError, MissingError, UsageError, bad_argument, found
+from ._checks import path_of, several
+from ._errors import FileError, MissingError, UsageError, bad_argument, found, shortened
 from ._options import option, words_of
 from ._picture import Picture
 from ._progress import Bar
@@ -64,6 +65,15 @@ def _film_of_file(source: str, path: str, words: list[str], progress: Progress) 
     raise {2: UsageError, 3: MissingError}.get(done.returncode, UsageError)(text)
 
 
+def _chosen(source: Any, frames: Union[slice, Sequence[int]]) -> Any:
+    try:
+        if isinstance(frames, slice):
+            return source[frames]
+        return [source[i] for i in several("frames", frames, "a slice or positions")]
+    except (TypeError, IndexError, KeyError) as error:
+        raise bad_argument("frames", f"cannot be taken from source: {shortened(str(error))}") from None
+
+
 def _frames_of(source: Any, atoms: Any, frames: Union[slice, Sequence[int], None]) -> Iterator[Spheres]:
     """The spheres of each frame in turn. Those of MDAnalysis move with their trajectory."""
     if is_universe(source):
@@ -71,12 +81,12 @@ def _frames_of(source: Any, atoms: Any, frames: Union[slice, Sequence[int], None
     elif is_atom_group(source):
         source, atoms = source.universe.trajectory, source
     if atoms is not None:
-        steps: Iterable[Any] = source if frames is None else source[frames]
+        steps: Iterable[Any] = source if frames is None else _chosen(source, frames)
         for _ in steps:
-            yield spheres_of(atoms)
+            yield spheres_of(atoms, "atoms")
         return
     if frames is not None:
-        source = source[frames] if isinstance(frames, slice) else [source[i] for i in frames]
+        source = _chosen(source, frames)
     try:
         steps = iter(source)
     except TypeError:
@@ -86,7 +96,7 @@ def _frames_of(source: Any, atoms: Any, frames: Union[slice, Sequence[int], None
             raise bad_argument(
                 "source", "a trajectory of MDAnalysis does not know its atoms", "give the universe, or atoms=universe.atoms"
             )
-        yield spheres_of(step)
+        yield spheres_of(step, "source")
 
 
 def _rate(fps: Any) -> Fraction:
@@ -94,7 +104,7 @@ def _rate(fps: Any) -> Fraction:
 
     try:
         rate = Fraction(fps).limit_denominator(1001) if isinstance(fps, float) else Fraction(fps)
-    except (TypeError, ValueError, ZeroDivisionError):
+    except (TypeError, ValueError, ArithmeticError):
         rate = Fraction(0)
     if rate <= 0:
         raise bad_argument("fps", f"expected a number above 0, or a fraction, found {found(fps)}")
@@ -203,7 +213,7 @@ def film(
     frames: of frames in memory a slice or positions.
     Other arguments as those of render().
     """
-    out = os.fspath(path)
+    out = path_of("path", path)
     ending = os.path.splitext(out)[1].lower()
     if isinstance(source, (str, os.PathLike)):
         if isinstance(camera, Picture) or isinstance(style, (dict, Style)):
@@ -213,14 +223,16 @@ def film(
             of_film["frames"] = frames
         words = [option(name, value) for name, value in {"fps": fps, **of_film}.items() if value is not None]
         words += picture_words(select, camera, style, looks, {"size": size, **options})
-        _film_of_file(check_readable(source), out, words, progress)
+        _film_of_file(check_readable(source, "source"), out, words, progress)
         return 0
     if ending not in _ENDINGS:
         raise bad_argument("path", f"expected .mp4, .mov, .mkv or .webm, found {found(out)}")
     if isinstance(frames, str):
         raise bad_argument("frames", "of frames in memory is a slice or positions", "frames=slice(0, 100, 10)")
-    if options.get("bits") not in (None, 8) or options.get("background") == "none":
-        raise bad_argument("bits" if options.get("bits") else "background", "a film has 8 bits and no transparency")
+    if options.get("bits") is not None and words_of({"bits": options["bits"]}) != ["--bits=8"]:
+        raise bad_argument("bits", "a film has 8 bits")
+    if isinstance(options.get("background"), str) and options["background"] == "none":
+        raise bad_argument("background", "a film has no transparency")
     rate = _rate(fps)
     words = picture_words(select, camera, style, looks, {"size": size, **options})
     like = camera if isinstance(camera, Picture) else None

@@ -5,9 +5,11 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from typing import Any, Iterable, Mapping
 
+from ._checks import boolean, path_of, several, whole_text
 from ._errors import bad_argument, found
 
 # Given as True; False is the same as leaving it out.
@@ -25,6 +27,8 @@ VALUES = [
 ONE_VALUE = " ".join(VALUES).split()
 # Two or three numbers with an x between them.
 SIZES = ["size", "replicate"]
+_DEEPEST = 8  # of lists in lists
+
 # Actions on spheres: of a Look, and of all spheres.
 ACTIONS = ["colour", "colour_by", "opacity", "material", "radius_scale", "outline", "crease", "clip"]
 
@@ -35,20 +39,22 @@ def number_word(name: str, value: Any) -> str:
         raise bad_argument(name, f"expected a number, found {value}")
     try:
         return str(value.__index__())
-    except (AttributeError, TypeError):
+    except (AttributeError, TypeError, ValueError):
         pass
     try:
         return repr(float(value))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise bad_argument(name, f"expected a number, found {found(value)}") from None
 
 
-def flat(value: Iterable[Any]) -> Iterable[Any]:
-    for one in value:
+def flat(name: str, value: Any, depth: int = 1) -> Iterable[Any]:
+    if depth > _DEEPEST:
+        raise bad_argument(name, "expected numbers, found lists in lists")
+    for one in several(name, value, "numbers"):
         if isinstance(one, str) or not hasattr(one, "__iter__") or getattr(one, "ndim", 1) == 0:
             yield one
         else:
-            yield from flat(one)
+            yield from flat(name, one, depth + 1)
 
 
 def value_word(name: str, value: Any, between: str = ",") -> str:
@@ -58,34 +64,28 @@ def value_word(name: str, value: Any, between: str = ",") -> str:
     if isinstance(value, Mapping):
         return between.join(f"{part}={value_word(name, one)}" for part, one in value.items())
     if isinstance(value, os.PathLike):
-        return os.fspath(value)  # type: ignore[no-any-return]
+        return path_of(name, value)
     if hasattr(value, "__iter__") and getattr(value, "ndim", 1) > 0:
-        return between.join(one if isinstance(one, str) else number_word(name, one) for one in flat(value))
+        return between.join(one if isinstance(one, str) else number_word(name, one) for one in flat(name, value))
     return number_word(name, value)
 
 
 def option(name: str, value: Any, between: str = ",") -> str:
     text = value_word(name, value, between)
-    if "\0" in text:
-        raise bad_argument(name, "a text must not hold a NUL character")
-    return f"--{name.replace('_', '-')}={text}"
-
-
-def boolean(name: str, value: Any) -> bool:
-    if value is True or value is False or type(value).__name__ == "bool_":
-        return bool(value)
-    raise bad_argument(name, f"expected True or False, found {found(value)}")
+    if not text:
+        raise bad_argument(name, "must not be empty", "leave it out")
+    return f"--{name.replace('_', '-')}={whole_text(name, text)}"
 
 
 def light_words(value: Any) -> list[str]:
-    lights = [value] if isinstance(value, str) else list(value)
+    lights = [value] if isinstance(value, str) else several("light", value, "a light or several")
     return [option("light", light) for light in lights]
 
 
 def action_words(name: str, value: Any) -> list[str]:
     """An action; several clips may come as a list."""
     if name == "clip" and not isinstance(value, str):
-        return [option(name, clip) for clip in value]
+        return [option(name, clip) for clip in several(name, value, "a clip or several")]
     return [option(name, value)]
 
 
@@ -98,8 +98,9 @@ def words_of(options: Mapping[str, Any], allowed: Iterable[str] | None = None) -
     words: list[str] = []
     for name, value in options.items():
         if name not in known:
-            raise bad_argument(name, "there is no such option", "known: " + ", ".join(sorted(known)))
-        if value is None:
+            near = difflib.get_close_matches(name, sorted(known), 5) or sorted(known)[:5]
+            raise bad_argument(name, "there is no such option", f"there are {', '.join(near)} and others")
+        if value is None or (name == "title" and isinstance(value, str) and not value):
             continue
         if name in FLAGS:
             words += ["--" + name.replace("_", "-")] if boolean(name, value) else []

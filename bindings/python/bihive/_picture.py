@@ -9,6 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _bihive
+from ._checks import path_of, text_of
 from ._errors import FileError, InputError, bad_argument, found
 
 __all__ = ["Picture"]
@@ -24,6 +25,8 @@ class Picture:
     """
 
     def __init__(self, core: _bihive.Picture) -> None:
+        if not isinstance(core, _bihive.Picture):
+            raise TypeError(f"a Picture is made by render(), not of {found(core)}")
         self._core = core
 
     @property
@@ -57,9 +60,7 @@ class Picture:
         colour before any light. "radiance": float32 (height, width, 3 or 4), the light of the picture without the screen's
         curve. "attribute:NAME": float32, an attribute of the sphere, NaN for nothing.
         """
-        if not isinstance(name, str):
-            raise bad_argument("layer", f"expected a name, found {found(name)}")
-        return self._core.layer(name)
+        return self._core.layer(text_of("name", name, "the name of a layer"))
 
     def save(self, path: Union[str, os.PathLike[str]], *, layers: Optional[str] = None) -> None:
         """Writes a PNG, or OpenEXR where the path ends in .exr, whole or not at all.
@@ -67,15 +68,13 @@ class Picture:
         `layers` are names of layer() between commas, for OpenEXR ("radiance"): the file holds the same numbers. Raises
         FileError (an OSError) if the file cannot be written, UsageError of layers that are unknown.
         """
-        text = os.fspath(path)
-        if not isinstance(text, str) or not text or "\0" in text:
-            raise bad_argument("path", f"expected a path, found {found(path)}")
-        if layers is not None and not isinstance(layers, str):
-            raise bad_argument("layers", f"expected names between commas, found {found(layers)}")
+        text = path_of("path", path)
+        if layers is not None:
+            text_of("layers", layers, "names between commas")
         ending = os.path.splitext(text)[1].lower()
         if ending == ".exr":
             try:
-                self._core.save_exr(text, "radiance" if layers is None else layers)
+                self._core.save_exr(os.fsencode(text), "radiance" if layers is None else layers)
             except InputError as error:
                 raise FileError(0, str(error), text) from None
             return
@@ -84,7 +83,7 @@ class Picture:
         if layers is not None:
             raise bad_argument("layers", "a PNG holds no layers", "let the path end in .exr")
         try:
-            self._core.save(text)
+            self._core.save(os.fsencode(text))
         except ValueError as error:
             raise FileError(0, str(error), text) from None
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Optional, Sequence, Union
 
 from . import _bihive
 from ._adapt import spheres_of
 from ._camera import Look, Orthographic, Perspective, Style
+from ._checks import several, text_of
 from ._errors import InputWarning, bad_argument, found
 from ._options import ACTIONS, option, words_of
 from ._picture import Picture
@@ -32,16 +33,17 @@ def picture_words(select: Optional[str], camera: Camera, style: Any, looks: Any,
     words += words_of(before)
     if isinstance(camera, (Orthographic, Perspective)):
         words += camera.words()
-    if style is not None and not isinstance(style, (Style, dict)):
+    if isinstance(style, (str, os.PathLike)):
         words.append(option("style", style))
-    for look in [looks] if isinstance(looks, Look) else looks or []:
+    elif style is not None and not isinstance(style, (Style, dict)):
+        raise bad_argument("style", f"expected a name, a path, a Style or a dictionary, found {found(style)}")
+    given = [] if looks is None else [looks] if isinstance(looks, Look) else several("looks", looks, "a Look or several")
+    for look in given:
         if not isinstance(look, Look):
             raise bad_argument("looks", f"expected Look(...), found {found(look)}")
         words += look.words()
     if select is not None:
-        if not isinstance(select, str):
-            raise bad_argument("select", f"expected a selection as text, found {found(select)}")
-        _bihive.check_selection(select)
+        _bihive.check_selection(text_of("select", select, "a selection as text"))
         words += [option("select", f"not ({select})"), "--hide"]
     return words
 
@@ -54,7 +56,7 @@ def style_text(style: Any) -> str:
 
 
 def draw(
-    spheres: Optional[Spheres], words: list[str], text: str, like: Optional[Picture], progress: Progress
+    spheres: Optional[Spheres], words: Sequence[Union[str, bytes]], text: str, like: Optional[Picture], progress: Progress
 ) -> Picture:
     """The picture, and its warnings."""
     with Bar(progress, "rendering") as bar:
@@ -106,8 +108,8 @@ def render(
     path: Optional[str] = None
     made: Optional[Spheres] = None
     if isinstance(spheres, (str, os.PathLike)):
-        path = check_readable(spheres)
+        path = check_readable(spheres, "spheres")
     else:
         made = spheres_of(spheres)
-    all_words = ["-o", "picture.png", *words, "--", path if path is not None else "spheres"]
+    all_words: list[Union[str, bytes]] = ["-o", "picture.png", *words, "--", os.fsencode(path) if path is not None else "spheres"]
     return draw(made, all_words, style_text(style), camera if isinstance(camera, Picture) else None, progress)

@@ -11,7 +11,8 @@ import numpy as np
 
 from . import _bihive
 from ._arrays import as_array, numbers, one_each, texts, whole_numbers
-from ._errors import FileError, InputWarning, bad_argument, found
+from ._checks import boolean, mapping, one_of, path_of, text_of, whole_text
+from ._errors import FileError, InputError, InputWarning, bad_argument, found, shortened
 from ._options import words_of
 
 __all__ = ["Spheres", "read", "convert", "select", "stats", "colour_map"]
@@ -21,6 +22,7 @@ _BUILT_IN = ["demo", "scenario1", "scenario2", "scenario3", "four-spheres"]
 _WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".ply": "ply"}
 _MAPS = ["viridis", "magma", "cividis", "coolwarm", "okabe-ito"]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
+_TYPES = (-(2**31), 2**31 - 1)
 _READING = ["radius", "radius_scale", "assembly", "frame", "trajectory", "cell_vectors", "cell_origin", "recenter"]
 _READING += ["wrap", "unwrap", "columns", "count", "seed"]
 
@@ -52,7 +54,7 @@ def _colours(value: Any, count: int) -> Array:
 
 
 def _colour_of_text(text: str) -> Array:
-    light = _bihive.linear_colour(text)
+    light = _bihive.linear_colour(whole_text("colour", text))
     if light is None:
         raise bad_argument("colour", f"expected a name, '#rrggbb', or numbers, found {found(text)}")
     return np.array(light, dtype=np.float32)
@@ -158,9 +160,11 @@ class Spheres:
             raise bad_argument("radius", "is missing", "give one number, an array, or element")
         numbers_of: dict[str, Array] = {}
         texts_of: dict[str, list[str]] = {}
-        for column, values in {**(columns or {}), **more_columns}.items():
-            if column in _OF_SETS or not isinstance(column, str) or not column:
+        given = {} if columns is None else mapping("columns", columns)
+        for column, values in {**given, **more_columns}.items():
+            if not isinstance(column, str) or not column or column in _OF_SETS:
                 raise bad_argument("columns", f"{found(column)} cannot be the name of a column")
+            whole_text("columns", column)
             array = as_array(column, values)
             if array.dtype.kind in "USO":
                 texts_of[column] = texts(column, array, count)
@@ -170,14 +174,14 @@ class Spheres:
             places,
             radii,
             elements,
-            None if type is None else whole_numbers("type", type, count, -(2**31), 2**31 - 1).astype(np.int32),
+            None if type is None else whole_numbers("type", type, count, *_TYPES).astype(np.int32),
             None if colour is None else np.asarray(_colours(colour, count), dtype=np.float32),
             None if opacity is None else np.asarray(_opacities(opacity, count), dtype=np.float32),
             list(numbers_of.items()),
             list(texts_of.items()),
             None if cell is None else np.asarray(_cell(cell), dtype=np.float64),
             "array",
-            name,
+            text_of("name", name),
         )
 
     @classmethod
@@ -260,19 +264,16 @@ class Spheres:
         ...     read(path)["charge"].tolist()
         [-1.0, 1.0]
         """
-        text = os.fspath(path)
-        if not isinstance(text, str) or not text or "\0" in text:
-            raise bad_argument("path", f"expected a path, found {found(path)}")
+        text = path_of("path", path)
         ending = os.path.splitext(text)[1].lower()
         if format is None and ending == ".json":
             raise bad_argument("path", "the program bihive convert writes scene files", "or let it end in .csv or .extxyz")
-        chosen = _WRITTEN.get(ending) if format is None else format
-        if chosen is None or chosen not in _WRITTEN.values():
-            what = f"path: expected an ending of {', '.join(_WRITTEN)}" if format is None else f"found {found(format)}"
-            raise bad_argument("format", f"expected one of {', '.join(_WRITTEN.values())}", what)
+        if format is None and ending not in _WRITTEN:
+            raise bad_argument("path", f"expected an ending of {', '.join(_WRITTEN)}", "or give format")
+        chosen = _WRITTEN[ending] if format is None else one_of("format", format, _WRITTEN.values())
         content, left_out = self._core.written(chosen)
         try:
-            _bihive.write_file(text, content)
+            _bihive.write_file(os.fsencode(text), content)
         except ValueError as error:
             raise FileError(0, str(error), text) from None
         return left_out
@@ -291,6 +292,10 @@ class Spheres:
             chosen = np.atleast_1d(ids[key if isinstance(key, slice) else np.asarray(key)])
         except IndexError as error:
             raise IndexError(f"bihive.Spheres of {count}: {error}") from None
+        except (TypeError, ValueError, RecursionError) as error:
+            raise TypeError(f"bihive.Spheres of {count} cannot be indexed by {found(key)}: {shortened(str(error))}") from None
+        if chosen.ndim != 1:
+            raise IndexError(f"bihive.Spheres of {count}: expected one axis of positions, found shape {chosen.shape}")
         for name in ("xyz", "radius", "colour", "opacity", "element", "type"):
             if state[name] is not None:
                 state[name] = state[name][chosen]
@@ -314,7 +319,7 @@ class Spheres:
         columns = self._core.columns
         if name not in columns:
             known = ", ".join(["x", "y", "z", "radius", *self.columns])
-            raise KeyError(f"there is no attribute {name!r}; there are {known}")
+            raise KeyError(f"there is no attribute {found(name)}; there are {shortened(known)}")
         value = columns[name]
         return np.array(value, dtype=object) if isinstance(value, list) else np.asarray(value)
 
@@ -334,20 +339,12 @@ class Spheres:
         return state
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        texts_of = {name: list(v) for name, v in state["columns"].items() if isinstance(v, list) or v.dtype.kind in "USO"}
-        self._core = _bihive.spheres_from_arrays(
-            state["xyz"],
-            state["radius"],
-            state["element"],
-            state["type"],
-            state["colour"],
-            state["opacity"],
-            [(name, values) for name, values in state["columns"].items() if name not in texts_of],
-            list(texts_of.items()),
-            state["cell"],
-            state["format"],
-            state["name"],
-        )
+        try:
+            self._core = _core_of(state)
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
+            if isinstance(error, InputError):
+                raise
+            raise bad_argument("state", f"is not that of spheres: {shortened(str(error))}") from None
 
     def __copy__(self) -> Spheres:
         return Spheres._of(self._core)
@@ -363,6 +360,45 @@ class Spheres:
     __hash__ = None  # type: ignore[assignment]
 
 
+def _core_of(state: dict[str, Any]) -> _bihive.Spheres:
+    """The spheres of a state as __getstate__() gives it."""
+    places = numbers("xyz", state["xyz"])
+    count = len(places)
+
+    def floats(name: str, dtype: Any, columns: int = 0) -> Optional[Array]:
+        if state[name] is None:
+            return None
+        array = numbers(name, state[name])
+        return np.ascontiguousarray(array.reshape(-1, columns) if columns else array, dtype=dtype)
+
+    def integers(name: str, dtype: Any, least: int, most: int) -> Optional[Array]:
+        if state[name] is None:
+            return None
+        return np.ascontiguousarray(whole_numbers(name, state[name], count, least, most), dtype=dtype)
+
+    texts_of: list[tuple[str, list[str]]] = []
+    numbers_of: list[tuple[str, Array]] = []
+    for column, values in mapping("columns", state["columns"]).items():
+        text_of("columns", column)
+        if isinstance(values, list) or as_array(column, values).dtype.kind in "USO":
+            texts_of.append((column, texts(column, np.array(values, dtype=object), count)))
+        else:
+            numbers_of.append((column, np.ascontiguousarray(one_each(column, values, count), dtype=np.float64)))
+    return _bihive.spheres_from_arrays(
+        places,
+        numbers("radius", state["radius"]),
+        integers("element", np.uint8, 0, 118),
+        integers("type", np.int32, *_TYPES),
+        floats("colour", np.float32, 3),
+        floats("opacity", np.float32),
+        numbers_of,
+        texts_of,
+        floats("cell", np.float64, 3),
+        text_of("format", state["format"]),
+        text_of("name", state["name"]),
+    )
+
+
 def _same(a: Any, b: Any) -> bool:
     if isinstance(a, dict):
         return isinstance(b, dict) and a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
@@ -371,11 +407,9 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def check_readable(path: Union[str, os.PathLike[str]]) -> str:
+def check_readable(path: Union[str, os.PathLike[str]], name: str = "path") -> str:
     """The path of an input as text. Raises FileError if the file cannot be opened."""
-    text = os.fspath(path)
-    if not isinstance(text, str) or not text or "\0" in text:
-        raise bad_argument("path", f"expected the path of a file or a built-in name, found {found(path)}")
+    text = path_of(name, path, "the path of a file or a built-in name")
     if text in _BUILT_IN:
         return text
     try:
@@ -401,7 +435,7 @@ def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     <bihive.Spheres: 1631 spheres from demo (PDB), element, occupancy, b_factor, resid, record, chain, resname, name>
     """
     text = check_readable(path)
-    core = _bihive.read(words_of(options, _READING) + ["--", text])
+    core = _bihive.read([*words_of(options, _READING), "--", os.fsencode(text)])
     for warning in core.warnings:
         warnings.warn(warning, InputWarning, stacklevel=2)
     return Spheres._of(core)
@@ -419,9 +453,9 @@ def convert(
 
     select: only the spheres that this selection takes. Returns what the format cannot hold, a sentence each.
     """
-    spheres = read(source, **options)
+    spheres = read(check_readable(source, "source"), **options)
     if select is not None:
-        spheres = spheres[_mask(spheres, select)]
+        spheres = spheres[spheres._core.select(text_of("select", select, "a selection as text"), "select")]
     return spheres.save(path, format)
 
 
@@ -433,13 +467,7 @@ def select(spheres: Spheres, expression: str) -> Array:
     """
     if not isinstance(spheres, Spheres):
         raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
-    if not isinstance(expression, str):
-        raise bad_argument("expression", f"expected a text, found {found(expression)}")
-    return spheres._core.select(expression)
-
-
-# convert() has an argument of the name.
-_mask = select
+    return spheres._core.select(text_of("expression", expression), "expression")
 
 
 def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> dict[str, Any]:
@@ -471,9 +499,10 @@ def colour_map(values: Any, map: Optional[str] = None, range: Any = None, log: b
     if array.ndim != 1:
         raise bad_argument("values", f"expected shape (n,), found shape {array.shape}")
     data: Any = texts("values", array, len(array)) if array.dtype.kind in "USO" else numbers("values", array)
-    if map is not None and map not in _MAPS:
-        raise bad_argument("map", f"expected one of {', '.join(_MAPS)}, found {found(map)}")
-    if not isinstance(nan_colour, str) or _bihive.linear_colour(nan_colour) is None:
+    if map is not None:
+        one_of("map", map, _MAPS)
+    log = boolean("log", log)
+    if _bihive.linear_colour(text_of("nan_colour", nan_colour)) is None:
         raise bad_argument("nan_colour", f"expected a name or '#rrggbb', found {found(nan_colour)}")
     ends = ""
     if range is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from . import _bihive
 from ._adapt import spheres_of
 from ._arrays import one_each, vectors, whole_numbers
+from ._checks import one_of, text_of
 from ._errors import InputError, bad_argument, found
 from ._options import words_of
 from ._spheres import Spheres
@@ -80,9 +82,8 @@ class Tree:
         self._spheres: Spheres = spheres_of(spheres)
         self._ids: Optional[Array] = None
         if select is not None:
-            if not isinstance(select, str):
-                raise bad_argument("select", f"expected a selection as text, found {found(select)}")
-            self._ids = np.flatnonzero(self._spheres._core.select(select))
+            expression = text_of("select", select, "a selection as text")
+            self._ids = np.flatnonzero(self._spheres._core.select(expression, "select"))
         options = {"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads}
         part = None if self._ids is None else self._ids.tolist()
         self._core = _bihive.build_tree(self._spheres._core, part, words_of(options))
@@ -181,10 +182,13 @@ class Tree:
         """
         if isinstance(k, bool) or not isinstance(k, (int, np.integer)) or k < 1:
             raise bad_argument("k", f"expected a whole number of at least 1, found {found(k)}")
+        where = _points(points)
+        if 16 * where.shape[0] * int(k) > _memory():
+            raise bad_argument("k", f"the answers for {where.shape[0]} points are larger than the memory, found {found(k)}")
         most = np.inf if within is None else float(one_each("within", within, 1)[0])
         if np.isnan(most):
             raise bad_argument("within", "expected a number, found NaN")
-        distance, ids = self._core.nearest(_points(points), int(k), most, _to_centre(to))
+        distance, ids = self._core.nearest(where, int(k), most, _to_centre(to))
         ids = self._positions(ids)
         return (distance[:, 0], ids[:, 0]) if k == 1 else (distance, ids)
 
@@ -265,6 +269,11 @@ class Tree:
         )
 
 
+def _memory() -> int:
+    """Of this machine, in bytes."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+
+
 def _points(points: Any) -> Array:
     made: Array = np.ascontiguousarray(np.atleast_2d(vectors("points", points)), dtype=np.float64)
     bad = ~(np.abs(made) <= np.finfo(np.float32).max).all(axis=1)
@@ -276,14 +285,10 @@ def _points(points: Any) -> Array:
 
 
 def _to_centre(to: str) -> bool:
-    if to not in ("surface", "centre"):
-        raise bad_argument("to", f"expected 'surface' or 'centre', found {found(to)}")
-    return to == "centre"
+    return one_of("to", to, ("surface", "centre")) == "centre"
 
 
 def _in_blocks(order: str) -> bool:
-    if order not in ("any", "blocks"):
-        raise bad_argument("order", f"expected 'any' or 'blocks', found {found(order)}")
-    return order == "blocks"
+    return one_of("order", order, ("any", "blocks")) == "blocks"
 
 

@@ -6,7 +6,8 @@ import os
 from typing import TYPE_CHECKING, Any, Optional
 
 from ._adapt import spheres_of
-from ._errors import InputError, MissingError, UsageError, bad_argument, in_python
+from ._checks import boolean
+from ._errors import InputError, MissingError, UsageError, bad_argument, found, in_python
 from ._film import program
 from ._spheres import Spheres, check_readable
 
@@ -87,16 +88,15 @@ def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = N
     import tempfile
 
     if port is not None and (isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535):
-        raise bad_argument("port", f"expected a number from 0 to 65535, found {port!r}")
-    if browser is None:
-        browser = "ipykernel" not in sys.modules
+        raise bad_argument("port", f"expected a number from 0 to 65535, found {found(port)}")
+    browser = "ipykernel" not in sys.modules if browser is None else boolean("browser", browser)
     folder = tempfile.mkdtemp(prefix="bihive_view_")
     descriptors: list[int] = []
     try:
         if isinstance(source, (str, os.PathLike)):
-            words = [check_readable(source)]
+            words = [check_readable(source, "source")]
         else:
-            words, descriptors = _command_of(spheres_of(source), folder)
+            words, descriptors = _command_of(spheres_of(source, "source"), folder)
         words = [program(), "web", "--json", "--port", str(port or 0), *([] if browser else ["--no-browser"]), "--", *words]
         server = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert server.stdout is not None and server.stderr is not None

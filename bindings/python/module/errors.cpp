@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include <exception>
+#include <string>
 
 namespace py = pybind11;
 
@@ -20,12 +21,19 @@ const char* kind_of(cli::ExitCode code) {
   }
 }
 
+// Bytes that are no UTF-8, as a path may have them, are escaped.
+py::str text_of(const std::string& bytes) {
+  PyObject* const text = PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "backslashreplace");
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
 void raise(const cli::Failure& failure) {
   const Error& error = failure.error;
   try {
     const py::object made = py::module_::import("bihive._errors")
-                                .attr("failure")(kind_of(failure.code), error.message, error.file, error.line,
-                                                 error.column, error.hint, failure.shown);
+                                .attr("failure")(kind_of(failure.code), text_of(error.message), text_of(error.file),
+                                                 error.line, error.column, text_of(error.hint), text_of(failure.shown));
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   } catch (py::error_already_set& other) {
     other.restore();

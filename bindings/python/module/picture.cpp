@@ -40,10 +40,17 @@ struct Drawing {
   std::optional<Tracer> tracer;
 };
 
+// What layers are made of.
+struct Light {
+  std::shared_ptr<const Drawing> drawing;
+  Film film;
+};
+
+// All but `light` never changes after it is made, so that threads may read it without Python's lock. `light` is read
+// and written under the lock alone: who goes on without the lock keeps a pointer of his own.
 struct Picture {
-  std::shared_ptr<const Drawing> drawing;  // null: it was let go, or the picture was unpickled
+  std::shared_ptr<const Light> light;  // null: it was let go, or the picture was unpickled
   PngPixels pixels;
-  Film film;  // of the light; empty where `drawing` is null
   PngText text;
   std::vector<std::pair<std::string, std::string>> exr_text;  // the same in UTF-8
   double dots_per_inch = 0;
@@ -161,8 +168,7 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, cli::RenderO
   cli::give_extent(fixed.range_of_style);
   for (cli::ColourRange& range : fixed.ranges_of_looks) cli::give_extent(range);
   picture->fixed = std::move(fixed);
-  picture->film = std::move(rendered.film);
-  picture->drawing = std::move(drawing);
+  picture->light = std::make_shared<const Light>(Light{std::move(drawing), std::move(rendered.film)});
   return picture;
 }
 
@@ -187,18 +193,21 @@ py::array pixels_of(const py::object& self) {
 
 // `name` is known to layers_from_text(), and is one layer. Ids are 64-bit, -1 for nothing and -2 for the plane.
 py::object layer_of(const Picture& picture, const std::string& name) {
-  if (picture.drawing == nullptr)
+  const std::shared_ptr<const Light> light = picture.light;
+  if (light == nullptr)
     cli::fail_usage("layer: this picture has its pixels alone, because it was unpickled or detached",
                     "render it again");
-  const Drawing& drawing = *picture.drawing;
-  const std::vector<Layer> layers = value_of(layers_from_text(name));
-  if (layers.size() != 1) cli::fail_usage("layer: expected one name, found \"" + name + "\"");
+  const Drawing& drawing = *light->drawing;
+  const Result<std::vector<Layer>> known = layers_from_text(name);
+  if (!known) cli::fail_usage("name: " + known.error().message, known.error().hint);
+  const std::vector<Layer>& layers = *known;
+  if (layers.size() != 1) cli::fail_usage("name: expected one layer, found \"" + name + "\"");
   std::vector<Channel> channels;
   wait_for(
       [&](Work& work) {
         value_of(check_layers(drawing.input.scene, layers));
         channels =
-            draw_layers(drawing.input.scene, *drawing.tracer, drawing.settings, layers, picture.film, &work.cancel);
+            draw_layers(drawing.input.scene, *drawing.tracer, drawing.settings, layers, light->film, &work.cancel);
       },
       py::none());
   const py::ssize_t width = picture.pixels.width, height = picture.pixels.height;
@@ -219,13 +228,14 @@ py::object layer_of(const Picture& picture, const std::string& name) {
 
 // `names` are layers between commas, known to layers_from_text(). The file holds the numbers that layer() gives.
 void save_exr(const Picture& picture, const std::string& path, const std::string& names) {
-  if (picture.drawing == nullptr)
+  const std::shared_ptr<const Light> light = picture.light;
+  if (light == nullptr)
     cli::fail_usage("path: OpenEXR needs the light, and this picture has its pixels alone (unpickled or detached)",
                     "render it again, or save a PNG");
   if (!can_write_exr())
     cli::fail_environment(
         {"this build of bihive has no OpenEXR", path, 0, 0, "install libopenexr-dev and build again, or save a PNG"});
-  const Drawing& drawing = *picture.drawing;
+  const Drawing& drawing = *light->drawing;
   const Result<std::vector<Layer>> known = layers_from_text(names);
   if (!known) cli::fail_usage("layers: " + known.error().message, known.error().hint);
   const std::vector<Layer>& layers = *known;
@@ -238,7 +248,7 @@ void save_exr(const Picture& picture, const std::string& path, const std::string
             settings.width_px,
             settings.height_px,
             drawn_pixels(settings),
-            draw_layers(drawing.input.scene, *drawing.tracer, settings, layers, picture.film, &work.cancel),
+            draw_layers(drawing.input.scene, *drawing.tracer, settings, layers, light->film, &work.cancel),
             picture.exr_text,
             picture.dots_per_inch};
         value_of(write_exr(path, form));
@@ -286,7 +296,7 @@ void bind_pictures(py::module_& module) {
       .def_property_readonly("pixels", pixels_of)
       .def_property_readonly("report", [](const Picture& p) { return p.report; })
       .def_property_readonly("warnings", [](const Picture& p) { return p.warnings; })
-      .def_property_readonly("has_scene", [](const Picture& p) { return p.drawing != nullptr; })
+      .def_property_readonly("has_scene", [](const Picture& p) { return p.light != nullptr; })
       .def_property_readonly("hash", [](const Picture& p) { return picture_hash(p.pixels); })
       .def("layer", layer_of)
       .def("png", [](const Picture& p) { return py::bytes(png_bytes(p)); })
@@ -296,11 +306,7 @@ void bind_pictures(py::module_& module) {
              value_of(write_file(path, png_bytes(p)));
            })
       .def("save_exr", save_exr)
-      .def("detach",
-           [](Picture& p) {
-             p.drawing.reset();
-             p.film = {};
-           })
+      .def("detach", [](Picture& p) { p.light.reset(); })
       .def(py::pickle(&state_of, &from_state));
   module.def("render", render_picture);
 }

@@ -51,7 +51,17 @@ std::vector<Vec3f> colours_from(const Array<float>& array) {
   return colours;
 }
 
-// All arrays have an entry for each sphere: bihive/_spheres.py has checked that.
+[[noreturn]] void fail_size(const std::string& name) {
+  cli::fail_usage(name + ": its shape is not that of the spheres");
+}
+
+// `columns`: 0 for an array of one axis.
+void check_size(const std::string& name, const py::array& array, py::ssize_t count, py::ssize_t columns = 0) {
+  const bool fits = columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
+  if (!fits || array.shape(0) != count) fail_size(name);
+}
+
+// Arrays have an entry for each sphere, and types as bihive/_spheres.py gives them.
 SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
                                   const std::optional<Array<std::uint8_t>>& element,
                                   const std::optional<Array<std::int32_t>>& type,
@@ -60,6 +70,16 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
                                   const std::vector<std::pair<std::string, std::vector<std::string>>>& texts,
                                   const std::optional<Array<double>>& cell, const std::string& format,
                                   const std::string& name) {
+  const py::ssize_t count = xyz.ndim() == 2 && xyz.shape(1) >= 3 ? xyz.shape(0) : -1;
+  check_size("radius", radius, count);
+  if (element) check_size("element", *element, count);
+  if (type) check_size("type", *type, count);
+  if (opacity) check_size("opacity", *opacity, count);
+  if (colour) check_size("colour", *colour, count, 3);
+  for (const auto& [column, values] : numbers) check_size(column, values, count);
+  for (const auto& [column, values] : texts)
+    if (static_cast<py::ssize_t>(values.size()) != count) fail_size(column);
+  if (cell) check_size("cell", *cell, 4, 3);
   auto made = std::make_shared<Spheres>();
   const NumbersView x = column_of(xyz, 0), y = column_of(xyz, 1), z = column_of(xyz, 2), r = view_of(radius);
   {
@@ -178,11 +198,12 @@ py::object cell_or_none(const Spheres& spheres) {
   return array_from<double>(std::move(flat), {4, 3});
 }
 
-py::array_t<bool> select(const Spheres& spheres, const std::string& expression) {
+// `name`: of the argument, for errors.
+py::array_t<bool> select(const Spheres& spheres, const std::string& expression, const std::string& name) {
   std::vector<std::uint8_t> mask;
   {
     const py::gil_scoped_release unlocked;
-    mask = cli::selected_or_fail(spheres.file.spheres, expression, "expression");
+    mask = cli::selected_or_fail(spheres.file.spheres, expression, name);
   }
   py::array_t<bool> made(static_cast<py::ssize_t>(mask.size()));
   std::transform(mask.begin(), mask.end(), made.mutable_data(), [](std::uint8_t one) { return one != 0; });
@@ -282,7 +303,12 @@ void bind_spheres(py::module_& module) {
           })
       .def_property_readonly("has_images", [](const Spheres& s) { return s.file.spheres.has_images(); })
       .def_property_readonly("nbytes", [](const Spheres& s) { return s.file.spheres.allocated_bytes(); })
-      .def_property_readonly("name", [](const Spheres& s) { return s.name; })
+      .def_property_readonly("name",
+                             [](const Spheres& s) {
+                               // A path need not be UTF-8.
+                               return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
+                                   s.name.data(), static_cast<Py_ssize_t>(s.name.size())));
+                             })
       .def_property_readonly("format", [](const Spheres& s) { return s.file.format; })
       .def_property_readonly("frames", [](const Spheres& s) { return s.file.frames; })
       .def_property_readonly("time_ps", [](const Spheres& s) { return s.file.time_ps; })

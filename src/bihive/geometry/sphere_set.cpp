@@ -93,15 +93,24 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
   if (extent > 0) std::frexp(extent, &set.scale_exponent_);
   set.scale_exponent_ = std::min(-set.scale_exponent_, kLargestScaleExponent);
   const double scale = set.scale();
-  const auto round = [scale](const auto& world) {
+  bool as_before = true;
+  const auto round = [scale, &as_before](const auto& world) {
     std::vector<float> stored(world.size());
-    for (std::size_t i = 0; i < world.size(); ++i) stored[i] = static_cast<float>(double(world[i]) * scale);
+    bool small = true;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      stored[i] = static_cast<float>(double(world[i]) * scale);
+      small &= std::abs(stored[i]) <= 1;
+    }
+    as_before &= small;
     return stored;
   };
   set.x_ = round(x);
   set.y_ = round(y);
   set.z_ = round(z);
   set.r_ = round(r);
+  for (const float radius : set.r_) as_before &= radius >= 0;
+  if (!as_before)
+    return Error{"the numbers of the spheres change while they are read", "", 0, 0, "another thread writes"};
   for (std::size_t i = 0; i < r.size(); ++i)
     if (r[i] > 0 && double(r[i]) * scale < kVanishingShare) ++set.vanishing_radii_;
   return set;
