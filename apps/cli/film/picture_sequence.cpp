@@ -44,6 +44,8 @@ class PictureSequence final : public FilmSink {
     if (film_.existing() == nullptr) return;
     read_indices(*film_.existing());
     find_pictures(*film_.existing());
+    // Somebody has removed the film's description alone.
+    if (!whole_.empty()) film_.folder();
   }
 
   bool has(std::int64_t number) const override {
@@ -55,7 +57,8 @@ class PictureSequence final : public FilmSink {
     const OwnFolder& folder = film_.folder();
     if (!index_) open_index(folder);
     // The index knows the picture before it is there, so a kill leaves no picture that it does not know.
-    append(index_line({picture.number, bytes.size(), hash_of(bytes)}));
+    const IndexEntry entry{picture.number, bytes.size(), hash_of(bytes)};
+    if (!knows(entry)) append(index_line(entry));
     const std::string name = name_of(picture.number);
     if (!folder.place_new(name, bytes, kOfOutputs)) refuse(folder.path_of(name));
     last_added_ = picture.number;
@@ -114,16 +117,18 @@ class PictureSequence final : public FilmSink {
   }
 
   bool is_of_film(const OwnFolder& folder, const std::string& name, std::int64_t number) const {
-    const auto begin = std::lower_bound(entries_.begin(), entries_.end(), number,
-                                        [](const IndexEntry& a, std::int64_t b) { return a.number < b; });
-    if (begin == entries_.end() || begin->number != number) return false;
     const std::optional<Descriptor> file = folder.open_picture(name);
     struct stat info {};
     if (!file || fstat(file->get(), &info) != 0) return false;
-    const IndexEntry found{number, static_cast<std::uint64_t>(info.st_size),
-                           hash_of_file(file->get(), folder.path_of(name))};
-    for (auto entry = begin; entry != entries_.end() && entry->number == number; ++entry)
-      if (*entry == found) return true;
+    return knows({number, static_cast<std::uint64_t>(info.st_size), hash_of_file(file->get(), folder.path_of(name))});
+  }
+
+  // A picture may have several entries, if runs were killed before it was there.
+  bool knows(const IndexEntry& picture) const {
+    auto entry = std::lower_bound(entries_.begin(), entries_.end(), picture.number,
+                                  [](const IndexEntry& a, std::int64_t b) { return a.number < b; });
+    for (; entry != entries_.end() && entry->number == picture.number; ++entry)
+      if (*entry == picture) return true;
     return false;
   }
 
