@@ -5,9 +5,11 @@
 
 #include "bihive/base/version.h"
 #include "bihive/io/cell_options.h"
+#include "bihive/scene/element_colours.h"
 #include "bihive/scene/light_points.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
+#include "bihive/scene/style.h"
 #include "commands/names.h"
 #include "film/film_plan.h"
 #include "server/addresses.h"
@@ -348,26 +350,55 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
               "--film: which one of its pictures, from 0; or name its frame by --frame");
 }
 
-// The words of a picture among those of `bihive film`: all but INPUT, and what decides how the film is made.
-std::vector<std::string> picture_words(const CLI::App& command, int argc, const char* const* argv) {
-  static const std::vector<std::string> of_film{
-      "-o",      "--output", "--frames", "--pictures", "--fps",     "--turntable", "--camera-keys", "--colour-range",
-      "--codec", "--shard",  "--join",   "--json",     "--threads", "--trajectory"};
+// An option as it stands on the command line, with its value: one word or two.
+struct GivenOption {
+  const CLI::Option* option = nullptr;
+  std::string name, value;
   std::vector<std::string> words;
-  for (int i = 2; i < argc; ++i) {
-    const std::string word = argv[i];
+};
+
+// The options among these words of a command. A word that is neither an option nor its value has no option.
+std::vector<GivenOption> given_options(const CLI::App& command, const std::vector<std::string>& words) {
+  std::vector<GivenOption> given;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    GivenOption& one = given.emplace_back();
+    one.words = {word};
     if (word.size() < 2 || word.front() != '-') continue;
-    const std::string name = word[1] == '-' ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    const CLI::Option* const option = command.get_option_no_throw(name);
-    if (option == nullptr) continue;
-    const bool in_next_word = option->get_items_expected_max() > 0 && name.size() == word.size() && i + 1 < argc;
-    const bool kept = std::find(of_film.begin(), of_film.end(), name) == of_film.end();
-    if (kept) words.push_back(word);
-    if (!in_next_word) continue;
-    ++i;
-    if (kept) words.emplace_back(argv[i]);
+    one.name = word[1] == '-' ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    one.option = command.get_option_no_throw(one.name);
+    if (one.option == nullptr) continue;
+    if (one.name.size() < word.size()) one.value = word.substr(one.name.size() + (word[1] == '-' ? 1 : 0));
+    if (one.option->get_items_expected_max() == 0 || one.name.size() < word.size() || i + 1 == words.size()) continue;
+    one.value = words[++i];
+    one.words.push_back(one.value);
   }
+  return given;
+}
+
+// Whether an option of `bihive film` belongs to each picture: all do but those that decide how the film is made.
+bool is_of_picture(const GivenOption& given) {
+  static const std::vector<std::string> of_film{
+      "-o",          "--output",      "--frames",       "--pictures",   "--fps",
+      "--turntable", "--camera-keys", "--colour-range", "--codec",      "--shard",
+      "--join",      "--json",        "--threads",      "--trajectory", "-h",
+      "--help"};
+  return given.option != nullptr && std::find(of_film.begin(), of_film.end(), given.name) == of_film.end();
+}
+
+std::vector<std::string> picture_words(const CLI::App& command, int argc, const char* const* argv) {
+  std::vector<std::string> words;
+  for (const GivenOption& given : given_options(command, {argv + 2, argv + argc}))
+    if (is_of_picture(given)) words.insert(words.end(), given.words.begin(), given.words.end());
   return words;
+}
+
+// Whether the value is a path, where the option takes one.
+bool names_file(const GivenOption& given) {
+  if (given.option->get_type_name().find("FILE") == std::string::npos) return false;
+  if (given.name == "--style") return !style_named(given.value);
+  if (given.name == "--element-colours") return !element_colours_called(given.value);
+  return true;
 }
 
 void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {
@@ -648,6 +679,47 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   return request;
 }
 
+// The options of each picture in the description of a film. They are data from a file: each must be one of a picture,
+// with a value that the command line would take, and may open no file that the user does not name here too.
+std::vector<std::string> words_of_film(const std::string& path, int argc, const char* const* argv) {
+  const FilmPlan plan = read_film_plan(path);
+  const auto refuse = [&](const std::string& what, const std::string& hint) {
+    fail({"its options hold " + what, path, 0, 0, hint});
+  };
+  CLI::App app;
+  FilmOptions film;
+  Request request = HelpText{"", false};
+  add_film(app, film, request, argc, argv);
+  const CLI::App& command = *app.get_subcommand("film");
+  const std::vector<GivenOption> given_here = given_options(command, {argv + 2, argv + argc});
+
+  std::vector<std::string> words;
+  for (const GivenOption& given : given_options(command, plan.asked.options)) {
+    if (!is_of_picture(given))
+      refuse(given.words.front() + ", which is no option of a picture", "make the film's description again");
+    if (names_file(given)) {
+      // The user's own word stands on the command line already.
+      const bool is_named = std::any_of(given_here.begin(), given_here.end(), [&](const GivenOption& here) {
+        return here.option == given.option && here.value == given.value;
+      });
+      if (is_named) continue;
+      refuse("the file " + given.value + " for " + given.name,
+             "if you trust it, give " + given.name + " " + given.value + " here too");
+    }
+    words.insert(words.end(), given.words.begin(), given.words.end());
+  }
+
+  // Their values, before the user's own words come to them.
+  std::vector<const char*> alone{argv[0], "film", "-o", "x.y4m", "demo"};
+  for (const std::string& word : words) alone.push_back(word.c_str());
+  try {
+    parse_words(static_cast<int>(alone.size()), alone.data(), /*with_film=*/false, {});
+  } catch (const Failure& failure) {
+    refuse("what no picture takes: " + failure.error.message, "make the film's description again");
+  }
+  return words;
+}
+
 }  // namespace
 
 Request parse_command_line(int argc, const char* const* argv, const Describe& describe) {
@@ -658,11 +730,11 @@ Request parse_command_line(int argc, const char* const* argv, const Describe& de
     if (render->picture) fail_usage("--picture is for --film", "leave it out, or name the film's FILE.json");
     return request;
   }
-  // A picture of a film has the film's options, and those that are given here behind them.
-  const FilmPlan plan = read_film_plan(render->film);
+  // A picture of a film has the film's options, and those that are given here after them.
+  const std::vector<std::string> of_film = words_of_film(render->film, argc, argv);
   std::vector<const char*> words{argv[0], argv[1]};
-  words.reserve(words.size() + plan.asked.options.size() + static_cast<std::size_t>(argc));
-  for (const std::string& word : plan.asked.options) words.push_back(word.c_str());
+  words.reserve(words.size() + of_film.size() + static_cast<std::size_t>(argc));
+  for (const std::string& word : of_film) words.push_back(word.c_str());
   words.insert(words.end(), argv + 2, argv + argc);
   return parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/true, {});
 }

@@ -101,6 +101,7 @@ void run_request(MpiTeam& team, cli::Request request) {
     FilmOptions joined;
     joined.picture.output = film->picture.output;
     joined.picture.json = film->picture.json;
+    joined.codec = film->codec;
     joined.join = true;
     joined.ms_of_shards = timer.elapsed_ms();
     for (const Bytes& one : done_by_ranks) joined.of_shards.add(ByteReader(one).take<cli::FilmTimes>());

@@ -8,8 +8,10 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <system_error>
 
+#include "bihive/base/place_file.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/render/memory.h"
@@ -17,6 +19,7 @@
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
 #include "commands/picture_settings.h"
+#include "film/codec_words.h"
 #include "film/ffmpeg.h"
 #include "film/film_folder.h"
 #include "film/film_plan.h"
@@ -66,25 +69,21 @@ void check_film_output(const FilmOptions& options, FilmKind kind) {
   // The folder of a sequence is made if it is missing.
   const std::filesystem::path folder = std::filesystem::path(described).parent_path();
   std::error_code code;
-  if (folder.empty() || std::filesystem::exists(folder, code)) check_outputs({described}, inputs);
-}
-
-// The path that a link leads to, also if nothing is there yet. check_outputs() has refused links without an end.
-std::string behind_links(const std::string& path) {
-  constexpr int kMostLinks = 40;
-  std::filesystem::path place = path;
-  std::error_code code;
-  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(place, code); ++i)
-    place = place.parent_path() / std::filesystem::read_symlink(place, code);
-  return place.string();
+  if (folder.empty() || std::filesystem::exists(folder, code))
+    check_outputs({described}, inputs);
+  else
+    value_or_fail(path_behind_links(folder.string()));
 }
 
 std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
-                                    const std::string& ffmpeg) {
+                                    const std::string& ffmpeg, const std::vector<std::int64_t>& wanted,
+                                    FilmFolder& folder) {
   const std::string& output = options.picture.output;
   const bool store = options.shard && kind != FilmKind::pictures;
-  if (store || kind == FilmKind::pictures) return open_sequence(plan, output, store, options.picture.dots_per_inch);
-  return kind == FilmKind::y4m ? open_y4m(plan, output) : open_encoded(plan, output, ffmpeg);
+  if (store || kind == FilmKind::pictures)
+    return open_sequence(folder,
+                         {output, store, options.shard.value_or(Shard{}), wanted, options.picture.dots_per_inch});
+  return kind == FilmKind::y4m ? open_y4m(plan, folder) : open_encoded(plan, output, ffmpeg, folder);
 }
 
 // The pictures of this run: its shard's, or all.
@@ -142,19 +141,60 @@ FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const Fi
                        const std::vector<std::int64_t>& wanted, const std::vector<std::int64_t>& missing,
                        FilmFolder& folder, FilmSink* sink, Team* team) {
   const auto nothing_is_whole = [&] {
-    return std::none_of(wanted.begin(), wanted.end(), [&](std::int64_t number) { return sink->has(number); });
+    return sink != nullptr &&
+           std::none_of(wanted.begin(), wanted.end(), [&](std::int64_t number) { return sink->has(number); });
   };
   try {
     const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink, team);
     if (!options.shard) sink->finish();
     return times;
   } catch (const Interrupted&) {
-    // The folder of a shard belongs to the others too.
-    if (!options.shard && nothing_is_whole()) folder.leave_nothing();
+    if (nothing_is_whole()) folder.leave_nothing();
     CancellableSection::leave_if_cancelled();
     throw;
   } catch (...) {
-    if (!options.shard && nothing_is_whole()) folder.leave_nothing();
+    if (nothing_is_whole()) folder.leave_nothing();
+    throw;
+  }
+}
+
+// The words for ffmpeg come from a file here, unless the user gives them again.
+void check_codec_of_shards(const FilmOptions& options, const FilmPlan& plan, const std::string& path) {
+  const std::string& codec = plan.asked.codec;
+  if (!options.codec.empty() && options.codec != codec)
+    fail({"the shards were made for another codec: " + (codec.empty() ? "the default one" : codec), path, 0, 0,
+          "leave --codec out, or give that one"});
+  if (!options.codec.empty()) return;
+  if (const Status status = check_codec_of_file(codec); !status)
+    fail({status.error().message, path, 0, 0, status.error().hint});
+}
+
+// The whole film of the shards' pictures. A signal leaves what is done for the next join.
+void encode_shards(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const FilmPlan& plan,
+                   const std::vector<std::int64_t>& all, FilmFolder& folder) {
+  const CancellableSection section;
+  try {
+    const std::unique_ptr<FilmSink> sink = open_sink(plan, options, kind, ffmpeg, all, folder);
+    Progress progress("joining");
+    for (const std::int64_t k : all) {
+      if (CancellableSection::token().cancelled()) {
+        sink->pause();
+        CancellableSection::leave_if_cancelled();
+      }
+      progress.update(static_cast<double>(k) / static_cast<double>(plan.asked.pictures));
+      if (sink->has(k)) continue;
+      const std::string path = shard_picture_path(options.picture.output, k);
+      PngFile file = value_or_fail(read_png(path));
+      if (file.image.width != plan.fixed.width_px || file.image.height != plan.fixed.height_px)
+        fail({"has another size than the film", path, 0, 0, "remove it, and run its shard again"});
+      FilmPicture picture;
+      picture.number = k;
+      picture.pixels = {file.image.width, file.image.height, 3, 8, std::move(file.image.rgb)};
+      sink->add(picture);
+    }
+    sink->finish();
+  } catch (const Interrupted&) {
+    CancellableSection::leave_if_cancelled();
     throw;
   }
 }
@@ -162,12 +202,16 @@ FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const Fi
 void join_shards(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg) {
   const Timer timer;
   const std::string& output = options.picture.output;
-  FilmFolder folder(output, kind != FilmKind::pictures);
+  FilmFolder folder(output, kind);
   if (!folder.kept())
     fail(
         {"there are no shards of this film", output, 0, 0, "make them first: bihive film INPUT -o OUTPUT --shard i/N"});
   const FilmPlan plan = *folder.kept();
-  const std::unique_ptr<FilmSink> shards = open_sequence(plan, output, kind != FilmKind::pictures, 0);
+  check_codec_of_shards(options, plan, folder.plan_path());
+  folder.begin(plan, /*alone=*/true);
+  std::vector<std::int64_t> all(static_cast<std::size_t>(plan.asked.pictures));
+  std::iota(all.begin(), all.end(), std::int64_t{0});
+  const std::unique_ptr<FilmSink> shards = open_sequence(folder, {output, kind != FilmKind::pictures, Shard{}, all, 0});
   std::int64_t missing = 0, first = -1;
   for (std::int64_t k = plan.asked.pictures - 1; k >= 0; --k)
     if (!shards->has(k)) {
@@ -180,30 +224,10 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
   FilmReport report;
   report.times = options.of_shards;
   report.kept = plan.asked.pictures - report.times.pictures;
-  if (kind != FilmKind::pictures) {
-    const CancellableSection section;
-    folder.take(plan, /*alone=*/true);
-    const std::unique_ptr<FilmSink> sink = open_sink(plan, options, kind, ffmpeg);
-    Progress progress("joining");
-    for (std::int64_t k = 0; k < plan.asked.pictures; ++k) {
-      if (CancellableSection::token().cancelled()) {
-        sink->pause();
-        CancellableSection::leave_if_cancelled();
-      }
-      progress.update(static_cast<double>(k) / static_cast<double>(plan.asked.pictures));
-      if (sink->has(k)) continue;
-      PngFile file = value_or_fail(read_png(shard_picture_path(output, k)));
-      if (file.image.width != plan.fixed.width_px || file.image.height != plan.fixed.height_px)
-        fail({"has another size than the film", shard_picture_path(output, k), 0, 0,
-              "remove it, and run its shard again"});
-      FilmPicture picture;
-      picture.number = k;
-      picture.pixels = {file.image.width, file.image.height, 3, 8, std::move(file.image.rgb)};
-      sink->add(picture);
-    }
-    sink->finish();
-    folder.finish(plan);
-  }
+  if (kind != FilmKind::pictures)
+    encode_shards(options, kind, ffmpeg, plan, all, folder);
+  else
+    shards->finish();
   report.all_ms = timer.elapsed_ms() + options.ms_of_shards;
   print_film_report(options, plan, report);
 }
@@ -250,15 +274,17 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
   CancellableSection::leave_if_cancelled();
   value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
   const bool writes = team == nullptr || team->rank() == 0;
-  std::unique_ptr<FilmSink> sink;
-  if (writes) folder.take(plan, /*alone=*/!options.shard);
-  try {
-    if (writes) sink = open_sink(plan, options, kind, ffmpeg);
-  } catch (...) {
-    if (!options.shard && !folder.kept()) folder.leave_nothing();
-    throw;
-  }
   const std::vector<std::int64_t> wanted = wanted_pictures(plan, options);
+  std::unique_ptr<FilmSink> sink;
+  if (writes) {
+    folder.begin(plan, /*alone=*/!options.shard);
+    try {
+      sink = open_sink(plan, options, kind, ffmpeg, wanted, folder);
+    } catch (const Interrupted&) {
+      CancellableSection::leave_if_cancelled();
+      throw;
+    }
+  }
   std::vector<std::int64_t> missing;
   if (writes)
     std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
@@ -269,7 +295,6 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
   FilmReport report;
   report.kept = static_cast<std::int64_t>(wanted.size() - missing.size());
   report.times = make_missing(source, plan, options, style, wanted, missing, folder, sink.get(), team);
-  if (!options.shard) folder.finish(plan);
   report.all_ms = timer.elapsed_ms();
   if (!options.silent) print_film_report(options, plan, report);
   // The rank that writes a picture counts it.
@@ -288,7 +313,7 @@ FilmTimes run_film(const FilmOptions& asked) {
   const std::string ffmpeg = kind == FilmKind::encoded && !options.shard ? find_ffmpeg() : "";
   check_film_output(options, kind);
   // A link stays, and the film is made beside the file that it leads to.
-  if (kind != FilmKind::pictures) options.picture.output = behind_links(options.picture.output);
+  if (kind != FilmKind::pictures) options.picture.output = value_or_fail(path_behind_links(options.picture.output));
   if (options.join) {
     join_shards(options, kind, ffmpeg);
     return {};
@@ -301,13 +326,14 @@ FilmTimes run_film(const FilmOptions& asked) {
   const FrameSource source = FrameSource::open(options.picture.input, style, !options.picture.style.name.empty());
   FilmPlan plan;
   plan.asked = film_asked_for(options, source.count());
-  FilmFolder folder(options.picture.output, kind != FilmKind::pictures);
+  FilmFolder folder(options.picture.output, kind);
   if (folder.kept()) {
     const std::string differs = difference(folder.kept()->asked, plan.asked);
     if (!differs.empty())
       fail({"holds pictures of another film: " + differs,
             kind == FilmKind::pictures ? plan_path(options.picture.output) : part_path(options.picture.output), 0, 0,
-            "remove it to begin anew, or name another output"});
+            std::string("remove it") + (kind == FilmKind::pictures ? " and its pictures" : "") +
+                " to begin anew, or name another output"});
     plan = *folder.kept();
   }
 

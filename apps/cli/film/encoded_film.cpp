@@ -1,12 +1,12 @@
 // A film that ffmpeg encodes, in segments, because a pipe into ffmpeg cannot go on after an end.
 //
-// FILE.part holds the segments, each named by its first picture and the first one behind it. A segment gets this name
-// when it is whole; a later run goes on behind the last one. In the end ffmpeg joins them without encoding them again.
+// FILE.part holds the segments, each named by its first picture and the first one after it. A segment gets this name
+// when it is whole and ffmpeg has counted its pictures; a later run goes on after the last one. Until then it has a
+// name that no other run gives, for a killed run's ffmpeg may still write. In the end ffmpeg joins the segments without
+// encoding them again.
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,8 +15,9 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
-#include "bihive/base/write_file.h"
+#include "film/codec_words.h"
 #include "film/ffmpeg.h"
+#include "film/film_folder.h"
 #include "film/film_sink.h"
 #include "film/system_failure.h"
 #include "support/failure.h"
@@ -28,6 +29,11 @@ namespace {
 // whole picture, which takes more room.
 constexpr double kSegmentMs = 15e3;
 
+constexpr const char* kUnfinished = "unfinished-";
+constexpr const char* kJoined = "film.joined-";
+constexpr const char* kList = "segments.txt";
+constexpr mode_t kForOwner = 0600;
+
 struct Segment {
   std::int64_t begin = 0, end = 0;
 };
@@ -36,35 +42,11 @@ std::string ending_of_film(const std::string& output) {
   return output.substr(output.rfind('.'));
 }
 
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words(1);
-  for (const char c : text)
-    if (c == ' ')
-      words.emplace_back();
-    else
-      words.back() += c;
-  words.erase(std::remove(words.begin(), words.end(), std::string()), words.end());
-  return words;
-}
-
-// Sides are even for H.264 with halved colours; the colours are those of screens.
-std::vector<std::string> default_codec(const std::string& ending) {
-  std::vector<std::string> words{"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv"};
-  const std::vector<std::string> codec =
-      ending == ".webm" ? words_of("-c:v libvpx-vp9 -crf 24 -b:v 0 -row-mt 1") : words_of("-c:v libx264 -crf 18");
-  words.insert(words.end(), codec.begin(), codec.end());
-  for (const char* word : {"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
-                           "bt709", "-color_range", "tv"})
-    words.emplace_back(word);
-  return words;
-}
-
 class EncodedFilm final : public FilmSink {
  public:
-  EncodedFilm(const FilmPlan& plan, std::string output, std::string ffmpeg)
-      : output_(std::move(output)),
-        folder_(part_path(output_)),
-        ending_(ending_of_film(output_)),
+  EncodedFilm(const FilmPlan& plan, const std::string& output, std::string ffmpeg, FilmFolder& film)
+      : film_(film),
+        ending_(ending_of_film(output)),
         ffmpeg_(std::move(ffmpeg)),
         pictures_(plan.asked.pictures),
         shortest_((plan.asked.rate.pictures + plan.asked.rate.seconds - 1) / plan.asked.rate.seconds) {
@@ -79,8 +61,8 @@ class EncodedFilm final : public FilmSink {
               "-i",
               "pipe:0",
               "-an"};
-    codec_ = plan.asked.codec.empty() ? default_codec(ending_) : words_of(plan.asked.codec);
-    find_segments();
+    codec_ = plan.asked.codec.empty() ? default_codec(ending_) : codec_words(plan.asked.codec);
+    if (film_.existing() != nullptr) find_segments(*film_.existing());
   }
 
   bool has(std::int64_t number) const override { return !segments_.empty() && number < segments_.back().end; }
@@ -104,49 +86,55 @@ class EncodedFilm final : public FilmSink {
   void finish() override {
     if (run_) end_segment();
     if (segments_.empty() || segments_.back().end != pictures_)
-      fail({"the film lacks pictures", folder_, 0, 0, "run the same again"});
-    std::string whole = segment_path(segments_.front());
-    if (segments_.size() > 1) whole = joined();
-    sync(whole);
-    if (std::rename(whole.c_str(), output_.c_str()) != 0) fail_of_system("cannot be written", output_, errno);
+      fail({"the film lacks pictures", film_.folder().path(), 0, 0, "run the same again"});
+    film_.finish(segments_.size() > 1 ? joined() : segment_name(segments_.front()));
   }
 
  private:
-  std::string segment_path(const Segment& segment) const { return folder_ + "/" + segment_name(segment); }
   std::string segment_name(const Segment& segment) const {
     return fmt::format("segment-{:08}-{:08}{}", segment.begin, segment.end, ending_);
   }
-  std::string unfinished_path() const { return folder_ + "/unfinished" + ending_; }
-  std::string log_path() const { return folder_ + "/ffmpeg.log"; }
 
-  // Those that follow each other from picture 0 on. Others go away, and what a killed run left.
-  void find_segments() {
+  // Those that follow each other from picture 0 on, and have their pictures. Others go away, and what killed runs left.
+  void find_segments(const OwnFolder& folder) {
     std::vector<Segment> found;
-    DIR* const folder = opendir(folder_.c_str());
-    if (folder == nullptr) fail_of_system("cannot be read", folder_, errno);
-    while (const dirent* const entry = readdir(folder)) {
+    for (const std::string& name : folder.names()) {
       long long begin = 0, end = 0;
-      if (std::sscanf(entry->d_name, "segment-%lld-%lld", &begin, &end) == 2 && begin < end)
-        if (const Segment one{begin, end}; segment_name(one) == entry->d_name) found.push_back(one);
+      if (std::sscanf(name.c_str(), "segment-%lld-%lld", &begin, &end) == 2 && begin < end)
+        if (const Segment one{begin, end}; segment_name(one) == name) found.push_back(one);
+      for (const char* const left : {kUnfinished, kJoined})
+        if (name.rfind(left, 0) == 0) folder.remove(name);
     }
-    closedir(folder);
     std::sort(found.begin(), found.end(), [](const Segment& a, const Segment& b) {
       return a.begin != b.begin ? a.begin < b.begin : a.end > b.end;
     });
     for (const Segment& one : found) {
-      if (one.begin == (segments_.empty() ? 0 : segments_.back().end) && one.end <= pictures_)
+      const bool follows = one.begin == (segments_.empty() ? 0 : segments_.back().end) && one.end <= pictures_;
+      if (follows && is_whole(folder, one))
         segments_.push_back(one);
       else
-        unlink(segment_path(one).c_str());
+        folder.remove(segment_name(one));
     }
-    unlink(unfinished_path().c_str());
+  }
+
+  bool is_whole(const OwnFolder& folder, const Segment& segment) const {
+    if (!folder.open_file(segment_name(segment), O_RDONLY)) return false;
+    try {
+      check_pictures(ffmpeg_, folder, segment_name(segment), segment.end - segment.begin);
+      return true;
+    } catch (const Failure&) {
+      return false;
+    }
   }
 
   void begin_segment() {
+    const OwnFolder& folder = film_.folder();
+    unfinished_ = kUnfinished + random_digits() + ending_;
+    film_.note_file(unfinished_);
     std::vector<std::string> words = input_;
     words.insert(words.end(), codec_.begin(), codec_.end());
-    words.push_back("file:" + unfinished_path());
-    run_ = std::make_unique<FfmpegRun>(ffmpeg_, words, log_path());
+    words.push_back(FfmpegRun::url(folder, unfinished_));
+    run_ = std::make_unique<FfmpegRun>(ffmpeg_, words, folder, FfmpegRun::Input::pictures);
     in_segment_ = 0;
     age_ = Timer();
   }
@@ -155,48 +143,59 @@ class EncodedFilm final : public FilmSink {
     // It is no run any more, also if it fails.
     const std::unique_ptr<FfmpegRun> run = std::move(run_);
     run->finish();
+    const OwnFolder& folder = film_.folder();
     const std::int64_t begin = segments_.empty() ? 0 : segments_.back().end;
     const Segment whole{begin, begin + in_segment_};
-    sync(unfinished_path());
-    if (std::rename(unfinished_path().c_str(), segment_path(whole).c_str()) != 0)
-      fail_of_system("ffmpeg has not written it", unfinished_path(), errno);
+    check_and_flush(folder, unfinished_, in_segment_);
+    folder.rename(unfinished_, segment_name(whole));
     segments_.push_back(whole);
+    film_.keep();
   }
 
   // The file's bytes are on the disk before its name says that it is whole.
-  void sync(const std::string& path) const {
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool good = file >= 0 && fsync(file) == 0;
-    const int code = errno;
-    if (file >= 0) close(file);
-    if (!good) fail_of_system("ffmpeg has not written it", path, code);
+  void check_and_flush(const OwnFolder& folder, const std::string& name, std::int64_t pictures) const {
+    const std::optional<Descriptor> file = folder.open_file(name, O_RDONLY);
+    if (!file)
+      fail_environment({"ffmpeg has not written the film that it was asked for, and did not say why", "", 0, 0,
+                        "see whether " + ffmpeg_ + " is the program that it should be"});
+    check_pictures(ffmpeg_, folder, name, pictures);
+    if (const int code = flush_to_disk(file->get()); code != 0)
+      fail_of_system("writing failed", folder.path_of(name), code);
   }
 
   // Paths in ffmpeg's list are relative to it.
   std::string joined() const {
+    const OwnFolder& folder = film_.folder();
     std::string list = "ffconcat version 1.0\n";
     for (const Segment& segment : segments_) list += "file " + segment_name(segment) + "\n";
-    const std::string list_path = folder_ + "/segments.txt", whole = folder_ + "/film" + ending_;
-    value_or_fail(write_file(list_path, list));
-    FfmpegRun(ffmpeg_, {"-f", "concat", "-safe", "0", "-i", "file:" + list_path, "-c", "copy", "file:" + whole},
-              log_path())
+    folder.remove(kList);
+    folder.write_new(kList, list, kForOwner);
+    std::string whole = kJoined + random_digits() + ending_;
+    FfmpegRun(ffmpeg_,
+              {"-f", "concat", "-safe", "0", "-i", FfmpegRun::url(folder, kList), "-c", "copy",
+               FfmpegRun::url(folder, whole)},
+              folder, FfmpegRun::Input::none)
         .finish();
+    check_and_flush(folder, whole, pictures_);
     return whole;
   }
 
-  std::string output_, folder_, ending_, ffmpeg_;
+  FilmFolder& film_;
+  std::string ending_, ffmpeg_;
   std::int64_t pictures_, shortest_;
   std::vector<std::string> input_, codec_;
   std::vector<Segment> segments_;
   std::unique_ptr<FfmpegRun> run_;
+  std::string unfinished_;
   std::int64_t in_segment_ = 0;
   Timer age_;
 };
 
 }  // namespace
 
-std::unique_ptr<FilmSink> open_encoded(const FilmPlan& plan, const std::string& output, const std::string& ffmpeg) {
-  return std::make_unique<EncodedFilm>(plan, output, ffmpeg);
+std::unique_ptr<FilmSink> open_encoded(const FilmPlan& plan, const std::string& output, const std::string& ffmpeg,
+                                       FilmFolder& film) {
+  return std::make_unique<EncodedFilm>(plan, output, ffmpeg, film);
 }
 
 }  // namespace bihive::cli

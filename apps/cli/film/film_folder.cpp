@@ -3,93 +3,222 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
-#include "bihive/base/write_file.h"
+#include "bihive/base/place_file.h"
+#include "film/picture_index.h"
 #include "film/system_failure.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
 namespace {
 
-bool exists(const std::string& path) {
-  return access(path.c_str(), F_OK) == 0;
+constexpr const char* kPlan = "film.json";
+constexpr const char* kDescription = "film.json.new";
+constexpr int kAttempts = 20;
+
+[[noreturn]] void fail_busy(const std::string& path) {
+  fail({"another run of bihive film works on this film", path, 0, 0, "wait for its end, or name another output"});
 }
 
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "" : path.substr(0, slash);
+[[noreturn]] void fail_in_the_way(const std::string& path) {
+  fail({"is in the place where the film would be made", path, 0, 0, "remove it, or name another output"});
 }
 
-// Whether there is more than what a shard that begins at this moment has made before its plan.
-bool holds_something(const std::string& folder) {
-  std::error_code code;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
-    const std::string name = entry.path().filename().string();
-    if (name != "lock" && name.rfind(".bihive-", 0) != 0) return true;
-  }
-  return static_cast<bool>(code);
+[[noreturn]] void fail_other_film(const std::string& path) {
+  fail({"another run has begun another film here", path, 0, 0, "name another output"});
+}
+
+bool holds_pictures(const OwnFolder& folder) {
+  const std::vector<std::string> names = folder.names();
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name.rfind("picture-", 0) == 0 || name.rfind("segment-", 0) == 0;
+  });
 }
 
 }  // namespace
 
-FilmFolder::FilmFolder(std::string output, bool parts)
-    : output_(std::move(output)),
-      folder_(parts ? part_path(output_) : folder_of(plan_path(output_))),
-      plan_(parts ? folder_ + "/film.json" : plan_path(output_)),
-      parts_(parts) {
-  const bool holds_else = parts && !exists(plan_) && exists(folder_) && holds_something(folder_);
-  // Another shard may have written its plan since.
-  if (exists(plan_))
-    kept_ = read_film_plan(plan_);
-  else if (holds_else)
-    fail({"is in the place where the film would be made", folder_, 0, 0, "remove it, or name another output"});
+FilmFolder::FilmFolder(std::string output, FilmKind kind) : output_(std::move(output)), kind_(kind) {
+  const bool parts = kind_ != FilmKind::pictures;
+  const std::string beside = cli::plan_path(output_);
+  path_ = parts ? part_path(output_) : folder_around(beside);
+  plan_name_ = parts ? kPlan : beside.substr(beside.rfind('/') + 1);
+  if (parts) parent_ = open_parent(folder_around(path_));
+
+  // What an earlier run has left.
+  folder_ = parts ? OwnFolder::open_private(path_) : OwnFolder::open_shared(path_);
+  if (!folder_) return;
+  if (std::optional<std::string> text = folder_->read(plan_name_)) {
+    plan_text_ = std::move(*text);
+    kept_ = parse_film_plan(plan_text_, plan_path());
+    return;
+  }
+  if (!parts) return;
+  // The rest of a killed run makes room for the new film.
+  if (!all_own(*folder_)) fail_in_the_way(path_);
+  folder_.reset();
 }
 
 FilmFolder::~FilmFolder() {
-  if (lock_ >= 0) close(lock_);
+  try {
+    if (!hidden_.empty()) remove_all();
+  } catch (const Failure&) {
+    // The next run removes it.
+  }
 }
 
-void FilmFolder::take(const FilmPlan& plan, bool alone) {
-  if (!folder_.empty() && mkdir(folder_.c_str(), 0777) == 0)
-    made_folder_ = folder_;
-  else if (!folder_.empty() && errno != EEXIST)
-    fail_of_system("cannot be made", folder_, errno);
-  if (parts_) lock(alone);
-  if (kept_) return;
-  value_or_fail(write_file(plan_, film_plan_to_json(plan)));
-  made_plan_ = true;
+std::string FilmFolder::plan_path() const {
+  return path_ == "." ? plan_name_ : path_ + "/" + plan_name_;
 }
 
-// The lock ends with the program, however that ends.
-void FilmFolder::lock(bool alone) {
-  const std::string path = folder_ + "/lock";
-  lock_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (lock_ < 0) fail_of_system("cannot be written", path, errno);
-  if (flock(lock_, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  fail({"another run of bihive film works on this film", folder_, 0, 0, "wait for its end, or name another output"});
+std::uint64_t FilmFolder::plan_hash() const {
+  return hash_of(plan_text_);
 }
 
-void FilmFolder::finish(const FilmPlan& plan) {
-  if (!parts_) return;
-  value_or_fail(write_file(plan_path(output_), film_plan_to_json(plan)));
-  std::error_code code;
-  std::filesystem::remove_all(folder_, code);
+void FilmFolder::begin(const FilmPlan& plan, bool alone) {
+  alone_ = alone;
+  if (!kept_) plan_text_ = film_plan_to_json(plan);
+  if (!kept_) return;
+  if (kind_ != FilmKind::pictures) lock();
+  ready_ = true;
+}
+
+const OwnFolder& FilmFolder::folder() {
+  if (ready_) return *folder_;
+  if (kind_ == FilmKind::pictures) {
+    make_for_sequence();
+  } else {
+    make_hidden();
+    // Shards meet in the folder.
+    if (!alone_) keep();
+  }
+  ready_ = true;
+  return *folder_;
+}
+
+void FilmFolder::make_for_sequence() {
+  if (!folder_) {
+    if (mkdir(path_.c_str(), 0777) == 0)
+      made_folder_ = true;
+    else if (errno != EEXIST)
+      fail_of_system("cannot be made", path_, errno);
+    folder_ = OwnFolder::open_shared(path_);
+    if (!folder_) fail_of_system("cannot be read", path_, ENOENT);
+  }
+  if (folder_->place_new(plan_name_, plan_text_, kOwnerWrites)) return note_file(plan_name_);
+  // Another shard was first.
+  const std::optional<std::string> text = folder_->read(plan_name_);
+  if (alone_ || !text || *text != plan_text_) fail_other_film(plan_path());
+}
+
+// Everything under a name that nobody can guess, for a killed run shall leave no FILE.part without a picture.
+void FilmFolder::make_hidden() {
+  const std::string around = folder_around(path_);
+  remove_leftovers(parent_.get(), around);
+  HiddenFolder made = make_hidden_folder(parent_.get(), around, alone_ ? LOCK_EX : LOCK_SH);
+  hidden_ = made.name;
+  folder_ = std::move(made.folder);
+  lock_ = std::move(made.lock);
+  removed_when_ended_.emplace_back(hidden_, parent_.get());
+  removed_when_ended_.emplace_back(kLockOfFilm, folder_->descriptor());
+  folder_->set_path(path_);
+  note_file(kPlan);
+  folder_->write_new(kPlan, plan_text_, kOfOutputs);
+}
+
+void FilmFolder::note_file(const std::string& name) {
+  made_files_.push_back(name);
+  if (!hidden_.empty()) removed_when_ended_.emplace_back(name, folder_->descriptor());
+}
+
+void FilmFolder::keep() {
+  for (int attempt = 0; !hidden_.empty() && attempt < kAttempts; ++attempt) {
+    if (renameat(parent_.get(), hidden_.c_str(), parent_.get(), part_name().c_str()) == 0) {
+      hidden_.clear();
+      removed_when_ended_.clear();
+      return;
+    }
+    if (errno != EEXIST && errno != ENOTEMPTY && errno != ENOTDIR) fail_of_system("cannot be made", path_, errno);
+    std::optional<OwnFolder> other = OwnFolder::open_private(path_);
+    if (!other) continue;
+    if (other->has(kPlan))
+      join_other(std::move(*other));
+    else
+      remove_rest(*other);
+  }
+  if (!hidden_.empty()) fail_busy(path_);
+}
+
+// A killed run has left the folder without a description.
+void FilmFolder::remove_rest(const OwnFolder& rest) const {
+  if (!all_own(rest)) fail_in_the_way(path_);
+  const std::optional<Descriptor> lock = lock_folder(rest, LOCK_EX);
+  if (!lock) fail_busy(path_);
+  remove_own_files(rest);
+  unlinkat(parent_.get(), part_name().c_str(), AT_REMOVEDIR);
+}
+
+// Another run has made FILE.part meanwhile.
+void FilmFolder::join_other(OwnFolder other) {
+  if (alone_) fail_busy(path_);
+  const std::optional<std::string> text = other.read(kPlan);
+  if (!text || *text != plan_text_) fail_other_film(path_);
+  remove_all();
+  folder_ = std::move(other);
+  lock();
+}
+
+void FilmFolder::lock() {
+  std::optional<Descriptor> file = lock_folder(*folder_, alone_ ? LOCK_EX : LOCK_SH);
+  if (!file) fail_busy(path_);
+  lock_ = std::move(*file);
+  // Another run may have finished the film since.
+  struct stat opened {};
+  struct stat named {};
+  if (fstat(folder_->descriptor(), &opened) != 0 ||
+      fstatat(parent_.get(), part_name().c_str(), &named, AT_SYMLINK_NOFOLLOW) != 0 || opened.st_ino != named.st_ino ||
+      opened.st_dev != named.st_dev)
+    fail({"another run has just ended, and taken its folder away", path_, 0, 0, "run the same again"});
+}
+
+void FilmFolder::finish(const std::string& film) {
+  // The description comes first: a run that is killed before the film follows goes on, and loses nothing.
+  folder_->remove(kDescription);
+  folder_->write_new(kDescription, plan_text_, kOfOutputs);
+  value_or_fail(place_file(folder_->descriptor(), kDescription, cli::plan_path(output_), output_));
+  value_or_fail(place_file(folder_->descriptor(), film, output_));
+  remove_all();
+}
+
+// Under its hidden name a folder that is removed in part is no film that could go on. What bihive has not made stays.
+void FilmFolder::remove_all() {
+  if (hidden_.empty() && all_own(*folder_)) {
+    const std::string name = hidden_name();
+    if (renameat(parent_.get(), part_name().c_str(), parent_.get(), name.c_str()) == 0) hidden_ = name;
+  }
+  remove_own_files(*folder_, made_files_);
+  const std::string name = hidden_.empty() ? part_name() : hidden_;
+  unlinkat(parent_.get(), name.c_str(), AT_REMOVEDIR);
+  hidden_.clear();
+  removed_when_ended_.clear();
+  folder_.reset();
+  lock_ = Descriptor();
+  ready_ = false;
 }
 
 void FilmFolder::leave_nothing() {
-  std::error_code code;
-  if (parts_) {
-    if (made_plan_) std::filesystem::remove_all(folder_, code);
+  if (!folder_) return;
+  if (kind_ != FilmKind::pictures) {
+    // Shards may have pictures there.
+    const bool is_last = alone_ || flock(lock_.get(), LOCK_EX | LOCK_NB) == 0;
+    if (!hidden_.empty() || (is_last && !holds_pictures(*folder_))) remove_all();
     return;
   }
-  if (made_plan_) unlink(plan_.c_str());
-  if (!made_folder_.empty()) rmdir(made_folder_.c_str());
+  for (const std::string& name : made_files_) folder_->remove(name);
+  if (made_folder_) rmdir(path_.c_str());
 }
 
 }  // namespace bihive::cli

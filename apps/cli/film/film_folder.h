@@ -1,42 +1,79 @@
-// The leavings of a run for the next one: the film's description, and the folder FILE.part of a film in one file.
+// The folder of a film that is being made: FILE.part of a film in one file, the folder of its pictures of a sequence.
+//
+// Nothing of it is there before a picture is whole. Until then FILE.part has a name that nobody can guess; a run that
+// is killed by then leaves no more than that, and the next run removes it.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "film/film_plan.h"
 #include "film/film_sink.h"
+#include "film/hidden_folder.h"
+#include "film/own_folder.h"
+#include "support/interrupt.h"
 
 namespace bihive::cli {
 
+/// All functions fail with kBadInput.
 class FilmFolder {
  public:
-  /// `output` is the film's. With `parts` there is a folder FILE.part, which holds the description until the film is
-  /// whole. Fails with kBadInput if something else is in its place, or if another run works on the film.
-  FilmFolder(std::string output, bool parts);
+  /// `output` is the film's, its links followed. Fails if something else is in the place of the folder, or if it may
+  /// not be trusted.
+  FilmFolder(std::string output, FilmKind kind);
   ~FilmFolder();
   FilmFolder(const FilmFolder&) = delete;
   FilmFolder& operator=(const FilmFolder&) = delete;
 
   /// The description that an earlier run has left.
   const std::optional<FilmPlan>& kept() const { return kept_; }
-  /// Takes the place for this run: makes the folders and writes the description. `alone`: no other run may work on the
-  /// film meanwhile; the shards of a film share it.
-  void take(const FilmPlan& plan, bool alone);
-  /// The film is whole: its description takes its place beside it, and the folder goes away.
-  void finish(const FilmPlan& plan);
+  /// Its path: FILE.part/film.json, or run/film.json.
+  std::string plan_path() const;
+  /// What this run makes: the kept plan, or a new one. `alone`: no other run may work on the film meanwhile; the shards
+  /// of a film share it. Makes nothing.
+  void begin(const FilmPlan& plan, bool alone);
+  /// Of the description's bytes.
+  std::uint64_t plan_hash() const;
+
+  /// The folder, if it is there.
+  const OwnFolder* existing() const { return folder_ ? &*folder_ : nullptr; }
+  /// The folder; it is made, with the description.
+  const OwnFolder& folder();
+  /// A picture is whole: what there is stays for the next run, so the folder takes its name.
+  void keep();
+  /// A file of this run, which goes away if no picture becomes whole.
+  void note_file(const std::string& name);
+
+  /// `film` in the folder is the whole film: it and its description take their places, and the folder goes away.
+  void finish(const std::string& film);
   /// Leaves nothing behind if no picture is whole.
   void leave_nothing();
 
  private:
-  void lock(bool alone);
+  void make_for_sequence();
+  void make_hidden();
+  void remove_rest(const OwnFolder& rest) const;
+  void join_other(OwnFolder other);
+  void lock();
+  void remove_all();
+  std::string part_name() const { return path_.substr(path_.rfind('/') + 1); }
 
-  std::string output_, folder_, plan_;
-  bool parts_;
+  std::string output_;
+  FilmKind kind_;
+  std::string path_;       // of the folder
+  std::string plan_name_;  // in it
+  Descriptor parent_;      // of FILE.part
+  std::optional<OwnFolder> folder_;
   std::optional<FilmPlan> kept_;
-  bool made_plan_ = false;
-  std::string made_folder_;  // of a sequence; empty: it was there
-  int lock_ = -1;
+  std::string plan_text_;
+  bool alone_ = false, ready_ = false;
+  std::string hidden_;  // the name of FILE.part before a picture is whole; empty: it has its own
+  std::deque<RemovedWhenEnded> removed_when_ended_;
+  bool made_folder_ = false;
+  std::vector<std::string> made_files_;
+  Descriptor lock_;
 };
 
 }  // namespace bihive::cli

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
 #include "bihive/scene/names.h"
+#include "commands/names.h"
 #include "commands/picture_settings.h"
 #include "support/failure.h"
 
@@ -17,6 +21,11 @@ using nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
 
+// The limits of the command line's options.
+constexpr std::int64_t kLargestSide = 65535;
+constexpr double kMostTurntableDeg = 1e6;
+constexpr std::int64_t kLastFrame = std::numeric_limits<std::int64_t>::max();
+
 ordered_json vector_json(Vec3d v) {
   return {v.x, v.y, v.z};
 }
@@ -25,13 +34,24 @@ Vec3d vector_of(const ordered_json& value) {
   return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
 }
 
+// A number with a fraction, or one that is too large, is none.
+std::int64_t whole_of(const ordered_json& value, std::int64_t least, std::int64_t most) {
+  const bool fits = value.is_number_integer() &&
+                    (!value.is_number_unsigned() || value.get<std::uint64_t>() <= static_cast<std::uint64_t>(most));
+  if (!fits || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
+    throw std::out_of_range("whole number");
+  return value.get<std::int64_t>();
+}
+
 ordered_json range_json(const ColourRange& range) {
   return range ? ordered_json{range->first, range->second} : ordered_json();
 }
 
 ColourRange range_of(const ordered_json& value) {
   if (value.is_null()) return std::nullopt;
-  return std::pair{value.at(0).get<double>(), value.at(1).get<double>()};
+  const std::pair range{value.at(0).get<double>(), value.at(1).get<double>()};
+  if (range.first > range.second) throw std::out_of_range("range");
+  return range;
 }
 
 ordered_json camera_json(const Camera& camera) {
@@ -81,9 +101,9 @@ FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   asked.program = value.at("program").get<std::string>();
   asked.input = value.at("input");
   const ordered_json& frames = value.at("frames");
-  asked.frames = {frames.at("first").get<std::int64_t>(), frames.at("step").get<std::int64_t>(),
-                  frames.at("count").get<std::int64_t>()};
-  asked.pictures = value.at("pictures").get<std::int64_t>();
+  asked.frames = {whole_of(frames.at("first"), 0, kLastFrame), whole_of(frames.at("step"), 1, kLastFrame),
+                  whole_of(frames.at("count"), 1, kMostPictures)};
+  asked.pictures = whole_of(value.at("pictures"), 1, kMostPictures);
   asked.rate = value_or_fail(frame_rate_from(value.at("fps").get<std::string>()));
   asked.options = value.at("options").get<std::vector<std::string>>();
   asked.path.turntable_deg = value.at("turntable_deg").get<double>();
@@ -91,15 +111,17 @@ FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
     asked.path.keys = value_or_fail(parse_camera_keys(value.at("camera").dump(), path));
   asked.range_of_colours = value.at("colour_range").get<std::string>();
   asked.codec = value.at("codec").get<std::string>();
-  if (asked.frames.first < 0 || asked.frames.step < 1 || asked.frames.count < 1 || asked.pictures < 1)
-    throw std::out_of_range("frames");
+  if (asked.frames.count > 1 && asked.frames.count != asked.pictures) throw std::out_of_range("pictures");
+  if (asked.frames.count - 1 > (kLastFrame - asked.frames.first) / asked.frames.step) throw std::out_of_range("frames");
+  if (!(std::abs(asked.path.turntable_deg) <= kMostTurntableDeg)) throw std::out_of_range("turntable_deg");
+  if (!value_named(kRangesOfColours, asked.range_of_colours)) throw std::out_of_range("colour_range");
   return asked;
 }
 
 FilmPlan::Fixed fixed_of(const ordered_json& value) {
   FilmPlan::Fixed fixed;
-  fixed.width_px = value.at("size_px").at(0).get<int>();
-  fixed.height_px = value.at("size_px").at(1).get<int>();
+  fixed.width_px = static_cast<int>(whole_of(value.at("size_px").at(0), 1, kLargestSide));
+  fixed.height_px = static_cast<int>(whole_of(value.at("size_px").at(1), 1, kLargestSide));
   fixed.camera = camera_of(value.at("camera"));
   if (!check_camera(fixed.camera)) throw std::out_of_range("camera");
   fixed.range_of_style = range_of(value.at("range_of_style"));
@@ -122,7 +144,10 @@ std::string film_plan_to_json(const FilmPlan& plan) {
 }
 
 FilmPlan read_film_plan(const std::string& path) {
-  const std::string text = value_or_fail(read_file(path));
+  return parse_film_plan(value_or_fail(read_file(path)), path);
+}
+
+FilmPlan parse_film_plan(const std::string& text, const std::string& path) {
   try {
     const Result<ordered_json> parsed = json_from_text<ordered_json>(text, path);
     const ordered_json document = parsed ? *parsed : ordered_json();

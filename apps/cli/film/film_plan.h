@@ -41,8 +41,13 @@ struct FilmPlan {
 
 std::string film_plan_to_json(const FilmPlan& plan);
 
-/// Fails with kBadInput if the file is no such description.
+/// No film has more pictures.
+constexpr std::int64_t kMostPictures = 100'000'000;
+
+/// Fails with kBadInput if the file is no such description, or has numbers that no film has.
 FilmPlan read_film_plan(const std::string& path);
+/// The same of its bytes; `path` is for messages.
+FilmPlan parse_film_plan(const std::string& text, const std::string& path);
 
 /// The difference of two wishes, for a message: "its frames are ..., not ..."; empty: nothing.
 std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked);

@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bihive/image/png.h"
 #include "film/film_plan.h"
 
 namespace bihive::cli {
+
+class FilmFolder;
 
 /// A finished picture.
 struct FilmPicture {
@@ -50,11 +53,20 @@ std::string part_path(const std::string& output);
 /// A picture of a shard there, until bihive film --join takes it.
 std::string shard_picture_path(const std::string& output, std::int64_t number);
 
-/// `dots_per_inch`: as for encode_png(). `store`: pictures of a shard, which wait as PNG files whatever the kind is.
-std::unique_ptr<FilmSink> open_sequence(const FilmPlan& plan, const std::string& output, bool store,
-                                        double dots_per_inch);
-std::unique_ptr<FilmSink> open_y4m(const FilmPlan& plan, const std::string& output);
-/// `ffmpeg`: the program's path. Needs the folder part_path().
-std::unique_ptr<FilmSink> open_encoded(const FilmPlan& plan, const std::string& output, const std::string& ffmpeg);
+/// A film as PNG files.
+struct SequenceForm {
+  std::string output;
+  bool store = false;                ///< pictures of a shard, which wait in part_path() whatever the kind is
+  Shard shard;                       ///< that draws them
+  std::vector<std::int64_t> wanted;  ///< its pictures
+  double dots_per_inch = 0;          ///< as for encode_png()
+};
+
+/// All of these make the folder when the first picture comes. They fail where something else has the name of a picture.
+std::unique_ptr<FilmSink> open_sequence(FilmFolder& film, SequenceForm form);
+std::unique_ptr<FilmSink> open_y4m(const FilmPlan& plan, FilmFolder& film);
+/// `ffmpeg`: the program's path.
+std::unique_ptr<FilmSink> open_encoded(const FilmPlan& plan, const std::string& output, const std::string& ffmpeg,
+                                       FilmFolder& film);
 
 }  // namespace bihive::cli

@@ -26,8 +26,6 @@ using nlohmann::ordered_json;
 // The seconds of a film that shows one frame from all sides.
 constexpr double kSecondsOfTurn = 10;
 
-constexpr std::int64_t kMostPictures = 100'000'000;
-
 // A file by its path, size and time; a name for anything else.
 ordered_json described_file(const std::string& path) {
   ordered_json object = {{"path", path}};

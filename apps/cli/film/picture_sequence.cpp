@@ -1,46 +1,173 @@
 // A film as PNG files: the sequence that the user asked for, or the pictures of a shard.
 
-#include <unistd.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <optional>
 #include <utility>
 
 #include "bihive/base/write_file.h"
+#include "film/film_folder.h"
 #include "film/film_sink.h"
+#include "film/picture_index.h"
+#include "film/system_failure.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
 namespace {
 
+std::string last_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+std::uint64_t hash_of_file(int file, const std::string& path) {
+  std::uint64_t hash = hash_of("");
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t count = read(file, buffer, sizeof(buffer));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_of_system("cannot be read", path, errno);
+    if (count == 0) return hash;
+    hash = hash_of({buffer, static_cast<std::size_t>(count)}, hash);
+  }
+}
+
 class PictureSequence final : public FilmSink {
  public:
-  PictureSequence(std::string output, bool store, double dots_per_inch)
-      : output_(std::move(output)), store_(store), dots_per_inch_(dots_per_inch) {}
+  PictureSequence(FilmFolder& film, SequenceForm form) : film_(film), form_(std::move(form)) {
+    prefix_ = form_.store ? "" : last_name(plan_path(form_.output));
+    if (!form_.store) prefix_.resize(prefix_.size() - std::string("film.json").size());
+    index_name_ = index_name(prefix_, form_.shard.index, form_.shard.count);
+    if (film_.existing() == nullptr) return;
+    read_indices(*film_.existing());
+    find_pictures(*film_.existing());
+    // Somebody has removed the film's description alone.
+    if (!whole_.empty()) film_.folder();
+  }
 
-  // A picture is written whole or not at all, and the film's description is that of this film.
-  bool has(std::int64_t number) const override { return access(path_of(number).c_str(), F_OK) == 0; }
+  bool has(std::int64_t number) const override {
+    return number <= last_added_ || std::binary_search(whole_.begin(), whole_.end(), number);
+  }
 
   void add(const FilmPicture& picture) override {
-    const std::string bytes = value_or_fail(encode_png(picture.pixels, picture.text, dots_per_inch_));
-    value_or_fail(write_file(path_of(picture.number), bytes));
+    const std::string bytes = value_or_fail(encode_png(picture.pixels, picture.text, form_.dots_per_inch));
+    const OwnFolder& folder = film_.folder();
+    if (!index_) open_index(folder);
+    // The index knows the picture before it is there, so a kill leaves no picture that it does not know.
+    const IndexEntry entry{picture.number, bytes.size(), hash_of(bytes)};
+    if (!knows(entry)) append(index_line(entry));
+    const std::string name = name_of(picture.number);
+    if (!folder.place_new(name, bytes, kOfOutputs)) refuse(folder.path_of(name));
+    last_added_ = picture.number;
+    film_.keep();
   }
 
   void pause() override {}
-  void finish() override {}
 
- private:
-  std::string path_of(std::int64_t number) const {
-    return store_ ? shard_picture_path(output_, number) : picture_path(output_, number);
+  // One index for the whole sequence.
+  void finish() override {
+    if (form_.store || indices_.empty() || (indices_.size() == 1 && indices_.front() == index_name(prefix_, 0, 1)))
+      return;
+    const OwnFolder& folder = film_.folder();
+    if (!index_) open_index(folder);
+    std::string lines;
+    for (const IndexEntry& entry : entries_)
+      if (std::binary_search(whole_.begin(), whole_.end(), entry.number)) lines += index_line(entry);
+    append(lines);
+    for (const std::string& name : indices_)
+      if (name != index_name_) folder.remove(name);
   }
 
-  std::string output_;
-  bool store_;
-  double dots_per_inch_;
+ private:
+  std::string name_of(std::int64_t number) const {
+    return last_name(form_.store ? shard_picture_path(form_.output, number) : picture_path(form_.output, number));
+  }
+
+  [[noreturn]] static void refuse(const std::string& path) {
+    fail({"is there already, and is no picture that this film has made", path, 0, 0,
+          "remove it with what belongs to it, or name another output"});
+  }
+
+  // Those of other shards too, and only those of this film.
+  void read_indices(const OwnFolder& folder) {
+    for (const std::string& name : folder.names()) {
+      if (!is_index_name(prefix_, name)) continue;
+      const std::optional<std::string> text = folder.read(name);
+      if (!text) continue;
+      const auto found = index_entries(*text, film_.plan_hash());
+      if (!found) continue;
+      indices_.push_back(name);
+      entries_.insert(entries_.end(), found->begin(), found->end());
+    }
+    std::sort(entries_.begin(), entries_.end(),
+              [](const IndexEntry& a, const IndexEntry& b) { return a.number < b.number; });
+  }
+
+  // A picture that is there is one of the film, or it is refused.
+  void find_pictures(const OwnFolder& folder) {
+    for (const std::int64_t number : form_.wanted) {
+      const std::string name = name_of(number);
+      if (!folder.has(name)) continue;
+      if (!is_of_film(folder, name, number)) refuse(folder.path_of(name));
+      whole_.push_back(number);
+    }
+  }
+
+  bool is_of_film(const OwnFolder& folder, const std::string& name, std::int64_t number) const {
+    const std::optional<Descriptor> file = folder.open_picture(name);
+    struct stat info {};
+    if (!file || fstat(file->get(), &info) != 0) return false;
+    return knows({number, static_cast<std::uint64_t>(info.st_size), hash_of_file(file->get(), folder.path_of(name))});
+  }
+
+  // A picture may have several entries, if runs were killed before it was there.
+  bool knows(const IndexEntry& picture) const {
+    auto entry = std::lower_bound(entries_.begin(), entries_.end(), picture.number,
+                                  [](const IndexEntry& a, std::int64_t b) { return a.number < b; });
+    for (; entry != entries_.end() && entry->number == picture.number; ++entry)
+      if (*entry == picture) return true;
+    return false;
+  }
+
+  // The lock ends with the program. An index of another film, which lies there without that film's description, goes
+  // away.
+  void open_index(const OwnFolder& folder) {
+    if (folder.write_new(index_name_, "", kOwnerWrites)) film_.note_file(index_name_);
+    index_ = folder.open_file(index_name_, O_RDWR | O_APPEND);
+    const std::string path = folder.path_of(index_name_);
+    if (!index_) fail_of_system("cannot be written", path, ENOENT);
+    if (flock(index_->get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      fail({"another run of bihive film works on this film", path, 0, 0, "wait for its end, or name another output"});
+    const std::string text = value_or_fail(read_descriptor(index_->get(), path));
+    const bool is_of_film = index_entries(text, film_.plan_hash()).has_value();
+    if (ftruncate(index_->get(), is_of_film ? static_cast<off_t>(whole_lines(text)) : 0) != 0)
+      fail_of_system("cannot be written", path, errno);
+    if (!is_of_film) append(index_head(film_.plan_hash()));
+  }
+
+  void append(const std::string& lines) {
+    int code = write_whole(index_->get(), lines);
+    if (code == 0) code = flush_to_disk(index_->get());
+    if (code != 0) fail_of_system("writing failed", index_name_, code);
+  }
+
+  FilmFolder& film_;
+  SequenceForm form_;
+  std::string prefix_, index_name_;
+  std::vector<std::string> indices_;
+  std::vector<IndexEntry> entries_;  // by rising number
+  std::vector<std::int64_t> whole_;  // rising
+  std::int64_t last_added_ = -1;
+  std::optional<Descriptor> index_;
 };
 
 }  // namespace
 
-std::unique_ptr<FilmSink> open_sequence(const FilmPlan&, const std::string& output, bool store, double dots_per_inch) {
-  return std::make_unique<PictureSequence>(output, store, dots_per_inch);
+std::unique_ptr<FilmSink> open_sequence(FilmFolder& film, SequenceForm form) {
+  return std::make_unique<PictureSequence>(film, std::move(form));
 }
 
 }  // namespace bihive::cli

@@ -8,11 +8,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <utility>
 
+#include "film/film_folder.h"
 #include "film/film_sink.h"
 #include "film/system_failure.h"
 #include "support/failure.h"
@@ -35,71 +34,75 @@ std::string planes_of(const PngPixels& pixels) {
   return bytes;
 }
 
+constexpr const char* kName = "film.y4m";
+
 class Y4mFilm final : public FilmSink {
  public:
-  Y4mFilm(const FilmPlan& plan, std::string output)
-      : output_(std::move(output)), path_(part_path(output_) + "/film.y4m") {
+  Y4mFilm(const FilmPlan& plan, FilmFolder& film) : film_(film) {
     head_ = fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C444\n", plan.fixed.width_px, plan.fixed.height_px,
                         plan.asked.rate.pictures, plan.asked.rate.seconds);
     picture_bytes_ = std::int64_t{3} * plan.fixed.width_px * plan.fixed.height_px + 6;
-  }
-
-  /// Once, before all others. A failure here leaves no file open.
-  void begin() {
-    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) fail_of_system("cannot be written", path_, errno);
-    keep_whole_pictures();
-  }
-  ~Y4mFilm() override {
-    if (file_ >= 0) close(file_);
+    if (film_.existing() != nullptr) begin(*film_.existing());
   }
 
   bool has(std::int64_t number) const override { return number < whole_; }
 
   void add(const FilmPicture& picture) override {
+    if (!file_) {
+      const OwnFolder& folder = film_.folder();
+      film_.note_file(kName);
+      begin(folder);
+    }
     write_all(kFrameHead + planes_of(picture.pixels));
     ++whole_;
+    film_.keep();
   }
 
   void pause() override {}
 
   void finish() override {
-    if (fsync(file_) != 0 || std::rename(path_.c_str(), output_.c_str()) != 0)
-      fail_of_system("cannot be written", output_, errno);
+    if (!file_) begin(film_.folder());
+    if (const int code = flush_to_disk(file_.get()); code != 0) fail_of_system("writing failed", path_, code);
+    film_.finish(kName);
   }
 
  private:
-  // The rest behind the last whole picture, left by a killed program, goes away.
+  // Made as ffmpeg makes its files; the folder is the owner's alone.
+  void begin(const OwnFolder& folder) {
+    path_ = folder.path_of(kName);
+    folder.write_new(kName, "", kOfOutputs);
+    std::optional<Descriptor> file = folder.open_file(kName, O_RDWR);
+    if (!file) fail_of_system("cannot be written", path_, ENOENT);
+    file_ = std::move(*file);
+    keep_whole_pictures();
+  }
+
+  // The rest after the last whole picture, left by a killed program, goes away.
   void keep_whole_pictures() {
     struct stat found {};
-    if (fstat(file_, &found) != 0) fail_of_system("cannot be read", path_, errno);
+    if (fstat(file_.get(), &found) != 0) fail_of_system("cannot be read", path_, errno);
     const auto head_bytes = static_cast<std::int64_t>(head_.size());
     whole_ = found.st_size < head_bytes ? 0 : (found.st_size - head_bytes) / picture_bytes_;
     const std::int64_t kept = found.st_size < head_bytes ? 0 : head_bytes + whole_ * picture_bytes_;
-    if (ftruncate(file_, kept) != 0 || lseek(file_, 0, SEEK_END) < 0) fail_of_system("cannot be written", path_, errno);
+    if (ftruncate(file_.get(), kept) != 0 || lseek(file_.get(), 0, SEEK_END) < 0)
+      fail_of_system("cannot be written", path_, errno);
     if (kept == 0) write_all(head_);
   }
 
   void write_all(const std::string& bytes) {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-      const ssize_t written = write(file_, bytes.data() + done, bytes.size() - done);
-      if (written < 0 && errno != EINTR) fail_of_system("writing failed", path_, errno);
-      if (written > 0) done += static_cast<std::size_t>(written);
-    }
+    if (const int code = write_whole(file_.get(), bytes); code != 0) fail_of_system("writing failed", path_, code);
   }
 
-  std::string output_, path_, head_;
+  FilmFolder& film_;
+  std::string path_, head_;
   std::int64_t picture_bytes_ = 0, whole_ = 0;
-  int file_ = -1;
+  Descriptor file_;
 };
 
 }  // namespace
 
-std::unique_ptr<FilmSink> open_y4m(const FilmPlan& plan, const std::string& output) {
-  auto film = std::make_unique<Y4mFilm>(plan, output);
-  film->begin();
-  return film;
+std::unique_ptr<FilmSink> open_y4m(const FilmPlan& plan, FilmFolder& film) {
+  return std::make_unique<Y4mFilm>(plan, film);
 }
 
 }  // namespace bihive::cli

@@ -1,5 +1,6 @@
 #include "support/interrupt.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -31,14 +32,22 @@ std::int64_t now_ms() {
 }
 
 // The files to remove; the first byte is 0 if there is none. No command writes more at a time.
-constexpr int kMostUnfinished = 4;
+constexpr int kMostUnfinished = 8;
 char g_unfinished[kMostUnfinished][PATH_MAX];
+int g_folders[kMostUnfinished];
+
+// The process groups to end; 0: none.
+constexpr std::size_t kMostGroups = 2;
+std::atomic<int> g_groups[kMostGroups];
 
 }  // namespace
 
 void remove_unfinished() {
-  for (const auto& path : g_unfinished)
-    if (path[0] != 0) unlink(path);
+  for (const auto& group : g_groups)
+    if (const int number = group.load(); number > 0) kill(-number, SIGKILL);
+  for (int i = kMostUnfinished - 1; i >= 0; --i)
+    if (g_unfinished[i][0] != 0 && unlinkat(g_folders[i], g_unfinished[i], 0) != 0)
+      unlinkat(g_folders[i], g_unfinished[i], AT_REMOVEDIR);
 }
 
 namespace {
@@ -116,10 +125,12 @@ StreamSection::~StreamSection() {
   if (active_) g_section.store(before_);
 }
 
-RemovedWhenEnded::RemovedWhenEnded(const std::string& path) {
+RemovedWhenEnded::RemovedWhenEnded(const std::string& path, int folder) {
   if (path.empty() || path.size() >= PATH_MAX) return;
-  for (auto& place : g_unfinished) {
+  for (int i = 0; i < kMostUnfinished; ++i) {
+    char* const place = g_unfinished[i];
     if (place[0] != 0) continue;
+    g_folders[i] = folder < 0 ? AT_FDCWD : folder;
     // The first byte comes last, so that a signal finds the whole path.
     std::memcpy(place + 1, path.c_str() + 1, path.size());
     std::atomic_signal_fence(std::memory_order_release);
@@ -130,6 +141,16 @@ RemovedWhenEnded::RemovedWhenEnded(const std::string& path) {
 }
 RemovedWhenEnded::~RemovedWhenEnded() {
   if (place_ != nullptr) place_[0] = 0;
+}
+
+KilledWhenEnded::KilledWhenEnded(int group) : at_(kMostGroups) {
+  for (std::size_t i = 0; i < kMostGroups && at_ == kMostGroups; ++i) {
+    int none = 0;
+    if (g_groups[i].compare_exchange_strong(none, group)) at_ = i;
+  }
+}
+KilledWhenEnded::~KilledWhenEnded() {
+  if (at_ < kMostGroups) g_groups[at_].store(0);
 }
 
 }  // namespace bihive::cli

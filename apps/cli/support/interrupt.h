@@ -4,6 +4,7 @@
 // once.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "bihive/base/cancel.h"
@@ -54,11 +55,12 @@ class StreamSection {
   bool active_;
 };
 
-/// During the life of such an object a signal that ends the program removes this file first; an empty path is
-/// none. At most four live at a time.
+/// During the life of such an object a signal that ends the program removes this file or empty folder first, the
+/// latest one of all before the others; an empty path is none. `folder`: an open folder that the path starts from; -1:
+/// the current one. At most eight live at a time.
 class RemovedWhenEnded {
  public:
-  explicit RemovedWhenEnded(const std::string& path);
+  explicit RemovedWhenEnded(const std::string& path, int folder = -1);
   ~RemovedWhenEnded();
   RemovedWhenEnded(const RemovedWhenEnded&) = delete;
   RemovedWhenEnded& operator=(const RemovedWhenEnded&) = delete;
@@ -67,7 +69,20 @@ class RemovedWhenEnded {
   char* place_ = nullptr;
 };
 
-/// Removes the files of all that live. For handlers: it only calls unlink().
+/// During the life of such an object the end of this program by a signal ends a process group too: programs that this
+/// one has started. At most two live at a time.
+class KilledWhenEnded {
+ public:
+  explicit KilledWhenEnded(int group);
+  ~KilledWhenEnded();
+  KilledWhenEnded(const KilledWhenEnded&) = delete;
+  KilledWhenEnded& operator=(const KilledWhenEnded&) = delete;
+
+ private:
+  std::size_t at_;
+};
+
+/// Removes the files and ends the groups of all that live. For handlers: it only calls unlinkat() and kill().
 void remove_unfinished();
 
 }  // namespace bihive::cli

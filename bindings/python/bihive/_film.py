@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, Optional, Sequence, U
 
 import numpy as np
 
+from . import _bihive
 from ._adapt import is_atom_group, is_universe, spheres_of
 from ._camera import Style
 from ._checks import path_of, several
@@ -19,10 +20,13 @@ from ._spheres import Spheres, check_readable
 
 # Films alone need these, and they would take half of the time of an import of this package.
 if TYPE_CHECKING:
+    import subprocess
     from fractions import Fraction
 
 __all__ = ["film"]
 
+# How long an interrupted program may take to end what it has begun.
+_PATIENCE_S = 15
 _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
 # What `bihive film` alone can do.
 _OF_PROGRAM = ["frames", "pictures", "turntable", "camera_keys", "colour_range", "codec", "shard", "join"]
@@ -54,15 +58,26 @@ def _film_of_file(source: str, path: str, words: list[str], progress: Progress) 
 
     command = [program(), "film", "-o", path, *words, "--", source]
     # The program shows its own progress, on a terminal.
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
-    lines = done.stderr.splitlines()
-    if done.returncode == 0:
+    with subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace"
+    ) as run:
+        try:
+            said = run.communicate()[1]
+        except BaseException:
+            # The program ends what it has begun, and then itself. On a terminal Ctrl-C has reached it too.
+            run.terminate()
+            try:
+                run.wait(_PATIENCE_S)
+            except subprocess.TimeoutExpired:
+                run.kill()
+            raise
+    if run.returncode == 0:
         return
-    errors = [line for line in lines if line.startswith("bihive: error: ")]
-    text = in_python(errors[-1].removeprefix("bihive: error: ") if errors else done.stderr.strip())
-    if done.returncode in (130, -2):
+    errors = [line for line in said.splitlines() if line.startswith("bihive: error: ")]
+    text = in_python(errors[-1].removeprefix("bihive: error: ") if errors else said.strip())
+    if run.returncode in (130, -2):
         raise KeyboardInterrupt
-    raise {2: UsageError, 3: MissingError}.get(done.returncode, UsageError)(text)
+    raise {2: UsageError, 3: MissingError}.get(run.returncode, UsageError)(text)
 
 
 def _chosen(source: Any, frames: Union[slice, Sequence[int]]) -> Any:
@@ -112,7 +127,10 @@ def _rate(fps: Any) -> Fraction:
 
 
 class _Ffmpeg:
-    """ffmpeg that encodes pictures into a file beside the film, which gets its name when it is whole."""
+    """ffmpeg that encodes pictures into a file in a hidden folder beside the film, which takes the film's place in the end.
+
+    The folder, and how its file takes the place, are those of `bihive film`.
+    """
 
     def __init__(self, path: str, size: tuple[int, int], rate: Fraction) -> None:
         import shutil
@@ -122,26 +140,51 @@ class _Ffmpeg:
         program = shutil.which("ffmpeg")
         if program is None:
             raise MissingError("films are encoded by the program ffmpeg, which is not in PATH", hint="install ffmpeg")
+        self._program = program
         ending = os.path.splitext(path)[1].lower()
-        folder = os.path.dirname(os.path.abspath(path))
         try:
-            handle, self._aside = tempfile.mkstemp(prefix=".bihive-", suffix=".part" + ending, dir=folder)
-        except OSError as error:
-            raise FileError(error.errno or 0, error.strerror or str(error), path) from None
-        os.close(handle)
+            self._file = _bihive.FilmFile(path)
+        except ValueError as error:
+            raise FileError(0, str(error), path) from None
         self._path = path
+        self._name = "film" + ending
+        self._count = 0
         codec = ["-c:v", "libx264", "-crf", "18"]
         if ending == ".webm":
             codec = ["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1"]
         colours = ["-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"]
-        command = [program, "-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo"]
-        command += ["-pixel_format", "rgb24", "-video_size", f"{size[0]}x{size[1]}"]
+        command = ["-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", f"{size[0]}x{size[1]}"]
         command += ["-framerate", f"{rate.numerator}/{rate.denominator}", "-i", "pipe:0", "-an"]
         command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", *codec]
-        command += [*colours, "-color_range", "tv", "file:" + self._aside]
+        command += [*colours, "-color_range", "tv", self._url()]
         self._log = tempfile.TemporaryFile()
+        try:
+            self._run = self._start(command, subprocess.PIPE)
+        except BaseException:
+            self._log.close()
+            self._file.leave()
+            raise
+
+    def _url(self) -> str:
+        """The file in the folder, whatever becomes of the folder's name."""
+        return f"file:/proc/self/fd/{self._file.descriptor()}/{self._name}"
+
+    def _start(self, words: list[str], stdin: Any) -> subprocess.Popen[bytes]:
+        import subprocess
+
+        command = [self._program, "-hide_banner", "-nostdin", "-loglevel", "error", "-y", *words]
         # A group of its own: Ctrl-C is for Python, which ends it.
-        self._run = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=self._log, start_new_session=True)
+        try:
+            return subprocess.Popen(
+                command,
+                stdin=stdin,
+                stdout=subprocess.PIPE if stdin == subprocess.DEVNULL else subprocess.DEVNULL,
+                stderr=self._log,
+                start_new_session=True,
+                pass_fds=(self._file.descriptor(),),
+            )
+        except OSError as error:
+            raise MissingError(f"ffmpeg cannot be started: {error.strerror}") from None
 
     def add(self, picture: Picture) -> None:
         assert self._run.stdin is not None
@@ -149,6 +192,7 @@ class _Ffmpeg:
             self._run.stdin.write(np.ascontiguousarray(np.asarray(picture)[:, :, :3]).data)
         except BrokenPipeError:
             self._fail()
+        self._count += 1
 
     def finish(self) -> None:
         assert self._run.stdin is not None
@@ -158,14 +202,26 @@ class _Ffmpeg:
             pass
         if self._run.wait() != 0:
             self._fail()
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(self._aside, 0o666 & ~umask)
+        self._check()
         try:
-            os.replace(self._aside, self._path)
-        except OSError as error:
-            raise FileError(error.errno or 0, error.strerror or str(error), self._path) from None
-        self._aside = ""
+            self._file.place(self._name)
+        except ValueError as error:
+            raise FileError(0, str(error), self._path) from None
+
+    def _check(self) -> None:
+        """Whether ffmpeg has written all pictures: it counts them itself."""
+        import subprocess
+
+        hint = f"see whether {self._program} is the program that it should be"
+        if not self._file.has(self._name):
+            raise MissingError("ffmpeg has not written the film that it was asked for", hint=hint)
+        words = ["-progress", "pipe:1", "-i", self._url(), "-map", "0:v:0", "-c", "copy", "-f", "null", "-"]
+        self._run = self._start(words, subprocess.DEVNULL)
+        said = self._run.communicate()[0].decode("utf-8", "replace")
+        counts = [line.partition("=")[2].strip() for line in said.splitlines() if line.startswith("frame=")]
+        if self._run.returncode != 0 or not counts or counts[-1] != str(self._count):
+            wrote = counts[-1] + " pictures" if counts else "something that is no film"
+            raise MissingError(f"ffmpeg was given {self._count} pictures, and wrote {wrote}", hint=hint)
 
     def _fail(self) -> None:
         self._run.wait()
@@ -174,18 +230,20 @@ class _Ffmpeg:
         raise MissingError("ffmpeg failed" + (f", and said: {said[-1]}" if said else ""))
 
     def leave(self) -> None:
-        """Nothing half-written stays."""
+        """Nothing half-written stays, and nothing that ffmpeg has started: it may be a script."""
+        import signal
+
         if self._run.poll() is None:
-            self._run.kill()
-        if self._run.stdin is not None:
-            try:
-                self._run.stdin.close()
-            except BrokenPipeError:
-                pass
+            os.killpg(self._run.pid, signal.SIGKILL)
+        for pipe in (self._run.stdin, self._run.stdout):
+            if pipe is not None:
+                try:
+                    pipe.close()
+                except BrokenPipeError:
+                    pass
         self._run.wait()
         self._log.close()
-        if self._aside and os.path.exists(self._aside):
-            os.unlink(self._aside)
+        self._file.leave()
 
 
 def film(

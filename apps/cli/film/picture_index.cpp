@@ -1,0 +1,104 @@
+#include "film/picture_index.h"
+
+#include <cstddef>
+
+namespace bihive::cli {
+namespace {
+
+constexpr std::string_view kHead = "bihive film index 1 ";
+constexpr std::string_view kName = "film.", kEnding = "index";
+constexpr int kHashDigits = 16;
+
+std::string hexadecimal(std::uint64_t number) {
+  std::string digits(kHashDigits, '0');
+  for (int i = kHashDigits - 1; i >= 0; --i, number >>= 4u)
+    digits[static_cast<std::size_t>(i)] = "0123456789abcdef"[number & 15u];
+  return digits;
+}
+
+std::optional<std::uint64_t> from_hexadecimal(std::string_view digits) {
+  if (digits.size() != kHashDigits) return std::nullopt;
+  std::uint64_t number = 0;
+  for (const char c : digits) {
+    const std::size_t digit = std::string_view("0123456789abcdef").find(c);
+    if (digit == std::string_view::npos) return std::nullopt;
+    number = number << 4u | digit;
+  }
+  return number;
+}
+
+std::optional<std::uint64_t> from_decimal(std::string_view digits) {
+  if (digits.empty() || digits.size() > 18) return std::nullopt;
+  std::uint64_t number = 0;
+  for (const char c : digits) {
+    if (c < '0' || c > '9') return std::nullopt;
+    number = 10 * number + static_cast<std::uint64_t>(c - '0');
+  }
+  return number;
+}
+
+std::optional<IndexEntry> entry_of(std::string_view line) {
+  const std::size_t first = line.find(' ');
+  if (first == std::string_view::npos) return std::nullopt;
+  const std::size_t second = line.find(' ', first + 1);
+  if (second == std::string_view::npos) return std::nullopt;
+  const auto number = from_decimal(line.substr(0, first));
+  const auto size = from_decimal(line.substr(first + 1, second - first - 1));
+  const auto hash = from_hexadecimal(line.substr(second + 1));
+  if (!number || !size || !hash) return std::nullopt;
+  return IndexEntry{static_cast<std::int64_t>(*number), *size, *hash};
+}
+
+}  // namespace
+
+std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {
+  for (const char c : bytes) before = (before ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return before;
+}
+
+std::string index_head(std::uint64_t film) {
+  return std::string(kHead) + hexadecimal(film) + "\n";
+}
+
+std::string index_line(const IndexEntry& entry) {
+  return std::to_string(entry.number) + " " + std::to_string(entry.size) + " " + hexadecimal(entry.hash) + "\n";
+}
+
+std::size_t whole_lines(std::string_view text) {
+  const std::size_t last = text.rfind('\n');
+  return last == std::string_view::npos ? 0 : last + 1;
+}
+
+std::optional<std::vector<IndexEntry>> index_entries(std::string_view text, std::uint64_t film) {
+  text = text.substr(0, whole_lines(text));
+  const std::string head = index_head(film);
+  if (text.substr(0, head.size()) != head) return std::nullopt;
+  std::vector<IndexEntry> entries;
+  for (text.remove_prefix(head.size()); !text.empty();) {
+    const std::size_t end = text.find('\n');
+    if (const std::optional<IndexEntry> entry = entry_of(text.substr(0, end))) entries.push_back(*entry);
+    text.remove_prefix(end + 1);
+  }
+  return entries;
+}
+
+std::string index_name(const std::string& prefix, std::int64_t shard, std::int64_t shards) {
+  std::string name = prefix + std::string(kName);
+  if (shards > 1) name += std::to_string(shard) + "-" + std::to_string(shards) + ".";
+  return name + std::string(kEnding);
+}
+
+bool is_index_name(const std::string& prefix, const std::string& name) {
+  const std::string begin = prefix + std::string(kName);
+  if (name.size() < begin.size() + kEnding.size() || name.compare(0, begin.size(), begin) != 0) return false;
+  std::string_view rest = std::string_view(name).substr(begin.size());
+  if (rest.substr(rest.size() - kEnding.size()) != kEnding) return false;
+  rest.remove_suffix(kEnding.size());
+  if (rest.empty()) return true;
+  if (rest.back() != '.') return false;
+  rest.remove_suffix(1);
+  const std::size_t dash = rest.find('-');
+  return dash != std::string_view::npos && from_decimal(rest.substr(0, dash)) && from_decimal(rest.substr(dash + 1));
+}
+
+}  // namespace bihive::cli

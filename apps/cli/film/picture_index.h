@@ -1,0 +1,42 @@
+// The index of a sequence: what bihive itself has written, so that a picture that was there before is not taken for one
+// of the film.
+//
+// A text file to which a line is added before each picture takes its place. The first line names the film; each other
+// one has number, bytes and hash of a picture. A kill may leave the last line cut, which is then no line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bihive::cli {
+
+struct IndexEntry {
+  std::int64_t number = 0;
+  std::uint64_t size = 0, hash = 0;
+
+  bool operator==(const IndexEntry& other) const {
+    return number == other.number && size == other.size && hash == other.hash;
+  }
+};
+
+/// 64-bit FNV-1a; `before`: the hash of the bytes before these.
+std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325u);
+
+/// The first line; `film`: hash of the film's description.
+std::string index_head(std::uint64_t film);
+std::string index_line(const IndexEntry& entry);
+
+/// Its entries; nothing if it is not the index of this film. Lines that are none are left out.
+std::optional<std::vector<IndexEntry>> index_entries(std::string_view text, std::uint64_t film);
+
+/// The bytes of its whole lines.
+std::size_t whole_lines(std::string_view text);
+
+/// The name of the index: film.index, or film.3-16.index of shard 3 of 16.
+std::string index_name(const std::string& prefix, std::int64_t shard, std::int64_t shards);
+bool is_index_name(const std::string& prefix, const std::string& name);
+
+}  // namespace bihive::cli

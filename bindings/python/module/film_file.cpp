@@ -1,0 +1,72 @@
+#include "film_file.h"
+
+#include <fcntl.h>
+#include <pybind11/stl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <optional>
+#include <string>
+
+#include "bihive/base/place_file.h"
+#include "errors.h"
+#include "film/hidden_folder.h"
+
+namespace py = pybind11;
+
+namespace bihive::python {
+namespace {
+
+// A hidden folder beside the film, in which ffmpeg writes.
+class FilmFile {
+ public:
+  explicit FilmFile(const std::string& output)
+      : output_(value_of(path_behind_links(output))),
+        around_(cli::folder_around(output_)),
+        parent_(cli::open_parent(around_)) {
+    cli::remove_leftovers(parent_.get(), around_);
+    hidden_.emplace(cli::make_hidden_folder(parent_.get(), around_, LOCK_EX));
+  }
+  ~FilmFile() {
+    try {
+      leave();
+    } catch (const cli::Failure&) {
+      // The next film removes it.
+    }
+  }
+  FilmFile(const FilmFile&) = delete;
+  FilmFile& operator=(const FilmFile&) = delete;
+
+  // Of the folder; a program that inherits it finds the folder whatever becomes of its name.
+  int descriptor() const { return hidden_ ? hidden_->folder.descriptor() : -1; }
+
+  bool has(const std::string& name) const { return hidden_ && hidden_->folder.has(name); }
+
+  // The file `name` in the folder takes the film's place.
+  void place(const std::string& name) { value_of(place_file(descriptor(), name, output_)); }
+
+  void leave() {
+    if (!hidden_) return;
+    cli::remove_own_files(hidden_->folder);
+    unlinkat(parent_.get(), hidden_->name.c_str(), AT_REMOVEDIR);
+    hidden_.reset();
+  }
+
+ private:
+  std::string output_, around_;
+  cli::Descriptor parent_;
+  std::optional<cli::HiddenFolder> hidden_;
+};
+
+}  // namespace
+
+void bind_film_files(py::module_& module) {
+  py::class_<FilmFile>(module, "FilmFile")
+      .def(py::init<const std::string&>())
+      .def("descriptor", &FilmFile::descriptor)
+      .def("has", &FilmFile::has)
+      .def("place", &FilmFile::place)
+      .def("leave", &FilmFile::leave);
+}
+
+}  // namespace bihive::python

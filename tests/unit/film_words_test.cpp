@@ -1,0 +1,107 @@
+// Parts of `bihive film`: the words of a codec that stand in a file, and the index of a sequence.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "film/codec_words.h"
+#include "film/picture_index.h"
+
+namespace bihive::cli {
+namespace {
+
+TEST(CodecWords, AreSplitAtSpaces) {
+  EXPECT_EQ(codec_words("  -c:v  libx265 -crf 20 "), (std::vector<std::string>{"-c:v", "libx265", "-crf", "20"}));
+  EXPECT_TRUE(codec_words("").empty());
+}
+
+TEST(CodecWords, OfAFileChooseCodecAndQuality) {
+  for (const char* const text :
+       {"", "-c:v libx265 -crf 20", "-c:v libvpx-vp9 -crf 24 -b:v 0 -row-mt 1", "-b:v 2.5M -bf -1",
+        "-c:v ffv1 -pix_fmt gbrp", "-c:v libx264 -preset slow -tune film -movflags +faststart"})
+    EXPECT_TRUE(check_codec_of_file(text)) << text;
+}
+
+TEST(CodecWords, OfAFileDoNothingElse) {
+  for (const char* const text : {"-i file",
+                                 "-f image2",
+                                 "other.mp4",
+                                 "-y",
+                                 "-c:v",
+                                 "-c:v -y",
+                                 "-crf 20 other.mp4",
+                                 "-c:v libx264 -vf movie=x",
+                                 "-filter_complex movie=x",
+                                 "-attach x",
+                                 "-x264-params csv=x",
+                                 "-pass 1",
+                                 "-passlogfile x",
+                                 "-c:v ../x",
+                                 "-crf /etc/x",
+                                 "-crf pipe:1",
+                                 "-crf http://x",
+                                 "-crf a=b",
+                                 "-crf %d",
+                                 "-crf @x",
+                                 "-report",
+                                 "-progress x",
+                                 "-c:v x\n-y",
+                                 "-crf 11111111111111111111111111111111111111111",
+                                 "--crf 1",
+                                 "-",
+                                 "-c 1",
+                                 "-vstats_file x",
+                                 "-dump_attachment:t x"})
+    EXPECT_FALSE(check_codec_of_file(text)) << text;
+}
+
+TEST(PictureIndex, HoldsWhatWasWritten) {
+  const IndexEntry one{0, 120, hash_of("one")}, two{7, 99, hash_of("two")};
+  const std::string text = index_head(5) + index_line(one) + index_line(two);
+  const auto entries = index_entries(text, 5);
+  ASSERT_TRUE(entries);
+  EXPECT_EQ(*entries, (std::vector<IndexEntry>{one, two}));
+  EXPECT_FALSE(index_entries(text, 6));
+  EXPECT_EQ(whole_lines(text), text.size());
+}
+
+TEST(PictureIndex, LosesAtMostTheLineThatAKillHasCut) {
+  const IndexEntry one{0, 120, hash_of("one")}, two{12345678, 99, hash_of("two")};
+  const std::string first = index_head(5) + index_line(one), text = first + index_line(two);
+  for (std::size_t size = 0; size < text.size(); ++size) {
+    const std::string cut = text.substr(0, size);
+    const auto entries = index_entries(cut, 5);
+    ASSERT_EQ(entries.has_value(), size >= index_head(5).size()) << size;
+    if (entries) {
+      EXPECT_EQ(entries->size(), size >= first.size() ? 1u : 0u) << size;
+    }
+    // Even where a later run adds lines after it without cutting it off.
+    const auto later = index_entries(cut + "\n" + index_line(two), 5);
+    if (!later) continue;
+    for (const IndexEntry& entry : *later) EXPECT_TRUE(entry == one || entry == two) << size;
+  }
+}
+
+TEST(PictureIndex, TakesNoLineThatIsNone) {
+  const std::string hash = "0123456789abcdef";
+  for (const std::string& line :
+       std::vector<std::string>{"1 2", "1 2 " + hash + "0", "1 2 " + hash.substr(1), "-1 2 " + hash, "1 -2 " + hash,
+                                "a 2 " + hash, "1 2  " + hash, " 1 2 " + hash, "1 2 0123456789ABCDEF",
+                                "9999999999999999999 2 " + hash, "1 2 " + hash + "\r", std::string()}) {
+    const auto entries = index_entries(index_head(1) + line + "\n", 1);
+    ASSERT_TRUE(entries);
+    EXPECT_TRUE(entries->empty()) << line;
+  }
+}
+
+TEST(PictureIndex, HasANameForEachShard) {
+  EXPECT_EQ(index_name("", 0, 1), "film.index");
+  EXPECT_EQ(index_name("p", 3, 16), "pfilm.3-16.index");
+  for (const char* const name : {"pfilm.index", "pfilm.3-16.index"}) EXPECT_TRUE(is_index_name("p", name)) << name;
+  for (const char* const name : {"film.index", "pfilm.json", "pfilm.3.index", "pfilm.3-16index", "pfilm.x-y.index",
+                                 "pfilm.-.index", "pfilm..index", "pfilm.3-16.index.x"})
+    EXPECT_FALSE(is_index_name("p", name)) << name;
+}
+
+}  // namespace
+}  // namespace bihive::cli
