@@ -159,7 +159,7 @@ int run_ranks(std::vector<const char*> words) {
   const int code = team.end_with(said.code);
   if (team.speaks()) {
     cli::say_error(said.text);
-    std::fputs(said.shown.c_str(), stderr);
+    cli::say_lines(said.shown);
   }
   cli::set_team(nullptr);
   return code;

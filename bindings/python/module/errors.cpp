@@ -4,6 +4,8 @@
 
 #include <exception>
 
+#include "bihive/base/readable.h"
+
 namespace py = pybind11;
 
 namespace bihive::python {
@@ -23,9 +25,12 @@ const char* kind_of(cli::ExitCode code) {
 void raise(const cli::Failure& failure) {
   const Error& error = failure.error;
   try {
+    // Texts may hold bytes that are no UTF-8, of which Python makes no str; the name of a file has a way of its own.
+    const auto file = py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeFSDefaultAndSize(error.file.data(), static_cast<Py_ssize_t>(error.file.size())));
     const py::object made = py::module_::import("bihive._errors")
-                                .attr("failure")(kind_of(failure.code), error.message, error.file, error.line,
-                                                 error.column, error.hint, failure.shown);
+                                .attr("failure")(kind_of(failure.code), escaped(error.message), file, error.line,
+                                                 error.column, escaped(error.hint), escaped_lines(failure.shown));
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   } catch (py::error_already_set& other) {
     other.restore();
@@ -42,6 +47,13 @@ void translate_failures() {
       raise(failure);
     }
   });
+}
+
+std::vector<std::string> safe_texts(const std::vector<std::string>& texts) {
+  std::vector<std::string> safe;
+  safe.reserve(texts.size());
+  for (const std::string& text : texts) safe.push_back(escaped(text));
+  return safe;
 }
 
 }  // namespace bihive::python
