@@ -44,8 +44,9 @@ fuzz: ## random inputs against readers, scenes, server and engines for MINUTES (
 
 faults: ## every call of the program that can fail fails in turn (some 52,000 runs, over an hour)
 	scripts/setup all
-	cmake --preset release && cmake --build --preset release --target bihive faults
+	cmake --preset release && cmake --build --preset release --target bihive bihive_python faults
 	tests/faults/run_faults.py build-release/bihive build-release/tests/faults.so
+	PYTHONPATH=$(CURDIR)/build-release/python tests/faults/run_kills.py build-release/bihive build-release/tests/faults.so
 
 verify: ## the intersection against the long-double oracle, ten million rays a scene (over half an hour)
 	scripts/verify

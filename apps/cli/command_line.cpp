@@ -531,6 +531,8 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   add_tree_options(command, options.tree);
   add_input_options(command, options.input);
   frames->excludes(command.get_option("--frame"));
+  for (CLI::Option* other : {attributes, frames})
+    for (const char* name : {"--max-prims", "--max-depth"}) other->excludes(command.get_option(name));
   add_json_flag(command, options.json);
 }
 

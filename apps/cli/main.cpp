@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -30,7 +29,7 @@ struct Run {
       print(help.text);
       return kSuccess;
     }
-    std::fputs(help.text.c_str(), stderr);
+    say_lines(help.text);
     return kBadUsage;
   }
   int operator()(const RenderOptions& options) const { return run_render(options), kSuccess; }
@@ -93,7 +92,7 @@ int run(int argc, const char* const* argv) {
     return code;
   } catch (const Failure& failure) {
     say_error(failure.error.to_string());
-    std::fputs(failure.shown.c_str(), stderr);
+    say_lines(failure.shown);
     return failure.code;
   } catch (const std::bad_alloc&) {
     say_no_memory();

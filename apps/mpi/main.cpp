@@ -171,7 +171,7 @@ int run_ranks(const std::vector<const char*>& arguments) {
   const int code = team.end_with(said.code);
   if (team.speaks()) {
     if (!said.text.empty()) cli::say_error(said.text);
-    std::fputs(said.shown.c_str(), stderr);
+    cli::say_lines(said.shown);
   }
   cli::set_team(nullptr);
   return code;

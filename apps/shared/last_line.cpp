@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -72,6 +73,9 @@ void say_without_memory(const char* text) {
   char line[512];
   const char* const wipe = isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "";
   const int length = std::snprintf(line, sizeof(line), "%sbihive: error: %.400s\n", wipe, text);
+  // The text of an exception may hold anything, and base/readable.h needs memory.
+  for (char* c = line + std::strlen(wipe); *c != 0; ++c)
+    if ((*c < ' ' && *c != '\n') || *c > '~') *c = '?';
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line, static_cast<std::size_t>(length));
 }
 

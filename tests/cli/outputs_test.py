@@ -386,6 +386,29 @@ class Replacing(OutputTest):
         self.assertEqual(self.read("inside.png"), b"x" * 100000)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.png", "inside.png", "outside.png"])
 
+    def test_every_other_output_may_be_a_mount_point(self):
+        self.write("in.xyz", XYZ)
+        self.rays()
+        for words, names in [(["convert", "in.xyz", "-o", "a.csv"], ["a.csv"]), (["scene", "four-spheres", "-o", "a.json"], ["a.json"]),
+                             (["trace", "in.xyz", "--rays", "rays.npy", "--t", "t.npy", "--id", "id.npy"], ["t.npy", "id.npy"]),
+                             (["trace", "in.xyz", "--rays", "rays.npy", "--t", "t.npy", "--id", "free.npy"], ["t.npy"]),
+                             (["render", "in.xyz", "-o", "a.exr", *SMALL], ["a.exr"])]:
+            self.succeed(*words)
+            written = {name: self.read(name) for name in [*names, "free.npy"] if os.path.exists(self.path(name))}
+            for name in names:
+                self.write("outside." + name, "old" * 10000)
+            mount = "".join(f'mount --bind "$0/outside.{name}" "$0/{name}" && ' for name in names)
+            done = subprocess.run(["unshare", "-rm", "sh", "-c", mount + 'cd "$0" && "$@"', self.folder, BIHIVE, *words],
+                                  capture_output=True, text=True)
+            if "mount" in done.stderr or "unshare" in done.stderr:
+                self.skipTest("mounting is not permitted here: " + done.stderr.strip())
+            self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+            for name, data in written.items():
+                self.assertEqual(self.read("outside." + name if name in names else name), data, words)
+            for name in [*written, *("outside." + name for name in names)]:
+                os.remove(self.path(name))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["in.xyz", "rays.npy"])
+
 
 if __name__ == "__main__":
     main()

@@ -160,6 +160,12 @@ class Replicate(ProgramTest):
         self.assertIn("edges of a cell", self.fail_usage("render", "a.csv", "-o", "x.png", *CELL, "--cell", "--engine", "gpu"))
         self.assertIn("--cell draws on the shaded picture alone",
                       self.fail_usage("render", "a.csv", "-o", "x.png", *CELL, "--cell", "--view", "normal"))
+        for words in [["select", "a.csv", "all"], ["stats", "a.csv"], ["info", "a.csv", "--attributes"], ["info", "a.csv", "--frames"],
+                      *(["convert", "a.csv", "-o", "b." + ending] for ending in ["csv", "xyz", "extxyz", "npy", "ply"])]:
+            self.assertIn("without copies, so --replicate changes nothing there", self.fail_usage(*words, *copies))
+        self.succeed("convert", "a.csv", "-o", "b.json", *copies)
+        self.assertEqual(self.succeed_json("info", "b.json")["copies"], [2, 1, 1])
+        self.assertIn("the copies along the cell", self.succeed("convert", "b.json", "-o", "b.csv"))
         self.assertIn("--replicate is for files, not for scenario1",
                       self.fail_usage("render", "scenario1", "-o", "x.png", "--replicate", "2x1x1"))
 

@@ -1,15 +1,17 @@
 // A library that goes before the system's (LD_PRELOAD) and lets one call of a program fail: the N-th of a kind.
 //
-// BIHIVE_FAULT=KIND:N chooses the call, counted from 1; KIND:N+ lets all later ones fail too. Kinds:
+// BIHIVE_FAULT=KIND:N chooses the call, counted from 1; KIND:N+ lets all later ones fail too; KIND:N! ends the program
+// by SIGKILL before that call, as a crash of the machine would. Kinds:
 //   malloc (and all that reserve memory, also operator new), open, read, write, fsync, close, rename, linkat, unlink,
 //   mmap, pthread_create, fchmod, fchown, flock, ftruncate, lseek, access; socket, bind, listen, accept, recv, send
-//   (also recvmsg and sendmsg), epoll (its making); read-short and write-short move one byte, read-eintr and
-//   write-eintr move none and say EINTR.
+//   (also recvmsg and sendmsg), epoll (its making), mkdir, rmdir; read-short and write-short move one byte, read-eintr
+//   and write-eintr move none and say EINTR.
 // BIHIVE_FAULT_AFTER=path: calls count from the one that opens this path on.
 // BIHIVE_FAULT_ERRNO=number replaces the kind's usual error. BIHIVE_FAULT_NO_TMPFILE=1: no files without names.
 // BIHIVE_FAULT_REPORT=path: the library makes this file, and writes into it "fault" when a call failed, and at the end
 // of the program "open N", where N descriptors beyond the first three are still open.
 // Without BIHIVE_FAULT the report says how often each kind was called: "malloc 1234".
+// BIHIVE_FAULT_PROGRAM=name: calls of other programs, which the first one starts, neither fail nor count.
 //
 // Nothing here reserves memory or uses the C++ library.
 #include <dirent.h>
@@ -17,6 +19,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +46,7 @@ namespace {
 struct Plan {
   char kind[32];
   long at;
-  bool and_later;
+  bool and_later, kills, elsewhere;
   int code;  // 0: the usual one
   bool no_tmpfile;
   const char* report;
@@ -58,10 +61,11 @@ std::atomic<long> calls{0};
 thread_local int inside_dlopen = 0;
 
 // All kinds, and how often each was called.
-const char* const kKinds[] = {"malloc",         "open",   "read",   "read-short", "read-eintr", "write",  "write-short",
-                              "write-eintr",    "fsync",  "close",  "rename",     "linkat",     "unlink", "mmap",
-                              "pthread_create", "fchmod", "fchown", "flock",      "ftruncate",  "lseek",  "access",
-                              "socket",         "bind",   "listen", "accept",     "recv",       "send",   "epoll"};
+const char* const kKinds[] = {"malloc",      "open",        "read",           "read-short", "read-eintr", "write",
+                              "write-short", "write-eintr", "fsync",          "close",      "rename",     "linkat",
+                              "unlink",      "mmap",        "pthread_create", "fchmod",     "fchown",     "flock",
+                              "ftruncate",   "lseek",       "access",         "socket",     "bind",       "listen",
+                              "accept",      "recv",        "send",           "epoll",      "mkdir",      "rmdir"};
 constexpr int kKindsCount = sizeof(kKinds) / sizeof(kKinds[0]);
 std::atomic<long> calls_of[kKindsCount];
 
@@ -75,6 +79,7 @@ void read_plan() {
       char* end = nullptr;
       plan.at = strtol(colon + 1, &end, 10);
       plan.and_later = *end == '+';
+      plan.kills = *end == '!';
     }
   }
   const char* const code = getenv("BIHIVE_FAULT_ERRNO");
@@ -83,6 +88,9 @@ void read_plan() {
   plan.report = getenv("BIHIVE_FAULT_REPORT");
   plan.after = getenv("BIHIVE_FAULT_AFTER");
   if (plan.after == nullptr) begun = true;
+  const char* const program = getenv("BIHIVE_FAULT_PROGRAM");
+  plan.elsewhere = program != nullptr && strcmp(program, program_invocation_short_name) != 0;
+  if (plan.elsewhere) plan.report = nullptr;
 }
 
 void note_opened(const char* path) {
@@ -118,7 +126,7 @@ void report_number(const char* name, long number) {
 // Whether this call of a kind fails; sets errno.
 bool fails(const char* kind, int code) {
   if (!plan.ready) read_plan();
-  if (!begun) return false;
+  if (plan.elsewhere || !begun) return false;
   if (plan.at == 0) {
     for (int i = 0; i < kKindsCount; ++i)
       if (strcmp(kind, kKinds[i]) == 0) ++calls_of[i];
@@ -128,6 +136,10 @@ bool fails(const char* kind, int code) {
   const long call = ++calls;
   if (call != plan.at && !(plan.and_later && call > plan.at)) return false;
   if (call == plan.at) report("fault\n");
+  if (plan.kills) {
+    syscall(SYS_kill, syscall(SYS_getpid), SIGKILL);
+    while (true) pause();
+  }
   errno = plan.code != 0 ? plan.code : code;
   return true;
 }
@@ -260,6 +272,10 @@ int renameat(int from_folder, const char* from, int to_folder, const char* to) {
   if (fails("rename", EBUSY)) return -1;
   return static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, 0));
 }
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned how) {
+  if (fails("rename", EINVAL)) return -1;
+  return static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, how));
+}
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
   if (fails("linkat", EPERM)) return -1;
   return static_cast<int>(syscall(SYS_linkat, from_folder, from, to_folder, to, flags));
@@ -269,6 +285,20 @@ int unlink(const char* path) {
 }
 int unlinkat(int folder, const char* path, int flags) {
   return fails("unlink", EACCES) ? -1 : static_cast<int>(syscall(SYS_unlinkat, folder, path, flags));
+}
+int rmdir(const char* path) {
+  return fails("rmdir", EACCES) ? -1 : static_cast<int>(syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR));
+}
+// The C library's own calls unlink() and rmdir() where nobody sees it.
+int remove(const char* path) {
+  const int removed = unlink(path);
+  return removed != 0 && errno == EISDIR ? rmdir(path) : removed;
+}
+int mkdir(const char* path, mode_t mode) {
+  return fails("mkdir", EACCES) ? -1 : static_cast<int>(syscall(SYS_mkdirat, AT_FDCWD, path, mode));
+}
+int mkdirat(int folder, const char* path, mode_t mode) {
+  return fails("mkdir", EACCES) ? -1 : static_cast<int>(syscall(SYS_mkdirat, folder, path, mode));
 }
 void* mmap(void* at, size_t bytes, int protection, int flags, int file, off_t offset) {
   if (fails("mmap", ENOMEM)) return MAP_FAILED;

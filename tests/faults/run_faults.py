@@ -100,7 +100,7 @@ MOST = {"thesis": 100}  # of calls of a kind, of which there are too many
 # In this order; those with + let all later calls fail too.
 KINDS = ["malloc", "malloc+", "open", "open+", "read", "read-short", "read-eintr", "write", "write+", "write-short",
          "write-eintr", "fsync", "close", "rename", "linkat", "unlink", "mmap", "pthread_create", "pthread_create+", "fchmod",
-         "fchown", "flock", "ftruncate", "lseek", "access", "socket", "bind", "listen", "accept", "recv", "send", "epoll"]
+         "fchown", "flock", "ftruncate", "lseek", "access", "socket", "bind", "listen", "accept", "recv", "send", "epoll", "mkdir", "rmdir"]
 
 
 def inputs():

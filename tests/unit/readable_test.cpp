@@ -22,6 +22,27 @@ TEST(Escaped, WritesOutWhatATerminalObeys) {
   EXPECT_EQ(escaped(std::string_view("\0", 1)), "\\x00");
 }
 
+// Each character of Unicode: Cc, Zl, Zp and Cf are written out, but for the joiners and signs that are seen.
+TEST(Escaped, WritesOutWhatNobodySees) {
+  for (const char* const text :
+       {"\u00ad", "\u061c", "\u180e", "\u200b", "\u200e", "\u200f", "\u2029", "\u202a", "\u202d", "\u2060", "\u2064",
+        "\u2066", "\u2069", "\u206f", "\ufeff", "\ufff9", "\U000e0041"}) {
+    const std::string line = escaped(text);
+    EXPECT_EQ(line.front(), '\\') << line;
+    EXPECT_EQ(escaped_lines(text), line);
+    EXPECT_EQ(masked(text), "?") << line;
+  }
+  EXPECT_EQ(escaped("\U000e0041"), "\\U000e0041");
+  for (const char* const seen : {"\u200c", "\u200d", "\u0600", "\u06dd", "\u00a0", "\ufe0f", "\ufffd"})
+    EXPECT_EQ(escaped(seen), seen);
+}
+
+TEST(Escaped, LeavesLinesOfATextAlone) {
+  EXPECT_EQ(escaped_lines("a\tb\nc\x1b[2J\r\n"), "a\tb\nc\\x1b[2J\\x0d\n");
+  EXPECT_EQ(escaped_lines(escaped("\u009b\n")), "\\u009b\\n") << "what is written out stays so";
+  EXPECT_EQ(masked("a\nb\xff"), "a?b?");
+}
+
 TEST(Escaped, WritesOutWhatIsNoUtf8) {
   EXPECT_EQ(escaped("a\x9b"
                     "1m"),

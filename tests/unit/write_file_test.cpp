@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -12,6 +14,19 @@
 #include <filesystem>
 #include <set>
 #include <thread>
+
+namespace {
+
+std::atomic<int> g_mask_calls{0};
+
+}  // namespace
+
+// Goes before the C library's. Between the two calls that read the mask by it, files of other threads would be
+// everybody's.
+extern "C" mode_t umask(mode_t mask) noexcept {
+  ++g_mask_calls;
+  return static_cast<mode_t>(syscall(SYS_umask, mask));
+}
 
 namespace bihive {
 namespace {
@@ -52,6 +67,62 @@ TEST_F(WriteFile, follows_a_link_and_keeps_the_mode) {
   struct stat info {};
   ASSERT_EQ(stat(in("real").c_str(), &info), 0);
   EXPECT_EQ(info.st_mode & 0777, 0640u);
+}
+
+TEST_F(WriteFile, a_new_file_obeys_the_mask_and_nobody_touches_it) {
+  const auto mode_of = [this](const std::string& name) {
+    struct stat info {};
+    EXPECT_EQ(stat(in(name).c_str(), &info), 0);
+    return info.st_mode & 07777u;
+  };
+  const mode_t before = umask(0);
+  const int calls = g_mask_calls;
+  for (const unsigned mask : {0u, 022u, 027u, 077u, 0177u}) {
+    syscall(SYS_umask, mask);
+    const std::string name = "of_" + std::to_string(mask);
+    ASSERT_TRUE(write_file(in(name), "x"));
+    EXPECT_EQ(mode_of(name), 0666u & ~mask);
+    ASSERT_EQ(chmod(in(name).c_str(), 0604), 0);
+    ASSERT_TRUE(write_file(in(name), "y"));
+    EXPECT_EQ(mode_of(name), 0604u) << "a file that is replaced keeps its permissions";
+  }
+  syscall(SYS_umask, before);
+  EXPECT_EQ(g_mask_calls, calls);
+}
+
+// What SIGKILL leaves between two calls goes away with the next file in that folder, and nothing else does.
+TEST_F(WriteFile, parts_that_a_killed_program_left_are_removed) {
+  const auto make = [this](const std::string& name) {
+    const int file = open(in(name).c_str(), O_CREAT | O_RDWR | O_EXCL, 0400);
+    EXPECT_GE(file, 0);
+    return file;
+  };
+  const std::string left = ".bihive-0123456789abcdef.part", alive = ".bihive-fedcba9876543210.part";
+  close(make(left));
+  const int held = make(alive);
+  ASSERT_EQ(flock(held, LOCK_SH), 0);
+  std::set<std::string> stay{alive, "target"};
+  for (const char* const name : {".bihive-0123456789abcdeg.part", ".bihive-0123456789ABCDEF.part", ".bihive-0123.part",
+                                 ".bihive-0123456789abcdef.kept", "bihive-0123456789abcdef.part"}) {
+    close(make(name));
+    stay.insert(name);
+  }
+  const std::string link = ".bihive-1111111111111111.part", folder = ".bihive-2222222222222222.part",
+                    fifo = ".bihive-3333333333333333.part", foreign = ".bihive-4444444444444444.part";
+  close(make("target"));
+  fs::create_symlink("target", in(link));
+  fs::create_directory(in(folder));
+  ASSERT_EQ(mkfifo(in(fifo).c_str(), 0600), 0);
+  stay.insert({link, folder, fifo});
+  if (geteuid() == 0) {
+    close(make(foreign));
+    ASSERT_EQ(chown(in(foreign).c_str(), 65534, 65534), 0);
+    stay.insert(foreign);
+  }
+  ASSERT_TRUE(write_file(in("a"), "a"));
+  stay.insert("a");
+  EXPECT_EQ(names(), stay);
+  close(held);
 }
 
 TEST_F(WriteFile, says_what_is_wrong_and_leaves_nothing) {

@@ -15,6 +15,7 @@
 #include "support/failure.h"
 #include "support/messages.h"
 #include "support/outputs.h"
+#include "support/request_files.h"
 #include "support/selection.h"
 #include "support/write_together.h"
 
@@ -95,18 +96,20 @@ void run_convert(const ConvertOptions& options) {
   const OutputFormat& format = output_format(options);
   if (options.json && on_standard_output({options.output}))
     fail_usage("--json and -o - would share the standard output");
+  if (format.format) refuse_copies(options.input, std::string(format.shown) + " holds the stored spheres");
   const bool is_text = format.format != SphereFileFormat::npy && format.format != SphereFileFormat::ply;
-  check_outputs({options.output}, {file_of(options.input)}, is_text);
+  check_outputs(outputs_of(options), inputs_of(options), is_text);
 
   // The colours of a scheme are bihive's, not the file's.
   Input input = load_input(options.input);
-  check_outputs({options.output}, input.files, is_text);
+  check_outputs(outputs_of(options), input.files, is_text);
   if (input.has_scheme_colours && format.format) input.scene.spheres.attributes().colour.clear();
   if (!options.select.empty()) keep_selected(input.scene, options.select);
 
   WrittenSpheres written;
   if (format.format) {
     written = write_spheres(input.scene.spheres, *format.format);
+    if (input.scene.spheres.has_images()) written.left_out.emplace_back("the copies along the cell");
   } else {
     written.bytes = scene_file(input);
     const SphereAttributes& attributes = input.scene.spheres.attributes();

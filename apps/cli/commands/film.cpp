@@ -22,6 +22,7 @@
 #include "film/codec_words.h"
 #include "film/ffmpeg.h"
 #include "film/film_folder.h"
+#include "film/film_outputs.h"
 #include "film/film_plan.h"
 #include "film/film_sink.h"
 #include "film/fix_film.h"
@@ -30,8 +31,8 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
-#include "support/outputs.h"
 #include "support/peak_memory.h"
+#include "support/request_files.h"
 #include "support/team.h"
 
 namespace bihive::cli {
@@ -53,26 +54,6 @@ void check_film_options(const FilmOptions& options, FilmKind kind) {
     fail_usage("a film in one file has no transparent background", "name the output run/%05d.png");
   if (options.turntable_deg != 0 && !options.camera_keys.empty())
     fail_usage("--turntable and --camera-keys both move the camera", "leave one of them out");
-}
-
-void check_film_output(const FilmOptions& options, FilmKind kind) {
-  const RenderOptions& picture = options.picture;
-  const std::vector<std::string> inputs{file_of(picture.input), picture.input.trajectory, picture.style.name,
-                                        picture.looks.element_colours, options.camera_keys};
-  const std::string described = plan_path(picture.output);
-  if (kind != FilmKind::pictures) {
-    check_outputs({picture.output, described}, inputs);
-    if (is_stream(picture.output))
-      fail_usage("a film is made in a folder beside it, so " + picture.output + " cannot hold it", "name a file");
-    return;
-  }
-  // The folder of a sequence is made if it is missing.
-  const std::filesystem::path folder = std::filesystem::path(described).parent_path();
-  std::error_code code;
-  if (folder.empty() || std::filesystem::exists(folder, code))
-    check_outputs({described}, inputs);
-  else
-    value_or_fail(path_behind_links(folder.string()));
 }
 
 std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
@@ -311,7 +292,7 @@ FilmTimes run_film(const FilmOptions& asked) {
   check_film_options(options, kind);
   // Missing programs are named before any work.
   const std::string ffmpeg = kind == FilmKind::encoded && !options.shard ? find_ffmpeg() : "";
-  check_film_output(options, kind);
+  check_film_outputs(options.picture.output, inputs_of(options));
   // A link stays, and the film is made beside the file that it leads to.
   if (kind != FilmKind::pictures) options.picture.output = value_or_fail(path_behind_links(options.picture.output));
   if (options.join) {
@@ -324,6 +305,7 @@ FilmTimes run_film(const FilmOptions& asked) {
   // Find out what the film shows, and whether an earlier run has begun it.
   const Style style = choose_style(options.picture.style);
   const FrameSource source = FrameSource::open(options.picture.input, style, !options.picture.style.name.empty());
+  check_film_outputs(options.picture.output, source.files());
   FilmPlan plan;
   plan.asked = film_asked_for(options, source.count());
   FilmFolder folder(options.picture.output, kind);

@@ -177,6 +177,9 @@ void print_text(const Facts& facts) {
 }  // namespace
 
 void run_info(const InfoOptions& options) {
+  if (options.attributes || options.frames)
+    refuse_copies(options.input,
+                  std::string(options.frames ? "--frames" : "--attributes") + " looks at the stored spheres");
   if (options.frames) return run_info_of_frames(options);
   const Input input = load_input(options.input);
   if (options.attributes) return print_attributes(input, options.json);

@@ -14,6 +14,7 @@
 #include "support/messages.h"
 #include "support/outputs.h"
 #include "support/peak_memory.h"
+#include "support/request_files.h"
 #include "support/team.h"
 
 namespace bihive::cli {
@@ -23,7 +24,7 @@ using nlohmann::ordered_json;
 
 void check_output(const RenderOptions& options) {
   check_picture_name(options.output);
-  check_outputs({options.output}, {file_of(options.input), options.style.name, options.looks.element_colours});
+  check_outputs(outputs_of(options), inputs_of(options));
   if (options.json && on_standard_output({options.output}))
     fail_usage("--json prints where -o " + options.output + " writes the picture", "write the picture into a file");
 }
@@ -63,7 +64,7 @@ PreparedPicture prepare_render(const RenderOptions& options) {
   Style style = choose_style(options.style);
   if (options.fixed) fix_range(style, options.fixed->range_of_style);
   Input input = load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named);
-  if (leads()) check_outputs({options.output}, input.files);
+  if (leads()) check_outputs(outputs_of(options), input.files);
   RenderSettings settings = prepare_picture(options, engine, input);
   std::vector<Layer> layers = choose_layers(options, input.scene, settings);
   ordered_json described = settings_json(options, settings, input.scene, layers);

@@ -10,6 +10,7 @@
 #include "support/failure.h"
 #include "support/messages.h"
 #include "support/outputs.h"
+#include "support/request_files.h"
 #include "support/write_together.h"
 
 namespace bihive::cli {
@@ -37,7 +38,7 @@ void run_scene(const SceneOptions& options) {
   if (!npy && !ends_with(options.output, ".json") && options.output != kStandardStream)
     fail_usage("the output's name must end in .npy (spheres alone) or .json (a scene file)",
                "- writes a scene file to the standard output");
-  check_outputs({options.output}, {});
+  check_outputs(outputs_of(options), {});
   const std::optional<Scene> scene = generated_scene(options.input);
   if (!scene)
     fail_usage("expected scenario1, scenario2, scenario3 or four-spheres, found \"" + options.input.input + "\"");

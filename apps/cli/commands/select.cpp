@@ -28,6 +28,7 @@ std::string ids_as_ranges(const std::vector<std::uint8_t>& mask) {
 }  // namespace
 
 void run_select(const SelectOptions& options) {
+  refuse_copies(options.input, "bihive select counts the stored spheres");
   const Input input = load_input(options.input);
   const SphereSet& spheres = input.scene.spheres;
   const std::vector<std::uint8_t> mask = selected_or_fail(spheres, options.expression, "EXPRESSION");

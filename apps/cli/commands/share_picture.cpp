@@ -5,6 +5,7 @@
 #include "bihive/base/json_text.h"
 #include "bihive/spread/scene_bytes.h"
 #include "bihive/spread/spread_scene.h"
+#include "commands/picture_settings.h"
 
 namespace bihive::cli {
 
@@ -14,7 +15,7 @@ void share_picture(PreparedPicture& prepared, bool with_spheres, Team& team) {
     ByteWriter out(bytes);
     out.put(prepared.engine);
     out.put(prepared.can_share);
-    out.put_text(prepared.described.dump());
+    out.put_text(as_text(prepared.described, -1));
     put_scene(prepared.input.scene, prepared.settings, bytes);
   }
   bytes = team.from_first(std::move(bytes));

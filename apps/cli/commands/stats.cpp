@@ -97,6 +97,7 @@ void print_table(const Scene& scene, const ReferenceFacts& reference, const Wide
 }  // namespace
 
 void run_stats(const StatsOptions& options) {
+  refuse_copies(options.input, "trees are built from the stored spheres");
   const Input input = load_input(options.input);
   const SphereSet& spheres = input.scene.spheres;
   for (const Engine engine : {Engine::reference, Engine::wide})

@@ -16,10 +16,12 @@
 #include "bihive/base/write_file.h"
 #include "bihive/simd/target.h"
 #include "commands/commands.h"
+#include "commands/picture_settings.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
 #include "support/outputs.h"
+#include "support/request_files.h"
 #include "thesis/against.h"
 #include "thesis/claims.h"
 #include "thesis/devices.h"
@@ -247,6 +249,7 @@ void run_thesis(const ThesisOptions& options) {
   const Settings settings{options.quick, static_cast<int>(options.threads), options.seed};
   check_values(options);
   if (options.out == kStandardStream) fail_usage("--out names a folder, and - is none");
+  if (fs::is_directory(options.out)) check_outputs(outputs_of(options), inputs_of(options));
   // Other runs are read before the long work: a file that is none is told at once, and this run may write over it.
   std::optional<OlderRun> older;
   if (!options.against.empty()) older = read_older_run(options.against);
@@ -254,7 +257,7 @@ void run_thesis(const ThesisOptions& options) {
   if (!options.devices.empty()) devices = devices_pages(options.devices, load_values("figure-4.4", options.values));
   make_folder(options.out);
   const std::string report = options.out + "/report.html";
-  if (const Status status = check_writable(report); !status) fail(status.error());
+  check_outputs(outputs_of(options), inputs_of(options));
   const StepStore store(options.out, settings);
   std::vector<Run> runs = collect_runs(options, settings, store);
 
@@ -276,14 +279,15 @@ void run_thesis(const ThesisOptions& options) {
   std::vector<ReportFront> fronts{verdict_page(sections)};
   for (ReportFront& page : devices) fronts.push_back(std::move(page));
   if (older) fronts.push_back(compared_with(*older, sections));
-  const std::string json = results_json(header, fronts, sections).dump(2) + "\n";
-  if (const Status status = write_file(options.out + "/results.json", json); !status) fail(status.error());
+  const Json json = results_json(header, fronts, sections);
+  const std::string text = json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
+  if (const Status status = write_file(options.out + "/results.json", text); !status) fail(status.error());
   if (const Status status = write_file(report, report_html(header, fronts, sections, options.out)); !status)
     fail(status.error());
   CancellableSection::leave_if_cancelled();
 
   if (options.json)
-    print(json);
+    print(as_text(json, 2) + "\n");
   else
     print_summary(sections, fronts, report);
 }

@@ -21,6 +21,7 @@
 #include "support/interrupt.h"
 #include "support/messages.h"
 #include "support/outputs.h"
+#include "support/request_files.h"
 #include "support/write_together.h"
 
 namespace bihive::cli {
@@ -152,8 +153,8 @@ void run_trace(const TraceOptions& options) {
   if (options.t == options.id) fail_usage("--t and --id name the same file");
   if (options.rays == kStandardStream && options.input.input == kStandardStream)
     fail_usage("INPUT and --rays cannot both be the standard input");
-  const std::vector<std::string> outputs{options.t, options.id};
-  check_outputs(outputs, {options.rays, file_of(options.input)});
+  const std::vector<std::string> outputs = outputs_of(options);
+  check_outputs(outputs, inputs_of(options));
 
   const RayFile rays(options.rays);
   const Input input = load_input(options.input);

@@ -22,6 +22,7 @@
 #include "support/failure.h"
 #include "support/input.h"
 #include "support/outputs.h"
+#include "support/request_files.h"
 
 namespace bihive::cli {
 namespace {
@@ -164,7 +165,7 @@ void run_view(const ViewOptions& options) {
     check_picture_name(options.screenshot);
     if (options.screenshot == kStandardStream || is_exr(options.screenshot))
       fail_usage("--screenshot writes a PNG file", "name one that ends in .png");
-    check_outputs({options.screenshot}, {file_of(options.input), options.input.trajectory});
+    check_outputs(outputs_of(options), inputs_of(options));
   }
   const std::string request = request_of(options).dump(-1, ' ', false, ordered_json::error_handler_t::ignore);
 

@@ -29,7 +29,9 @@ FrameSource FrameSource::open(const InputOptions& options, const Style& style, b
     source.name_ = input_name(options.input);
     source.bytes_ = value_or_fail(unpack_if_packed(read_input(options.input), source.name_));
   }
-  source.count_ = source.load(0, style).frames;
+  const Input first = source.load(0, style);
+  source.count_ = first.frames;
+  source.files_ = first.files;
   return source;
 }
 

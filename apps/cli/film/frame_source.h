@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bihive/io/frames.h"
 #include "bihive/scene/style.h"
@@ -20,6 +21,9 @@ class FrameSource {
   /// 1 for generated scenes.
   std::int64_t count() const { return count_; }
 
+  /// The files that the input names: of a scene, its spheres and its trajectory.
+  const std::vector<std::string>& files() const { return files_; }
+
   /// As load_input() with this frame, LooksOfFile::keep and `style`, without printing warnings. Any number of threads
   /// may load at a time. Fails with kBadInput.
   Input load(std::int64_t frame, const Style& style) const;
@@ -32,6 +36,7 @@ class FrameSource {
   std::string name_, bytes_;  // of an input that is not read frame by frame
   std::shared_ptr<const Frames> frames_;
   std::int64_t count_ = 1;
+  std::vector<std::string> files_;
 };
 
 }  // namespace bihive::cli

@@ -117,6 +117,10 @@ void check_input_options(const InputOptions& options) {
   only_for(options.radius.has_value(), "--radius", "the scenarios and files", options.input);
 }
 
+void refuse_copies(const InputOptions& options, const std::string& what) {
+  if (options.replicate) fail_usage(what + " without copies, so --replicate changes nothing there", "leave it out");
+}
+
 std::optional<Scene> generated_scene(const InputOptions& options) {
   const std::string& name = options.input;
   if (!is_generated(name)) return std::nullopt;

@@ -41,6 +41,10 @@ std::string input_name(const std::string& path);
 /// The path of the input's file; empty for the names of built-in scenes and the standard input.
 std::string file_of(const InputOptions& options);
 
+/// Fails with kBadUsage if --replicate is given, for commands that look at the stored spheres alone. `what`: what they
+/// do.
+void refuse_copies(const InputOptions& options, const std::string& what);
+
 /// Coloured, at least one sphere; its warnings were already printed on stderr.
 using Input = LoadedScene;
 

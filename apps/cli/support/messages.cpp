@@ -26,10 +26,14 @@ std::atomic<bool> g_once{false};
 bool g_in_lines = false;  // progress, where there is no terminal
 thread_local std::vector<std::string>* t_collected = nullptr;
 
-// File names and other texts of users may hold anything.
+// All that the program says goes this way, for file names and other texts of users may hold anything.
+void put(std::FILE* stream, const std::string& text) {
+  const std::string safe = escaped_lines(text);
+  std::fwrite(safe.data(), 1, safe.size(), stream);
+}
+
 void say(const std::string& text) {
-  const std::string line = "bihive: " + escaped(text) + "\n";
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  put(stderr, "bihive: " + escaped(text) + "\n");
 }
 
 }  // namespace
@@ -67,8 +71,12 @@ void say_error(const std::string& text) {
   say("error: " + text);
 }
 
+void say_lines(const std::string& text) {
+  put(stderr, text);
+}
+
 void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  put(stdout, text);
 }
 
 void finish_output() {
@@ -88,8 +96,8 @@ void show_progress_in_lines() {
   g_in_lines = true;
 }
 
-Progress::Progress(std::string what)
-    : what_(std::move(what)),
+Progress::Progress(const std::string& what)
+    : what_(escaped(what)),
       terminal_(isatty(STDERR_FILENO) != 0),
       next_draw_ms_(terminal_ ? kFirstDrawMs : kFirstLineMs) {}
 

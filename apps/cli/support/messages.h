@@ -1,8 +1,8 @@
-// The program's messages on stderr, and results on stdout.
+// The program's messages on stderr, and results on stdout. Every text is safe for a terminal, whatever it holds
+// (base/readable.h: escaped_lines()).
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bihive/base/readable.h"
@@ -28,6 +28,9 @@ class CollectedWarnings {
 /// "bihive: error: ..." in one line.
 void say_error(const std::string& text);
 
+/// Lines on stderr, each with its end.
+void say_lines(const std::string& text);
+
 /// Prints to stdout. finish_output() checks that it arrived.
 void print(const std::string& text);
 /// Flushes stdout; fails if something did not arrive (a full disk).
@@ -44,13 +47,13 @@ void show_progress_in_lines();
 /// work takes over a second. It is cleared at the end. Only one thread at a time may call update().
 class Progress {
  public:
-  explicit Progress(std::string what);
+  explicit Progress(const std::string& what);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// Names the present work from now on.
-  void rename(std::string what) { what_ = std::move(what); }
+  void rename(const std::string& what) { what_ = escaped(what); }
   /// `done`: 0 to 1.
   void update(double done);
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "bihive/base/write_file.h"
 #include "support/failure.h"
@@ -58,7 +57,7 @@ bool on_standard_output(const std::vector<std::string>& outputs) {
 
 void print_report(const std::string& text, const std::vector<std::string>& outputs) {
   if (!on_standard_output(outputs)) return print(text);
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  say_lines(text);
 }
 
 }  // namespace bihive::cli

@@ -89,6 +89,19 @@ CommandWords read_command(const CLI::App& app) {
   return words;
 }
 
+// A line for each option: its command, its name, what it takes ("-": nothing), and "files" if that may be one.
+std::string list_of_options(const ProgramWords& program) {
+  std::string text;
+  for (const CommandWords& command : program.commands)
+    for (const OptionWords& option : command.options)
+      text += command.name + " " + (option.names.empty() ? option.place : option.names.back()) + " " +
+              (!option.takes_value   ? "-"
+               : option.type.empty() ? option.place
+                                     : option.type) +
+              (option.candidates.files ? " files\n" : "\n");
+  return text;
+}
+
 }  // namespace
 
 ProgramWords read_program_words(const CLI::App& app) {
@@ -104,6 +117,8 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
   std::string text;
   if (what == "commands" && words.size() == 1) {
     for (const CommandWords& command : program.commands) text += command.name + "\n";
+  } else if (what == "options" && words.size() == 1) {
+    text = list_of_options(program);
   } else if (what == "man" && words.size() <= 2) {
     text = man_page(program, words.size() == 2 ? words[1] : "");
   } else if (words.size() == 1) {
@@ -112,7 +127,7 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     if (what == "fish") text = fish_completion(program);
   }
   if (text.empty())
-    fail_usage("bihive describe knows: commands, man [COMMAND], bash, zsh, fish", "see docs/packages.md");
+    fail_usage("bihive describe knows: commands, options, man [COMMAND], bash, zsh, fish", "see docs/packages.md");
   return text;
 }
 

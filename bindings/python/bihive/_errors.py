@@ -9,6 +9,11 @@ from typing import Any
 __all__ = ["Error", "InputError", "UsageError", "FileError", "MissingError", "InputWarning", "failure"]
 
 
+def safe(text: str) -> str:
+    """The text as repr() writes it: what a terminal may obey, what nobody sees and what is no UTF-8 is written out."""
+    return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
+
+
 class Error(Exception):
     """The base of all of them.
 
@@ -18,7 +23,7 @@ class Error(Exception):
     def __init__(
         self, message: str, *, argument: str = "", file: str = "", line: int = 0, column: int = 0, hint: str = ""
     ) -> None:
-        super().__init__(message)
+        super().__init__(safe(message))
         self.argument = argument
         self.file = file
         self.line = line

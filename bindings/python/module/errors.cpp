@@ -5,6 +5,8 @@
 #include <exception>
 #include <string>
 
+#include "bihive/base/readable.h"
+
 namespace py = pybind11;
 
 namespace bihive::python {
@@ -21,19 +23,15 @@ const char* kind_of(cli::ExitCode code) {
   }
 }
 
-// Bytes that are no UTF-8, as a path may have them, are escaped.
-py::str text_of(const std::string& bytes) {
-  PyObject* const text = PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "backslashreplace");
-  if (text == nullptr) throw py::error_already_set();
-  return py::reinterpret_steal<py::str>(text);
-}
-
 void raise(const cli::Failure& failure) {
   const Error& error = failure.error;
   try {
+    // Texts may hold bytes that are no UTF-8, of which Python makes no str; the name of a file has a way of its own.
+    const auto file = py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeFSDefaultAndSize(error.file.data(), static_cast<Py_ssize_t>(error.file.size())));
     const py::object made = py::module_::import("bihive._errors")
-                                .attr("failure")(kind_of(failure.code), text_of(error.message), text_of(error.file),
-                                                 error.line, error.column, text_of(error.hint), text_of(failure.shown));
+                                .attr("failure")(kind_of(failure.code), escaped(error.message), file, error.line,
+                                                 error.column, escaped(error.hint), escaped_lines(failure.shown));
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   } catch (py::error_already_set& other) {
     other.restore();
@@ -50,6 +48,13 @@ void translate_failures() {
       raise(failure);
     }
   });
+}
+
+std::vector<std::string> safe_texts(const std::vector<std::string>& texts) {
+  std::vector<std::string> safe;
+  safe.reserve(texts.size());
+  for (const std::string& text : texts) safe.push_back(escaped(text));
+  return safe;
 }
 
 }  // namespace bihive::python

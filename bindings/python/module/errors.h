@@ -1,7 +1,9 @@
 // Failures of the library and of the options' checks as Python's exceptions.
 #pragma once
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bihive/base/result.h"
 #include "support/failure.h"
@@ -11,6 +13,9 @@ namespace bihive::python {
 /// From now on a cli::Failure that leaves a function of the module becomes the exception that bihive/_errors.py makes
 /// of it.
 void translate_failures();
+
+/// Warnings as the command line prints them, which Python can hold: its strings are UTF-8.
+std::vector<std::string> safe_texts(const std::vector<std::string>& texts);
 
 /// The value, or a Failure about an argument.
 template <class T>

@@ -295,7 +295,7 @@ void bind_pictures(py::module_& module) {
   py::class_<Picture, std::shared_ptr<Picture>>(module, "Picture")
       .def_property_readonly("pixels", pixels_of)
       .def_property_readonly("report", [](const Picture& p) { return p.report; })
-      .def_property_readonly("warnings", [](const Picture& p) { return p.warnings; })
+      .def_property_readonly("warnings", [](const Picture& p) { return safe_texts(p.warnings); })
       .def_property_readonly("has_scene", [](const Picture& p) { return p.light != nullptr; })
       .def_property_readonly("hash", [](const Picture& p) { return picture_hash(p.pixels); })
       .def("layer", layer_of)

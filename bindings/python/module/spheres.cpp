@@ -314,7 +314,7 @@ void bind_spheres(py::module_& module) {
       .def_property_readonly("time_ps", [](const Spheres& s) { return s.file.time_ps; })
       .def_property_readonly("step", [](const Spheres& s) { return s.file.step; })
       .def_property_readonly("rules", [](const Spheres& s) { return s.file.rules; })
-      .def_property_readonly("warnings", [](const Spheres& s) { return s.file.warnings; })
+      .def_property_readonly("warnings", [](const Spheres& s) { return safe_texts(s.file.warnings); })
       .def("select", select)
       .def("statistics", statistics)
       .def("written", written);

@@ -55,33 +55,81 @@ Character first_character(std::string_view text) {
   return {code, length};
 }
 
-// Whether a terminal may take it for more than a letter.
+struct CodeRange {
+  std::uint32_t first, last;
+};
+
+// In ascending order. Unicode's categories Cc, Zl, Zp and Cf, without the two joiners and the signs of Cf that are
+// seen.
+constexpr CodeRange kHostile[] = {
+    {0x00, 0x1F},        // C0
+    {0x7F, 0x9F},        // DEL, C1
+    {0xAD, 0xAD},        // soft hyphen
+    {0x61C, 0x61C},      // Arabic letter mark
+    {0x180E, 0x180E},    // Mongolian vowel separator
+    {0x200B, 0x200B},    // space of zero width
+    {0x200E, 0x200F},    // marks from left to right, from right to left
+    {0x2028, 0x202E},    // separators of lines and paragraphs, embeddings and overrides
+    {0x2060, 0x206F},    // word joiner, invisible operators, isolates, deprecated marks
+    {0xFEFF, 0xFEFF},    // byte order mark
+    {0xFFF9, 0xFFFB},    // annotations
+    {0x1BCA0, 0x1BCA3},  // controls of shorthand
+    {0x1D173, 0x1D17A},  // controls of musical notation
+    {0xE0000, 0xE007F},  // tags
+};
+
+// Whether a terminal may take it for more than a letter, or show nothing in its place.
 bool is_hostile(std::uint32_t code) {
-  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x61C || code == 0x200E || code == 0x200F ||
-         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+  for (const CodeRange& range : kHostile)
+    if (code <= range.last) return code >= range.first;
+  return false;
+}
+
+// `write_out` appends what stands for a character, or for a stray byte (length 0).
+template <class Keep, class WriteOut>
+std::string cleaned(std::string_view text, Keep keep, WriteOut write_out) {
+  std::string clean;
+  clean.reserve(text.size());
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const std::size_t length = character.length == 0 ? 1 : character.length;
+    if (character.length > 0 && (!is_hostile(character.code) || keep(character.code)))
+      clean += text.substr(0, length);
+    else
+      write_out(clean, character, static_cast<unsigned char>(text[0]));
+    text.remove_prefix(length);
+  }
+  return clean;
+}
+
+void write_out(std::string& line, Character character, unsigned byte) {
+  if (character.length == 0)
+    line += fmt::format("\\x{:02x}", byte);
+  else if (character.code == '\n')
+    line += "\\n";
+  else if (character.code < 0x80)
+    line += fmt::format("\\x{:02x}", character.code);
+  else if (character.code < 0x10000)
+    line += fmt::format("\\u{:04x}", character.code);
+  else
+    line += fmt::format("\\U{:08x}", character.code);
 }
 
 }  // namespace
 
 std::string escaped(std::string_view text) {
-  std::string line;
-  line.reserve(text.size());
-  while (!text.empty()) {
-    const Character character = first_character(text);
-    const std::size_t length = character.length == 0 ? 1 : character.length;
-    if (character.length == 0)
-      line += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
-    else if (character.code == '\n')
-      line += "\\n";
-    else if (character.code < 0x80 && is_hostile(character.code))
-      line += fmt::format("\\x{:02x}", character.code);
-    else if (is_hostile(character.code))
-      line += fmt::format("\\u{:04x}", character.code);
-    else
-      line += text.substr(0, length);
-    text.remove_prefix(length);
-  }
-  return line;
+  return cleaned(
+      text, [](std::uint32_t) { return false; }, write_out);
+}
+
+std::string escaped_lines(std::string_view text) {
+  return cleaned(
+      text, [](std::uint32_t code) { return code == '\n' || code == '\t'; }, write_out);
+}
+
+std::string masked(std::string_view text) {
+  return cleaned(
+      text, [](std::uint32_t) { return false; }, [](std::string& line, Character, unsigned) { line += '?'; });
 }
 
 }  // namespace bihive

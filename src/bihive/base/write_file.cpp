@@ -1,6 +1,5 @@
 #include "bihive/base/write_file.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -9,9 +8,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <ctime>
 #include <utility>
 
+#include "bihive/base/aside_file.h"
 #include "bihive/base/output_place.h"
 
 namespace bihive {
@@ -23,47 +22,9 @@ constexpr int kOpenFolder = O_PATH | O_DIRECTORY | O_CLOEXEC;
 constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
 #endif
 
-constexpr const char* kPrefix = ".bihive-";
-constexpr const char* kSuffix = ".part";
 constexpr int kAttempts = 100;
 constexpr mode_t kOwnerOnly = 0600;
-
-// A name that nobody can guess.
-std::string random_name() {
-  unsigned long long bits = 0;
-  if (::getentropy(&bits, sizeof(bits)) != 0) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    bits =
-        static_cast<unsigned long long>(now.tv_nsec) * 0x9e3779b97f4a7c15u ^ static_cast<unsigned long long>(getpid());
-  }
-  char digits[17];
-  std::snprintf(digits, sizeof(digits), "%016llx", bits);
-  return std::string(kPrefix) + digits + kSuffix;
-}
-
-bool is_aside_name(const std::string& name) {
-  const std::string_view prefix = kPrefix;
-  const std::string_view suffix = kSuffix;
-  return name.size() == prefix.size() + 16 + suffix.size() && name.compare(0, prefix.size(), prefix) == 0 &&
-         name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
-}
-
-// Removes files that a killed program of this user left. A living program holds a lock on its file.
-void remove_leftovers(const std::string& folder) {
-  DIR* const listing = ::opendir(folder.c_str());
-  if (listing == nullptr) return;
-  while (const dirent* const entry = ::readdir(listing)) {
-    if (!is_aside_name(entry->d_name)) continue;
-    const int file = ::openat(dirfd(listing), entry->d_name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) continue;
-    struct stat info {};
-    const bool is_own = ::fstat(file, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid();
-    if (is_own && ::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlinkat(dirfd(listing), entry->d_name, 0);
-    ::close(file);
-  }
-  ::closedir(listing);
-}
+constexpr mode_t kForAll = 0666;  // less the file mode creation mask
 
 // Writes everything; returns 0, or the errno of the failure.
 int write_all(int file, std::string_view bytes) {
@@ -90,21 +51,21 @@ int flush(int file) {
   return 0;
 }
 
-std::string path_of_descriptor(int file) {
-  return "/proc/self/fd/" + std::to_string(file);
+// Some file systems (FUSE, NFS) say only when a descriptor is closed that bytes did not arrive. The file itself stays
+// open, and with it the lock.
+int close_copy(int file) {
+  const int copy = ::fcntl(file, F_DUPFD_CLOEXEC, 3);
+  return copy < 0 ? 0 : close_file(copy);
 }
 
-// A file without a name; -1 where the system has none, or no way to name it later.
-int open_nameless(int folder) {
-#if defined(O_TMPFILE)
-  const int file = ::openat(folder, ".", O_TMPFILE | O_RDWR | O_CLOEXEC, kOwnerOnly);
-  if (file < 0) return -1;
-  if (::access(path_of_descriptor(file).c_str(), F_OK) == 0) return file;
-  ::close(file);
+// Swaps two names in one step, where the file system can.
+bool exchange_names(int folder, const std::string& a, const std::string& b) {
+#if defined(__GLIBC__) && defined(RENAME_EXCHANGE)
+  return ::renameat2(folder, a.c_str(), folder, b.c_str(), RENAME_EXCHANGE) == 0;
 #else
   (void)folder;
+  return a == b;
 #endif
-  return -1;
 }
 
 }  // namespace
@@ -115,21 +76,14 @@ Status GrowingFile::open_aside(const std::string& folder) {
   folder_ = ::open(folder.c_str(), kOpenFolder);
   if (folder_ < 0) return system_error("cannot be created", given_path_, errno);
   folder_aside_ = folder;
-  file_ = open_nameless(folder_);
-  if (file_ >= 0) return Done{};
-  remove_leftovers(folder);
-  for (int attempt = 0; attempt < kAttempts && file_ < 0; ++attempt) {
-    aside_ = random_name();
-    file_ = ::openat(folder_, aside_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC, kOwnerOnly);
-    if (file_ < 0 && errno != EEXIST && errno != EINTR) break;
-  }
-  if (file_ < 0) {
-    aside_.clear();
-    return system_error("cannot be created", given_path_, errno);
-  }
-  // Without the lock another program takes the file for one that a killed program left. Not every file system has
-  // locks, and none of them is asked twice.
-  (void)::flock(file_, LOCK_EX | LOCK_NB);
+  const bool replaces = place_->kind == OutputPlace::Kind::replaced;
+  remove_left_parts(folder_, replaces ? place_->user : geteuid());
+  // The system gives a new file its permissions here: umask() would take the mask away from other threads for a moment.
+  // A file that takes the place of another gets that one's permissions when it is whole.
+  const mode_t mode = place_->kind == OutputPlace::Kind::fresh ? kForAll : kOwnerOnly;
+  file_ = open_nameless(folder_, mode);
+  if (file_ < 0) file_ = open_under_random_name(folder_, mode, aside_);
+  if (file_ < 0) return system_error("cannot be created", given_path_, errno);
   return Done{};
 }
 
@@ -157,6 +111,7 @@ Result<GrowingFile> GrowingFile::begin(const std::string& given_path) {
 GrowingFile::GrowingFile(GrowingFile&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
       folder_(std::exchange(other.folder_, -1)),
+      old_file_(std::exchange(other.old_file_, -1)),
       size_(other.size_),
       given_path_(std::move(other.given_path_)),
       place_(std::move(other.place_)),
@@ -164,12 +119,14 @@ GrowingFile::GrowingFile(GrowingFile&& other) noexcept
       aside_(std::exchange(other.aside_, std::string())),
       old_(std::exchange(other.old_, std::string())),
       spare_name_(std::move(other.spare_name_)),
+      kept_name_(std::move(other.kept_name_)),
       new_name_(std::move(other.new_name_)),
       link_from_(std::move(other.link_from_)),
       placed_(other.placed_) {}
 
 GrowingFile::~GrowingFile() {
   if (file_ >= 0) ::close(file_);
+  if (old_file_ >= 0) ::close(old_file_);
   if (!aside_.empty()) ::unlinkat(folder_, aside_.c_str(), 0);
   if (folder_ >= 0) ::close(folder_);
 }
@@ -206,12 +163,27 @@ Status GrowingFile::write_at(std::uint64_t place, std::string_view bytes) {
 // All texts that the later steps need, because nothing is reserved from then on: a program may end where it finds no
 // memory, and would leave a part.
 void GrowingFile::choose_names() {
-  spare_name_ = random_name();
-  new_name_ = random_name();
+  spare_name_ = random_part_name();
+  kept_name_ = random_kept_name();
+  new_name_ = random_part_name();
   link_from_ = path_of_descriptor(file_);
 }
 
-// The file gets its owner and permissions, reaches the disk, gets a name, and is closed. 0 or an errno.
+// A file without a name gets one. 0 or an errno.
+int GrowingFile::name_aside() {
+  for (int attempt = 0; aside_.empty() && attempt < kAttempts; ++attempt) {
+    if (::linkat(AT_FDCWD, link_from_.c_str(), folder_, new_name_.c_str(), AT_SYMLINK_FOLLOW) == 0)
+      aside_.swap(new_name_);
+    else if (errno != EEXIST)
+      return errno;
+    else
+      new_name_ = random_part_name();
+  }
+  return aside_.empty() ? EEXIST : 0;
+}
+
+// The file gets the owner and permissions of the one before, and reaches the disk. It stays open, for its lock says
+// that a program is alive. 0 or an errno.
 int GrowingFile::settle() {
   if (!can_go_back()) return close_file(std::exchange(file_, -1));
   if (place_->kind == OutputPlace::Kind::in_place) return 0;
@@ -226,23 +198,10 @@ int GrowingFile::settle() {
       mode &= ~static_cast<mode_t>(S_IRWXG) | (mode & S_IRWXO) << 3;
     }
     (void)::fchmod(file_, mode);
-  } else {
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    (void)::fchmod(file_, 0666 & ~mask);
   }
 
   if (const int code = flush(file_); code != 0) return code;
-  for (int attempt = 0; aside_.empty() && attempt < kAttempts; ++attempt) {
-    if (::linkat(AT_FDCWD, link_from_.c_str(), folder_, new_name_.c_str(), AT_SYMLINK_FOLLOW) == 0)
-      aside_.swap(new_name_);
-    else if (errno != EEXIST)
-      return errno;
-    else
-      new_name_ = random_name();
-  }
-  if (aside_.empty()) return EEXIST;
-  return close_file(std::exchange(file_, -1));
+  return close_copy(file_);
 }
 
 // Over the bytes of a mount point.
@@ -265,18 +224,41 @@ int GrowingFile::copy_in_place() {
   return code != 0 ? code : closed;
 }
 
+// The file before goes on under another name, so that undo() can bring it back. 0 or an errno. With `exchanged` the new
+// file has taken its place already.
+int GrowingFile::put_old_aside(bool& exchanged) {
+  const std::string& name = place_->name;
+  // The lock says that this program is alive: see remove_left_parts().
+  old_file_ = ::openat(folder_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (old_file_ >= 0) (void)::flock(old_file_, LOCK_SH | LOCK_NB);
+  exchanged = exchange_names(folder_, aside_, name);
+  if (exchanged)
+    old_.swap(aside_);
+  else if (::linkat(folder_, name.c_str(), folder_, spare_name_.c_str(), 0) == 0)
+    old_.swap(spare_name_);
+  // Neither exchanges nor links: for a moment nothing has the name.
+  else if (::renameat(folder_, name.c_str(), folder_, kept_name_.c_str()) == 0)
+    old_.swap(kept_name_);
+  else
+    return errno;
+  return 0;
+}
+
 // `keep_old`: so that undo() can bring it back. 0 or an errno. Nothing here or in undo() reserves memory, for a program
 // may end where it finds none.
 int GrowingFile::take_place(bool keep_old) {
   const std::string& name = place_->name;
-  if (keep_old && place_->kind == OutputPlace::Kind::replaced) {
-    // Not every file system has links.
-    if (::linkat(folder_, name.c_str(), folder_, spare_name_.c_str(), 0) != 0 &&
-        ::renameat(folder_, name.c_str(), folder_, spare_name_.c_str()) != 0)
-      return errno;
-    old_.swap(spare_name_);
+  // The usual way of a new file: no other name is ever seen.
+  if (aside_.empty() && place_->kind == OutputPlace::Kind::fresh) {
+    placed_ = ::linkat(AT_FDCWD, link_from_.c_str(), folder_, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    if (placed_) return 0;
+    if (errno != EEXIST) return errno;
   }
-  if (::renameat(folder_, aside_.c_str(), folder_, name.c_str()) != 0) return errno;
+  if (const int code = name_aside(); code != 0) return code;
+  bool exchanged = false;
+  if (keep_old && place_->kind == OutputPlace::Kind::replaced)
+    if (const int code = put_old_aside(exchanged); code != 0) return code;
+  if (!exchanged && ::renameat(folder_, aside_.c_str(), folder_, name.c_str()) != 0) return errno;
   aside_.clear();
   placed_ = true;
   return 0;
@@ -294,6 +276,7 @@ void GrowingFile::undo() {
 void GrowingFile::remove_old() {
   if (!old_.empty()) ::unlinkat(folder_, old_.c_str(), 0);
   old_.clear();
+  if (old_file_ >= 0) ::close(std::exchange(old_file_, -1));
 }
 
 Status GrowingFile::finish_together(std::vector<GrowingFile>& files) {
@@ -308,7 +291,7 @@ Status GrowingFile::finish_together(std::vector<GrowingFile>& files) {
     for (GrowingFile& file : files) file.undo();
   };
   for (GrowingFile& file : files) {
-    if (file.aside_.empty() || file.place_->kind == OutputPlace::Kind::in_place) continue;
+    if (!file.can_go_back() || file.place_->kind == OutputPlace::Kind::in_place) continue;
     if (const int code = file.take_place(several); code != 0) {
       undo_all();
       return file.failed(code);

@@ -24,9 +24,10 @@ Status write_file(const std::string& path, std::string_view bytes);
 /// A file that is written piece by piece, and is not seen under its path before it is whole: for files that are too
 /// large for the memory. The rules of write_file() for paths hold here too.
 ///
-/// The bytes lie in a file without a name where the system has such (O_TMPFILE), so that nothing is left even after
-/// SIGKILL. Elsewhere it has a random name, ".bihive-....part", in the folder of its path; a later file that is written
-/// there removes what a killed program left.
+/// The bytes lie in a file without a name where the system has such (O_TMPFILE), so that SIGKILL leaves nothing.
+/// Elsewhere it has a random name, ".bihive-....part", in the folder of its path; so has, for a moment, every file that
+/// replaces another one. A program that writes into that folder later removes what a killed program left there
+/// (aside_file.h).
 class GrowingFile {
  public:
   /// Makes the new file, or opens the pipe or the device.
@@ -55,14 +56,17 @@ class GrowingFile {
   Status failed(int code) const;
   Status open_aside(const std::string& folder);
   void choose_names();
+  int name_aside();
   int settle();
   int copy_in_place();
+  int put_old_aside(bool& exchanged);
   int take_place(bool keep_old);
   void undo();
   void remove_old();
 
   int file_ = -1;
-  int folder_ = -1;  // of the file and its neighbours
+  int folder_ = -1;    // of the file and its neighbours
+  int old_file_ = -1;  // the file before, while old_ names it
   std::uint64_t size_ = 0;
   std::string given_path_;
   std::unique_ptr<OutputPlace> place_;
@@ -70,6 +74,7 @@ class GrowingFile {
   std::string aside_;         // the new file's name in its folder; empty: none
   std::string old_;           // name of the file before while several files take their places; empty: none
   std::string spare_name_;    // for old_
+  std::string kept_name_;     // for old_, where it is the only name
   std::string new_name_;      // for aside_
   std::string link_from_;     // the path of a file without a name
   bool placed_ = false;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "bihive/base/readable.h"
 #include "bihive/io/trajectory/random_file.h"
 
 namespace bihive {
@@ -13,23 +14,6 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 // Bytes of a file that are read at once. From 64 kB to 4 MB it makes no difference that can be measured.
 constexpr std::int64_t kWindowBytes = std::int64_t{1} << 18;
-
-// The length of the character at the begin of the text, or 0 if it is not UTF-8 [RFC3629].
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  // No overlong forms, no surrogates, nothing beyond the last code point.
-  const unsigned char next = byte(1);
-  if ((lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) || (lead == 0xF0 && next < 0x90) ||
-      (lead == 0xF4 && next > 0x8F))
-    return 0;
-  return length;
-}
 
 }  // namespace
 
@@ -251,17 +235,7 @@ Error TextScanner::column_error(std::int64_t column, const std::string& message,
 }
 
 std::string printable(std::string_view text) {
-  std::string clean;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = utf8_length(text.substr(i));
-    const bool control = length == 1 && (text[i] < ' ' || text[i] == 0x7f);
-    if (length == 0 || control)
-      clean += '?';
-    else
-      clean += text.substr(i, length);
-    i += std::max<std::size_t>(length, 1);
-  }
-  return clean;
+  return masked(text);
 }
 
 std::string quote(std::string_view text) {

@@ -110,7 +110,7 @@ inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// The text with a question mark in place of every control character and every byte that is no UTF-8.
+/// The text with a question mark in place of every character and byte that a terminal should not get (masked()).
 std::string printable(std::string_view text);
 
 /// The printable text in quotes, shortened for messages.

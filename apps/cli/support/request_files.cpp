@@ -1,0 +1,78 @@
+#include "support/request_files.h"
+
+#include "bihive/io/data_path.h"
+
+namespace bihive::cli {
+namespace {
+
+using Files = std::vector<std::string>;
+
+Files together(std::initializer_list<Files> lists) {
+  Files all;
+  for (const Files& files : lists) all.insert(all.end(), files.begin(), files.end());
+  return all;
+}
+
+Files files_of(const InputOptions& input) {
+  return {file_of(input), data_path(input.trajectory).file};
+}
+
+// The options that commands share that draw.
+template <class Options>
+Files files_of_drawing(const Options& options) {
+  return together(
+      {files_of(options.input), {options.style.name, options.looks.element_colours, options.labels.title_values}});
+}
+
+}  // namespace
+
+Files inputs_of(const RenderOptions& options) {
+  return together({files_of_drawing(options), {options.film}});
+}
+
+Files inputs_of(const FilmOptions& options) {
+  return together({inputs_of(options.picture), {options.camera_keys}});
+}
+
+Files inputs_of(const ViewOptions& options) {
+  return files_of_drawing(options);
+}
+
+Files inputs_of(const TraceOptions& options) {
+  return together({files_of(options.input), {options.rays}});
+}
+
+Files inputs_of(const ConvertOptions& options) {
+  return files_of(options.input);
+}
+
+// The older results of --against are not among them: they are read before a run writes its own over them.
+Files inputs_of(const ThesisOptions& options) {
+  return options.devices;
+}
+
+Files outputs_of(const RenderOptions& options) {
+  return {options.output};
+}
+
+Files outputs_of(const ViewOptions& options) {
+  return options.screenshot.empty() ? Files{} : Files{options.screenshot};
+}
+
+Files outputs_of(const TraceOptions& options) {
+  return {options.t, options.id};
+}
+
+Files outputs_of(const SceneOptions& options) {
+  return {options.output};
+}
+
+Files outputs_of(const ConvertOptions& options) {
+  return {options.output};
+}
+
+Files outputs_of(const ThesisOptions& options) {
+  return {options.out + "/report.html", options.out + "/results.json"};
+}
+
+}  // namespace bihive::cli
