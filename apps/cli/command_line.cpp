@@ -586,6 +586,14 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
   add_value(command, "--seed", options.seed, "S", "Seed of the random scenarios (1)", seed_from);
   add_integer(command, "--threads", options.threads, 0, kMostThreads,
               "Threads (0: as many as the machine runs at once)");
+  command
+      .add_option("--costs", options.costs,
+                  "Figure 4.4: judge all claims at these costs: an inner node in sphere tests,\na leaf in inner nodes, "
+                  "the fixed part of a ray in sphere tests")
+      ->type_name("INNER,LEAF,FIXED")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Range(0.0, 1e6));
   command.add_option("--values", options.values, "Other values to compare with: DIR/EXPERIMENT/values.json")
       ->type_name("DIR");
   command

@@ -205,6 +205,7 @@ std::string command_of(const ThesisOptions& options) {
   if (options.quick) command += " --quick";
   if (options.seed != ThesisOptions{}.seed) command += fmt::format(" --seed {}", options.seed);
   if (options.threads != 0) command += fmt::format(" --threads {}", options.threads);
+  if (!options.costs.empty()) command += fmt::format(" --costs {}", fmt::join(options.costs, ","));
   if (!options.values.empty()) command += " --values " + in_shell(options.values);
   for (const std::string& device : options.devices) command += " --device " + in_shell(device);
   if (!options.against.empty()) command += " --against " + in_shell(options.against);
@@ -246,7 +247,7 @@ namespace bihive::cli {
 
 void run_thesis(const ThesisOptions& options) {
   using namespace thesis;
-  const Settings settings{options.quick, static_cast<int>(options.threads), options.seed};
+  const Settings settings{options.quick, static_cast<int>(options.threads), options.seed, options.costs};
   check_values(options);
   if (options.out == kStandardStream) fail_usage("--out names a folder, and - is none");
   if (fs::is_directory(options.out)) check_outputs(outputs_of(options), inputs_of(options));

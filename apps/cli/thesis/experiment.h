@@ -21,6 +21,9 @@ struct Settings {
   bool quick = false;      ///< everything small, within a minute on two cores
   int threads = 0;         ///< 0 = all
   std::uint64_t seed = 1;  ///< of "this seed", and of pictures; means are over the seeds 1, 2, ...
+  /// Figure 4.4: the costs at which the text's claims are judged (figure_4_4_cost_model.h): an inner node in sphere
+  /// tests, a leaf in inner nodes, the fixed part of a ray in sphere tests. Empty: those that suit the text best.
+  std::vector<double> costs = {};
 };
 
 /// The context of a step. Long work watches `cancel`.

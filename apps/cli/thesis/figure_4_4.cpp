@@ -93,22 +93,54 @@ Json measure_on(ComparedEngine engine, const Measure& measure) {
   return result;
 }
 
+// Seeds beside the run's own, and the rows and columns whose rays count with them: so 60 seeds take a minute.
+constexpr int kSeeds = 60, kQuickSeeds = 5, kSeedStride = 4, kQuickSeedStride = 8;
+
+Json counts_of_trees(const StepContext& context, const Scene& scene, const std::vector<std::int64_t>& max_prims,
+                     int stride) {
+  const PictureSize size = picture_size(Settings{}, context.values, 1);
+  Json trees = Json::object();
+  for (const std::int64_t prims : max_prims) {
+    const Tree tree = build_reference_tree(scene.spheres, {prims, kUnlimited});
+    const RayCounts counts = count_rays(context, scene, tree, size, stride);
+    if (counts.rays.empty()) return {};
+    const RayCounts::Mean mean = counts.mean();
+    trees[std::to_string(prims)] = {{"nodes", mean.nodes}, {"leaves", mean.leaves}, {"tests", mean.tests}};
+  }
+  return trees;
+}
+
+Scene scene_with_seed(const StepContext& context, std::int64_t scenario, std::int64_t spheres, std::uint64_t seed) {
+  const ScenarioParameters parameters{spheres, static_cast<float>(context.values.number("radius")), seed};
+  return value_or_fail(scenario_scene(scenario_of(scenario), parameters));
+}
+
+// Of the seeds 1, 2, ...: the thesis's values of MAX_PRIMS in one scenario.
+Json count_seeds(const StepContext& context, std::int64_t scenario) {
+  Json seeds = Json::array();
+  for (int seed = 1; seed <= (context.settings.quick ? kQuickSeeds : kSeeds); ++seed) {
+    Json by_spheres = Json::object();
+    for (const std::int64_t spheres : context.values.integers("spheres_list")) {
+      Json trees = counts_of_trees(
+          context, scene_with_seed(context, scenario, spheres, static_cast<std::uint64_t>(seed)),
+          context.values.integers("max_prims_list"), context.settings.quick ? kQuickSeedStride : kSeedStride);
+      if (trees.empty()) return {};
+      by_spheres[fmt::format("spheres{}", spheres)] = std::move(trees);
+    }
+    seeds.push_back(std::move(by_spheres));
+  }
+  return seeds;
+}
+
 // Means over the primary rays: nodes, leaves and tests of each tree, and the tests of brute force.
 Json count_scenario(const StepContext& context, std::int64_t number) {
   const Values& values = context.values;
-  const PictureSize size = picture_size(Settings{}, values, 1);
   Json by_spheres = Json::object();
   for (const std::int64_t spheres : values.integers("spheres_list")) {
-    const ScenarioParameters parameters{spheres, static_cast<float>(values.number("radius")), context.settings.seed};
-    const Scene scene = value_or_fail(scenario_scene(scenario_of(number), parameters));
-    Json trees = Json::object();
-    for (const std::int64_t max_prims : measured_max_prims(values, compared_engines().front(), spheres)) {
-      const Tree tree = build_reference_tree(scene.spheres, {max_prims, kUnlimited});
-      const RayCounts counts = count_rays(context, scene, tree, size, context.settings.quick ? kQuickStride : 1);
-      if (counts.rays.empty()) return {};
-      const RayCounts::Mean mean = counts.mean();
-      trees[std::to_string(max_prims)] = {{"nodes", mean.nodes}, {"leaves", mean.leaves}, {"tests", mean.tests}};
-    }
+    Json trees = counts_of_trees(context, scene_with_seed(context, number, spheres, context.settings.seed),
+                                 measured_max_prims(values, compared_engines().front(), spheres),
+                                 context.settings.quick ? kQuickStride : 1);
+    if (trees.empty()) return {};
     by_spheres[fmt::format("spheres{}", spheres)] = {{"brute_tests", spheres}, {"trees", std::move(trees)}};
   }
   return by_spheres;
@@ -133,6 +165,14 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   for (const std::int64_t scenario : plan.scenarios)
     steps.push_back({counts_step(scenario), settings.quick ? 0.5 : 8,
                      [scenario](StepContext& context) { return count_scenario(context, scenario); }});
+  for (const std::int64_t scenario : plan.scenarios)
+    steps.push_back({seeds_step(scenario), settings.quick ? 0.3 : 20,
+                     [scenario](StepContext& context) { return count_seeds(context, scenario); }});
+  for (const std::int64_t scenario : plan.scenarios)
+    for (const std::int64_t spheres : plan.spheres)
+      steps.push_back(
+          {program_step(scenario, spheres), settings.quick ? 0.2 : 3,
+           [scenario, spheres](StepContext& context) { return measure_program(context, scenario, spheres); }});
   steps.push_back({kBalanceStep, 0.3, [](StepContext& context) { return measure_balance(context); }});
   for (const ComparedEngine& engine : compared_engines()) {
     double all_brute = 0;
@@ -191,6 +231,10 @@ std::vector<std::int64_t> measured_max_prims(const Values& values, const Compare
     if (beyond > all.back() && beyond < spheres) all.push_back(beyond);
   if (spheres > all.back()) all.push_back(spheres);
   return all;
+}
+
+std::string seeds_step(std::int64_t scenario) {
+  return fmt::format("seeds-scenario{}", scenario);
 }
 
 std::string counts_step(std::int64_t scenario) {

@@ -340,12 +340,13 @@ class EngineBlock {
 
 }  // namespace
 
-EngineTimes engine_times(const SectionContext& context, const ComparedEngine& engine) {
+EngineTimes times_of_steps(const SectionContext& context,
+                           const std::function<std::string(std::int64_t scenario, std::int64_t spheres)>& step) {
   EngineTimes all;
   const std::string prefix = "max_prims";
   for (const std::int64_t scenario : context.values.integers("scenarios"))
     for (const std::int64_t spheres : context.values.integers("spheres_list")) {
-      const auto found = context.results.find(configuration_step(engine, scenario, spheres));
+      const auto found = context.results.find(step(scenario, spheres));
       if (found == context.results.end() || why_missing(found->second)) continue;
       ConfigurationTimes& times = all[{scenario, spheres}];
       for (const auto& [name, list] : found->second["frame_ms"].items())
@@ -353,6 +354,12 @@ EngineTimes engine_times(const SectionContext& context, const ComparedEngine& en
             list.get<std::vector<double>>();
     }
   return all;
+}
+
+EngineTimes engine_times(const SectionContext& context, const ComparedEngine& engine) {
+  return times_of_steps(context, [&](std::int64_t scenario, std::int64_t spheres) {
+    return configuration_step(engine, scenario, spheres);
+  });
 }
 
 void add_engines(const SectionContext& context, Section& section) {

@@ -1,4 +1,5 @@
-// The section of Figure 4.4: what can be known without a clock comes first, then the engines, then the lost bars.
+// The section of Figure 4.4: where the text's winner wins comes first, then what is counted without a clock, then the
+// engines, then the lost bars.
 #include <fmt/format.h>
 
 #include "thesis/figure_4_4.h"
@@ -22,6 +23,7 @@ Section figure_4_4_section(const SectionContext& context) {
                                  : ""));
       break;
     }
+  add_winner(context, section);
   add_counts(context, section);
   add_engines(context, section);
   add_floor(context, section);

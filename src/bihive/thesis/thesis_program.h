@@ -1,0 +1,56 @@
+// The thesis program: the search for hits as a plain program of its time would do it, to learn what its steps cost.
+//
+// Binary32, one thread, two children a node, the steps of the shader (gl/shaders/traversal.glsl). It uses neither the
+// intersection nor the traversal of the library; the reference engine says how many of its pixels are right.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bihive/bih/tree.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+/// Spheres and a tree in binary32, in world units.
+class ThesisProgram {
+ public:
+  ThesisProgram(const Scene& scene, const Tree& tree);
+
+  /// The nearest sphere of each pixel, -1 where there is none: by the tree, or by testing every sphere. Row by row from
+  /// the top, `width * height` of them.
+  void draw_by_tree(int width, int height, std::vector<std::int32_t>& ids) const;
+  void draw_by_brute_force(int width, int height, std::vector<std::int32_t>& ids) const;
+
+ private:
+  struct Sphere {
+    float x, y, z, radius;
+  };
+  struct ProgramNode {
+    float left_clip, right_clip;
+    std::int32_t first, count;  // children, or spheres in leaf order
+    std::int8_t axis;
+    bool leaf, split;
+  };
+  struct ProgramRay {
+    float origin[3], direction[3];
+  };
+  struct Nearest {
+    float t;
+    std::int32_t id;
+  };
+
+  void test(const ProgramRay& ray, std::size_t sphere, std::int32_t id, Nearest& nearest) const;
+  std::int32_t closest_by_tree(const ProgramRay& ray) const;
+  std::int32_t closest_by_brute_force(const ProgramRay& ray) const;
+  template <class Closest>
+  void draw(int width, int height, std::vector<std::int32_t>& ids, const Closest& closest) const;
+
+  Camera camera_;
+  std::vector<Sphere> spheres_, in_leaf_order_;
+  std::vector<std::int32_t> leaf_ids_;
+  std::vector<ProgramNode> nodes_;
+  float lo_[3], hi_[3];
+};
+
+}  // namespace bihive
