@@ -106,7 +106,10 @@ class OtherFiles(ProgramTest):
                 ["strace", "-f", "-e", "trace=open,openat,openat2", "-o", self.path("trace"), BIHIVE, "info", self.path(name)],
                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False,
             )
-            self.assertNotIn(b"other.h5", self.read("trace"), name)
+            trace = self.read("trace") if os.path.exists(self.path("trace")) else b""
+            if name.encode() not in trace:
+                self.skipTest("strace may not trace here")
+            self.assertNotIn(b"other.h5", trace, name)
 
     def test_filters_of_plug_ins(self):
         with self.make("a.h5") as file:

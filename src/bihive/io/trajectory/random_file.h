@@ -16,8 +16,6 @@ struct FileStamp {
   std::int64_t written_s = 0, written_ns = 0;  ///< when its content was written last: anybody can set it
   std::int64_t changed_s = 0, changed_ns = 0;  ///< when content, name or owner changed last: the system alone sets it
   std::int64_t inode = 0;
-
-  bool operator==(const FileStamp&) const = default;
 };
 
 class RandomFile {
