@@ -627,6 +627,22 @@ std::string version_text() {
   return "bihive " + std::string(version()) + revision;
 }
 
+// The words from the last to the first, as CLI11 wants them. It would take the word after "--title=" for the title.
+std::vector<std::string> words_for_parser(int argc, const char* const* argv) {
+  std::vector<std::string> words;
+  bool options = true;
+  for (int i = 1; i < argc; ++i) {
+    std::string word = argv[i];
+    options = options && word != "--";
+    const bool is_empty = options && word.rfind("--", 0) == 0 && word.find('=') + 1 == word.size();
+    if (is_empty) word.pop_back();
+    words.push_back(std::move(word));
+    if (is_empty) words.emplace_back();
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 // `with_film`: the words of a film stand among them.
 Request parse_words(int argc, const char* const* argv, bool with_film, const Describe& describe) {
   CLI::App app("bihive: ray tracing of spheres on a bounding interval hierarchy", "bihive");
@@ -664,7 +680,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   if (describe && argc > 1 && std::string(argv[1]) == "describe")
     return HelpText{describe(app, {argv + 2, argv + argc}), true};
   try {
-    app.parse(argc, argv);
+    app.parse(words_for_parser(argc, argv));
   } catch (const CLI::CallForVersion&) {
     return HelpText{version_text() + "\n", true};
   } catch (const CLI::Success&) {

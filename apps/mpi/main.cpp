@@ -177,6 +177,13 @@ int run_ranks(const std::vector<const char*>& arguments) {
   return code;
 }
 
+void prepare() {
+  end_in_one_line(cli::remove_unfinished);
+}
+
+// As in bihive: before the shared libraries make their variables.
+__attribute__((section(".preinit_array"), used)) void (*const kFirst)() = prepare;
+
 }  // namespace
 }  // namespace bihive::mpi
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { kThreads = 4, kRounds = 6, kSpheres = 300, kRays = 500, kPoints = 50, kMost = 3, kSides = 2, kPixels = 24 };
+enum { kThreads = 4, kRounds = 30, kSpheres = 300, kRays = 500, kPoints = 50, kMost = 3, kSides = 2, kPixels = 24 };
 
 static const char* const kSideNames[kSides] = {"front", "iso"};
 

@@ -155,6 +155,12 @@ class WrongUsage(ProgramTest):
         self.assertIn("scenario1", self.fail_usage("scene", "demo", "-o", "a.npy"))
         self.assertIn("--count", self.fail_usage("scene", "four-spheres", "--count", "4", "-o", "a.npy"))
 
+    def test_an_empty_value_takes_no_other_word(self):
+        self.succeed("render", "demo", "--title=", "-o", "a.png", "--size", "16x12", "--samples", "1")
+        self.assertEqual(os.listdir(self.folder), ["a.png"])
+        self.assertIn("--view-from", self.fail_usage("render", "demo", "--view-from=", "left", "-o", "b.png"))
+        self.assertIn("--title=: cannot be opened", self.fail_with(1, "info", "--", "--title="))
+
 
 if __name__ == "__main__":
     main()

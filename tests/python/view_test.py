@@ -2,6 +2,7 @@
 
 import json
 import os
+import threading
 import urllib.request
 import unittest
 
@@ -45,6 +46,27 @@ class View(ProgramTest):
             self.assertEqual(fetched(page.url + "file/a.csv"), b"x,y,z\n0,0,0\n")
         with bh.view("demo", browser=False) as page:
             self.assertEqual(json.loads(fetched(page.url + "start.json")), {"source": {"built_in": "demo"}})
+
+    def test_several_threads_close_it(self):
+        for name in ("a" * 5000, "three"):
+            page = bh.view(bh.Spheres(np.eye(3), radius=0.5, name=name), browser=False)
+            wrong = []
+
+            def close():
+                try:
+                    self.assertIn(page.url, repr(page))
+                    page.close()
+                    self.assertFalse(page.is_open)
+                except BaseException as error:
+                    wrong.append(error)
+
+            threads = [threading.Thread(target=close) for _ in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(wrong, [])
+            self.assertFalse(os.path.exists(page._folder))
 
     def test_what_is_wrong(self):
         with self.assertRaisesRegex(OSError, "missing.pdb"):

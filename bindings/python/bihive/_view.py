@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 __all__ = ["View", "view"]
 
 
+_LONGEST_NAME = 60  # characters: a folder takes names of 255 bytes
+
+
 class View:
     """A page that is served until close(), the end of a ``with``, or the end of Python."""
 
@@ -35,6 +38,9 @@ class View:
         if self.is_open:
             self._server.terminate()
             self._server.wait()
+        for stream in (self._server.stdout, self._server.stderr):
+            if stream is not None:
+                stream.close()
         _let_go(self._folder, self._descriptors)
 
     def __enter__(self) -> View:
@@ -54,8 +60,13 @@ def _let_go(folder: str, descriptors: list[int]) -> None:
     import shutil
 
     shutil.rmtree(folder, ignore_errors=True)
-    while descriptors:
-        os.close(descriptors.pop())
+    # Several threads may come here: each descriptor is closed by one of them.
+    while True:
+        try:
+            descriptor = descriptors.pop()
+        except IndexError:
+            return
+        os.close(descriptor)
 
 
 # Spheres lie in memory that has no name in any folder; the link to it gives the page a name to show.
@@ -64,7 +75,7 @@ def _command_of(spheres: Spheres, folder: str) -> tuple[list[str], list[int]]:
     descriptor = os.memfd_create("spheres")
     with open(os.dup(descriptor), "wb") as file:
         file.write(content)
-    stem = os.path.splitext(os.path.basename(spheres.name))[0] or "spheres"
+    stem = os.path.splitext(os.path.basename(spheres.name))[0][:_LONGEST_NAME] or "spheres"
     link = os.path.join(folder, f"{stem}.extxyz")
     os.symlink(f"/proc/{os.getpid()}/fd/{descriptor}", link)
     return [link], [descriptor]
