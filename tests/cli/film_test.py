@@ -422,7 +422,8 @@ class Titles(FilmTest):
         self.write("log.csv", "energy, time\n" + "".join(f"{-1.25 * k},{k}\n" for k in range(6)))
         self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--title-values", "log.csv", "--title", "{energy:.2f} {time}", "--frames", "::2")
         self.assertEqual(self.title("run/2.png"), "-5.00 4")
-        self.assertEqual(self.read("run/1.png"), self.single("run/film.json", "--frame", "2"))
+        self.assertEqual(self.read("run/1.png"),
+                         self.single("run/film.json", "--frame", "2", "--title-values", "log.csv"))
         for text, words in (("e\n1\n", "log.csv:3: has no row for frame 1"), ("e,e\n1,2\n", "two columns"),
                             ("e\nx\n", "log.csv:2: expected"), ("e\n1,2\n", "expected 1 fields, found 2"), ("", "no line of names")):
             self.write("log.csv", text)

@@ -140,8 +140,8 @@ def inputs():
 
 def is_whole(name, data):
     """Whether a file of the thesis's report, or of a film, is no part of one. The next run of `film` cuts off what stands
-    behind the last whole picture of its .y4m."""
-    if name in ("a.y4m.part/lock", "a.y4m.part/film.y4m"):
+    after the last whole picture of its .y4m, and after the last whole line of an index."""
+    if name in ("a.y4m.part/lock", "a.y4m.part/film.y4m", "out/film.index"):
         return True
     ending = os.path.splitext(name)[1]
     if ending == ".json":

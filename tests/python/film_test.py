@@ -2,7 +2,10 @@
 
 import os
 import shutil
+import signal
 import subprocess
+import sys
+import time
 import unittest
 
 import bihive as bh
@@ -10,6 +13,7 @@ import numpy as np
 from adapt_test import AseLike, Universe
 from program import ProgramTest, main
 
+FFMPEG = shutil.which("ffmpeg")
 OPTIONS = {"size": (32, 24), "samples": 1, "style": "flat"}
 
 
@@ -20,7 +24,7 @@ def pictures_of(path):
     return np.frombuffer(raw, np.uint8).reshape(-1, 24, 32, 3)
 
 
-@unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed: scripts/setup test installs it")
+@unittest.skipUnless(FFMPEG, "ffmpeg is not installed: scripts/setup test installs it")
 class Films(ProgramTest):
     def assert_film(self, name, pictures):
         """The pictures of a film, but for the losses of its codec."""
@@ -86,6 +90,73 @@ class Films(ProgramTest):
             with self.assertRaises(error):
                 call()
             self.assertEqual(os.listdir(self.folder), [])
+
+    def fake_ffmpeg(self, script):
+        """A program of this name comes first in PATH. It has the real one as $real."""
+        path = os.environ["PATH"]
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        os.makedirs(self.path("bin"), exist_ok=True)
+        self.write("bin/ffmpeg", f"#!/bin/sh\nreal={FFMPEG}\n" + script)
+        os.chmod(self.path("bin/ffmpeg"), 0o755)
+        os.environ["PATH"] = self.path("bin") + ":" + path
+
+    def test_a_replaced_film_keeps_owner_and_mode(self):
+        frames = [bh.Spheres(np.zeros((1, 3)), radius=1)] * 2
+        self.write("run.xyz", "1\n\nC 0 0 0\n" * 2)
+        for source in (frames, self.path("run.xyz")):
+            self.write("a.mp4", "old")
+            os.chmod(self.path("a.mp4"), 0o640)
+            if os.geteuid() == 0:
+                os.chown(self.path("a.mp4"), 65534, 65534)
+            os.symlink("a.mp4", self.path("link.mp4"))
+            bh.film(source, self.path("link.mp4"), **OPTIONS)
+            info = os.stat(self.path("a.mp4"))
+            self.assertEqual((info.st_mode & 0o777, info.st_uid), (0o640, 65534 if os.geteuid() == 0 else os.geteuid()))
+            self.assertTrue(os.path.islink(self.path("link.mp4")))
+            self.assertEqual(len(pictures_of(self.path("a.mp4"))), 2)
+            self.assertEqual([name for name in os.listdir(self.folder) if name.startswith(".")], [])
+            os.unlink(self.path("link.mp4"))
+
+    def test_a_new_film_has_the_mode_of_other_new_files(self):
+        before = os.umask(0o027)
+        self.addCleanup(os.umask, before)
+        bh.film([bh.Spheres(np.zeros((1, 3)), radius=1)], self.path("a.mp4"), **OPTIONS)
+        self.assertEqual(os.stat(self.path("a.mp4")).st_mode & 0o777, 0o640)
+        # What a killed program left goes away.
+        os.mkdir(self.path(".bihive-0123456789abcdef.film"), 0o700)
+        self.write(".bihive-0123456789abcdef.film/film.mp4", "half")
+        bh.film([bh.Spheres(np.zeros((1, 3)), radius=1)], self.path("a.mp4"), **OPTIONS)
+        self.assertEqual(os.listdir(self.folder), ["a.mp4"])
+
+    def test_an_ffmpeg_that_lies(self):
+        frames = [bh.Spheres(np.zeros((1, 3)), radius=1)] * 3
+        last = 'for word in "$@"; do last=$word; done\n'
+        for script, words in (("exit 0\n", "ffmpeg"), ("cat > /dev/null\n", "has not written the film"),
+                              (last + 'cat > /dev/null; echo rubbish > "${last#file:}"\n', "something that is no film"),
+                              ('case "$*" in *pipe:0*) head -c 2304 | "$real" "$@";; *) exec "$real" "$@";; esac\n',
+                               "given 3 pictures, and wrote 1 pictures")):
+            self.fake_ffmpeg(f"cd {self.path('bin')}\n" + script)
+            with self.assertRaisesRegex(bh.MissingError, words):
+                bh.film(frames, self.path("a.mp4"), **OPTIONS)
+            self.assertEqual(os.listdir(self.folder), ["bin"])
+
+    def test_ctrl_c_ends_an_ffmpeg_that_hangs(self):
+        self.fake_ffmpeg('case "$*" in *pipe:0*) echo $$ > "$HERE/started"; exec sleep 700;; esac; exec "$real" "$@"\n')
+        self.write("run.xyz", "1\n\nC 0 0 0\n" * 40)
+        one = "bh.Spheres([[0, 0, 0]], radius=1)"
+        for source in (f"({one} for _ in range(1000))", repr(self.path("run.xyz"))):
+            script = f"import bihive as bh; bh.film({source}, {self.path('a.mp4')!r}, size=(640, 480), samples=1, style='plain')"
+            process = subprocess.Popen([sys.executable, "-c", script], env={**os.environ, "HERE": self.folder},
+                                       stderr=subprocess.PIPE, start_new_session=True, text=True)
+            while not (os.path.exists(self.path("started")) and self.read("started")):
+                self.assertIsNone(process.poll())
+                time.sleep(0.02)
+            process.send_signal(signal.SIGINT)
+            self.assertIn("KeyboardInterrupt", process.communicate(timeout=600)[1])
+            with self.assertRaises(ProcessLookupError):
+                os.kill(int(self.read("started")), 0)
+            os.unlink(self.path("started"))
+            self.assertEqual(sorted(os.listdir(self.folder)), ["bin", "run.xyz"])
 
     def test_ffmpeg_is_missing(self):
         path = os.environ["PATH"]
