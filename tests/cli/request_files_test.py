@@ -54,7 +54,8 @@ class RequestFilesTest(ProgramTest):
                               "convert": [("--format", "xyz")]}.get(command, []):
             if needed not in (option, output_option):
                 words += [needed, value]
-        if command in ("render", "film"):
+        # A picture of a film has the film's size.
+        if command in ("render", "film") and option != "--film":
             words += SMALL
         if command == "thesis":
             words += ["figure-4.1", "--quick"]
