@@ -60,6 +60,8 @@ class RequestFilesTest(ProgramTest):
         if command == "thesis":
             words += ["figure-4.1", "--quick"]
         words += [named] if option in ("INPUT", "TRAJECTORY") else [option, named]
+        if option == "--film":
+            words += ["--picture", "0"]
         if option == "--title-values":
             words += ["--title", "{a}"]
         return words + [output_option, output]

@@ -50,9 +50,10 @@ class MessagesTest(unittest.TestCase):
         self.assertIsInstance(self.fails(lambda: bihive.read(self.path("a.xyz"))), bihive.InputError)
 
     def test_warnings(self):
-        name = self.path(HOSTILE + ".csv")
+        # Elements that nobody knows, at one place.
+        name = self.path(HOSTILE + ".xyz")
         with open(name, "wb") as file:
-            file.write(b"x,y,z,r\n1e8,0,0,1\n1e8,3,0,1\n")
+            file.write(b"1\n\nQ\xc2\x9b\xff 0 0 0\n")
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
             bihive.read(name)
