@@ -54,11 +54,14 @@ class RequestFilesTest(ProgramTest):
                               "convert": [("--format", "xyz")]}.get(command, []):
             if needed not in (option, output_option):
                 words += [needed, value]
-        if command in ("render", "film"):
+        # A picture of a film has the film's size.
+        if command in ("render", "film") and option != "--film":
             words += SMALL
         if command == "thesis":
             words += ["figure-4.1", "--quick"]
         words += [named] if option in ("INPUT", "TRAJECTORY") else [option, named]
+        if option == "--film":
+            words += ["--picture", "0"]
         if option == "--title-values":
             words += ["--title", "{a}"]
         return words + [output_option, output]

@@ -37,7 +37,7 @@ void check_parts(const std::string& output, const std::vector<std::string>& inpu
   std::error_code unknown;
   const std::string parts = part_path(fs::weakly_canonical(output, unknown).string());
   for (const std::string& input : inputs)
-    if (!input.empty() && fs::equivalent(fs::absolute(input, unknown).parent_path(), parts, unknown))
+    if (!input.empty() && fs::equivalent(fs::weakly_canonical(input, unknown).parent_path(), parts, unknown))
       fail({"lies in the folder of the film's parts, which goes away", input, 0, 0, "move it, or name another output"});
 }
 
