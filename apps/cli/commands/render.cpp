@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
@@ -38,6 +39,11 @@ void run_render(const RenderOptions& asked) {
   // Build, render, write.
   const Tracer tracer =
       value_or_fail(Tracer::build(scene, structure_of(prepared.engine), options.tree, settings.threads));
+  // Threads reserve more for their rays than they touch.
+  constexpr double kReservedByThread = 24 << 20;
+  if (team() == nullptr)
+    turn_group_limit_into_failing_allocations(kReservedByThread *
+                                              (settings.threads > 0 ? settings.threads : hardware_threads()));
   const Timer drawing;
   const std::unique_ptr<PictureFile> file =
       leads() ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})

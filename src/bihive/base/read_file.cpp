@@ -99,7 +99,7 @@ Result<std::string> read_descriptor(int file, const std::string& name, bool* gre
   try {
     return read_open_file(file, name, grew);
   } catch (const std::bad_alloc&) {
-    return Error{"there is not enough memory to read it", name, 0, 0, ""};
+    return Error{no_memory_for("reading it").message, name, 0, 0, ""};
   }
 }
 

@@ -198,7 +198,7 @@ Result<std::string> unpack_bytes(std::string_view bytes, const std::string& name
   if (Status status = unpack_pieces(packing, source, name, sink); !status) return status.error();
   return unpacked;
 } catch (const std::bad_alloc&) {
-  return packed_fault("there is not enough memory to unpack it", name);
+  return packed_fault(no_memory_for("unpacking it").message, name);
 }
 
 }  // namespace bihive

@@ -169,7 +169,7 @@ Result<std::string> read_head(const std::string& path) try {
   begin.resize(std::min(begin.size(), kHeadOfFile));
   return begin;
 } catch (const std::bad_alloc&) {
-  return Error{"there is not enough memory to read it", path, 0, 0, ""};
+  return Error{no_memory_for("reading it").message, path, 0, 0, ""};
 }
 
 }  // namespace bihive

@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 
+#include "bihive/base/memory.h"
 #include "bihive/base/result.h"
 
 namespace bihive {
@@ -15,7 +16,7 @@ auto without_throwing(const std::string& name, const Body& body) -> decltype(bod
   try {
     return body();
   } catch (const std::bad_alloc&) {
-    return Error{"there is not enough memory to read it", name, 0, 0, ""};
+    return Error{no_memory_for("reading it").message, name, 0, 0, ""};
   } catch (const std::exception& e) {
     return Error{"reading failed: " + std::string(e.what()), name, 0, 0, ""};
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "bihive/base/memory.h"
 #include "bihive/io/text_scanner.h"
 #include "bihive/io/trajectory/byte_reader.h"
 
@@ -75,7 +76,7 @@ Result<GsdFile> GsdFile::open(RandomFile file) {
   try {
     if (Status status = made.read_head(); !status) return status.error();
   } catch (const std::bad_alloc&) {
-    return Error{"there is not enough memory to read it", made.path(), 0, 0, ""};
+    return Error{no_memory_for("reading it").message, made.path(), 0, 0, ""};
   }
   return made;
 }

@@ -9,6 +9,8 @@
 #include <new>
 #include <utility>
 
+#include "bihive/base/memory.h"
+
 namespace bihive {
 namespace {
 
@@ -93,7 +95,7 @@ Result<std::string> RandomFile::read(std::int64_t place, std::int64_t count) con
     if (Status status = read_into(place, count, bytes.data()); !status) return status.error();
     return bytes;
   } catch (const std::bad_alloc&) {
-    return Error{"there is not enough memory to read it", path_, 0, 0, ""};
+    return Error{no_memory_for("reading it").message, path_, 0, 0, ""};
   }
 }
 

@@ -21,8 +21,8 @@ double emptiest_node(std::int64_t full_leaf) {
   return full_leaf < 4 ? 3 : 6;
 }
 
-// A set of a usual kind: nodes and splits for each full leaf.
-constexpr double kUsualNodes = 0.075, kUsualSplits = 1.1;
+// A set of a usual kind: nodes and splits for each full leaf; bytes of a sphere, between those of both layouts.
+constexpr double kUsualNodes = 0.075, kUsualSplits = 1.1, kUsualSphere = 18;
 
 constexpr std::int64_t kCellCountBytes = kMostChunks * CellGrid::kCells * 4;
 constexpr std::int64_t kHugePage = std::int64_t{1} << 21;
@@ -69,9 +69,9 @@ WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParamet
   // Leaves are nearly full as a rule. Splits of them, and nodes: in subtrees, then together.
   const double cells = spheres > kGridSpheres ? 2.0 * double(padded) + double(kCellCountBytes) : 0;
   const double usual_nodes = std::min(double(leaves) * kUsualNodes + 2, most_nodes);
-  const double rounded = 16.0 * double(padded) < double(kHugePage) ? 0 : 3.0 * double(kHugePage);
+  const double rounded = 16.0 * double(padded) < double(kHugePage) ? 0 : double(kHugePage);
   prediction.peak_bytes =
-      kTree + static_cast<std::int64_t>(2 * 20 * double(padded) + cells +
+      kTree + static_cast<std::int64_t>(2 * kUsualSphere * double(padded) + cells +
                                         std::max(double(leaves) * kUsualSplits, double(NodeArena::kPortionSplits)) *
                                             double(sizeof(BinarySplit)) +
                                         3 * usual_nodes * double(kNode) + rounded);
