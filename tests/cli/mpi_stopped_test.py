@@ -14,14 +14,14 @@ WORDS = ["render", "run.xyz", "-o", "a.png", "--size", "20x20"]
 LONG = ["render", "demo", "-o", "a.png", "--size", "12000x9000", "--samples", "64", "--threads", "1"]
 # The number of its process, for each rank.
 WITH_NUMBER = 'echo $$ > pid.$OMPI_COMM_WORLD_RANK.new; mv pid.$OMPI_COMM_WORLD_RANK.new pid.$OMPI_COMM_WORLD_RANK; exec "$0" "$@"'
-RANKS = 3
+RANKS = 2  # ranks that wait for each other keep all cores busy
 
 
 @unittest.skipUnless(BIHIVE_MPI and is_open_mpi(), "bihive-mpi was not built: install libopenmpi-dev and openmpi-bin")
 class Ranks(OnRanks):
     def setUp(self):
         super().setUp()
-        self.environment = {**os.environ, "BIHIVE_MPI_PATIENCE": "4"}
+        self.environment = {**os.environ, "BIHIVE_MPI_PATIENCE": "3"}
 
     def two(self, first, second):
         """Rank 0 runs the first command, rank 1 the second."""
@@ -42,26 +42,24 @@ class Ranks(OnRanks):
         self.assertEqual(done.stderr.count("Usage: mpirun"), 1, done.stderr)
 
     def test_a_rank_with_other_arguments(self):
-        for other in (["--help"], [], ["--version"], ["render", "--help"], [*WORDS, "--ao"], [*WORDS, "--distribute"], ["no", "sense"]):
-            for first, second in ((WORDS, other), (other, WORDS)):
-                with self.subTest(first=first, second=second):
-                    done = self.two([BIHIVE_MPI, *first], [BIHIVE_MPI, *second])
-                    self.assertEqual(done.returncode, 1, done.stderr)
-                    self.assertEqual(len(self.errors(done)), 1, done.stderr)
-                    self.assertIn("the command line of rank 1 is not that of rank 0", self.errors(done)[0])
-                    self.assertEqual(self.leftovers(), [])
+        for first, second in ((WORDS, ["--help"]), (["render", "--help"], WORDS), (WORDS, []), (WORDS, [*WORDS, "--distribute"])):
+            with self.subTest(first=first, second=second):
+                done = self.two([BIHIVE_MPI, *first], [BIHIVE_MPI, *second])
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertEqual(len(self.errors(done)), 1, done.stderr)
+                self.assertIn("the command line of rank 1 is not that of rank 0", self.errors(done)[0])
+                self.assertEqual(self.leftovers(), [])
 
     def test_a_rank_that_never_starts(self):
         done = self.two([BIHIVE_MPI, *WORDS], ["sleep", str(PATIENCE_S)])
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertEqual(len(self.errors(done)), 1, done.stderr)
-        self.assertIn("not all ranks have started this program within 6 s", self.errors(done)[0])
+        self.assertIn("not all ranks have started this program within 4 s", self.errors(done)[0])
         self.assertEqual(self.leftovers(), [])
 
     def test_a_rank_that_ends_early(self):
-        for early in (["true"], ["sh", "-c", "exit 3"]):
-            self.assertNotEqual(self.two([BIHIVE_MPI, *WORDS], early).returncode, 0)
-            self.assertEqual(self.leftovers(), [])
+        self.assertNotEqual(self.two([BIHIVE_MPI, *WORDS], ["true"]).returncode, 0)
+        self.assertEqual(self.leftovers(), [])
 
     def begin(self, *words):
         process = subprocess.Popen(self.mpirun(RANKS, "sh", "-c", WITH_NUMBER, BIHIVE_MPI, *words), cwd=self.folder, env=self.environment,
@@ -98,24 +96,22 @@ class Ranks(OnRanks):
         self.fail("it does not work")
 
     def test_a_rank_that_is_stopped(self):
-        # While MPI starts, and in the middle of a picture.
-        for rank, seconds, more in ((1, 0, []), (0, 1.5, []), (2, 1.5, ["--distribute"])):
-            with self.subTest(rank=rank, seconds=seconds, more=more):
+        # In the middle of a picture.
+        for rank, more in ((0, []), (1, ["--distribute"])):
+            with self.subTest(rank=rank, more=more):
                 process, numbers = self.begin(*LONG, *more)
-                self.wait_for_work(numbers[rank], seconds)
+                self.wait_for_work(numbers[rank], 0.6)
                 os.kill(numbers[rank], signal.SIGSTOP)
                 out, err = process.communicate(timeout=PATIENCE_S)
                 self.assertEqual((process.returncode, out), (3, ""), err)
                 errors = [line for line in err.splitlines() if line.startswith("bihive: ") and "%" not in line]
-                self.assertTrue(1 <= len(errors) <= RANKS - 1, err)
-                expected = f"rank {rank} has been silent for 4 s" if seconds else "not all ranks have started|rank 1 has been silent"
-                self.assertRegex(errors[0], expected)
+                self.assertEqual(len(errors), 1, err)
+                self.assertIn(f"rank {rank} has been silent for 3 s", errors[0])
                 for number in range(RANKS):
                     os.remove(self.path(f"pid.{number}"))
                 self.assertEqual(self.leftovers(), [])
 
     def test_all_ranks_are_stopped_for_a_while(self):
-        self.environment["BIHIVE_MPI_PATIENCE"] = "3"
         process, numbers = self.begin("render", "demo", "-o", "a.png", "--size", "1600x1200", "--threads", "1")
         self.wait_for_work(numbers[0], 0.25)
         for sign in (signal.SIGSTOP, signal.SIGCONT):
