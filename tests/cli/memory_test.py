@@ -76,9 +76,9 @@ class Memory(ProgramTest):
         if is_sanitized():
             self.skipTest("the address sanitizer alone takes more than these groups allow")
         self.succeed("scene", "scenario2", "--count", "200000", "-o", "s.npy")
-        self.succeed("convert", "s.npy", "-o", "s.xyz")
+        self.succeed("convert", "s.npy", "-o", "s.extxyz")
         picture = ["-o", "a.png", "--size", "320x240", "--samples", "1"]
-        commands = (["render", "s.npy", *picture], ["render", "s.xyz", *picture], ["info", "s.npy"], ["stats", "s.xyz"],
+        commands = (["render", "s.npy", *picture], ["render", "s.extxyz", *picture], ["info", "s.npy"], ["stats", "s.extxyz"],
                     ["convert", "s.npy", "-o", "b.csv"], ["render", "demo", *picture[:2], "--size", "1500x1500"])
         ends = set()
         for megabytes in (16, 24, 32, 40, 48, 64, 200):
