@@ -1,9 +1,6 @@
 """A film takes no more memory with many frames than with few, but for the list of frames: 24 bytes each."""
 
-import os
-import unittest
-
-from program import ProgramTest, main
+from program import ProgramTest, is_sanitized, main
 
 # What a frame may add: its place in the file, and some room.
 MOST_BYTES = 300
@@ -17,8 +14,9 @@ class FilmMemory(ProgramTest):
                                  "--style", "plain", *more)
         return done["peak_memory_bytes"]
 
-    @unittest.skipIf(os.environ.get("BIHIVE_SANITIZED"), "a sanitizer keeps freed memory")
     def test_small_frames(self):
+        if is_sanitized():
+            self.skipTest("the address sanitizer keeps freed memory")
         few, many = 300, 1500
         # The program's own pages differ by a megabyte from run to run, so the smallest growth of three counts.
         growth = min(self.peak(many) - self.peak(few) for _ in range(2))

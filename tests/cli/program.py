@@ -17,6 +17,13 @@ BIHIVE = os.environ.get("BIHIVE", "bihive")
 PATIENCE_S = 600
 
 
+def is_sanitized():
+    """Whether this build is of the address sanitizer, whose run-time reserves terabytes. False where it cannot be told."""
+    if shutil.which("prlimit") is None:
+        return False
+    return subprocess.run(["prlimit", "--as=4000000000", BIHIVE, "--version"], capture_output=True).returncode != 0
+
+
 class ProgramTest(unittest.TestCase):
     """Each test runs in an empty folder of its own."""
 

@@ -67,8 +67,8 @@ int threads_to_use(int wanted) {
   return std::min(wanted, made);
 }
 
-// Idle arenas, which later calls take again. oneTBB frees an arena only after a worker has looked into it, and on a busy
-// machine workers come late: an arena for each call would grow memory by 7 kB per call. A call takes an arena for
+// Idle arenas, which later calls take again. oneTBB frees an arena only after a worker has looked into it, and on a
+// busy machine workers come late: an arena for each call would grow memory by 7 kB per call. A call takes an arena for
 // itself, so nested and concurrent calls have as many threads as ever.
 class Arenas {
  public:

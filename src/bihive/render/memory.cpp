@@ -41,7 +41,7 @@ double predict_film_bytes(const RenderSettings& settings, double pixels) {
 
 // Measured with 1 to 8 threads and the built-in styles (`bihive render demo --size 640x480 --threads N`).
 double predict_thread_bytes(const RenderSettings& settings) {
-  constexpr double kThread = 3e6, kRay = 270, kMostRays = 32768, kPixelsOfTile = 64 * 64;
+  constexpr double kThread = 2e6, kRay = 600, kMostRays = 20000, kPixelsOfTile = 64 * 64;
   const double samples = settings.adaptive_samples ? kMostRays : settings.samples_per_pixel;
   const Tile drawn = drawn_pixels(settings);
   const double pixels = static_cast<double>(drawn.width()) * drawn.height();
