@@ -2,6 +2,7 @@
 short sentence that names the argument."""
 
 import inspect
+import itertools
 import os
 import re
 import unittest
@@ -80,6 +81,7 @@ HOSTILE = {
     "class": list,
     "module": os,
     "generator": (i for i in range(3)),
+    "endless": itertools.repeat(1),
     "hostile": Hostile(),
     "bytes path": BytesPath(),
     "hostile list": [Hostile()] * 4,

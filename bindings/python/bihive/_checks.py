@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from typing import Any, Iterable, Mapping
 
 from ._errors import bad_argument, found
 
 _LONGEST_PATH = 4096
+_MOST = 1000000  # things in a list that is no array
 
 
 def whole_text(name: str, text: str) -> str:
@@ -67,6 +69,9 @@ def several(name: str, value: Any, what: str) -> list[Any]:
     if isinstance(value, (str, bytes, Mapping)):
         raise bad_argument(name, f"expected {what}, found {found(value)}")
     try:
-        return list(value)
+        things = list(itertools.islice(value, _MOST + 1))
     except TypeError:
         raise bad_argument(name, f"expected {what}, found {found(value)}") from None
+    if len(things) > _MOST:
+        raise bad_argument(name, f"expected {what}, at most {_MOST}, found {found(value)}")
+    return things
