@@ -710,7 +710,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
 std::vector<std::string> words_of_film(const std::string& path, int argc, const char* const* argv) {
   const FilmPlan plan = read_film_plan(path);
   const auto refuse = [&](const std::string& what, const std::string& hint) {
-    fail({"its options hold " + what, path, 0, 0, hint});
+    fail({"its options " + what, path, 0, 0, hint});
   };
   CLI::App app;
   FilmOptions film;
@@ -722,15 +722,16 @@ std::vector<std::string> words_of_film(const std::string& path, int argc, const 
   std::vector<std::string> words;
   for (const GivenOption& given : given_options(command, plan.asked.options)) {
     if (!is_of_picture(given))
-      refuse(given.words.front() + ", which is no option of a picture", "make the film's description again");
+      refuse("contain " + given.words.front() + ", which is not an option of a picture",
+             "take the description that bihive film wrote");
     if (names_file(given)) {
       // The user's own word stands on the command line already.
       const bool is_named = std::any_of(given_here.begin(), given_here.end(), [&](const GivenOption& here) {
         return here.option == given.option && here.value == given.value;
       });
       if (is_named) continue;
-      refuse("the file " + given.value + " for " + given.name,
-             "if you trust it, give " + given.name + " " + given.value + " here too");
+      refuse("name the file " + given.value + " (" + given.name + ")",
+             "if you trust it, give " + given.name + " " + given.value + " on the command line too");
     }
     words.insert(words.end(), given.words.begin(), given.words.end());
   }
@@ -741,7 +742,7 @@ std::vector<std::string> words_of_film(const std::string& path, int argc, const 
   try {
     parse_words(static_cast<int>(alone.size()), alone.data(), /*with_film=*/false, {});
   } catch (const Failure& failure) {
-    refuse("what no picture takes: " + failure.error.message, "make the film's description again");
+    refuse("are invalid: " + failure.error.message, "take the description that bihive film wrote");
   }
   return words;
 }

@@ -77,10 +77,10 @@ class Strangers(FaultTest):
 
     def test_links_and_other_things_in_the_folder(self):
         for name in ("film.json", "film.y4m", "lock"):
-            for make, words in ((lambda path: os.symlink("../victim", path), "is a link"),
-                                (lambda path: os.symlink("../new", path), "is a link"),
-                                (lambda path: os.link(self.path("victim"), path), "a hard link"),
-                                (os.mkdir, ""), (os.mkfifo, "is no ordinary file")):
+            for make, words in ((lambda path: os.symlink("../victim", path), "symbolic link"),
+                                (lambda path: os.symlink("../new", path), "symbolic link"),
+                                (lambda path: os.link(self.path("victim"), path), "hard links"),
+                                (os.mkdir, ""), (os.mkfifo, "is not a regular file")):
                 with self.subTest(name=name, words=words):
                     self.half_film()
                     if os.path.exists(self.path("run.y4m.part/" + name)):
@@ -94,7 +94,7 @@ class Strangers(FaultTest):
         self.half_film()
         for mode in (0o777, 0o770, 0o1777):
             os.chmod(self.path("run.y4m.part"), mode)
-            self.refused("other users may write to it")
+            self.refused("can be written to by other users")
         os.chmod(self.path("run.y4m.part"), 0o755)
         self.assertEqual(self.film("run.xyz", "-o", "run.y4m", *SMALL)["kept"], 2)
 
@@ -102,7 +102,7 @@ class Strangers(FaultTest):
         self.half_film()
         os.rename(self.path("run.y4m.part"), self.path("elsewhere"))
         os.symlink("elsewhere", self.path("run.y4m.part"))
-        self.refused("is a link")
+        self.refused("symbolic link")
         os.unlink(self.path("run.y4m.part"))
         self.write("run.y4m.part", "")
         self.refused("is in the place")
@@ -112,13 +112,13 @@ class Strangers(FaultTest):
         os.unlink(self.path("run/3.png"))
         os.symlink("../victim", self.path("run/3.png"))
         said = self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL)
-        self.assertIn("run/3.png: is there already, and is no picture that this film has made", said)
+        self.assertIn("run/3.png: exists already, and was not written by this film", said)
         os.unlink(self.path("run/3.png"))
         for name in ("film.json", "film.index"):
             kept = self.read("run/" + name)
             os.unlink(self.path("run/" + name))
             os.link(self.path("victim"), self.path("run/" + name))
-            self.assertIn("hard link", self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL))
+            self.assertIn("hard links", self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL))
             os.unlink(self.path("run/" + name))
             self.write("run/" + name, kept)
             os.chmod(self.path("run/" + name), 0o666)
@@ -198,12 +198,12 @@ class PicturesThatWereThere(FaultTest):
         os.mkdir(self.path("run"))
         for content in (b"", b"NOT A PICTURE"):
             self.write("run/3.png", content)
-            self.assertIn("run/3.png: is there already", self.fail_input("film", *self.whole))
+            self.assertIn("run/3.png: exists already", self.fail_input("film", *self.whole))
 
     def test_pictures_without_their_description(self):
         self.film(*self.whole)
         os.unlink(self.path("run/film.json"))
-        self.assertIn("run/0.png: is there already", self.fail_input("film", *self.whole, "--view", "normal"))
+        self.assertIn("run/0.png: exists already", self.fail_input("film", *self.whole, "--view", "normal"))
         # The same film again is the same film.
         self.assertEqual(self.film(*self.whole)["kept"], 6)
         for name in glob.glob(self.path("run/*.png")) + [self.path("run/film.json")]:
@@ -216,7 +216,7 @@ class PicturesThatWereThere(FaultTest):
         good = self.read("run/2.png")
         for bad in (good[:-1], good[:50] + b"\0" + good[51:], good + b"\0", self.read("run/1.png")):
             self.write("run/2.png", bad)
-            self.assertIn("run/2.png: is there already", self.fail_input("film", *self.whole))
+            self.assertIn("run/2.png: exists already", self.fail_input("film", *self.whole))
         self.write("run/2.png", good)
         self.assertEqual(self.film(*self.whole)["kept"], 6)
 
@@ -293,7 +293,7 @@ class Kills(FaultTest):
         os.mkdir(self.path(".bihive-0123456789abcdef.film"), 0o700)
         self.write(".bihive-0123456789abcdef.film/film.y4m", "half")
         os.mkdir(self.path(".bihive-0123456789abcde0.film"), 0o700)
-        self.write(".bihive-0123456789abcde0.film/letter", "no film")
+        self.write(".bihive-0123456789abcde0.film/letter", "not a film")
         self.film("run.xyz", "-o", "run.y4m", *SMALL)
         self.assertEqual(self.hidden(), [".bihive-0123456789abcde0.film"])
 
@@ -378,11 +378,11 @@ class Ffmpeg(FaultTest):
         return found
 
     def test_an_ffmpeg_that_lies(self):
-        for script, words in (("exit 0\n", "has not written the film"),
-                              ("cat > /dev/null\n", "has not written the film"),
-                              (LAST + 'cat > /dev/null; case "$last" in -) ;; *) echo rubbish > "$last";; esac\n', "something that is no film"),
+        for script, words in (("exit 0\n", "wrote no film"),
+                              ("cat > /dev/null\n", "wrote no film"),
+                              (LAST + 'cat > /dev/null; case "$last" in -) ;; *) echo rubbish > "$last";; esac\n', "a file that is not a film"),
                               (LAST + 'case "$last" in -) echo frame=5;; *) cat > "$last";; esac\n', "given 6 pictures, and wrote"),
-                              (LAST + 'case "$last" in -) echo frame=x;; *) cat > "$last";; esac\n', "no film")):
+                              (LAST + 'case "$last" in -) echo frame=x;; *) cat > "$last";; esac\n', "not a film")):
             environment = self.fake_ffmpeg(script)
             done = self.run_bihive("film", "run.xyz", "-o", "run.mp4", *SMALL, env=environment)
             self.assertIn(words if script != "exit 0\n" else "ffmpeg", done.stderr)
@@ -429,13 +429,13 @@ class Descriptions(FaultTest):
                       ["--size", "9x9", "render"]):
             self.planned(options=words)
             said = self.fail_input("render", "run.xyz", "--film", "film.json", "--picture", "0", "-o", "o.png")
-            self.assertIn("film.json: its options hold", said, words)
+            self.assertIn("film.json: its options contain", said, words)
 
     def test_values_that_no_picture_takes(self):
         for words in (["--size", "0x9"], ["--size"], ["--samples", "99999"], ["--engine", "none"], ["--size", "9x9", "--size", "9x9"]):
             self.planned(options=words)
             said = self.fail_input("render", "run.xyz", "--film", "film.json", "--picture", "0", "-o", "o.png")
-            self.assertIn("film.json: its options hold what no picture takes", said, words)
+            self.assertIn("film.json: its options are invalid", said, words)
 
     def test_files_that_they_name(self):
         self.write("private", "root:x:0:0\n")
@@ -443,7 +443,7 @@ class Descriptions(FaultTest):
                       ["--title-values", "private"]):
             self.planned(options=[*SMALL[:2], *words])
             said = self.fail_input("render", "run.xyz", "--film", "film.json", "--picture", "0", "-o", "o.png")
-            self.assertIn("its options hold the file", said)
+            self.assertIn("its options name the file", said)
             self.assertNotIn("root:", said)
         # A file that the user names too is the user's own wish.
         self.write("log.csv", "e\n" + "1\n2\n3\n4\n5\n6\n")
@@ -473,7 +473,7 @@ class Descriptions(FaultTest):
                       "-passlogfile made/x", "-c:v -y", "-crf http://x", "-report", "-c:v /x", "-movflags +faststart -y a"):
             self.write(path, plan.replace('"codec": ""', f'"codec": "{codec}"'))
             if HAS_FFMPEG:
-                self.assertIn(path + ": the codec has ", self.fail_input("film", "--join", "-o", "run.mp4"))
+                self.assertIn(path + ": the codec contains ", self.fail_input("film", "--join", "-o", "run.mp4"))
 
     @unittest.skipUnless(HAS_FFMPEG, "there is no ffmpeg here")
     def test_a_codec_that_the_user_gives_again(self):

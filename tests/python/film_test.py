@@ -131,14 +131,24 @@ class Films(ProgramTest):
     def test_an_ffmpeg_that_lies(self):
         frames = [bh.Spheres(np.zeros((1, 3)), radius=1)] * 3
         last = 'for word in "$@"; do last=$word; done\n'
-        for script, words in (("exit 0\n", "ffmpeg"), ("cat > /dev/null\n", "has not written the film"),
-                              (last + 'cat > /dev/null; echo rubbish > "${last#file:}"\n', "something that is no film"),
+        for script, words in (("exit 0\n", "ffmpeg"), ("cat > /dev/null\n", "wrote no film"),
+                              (last + 'cat > /dev/null; echo rubbish > "${last#file:}"\n', "a file that is not a film"),
                               ('case "$*" in *pipe:0*) head -c 2304 | "$real" "$@";; *) exec "$real" "$@";; esac\n',
                                "given 3 pictures, and wrote 1 pictures")):
             self.fake_ffmpeg(f"cd {self.path('bin')}\n" + script)
             with self.assertRaisesRegex(bh.MissingError, words):
                 bh.film(frames, self.path("a.mp4"), **OPTIONS)
             self.assertEqual(os.listdir(self.folder), ["bin"])
+
+    def wait_until_idle(self, process):
+        """Until it waits for somebody: it takes no time of a processor for half a second."""
+        used, since = None, time.monotonic()
+        while time.monotonic() - since < 0.5:
+            with open(f"/proc/{process.pid}/stat") as file:
+                now = file.read().rsplit(")", 1)[1].split()[11:13]
+            if now != used:
+                used, since = now, time.monotonic()
+            time.sleep(0.02)
 
     def test_ctrl_c_ends_an_ffmpeg_that_hangs(self):
         self.fake_ffmpeg('case "$*" in *pipe:0*) echo $$ > "$HERE/started"; exec sleep 700;; esac; exec "$real" "$@"\n')
@@ -151,6 +161,7 @@ class Films(ProgramTest):
             while not (os.path.exists(self.path("started")) and self.read("started")):
                 self.assertIsNone(process.poll())
                 time.sleep(0.02)
+            self.wait_until_idle(process)
             process.send_signal(signal.SIGINT)
             self.assertIn("KeyboardInterrupt", process.communicate(timeout=600)[1])
             with self.assertRaises(ProcessLookupError):

@@ -104,8 +104,8 @@ Status check_codec_of_file(const std::string& text) {
   const std::vector<std::string> words = codec_words(text);
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const auto refuse = [&](const std::string& what) -> Status {
-      return Error{"the codec has " + what + ", which a file may not ask of ffmpeg", "", 0, 0,
-                   "if it is your own, give the film's --codec here too"};
+      return Error{"the codec contains " + what + ", which is not allowed in a file", "", 0, 0,
+                   "if it is your own, give the same --codec on the command line too"};
     };
     if (!is_in(kWithValue, words[i])) return refuse(words[i]);
     if (i + 1 == words.size()) return refuse(words[i] + " without a value");

@@ -156,8 +156,8 @@ class EncodedFilm final : public FilmSink {
   void check_and_flush(const OwnFolder& folder, const std::string& name, std::int64_t pictures) const {
     const std::optional<Descriptor> file = folder.open_file(name, O_RDONLY);
     if (!file)
-      fail_environment({"ffmpeg has not written the film that it was asked for, and did not say why", "", 0, 0,
-                        "see whether " + ffmpeg_ + " is the program that it should be"});
+      fail_environment(
+          {"ffmpeg reported success, but wrote no film", "", 0, 0, "check that " + ffmpeg_ + " is really ffmpeg"});
     check_pictures(ffmpeg_, folder, name, pictures);
     if (const int code = flush_to_disk(file->get()); code != 0)
       fail_of_system("writing failed", folder.path_of(name), code);

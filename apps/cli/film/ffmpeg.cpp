@@ -273,10 +273,10 @@ void check_pictures(const std::string& ffmpeg, const OwnFolder& folder, const st
   if (found == pictures) return;
   if (found >= 0) found = counted(ffmpeg, folder, film, /*decoded=*/true);
   if (found == pictures) return;
-  const std::string wrote = found < 0 ? "something that is no film" : std::to_string(found) + " pictures";
-  fail_environment({"ffmpeg was given " + std::to_string(pictures) + " pictures, and wrote " + wrote, "", 0, 0,
-                    "leave out of --codec what changes the number of pictures, or see whether " + ffmpeg +
-                        " is the program that it should be"});
+  const std::string wrote = found < 0 ? "a file that is not a film" : std::to_string(found) + " pictures";
+  fail_environment(
+      {"ffmpeg was given " + std::to_string(pictures) + " pictures, and wrote " + wrote, "", 0, 0,
+       "remove from --codec what changes the number of pictures, or check that " + ffmpeg + " is really ffmpeg"});
 }
 
 }  // namespace bihive::cli

@@ -181,14 +181,18 @@ void FilmFolder::lock() {
   if (fstat(folder_->descriptor(), &opened) != 0 ||
       fstatat(parent_.get(), part_name().c_str(), &named, AT_SYMLINK_NOFOLLOW) != 0 || opened.st_ino != named.st_ino ||
       opened.st_dev != named.st_dev)
-    fail({"another run has just ended, and taken its folder away", path_, 0, 0, "run the same again"});
+    fail({"another run has just finished, and has removed its folder", path_, 0, 0, "run the same again"});
 }
 
 void FilmFolder::finish(const std::string& film) {
   // The description comes first: a run that is killed before the film follows goes on, and loses nothing.
   folder_->remove(kDescription);
   folder_->write_new(kDescription, plan_text_, kOfOutputs);
-  value_or_fail(place_file(folder_->descriptor(), kDescription, cli::plan_path(output_), output_));
+  if (const Status status = place_file(folder_->descriptor(), kDescription, cli::plan_path(output_), output_);
+      !status) {
+    folder_->remove(kDescription);
+    fail(status.error());
+  }
   value_or_fail(place_file(folder_->descriptor(), film, output_));
   remove_all();
 }

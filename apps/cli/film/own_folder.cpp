@@ -81,13 +81,12 @@ void OwnFolder::check_is_private() const {
   struct stat info {};
   if (fstat(folder_.get(), &info) != 0) fail_of_system("cannot be read", path_, errno);
   if (!is_ours(info))
-    refuse("belongs to another user, who could lead bihive to other files", path_,
-           "remove it if it is yours to remove, or name another output; one user makes all shards of a film");
+    refuse("belongs to another user", path_,
+           "remove it, or name another output; all shards of a film must be made by one user");
   if ((info.st_mode & kOthersWrite) == 0) return;
   const std::optional<struct stat> made = facts_of_new_file(folder_.get());
   if (made && (made->st_mode & kOthersWrite) != 0) return;  // a file system without permissions
-  refuse("other users may write to it", path_,
-         "remove it; or, if you trust what it holds, take away their rights: chmod go-w");
+  refuse("can be written to by other users", path_, "remove it, or, if you trust its contents: chmod go-w");
 }
 
 std::optional<OwnFolder> OwnFolder::open_private(const std::string& path) {
@@ -97,8 +96,8 @@ std::optional<OwnFolder> OwnFolder::open_private(const std::string& path) {
     struct stat info {};
     if (lstat(path.c_str(), &info) != 0 && errno == ENOENT) return std::nullopt;
     if (code == ELOOP || code == ENOTDIR)
-      refuse(S_ISLNK(info.st_mode) ? "is a link, where the folder of the film's parts would be"
-                                   : "is no folder, and is in the place where the film would be made",
+      refuse(S_ISLNK(info.st_mode) ? "is a symbolic link where the folder for the film's parts would be"
+                                   : "is not a folder, and is in the place where the film would be made",
              path, "remove it, or name another output");
     fail_of_system("cannot be read", path, code);
   }
@@ -117,7 +116,7 @@ std::optional<OwnFolder> OwnFolder::open_shared(const std::string& path) {
   struct stat around {};
   if (S_ISLNK(link.st_mode) && link.st_uid != geteuid() &&
       (stat(folder_around(path).c_str(), &around) != 0 || link.st_uid != around.st_uid))
-    refuse("is a link that somebody else made", path, "write to another folder");
+    refuse("is a symbolic link that belongs to another user", path, "write to another folder");
   Descriptor folder(::open(path.c_str(), kOpenFolder));
   if (!folder) fail_of_system("cannot be read", path, errno);
   return OwnFolder(std::move(folder), path);
@@ -146,18 +145,18 @@ bool OwnFolder::has(const std::string& name) const {
 std::optional<Descriptor> OwnFolder::open_file(const std::string& name, int flags) const {
   Descriptor file(openat(folder_.get(), name.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kOwnerOnly));
   if (!file && errno == ENOENT) return std::nullopt;
-  if (!file && errno == ELOOP) refuse("is a link, and no file of a film", path_of(name), "remove it");
+  if (!file && errno == ELOOP) refuse("is a symbolic link", path_of(name), "remove it");
   struct stat info {};
   if (!file || fstat(file.get(), &info) != 0) fail_of_system("cannot be opened", path_of(name), errno);
-  if (!S_ISREG(info.st_mode)) refuse("is no ordinary file", path_of(name), "remove it");
+  if (!S_ISREG(info.st_mode)) refuse("is not a regular file", path_of(name), "remove it");
   if (!is_ours(info))
     refuse("belongs to another user", path_of(name),
-           "remove it, or name another output; one user makes all shards of a film");
-  if (info.st_nlink > 1) refuse("has another name elsewhere (a hard link)", path_of(name), "remove it");
+           "remove it, or name another output; all shards of a film must be made by one user");
+  if (info.st_nlink > 1) refuse("has several hard links", path_of(name), "remove it");
   if (!is_private_ && (info.st_mode & kOthersWrite) != 0) {
     const std::optional<struct stat> made = facts_of_new_file(folder_.get());
     if (!made || (made->st_mode & kOthersWrite) == 0)
-      refuse("other users may write to it", path_of(name), "remove it; or, if you trust what it holds: chmod go-w");
+      refuse("can be written to by other users", path_of(name), "remove it, or, if you trust its contents: chmod go-w");
   }
   return file;
 }

@@ -87,8 +87,7 @@ class PictureSequence final : public FilmSink {
   }
 
   [[noreturn]] static void refuse(const std::string& path) {
-    fail({"is there already, and is no picture that this film has made", path, 0, 0,
-          "remove it with what belongs to it, or name another output"});
+    fail({"exists already, and was not written by this film", path, 0, 0, "move it away, or name another output"});
   }
 
   // Those of other shards too, and only those of this film.

@@ -27,6 +27,8 @@ __all__ = ["film"]
 
 # How long an interrupted program may take to end what it has begun.
 _PATIENCE_S = 15
+# How often a wait looks for signals.
+_LOOK_S = 0.1
 _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
 # What `bihive film` alone can do.
 _OF_PROGRAM = ["frames", "pictures", "turntable", "camera_keys", "colour_range", "codec", "shard", "join"]
@@ -51,6 +53,17 @@ def program() -> str:
     return program
 
 
+def _said(run: subprocess.Popen[Any]) -> tuple[Any, Any]:
+    """What a program prints until its end. A signal that comes between two steps of Python does not wake a wait without end."""
+    import subprocess
+
+    while True:
+        try:
+            return run.communicate(timeout=_LOOK_S)
+        except subprocess.TimeoutExpired:
+            continue
+
+
 def _film_of_file(source: str, path: str, words: list[str], progress: Progress) -> None:
     import subprocess
 
@@ -62,7 +75,7 @@ def _film_of_file(source: str, path: str, words: list[str], progress: Progress) 
         command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace"
     ) as run:
         try:
-            said = run.communicate()[1]
+            said = _said(run)[1]
         except BaseException:
             # The program ends what it has begun, and then itself. On a terminal Ctrl-C has reached it too.
             run.terminate()
@@ -160,6 +173,8 @@ class _Ffmpeg:
         self._log = tempfile.TemporaryFile()
         try:
             self._run = self._start(command, subprocess.PIPE)
+            assert self._run.stdin is not None
+            os.set_blocking(self._run.stdin.fileno(), False)
         except BaseException:
             self._log.close()
             self._file.leave()
@@ -187,20 +202,24 @@ class _Ffmpeg:
             raise MissingError(f"ffmpeg cannot be started: {error.strerror}") from None
 
     def add(self, picture: Picture) -> None:
+        import select
+
         assert self._run.stdin is not None
-        try:
-            self._run.stdin.write(np.ascontiguousarray(np.asarray(picture)[:, :, :3]).data)
-        except BrokenPipeError:
-            self._fail()
+        pipe = self._run.stdin.fileno()
+        left = memoryview(np.ascontiguousarray(np.asarray(picture)[:, :, :3])).cast("B")
+        while left:
+            try:
+                left = left[os.write(pipe, left) :]
+            except BlockingIOError:
+                select.select([], [pipe], [], _LOOK_S)
+            except BrokenPipeError:
+                self._fail()
         self._count += 1
 
     def finish(self) -> None:
         assert self._run.stdin is not None
-        try:
-            self._run.stdin.close()
-        except BrokenPipeError:
-            pass
-        if self._run.wait() != 0:
+        self._run.stdin.close()
+        if self._end() != 0:
             self._fail()
         self._check()
         try:
@@ -208,23 +227,32 @@ class _Ffmpeg:
         except ValueError as error:
             raise FileError(0, str(error), self._path) from None
 
+    def _end(self) -> int:
+        import subprocess
+
+        while True:
+            try:
+                return self._run.wait(_LOOK_S)
+            except subprocess.TimeoutExpired:
+                continue
+
     def _check(self) -> None:
         """Whether ffmpeg has written all pictures: it counts them itself."""
         import subprocess
 
-        hint = f"see whether {self._program} is the program that it should be"
+        hint = f"check that {self._program} is really ffmpeg"
         if not self._file.has(self._name):
-            raise MissingError("ffmpeg has not written the film that it was asked for", hint=hint)
+            raise MissingError("ffmpeg reported success, but wrote no film", hint=hint)
         words = ["-progress", "pipe:1", "-i", self._url(), "-map", "0:v:0", "-c", "copy", "-f", "null", "-"]
         self._run = self._start(words, subprocess.DEVNULL)
-        said = self._run.communicate()[0].decode("utf-8", "replace")
+        said = _said(self._run)[0].decode("utf-8", "replace")
         counts = [line.partition("=")[2].strip() for line in said.splitlines() if line.startswith("frame=")]
         if self._run.returncode != 0 or not counts or counts[-1] != str(self._count):
-            wrote = counts[-1] + " pictures" if counts else "something that is no film"
+            wrote = counts[-1] + " pictures" if counts else "a file that is not a film"
             raise MissingError(f"ffmpeg was given {self._count} pictures, and wrote {wrote}", hint=hint)
 
     def _fail(self) -> None:
-        self._run.wait()
+        self._end()
         self._log.seek(0)
         said = self._log.read().decode("utf-8", "replace").strip().splitlines()
         raise MissingError("ffmpeg failed" + (f", and said: {said[-1]}" if said else ""))

@@ -65,18 +65,18 @@ int copy_over(int from, const std::string& path) {
 Result<std::string> path_behind_links(const std::string& output) {
   const Result<OutputPlace> place = find_output(output);
   if (!place) return place.error();
-  if (!place->regular()) return Error{"is no ordinary file", output, 0, 0, "name a file"};
+  if (!place->regular()) return Error{"is not a regular file", output, 0, 0, "name a file"};
   return place->path;
 }
 
 Status place_file(int folder, const std::string& name, const std::string& output, const std::string& like) {
   const Result<OutputPlace> place = find_output(output);
   if (!place) return place.error();
-  if (!place->regular()) return Error{"is no ordinary file", output, 0, 0, "name a file"};
+  if (!place->regular()) return Error{"is not a regular file", output, 0, 0, "name a file"};
   const OpenFile file(::openat(folder, name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   struct stat info {};
   if (file.get() < 0 || ::fstat(file.get(), &info) != 0) return system_error("cannot be written", output, errno);
-  if (!S_ISREG(info.st_mode)) return Error{"cannot be written: " + name + " is no ordinary file", output, 0, 0, ""};
+  if (!S_ISREG(info.st_mode)) return Error{"cannot be written: " + name + " is not a regular file", output, 0, 0, ""};
 
   // Owner and permissions, before the file is seen.
   if (place->kind == OutputPlace::Kind::replaced) {
