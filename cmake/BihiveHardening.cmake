@@ -22,7 +22,8 @@ if(BIHIVE_HARDENING AND NOT EMSCRIPTEN AND NOT CMAKE_CROSSCOMPILING AND NOT BIHI
   # Tables of functions in other libraries are filled at the start, and cannot be written to afterwards (full RELRO).
   target_link_options(bihive_options INTERFACE LINKER:-z,relro LINKER:-z,now)
 
-  # __FILE__ and debug information name files from the top of the sources. A debugger of daily work needs the whole path.
+  # Debug information names files from the top of the sources; without it nothing does (base/check.h). Not in release
+  # builds, where the folders in these words would keep a compiler cache from serving another clone.
   target_compile_options(
-    bihive_options INTERFACE $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-ffile-prefix-map=${PROJECT_BINARY_DIR}/=;-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>)
+    bihive_options INTERFACE $<$<CONFIG:RelWithDebInfo>:-ffile-prefix-map=${PROJECT_BINARY_DIR}/=;-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>)
 endif()

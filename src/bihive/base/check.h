@@ -19,13 +19,21 @@ template <class A, class B>
 
 }  // namespace bihive::detail
 
-#define BIHIVE_CHECK(condition) ((condition) ? void(0) : ::bihive::detail::check_failed(__FILE__, __LINE__, #condition))
-#define BIHIVE_CHECK_OP_(a, op, b)                                                               \
-  do {                                                                                           \
-    const auto& check_a_ = (a);                                                                  \
-    const auto& check_b_ = (b);                                                                  \
-    if (!(check_a_ op check_b_))                                                                 \
-      ::bihive::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, check_a_, check_b_); \
+// A file's name without its folders, which are those of whoever built the program.
+#ifdef __FILE_NAME__
+#define BIHIVE_FILE_NAME_ __FILE_NAME__
+#else
+#define BIHIVE_FILE_NAME_ __FILE__
+#endif
+
+#define BIHIVE_CHECK(condition) \
+  ((condition) ? void(0) : ::bihive::detail::check_failed(BIHIVE_FILE_NAME_, __LINE__, #condition))
+#define BIHIVE_CHECK_OP_(a, op, b)                                                                        \
+  do {                                                                                                    \
+    const auto& check_a_ = (a);                                                                           \
+    const auto& check_b_ = (b);                                                                           \
+    if (!(check_a_ op check_b_))                                                                          \
+      ::bihive::detail::check_failed(BIHIVE_FILE_NAME_, __LINE__, #a " " #op " " #b, check_a_, check_b_); \
   } while (false)
 #define BIHIVE_CHECK_EQ(a, b) BIHIVE_CHECK_OP_(a, ==, b)
 #define BIHIVE_CHECK_LT(a, b) BIHIVE_CHECK_OP_(a, <, b)
