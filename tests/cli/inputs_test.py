@@ -83,7 +83,7 @@ class Sizes(ProgramTest):
                 file.write(str(os.getpid()))
 
         said = self.fail_input("info", "scenario1", "--count", "40000000", preexec_fn=enter)
-        self.assertIn("this control group allows", said)
+        self.assertIn("this control group, which allows", said)
 
     def while_it_grows(self, name):
         """The first error text of `bihive info` that tells of a file that grows."""

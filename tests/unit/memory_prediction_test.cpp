@@ -81,6 +81,7 @@ TEST(MemoryPrediction, FilmsTakeWhatIsPredicted) {
   small.threads = 2;
   expect_near(predict_film_bytes(small, 512.0 * 256) + predict_thread_bytes(small), measured_of(small),
               "the buffers of two threads");
+  measured_of(small);
   for (const bool transparent : {false, true})
     for (const int height : {1000, 2000}) {
       RenderSettings settings;

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "bihive/base/memory.h"
-#include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
@@ -16,6 +15,7 @@
 #include "support/interrupt.h"
 #include "support/messages.h"
 #include "support/team.h"
+#include "support/thread_reserve.h"
 
 namespace bihive::cli {
 
@@ -39,11 +39,7 @@ void run_render(const RenderOptions& asked) {
   // Build, render, write.
   const Tracer tracer =
       value_or_fail(Tracer::build(scene, structure_of(prepared.engine), options.tree, settings.threads));
-  // Threads reserve more for their rays than they touch.
-  constexpr double kReservedByThread = 24 << 20;
-  if (team() == nullptr)
-    turn_group_limit_into_failing_allocations(kReservedByThread *
-                                              (settings.threads > 0 ? settings.threads : hardware_threads()));
+  if (team() == nullptr) renew_group_limit_for_threads(settings.threads);
   const Timer drawing;
   const std::unique_ptr<PictureFile> file =
       leads() ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})

@@ -22,6 +22,7 @@
 #include "support/messages.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
+#include "support/thread_reserve.h"
 #include "support/write_together.h"
 
 namespace bihive::cli {
@@ -164,6 +165,7 @@ void run_trace(const TraceOptions& options) {
       value_or_fail(Tracer::build(input.scene, options.engine, options.tree, static_cast<int>(options.threads)));
   const Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
 
+  renew_group_limit_for_threads(options.threads);
   const Timer timer;
   Answers answers = trace(rays, tracer, options.plane ? &plane : nullptr, options);
   const double trace_ms = timer.elapsed_ms();

@@ -30,7 +30,7 @@ std::size_t rounded_up(std::size_t bytes) {
 void* allocate_aligned(std::size_t bytes) {
   const std::size_t rounded = rounded_up(bytes);
   // The kernel would give a large block that a control group does not allow, and kill the process later.
-  if (bytes >= kHugePage && !check_memory(static_cast<double>(rounded), "a block")) throw std::bad_alloc();
+  if (bytes >= kHugePage && !check_memory(0, "a block", 0, static_cast<double>(rounded))) throw std::bad_alloc();
   void* const data = std::aligned_alloc(alignment_of(bytes), rounded);
   if (data == nullptr) throw std::bad_alloc();
   prefer_huge_pages(data, rounded);

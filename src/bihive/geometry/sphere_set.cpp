@@ -62,10 +62,13 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
   BIHIVE_CHECK_EQ(x.size(), z.size());
   BIHIVE_CHECK_EQ(x.size(), r.size());
 
-  if (Status status = check_memory(static_cast<double>(x.size()) * 4 * sizeof(float),
-                                   "a set of " + grouped(static_cast<std::int64_t>(x.size())) + " spheres");
-      !status)
-    return status.error();
+  // The tree of a small set decides whether it fits.
+  constexpr std::size_t kSmallSet = 1 << 16;
+  if (x.size() > kSmallSet)
+    if (Status status = check_memory(static_cast<double>(x.size()) * 4 * sizeof(float),
+                                     "a set of " + grouped(static_cast<std::int64_t>(x.size())) + " spheres");
+        !status)
+      return status.error();
 
   // Check every number, and find the farthest bound from 0.
   const CountOfParts spheres = count_of_all(parts.get(), static_cast<std::int64_t>(x.size()));

@@ -26,6 +26,7 @@ constexpr double kUsualNodes = 0.075, kUsualSplits = 1.1, kUsualSphere = 18;
 
 constexpr std::int64_t kCellCountBytes = kMostChunks * CellGrid::kCells * 4;
 constexpr std::int64_t kHugePage = std::int64_t{1} << 21;
+constexpr std::size_t kFirstSplits = 4 * NodeArena::kPortionSplits;  // of the first chunk
 
 }  // namespace
 
@@ -72,7 +73,7 @@ WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParamet
   const double rounded = 16.0 * double(padded) < double(kHugePage) ? 0 : double(kHugePage);
   prediction.peak_bytes =
       kTree + static_cast<std::int64_t>(2 * kUsualSphere * double(padded) + cells +
-                                        std::max(double(leaves) * kUsualSplits, double(NodeArena::kPortionSplits)) *
+                                        std::max(double(leaves) * kUsualSplits, double(kFirstSplits)) *
                                             double(sizeof(BinarySplit)) +
                                         3 * usual_nodes * double(kNode) + rounded);
   prediction.peak_bytes = std::min(prediction.peak_bytes, prediction.most_bytes);
