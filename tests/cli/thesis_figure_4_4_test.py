@@ -329,7 +329,7 @@ class Figure44(ProgramTest):
 
         def with_places(scenario3, one_place, **changes):
             self.write_values(**changes)
-            self.run_again()
+            self.run_again("--values", "values")
             path = "out/steps/figure-4.4/reference-brute_force_by_scenario.json"
             step = json.loads(self.read(path))
             for count in COUNTS:
@@ -337,7 +337,7 @@ class Figure44(ProgramTest):
                     "scenario2": [100, 100, 100], "scenario3": scenario3, "scenario0": one_place
                 }
             self.write(path, json.dumps(step))
-            found = self.findings(self.run_again())
+            found = self.findings(self.run_again("--values", "values"))
             return found["independence.spheres64"][0], found["one_place.spheres64"][0]
 
         same, slower, perhaps = [102, 103, 101], [130, 130, 130], [100, 108, 130]
