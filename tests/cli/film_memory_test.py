@@ -18,7 +18,7 @@ class FilmMemory(ProgramTest):
         if is_sanitized():
             self.skipTest("the address sanitizer keeps freed memory")
         few, many = 300, 1500
-        # The program's own pages differ by a megabyte from run to run, so the smallest growth of three counts.
+        # The program's own pages differ by a megabyte from run to run, so the smaller growth of two counts.
         growth = min(self.peak(many) - self.peak(few) for _ in range(2))
         self.assertLess(growth, MOST_BYTES * (many - few) + 1_000_000)
 
