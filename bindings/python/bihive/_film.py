@@ -206,7 +206,7 @@ class _Ffmpeg:
 
         assert self._run.stdin is not None
         pipe = self._run.stdin.fileno()
-        left = memoryview(np.ascontiguousarray(np.asarray(picture)[:, :, :3])).cast("B")
+        left = np.ascontiguousarray(np.asarray(picture)[:, :, :3]).data.cast("B")
         while left:
             try:
                 left = left[os.write(pipe, left) :]
