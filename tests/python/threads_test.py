@@ -114,6 +114,25 @@ class Threads(ProgramTest):
         calls["alike"] = lambda: np.asarray(bh.render(spheres(), camera=picture, **SMALL))
         self.together(calls)
 
+    def test_file_of_a_film(self):
+        """One of each thread in one folder, and one that all threads leave."""
+
+        def place():
+            output = self.path_of_thread("mp4")
+            file = _bihive.FilmFile(output)
+            with open(f"/proc/self/fd/{file.descriptor()}/part", "wb") as part:
+                part.write(b"film")
+            found = file.has("part")
+            file.place("part")
+            file.leave()
+            with open(output, "rb") as whole:
+                return found, whole.read()
+
+        shared = _bihive.FilmFile(self.path("shared.mp4"))
+        self.together({"place": place, "has": lambda: shared.has("none")})
+        self.together({"leave": shared.leave, "descriptor": lambda: min(shared.descriptor(), 0)})
+        self.assertFalse([name for name in os.listdir(self.folder) if name.startswith(".bihive-")])
+
     def test_a_picture_that_is_detached_meanwhile(self):
         # In a process of its own: memory that is read after its end ends the process.
         script = f"""
@@ -170,7 +189,7 @@ print("whole")
 
     def test_every_class_of_the_module_is_tried(self):
         classes = {name for name, one in vars(_bihive).items() if inspect.isclass(one)}
-        self.assertEqual(classes, {"Spheres", "Picture", "Tree"})
+        self.assertEqual(classes, {"Spheres", "Picture", "Tree", "FilmFile"})
 
 
 if __name__ == "__main__":
