@@ -165,7 +165,7 @@ std::string FfmpegRun::url(const OwnFolder& folder, const std::string& name) {
   return "file:" + (has_links ? "/proc/self/fd/" + std::to_string(kFolder) + "/" + name : folder.path_of(name));
 }
 
-// What ffmpeg has started goes too: it may be a script.
+// Kills the whole process group: ffmpeg may be a script that has started others.
 void FfmpegRun::kill_all() {
   kill(-process_, SIGKILL);
   int status = 0;

@@ -37,7 +37,7 @@ class FfmpegRun {
   void write(const std::uint8_t* bytes, std::size_t size);
   /// Ends its input, and waits. Fails with kEnvironment if it was not content. Throws Interrupted as write() does.
   void finish();
-  /// What it has printed, or the last part of it.
+  /// The end of its output, at most 4 kB.
   std::string output() const;
 
  private:

@@ -48,7 +48,7 @@ FilmFolder::FilmFolder(std::string output, FilmKind kind) : output_(std::move(ou
   plan_name_ = parts ? kPlan : beside.substr(beside.rfind('/') + 1);
   if (parts) parent_ = open_parent(folder_around(path_));
 
-  // What an earlier run has left.
+  // Open the parts of an earlier run.
   folder_ = parts ? OwnFolder::open_private(path_) : OwnFolder::open_shared(path_);
   if (!folder_) return;
   if (std::optional<std::string> text = folder_->read(plan_name_)) {
@@ -197,7 +197,8 @@ void FilmFolder::finish(const std::string& film) {
   remove_all();
 }
 
-// Under its hidden name a folder that is removed in part is no film that could go on. What bihive has not made stays.
+// The folder is hidden first, so that one which is removed in part is not taken for a film that could go on. Files that
+// bihive has not made stay.
 void FilmFolder::remove_all() {
   if (hidden_.empty() && all_own(*folder_)) {
     const std::string name = hidden_name();

@@ -31,17 +31,17 @@ class FilmFolder {
   const std::optional<FilmPlan>& kept() const { return kept_; }
   /// Its path: FILE.part/film.json, or run/film.json.
   std::string plan_path() const;
-  /// What this run makes: the kept plan, or a new one. `alone`: no other run may work on the film meanwhile; the shards
-  /// of a film share it. Makes nothing.
+  /// Sets the plan of this run: the kept one, or a new one. `alone`: no other run may work on the film meanwhile; the
+  /// shards of a film share it. Makes nothing.
   void begin(const FilmPlan& plan, bool alone);
-  /// Of the description's bytes.
+  /// Hash of the description's bytes.
   std::uint64_t plan_hash() const;
 
   /// The folder, if it is there.
   const OwnFolder* existing() const { return folder_ ? &*folder_ : nullptr; }
   /// The folder; it is made, with the description.
   const OwnFolder& folder();
-  /// A picture is whole: what there is stays for the next run, so the folder takes its name.
+  /// Called when a picture is whole: the folder takes its final name, for the next run may go on with it.
   void keep();
   /// A file of this run, which goes away if no picture becomes whole.
   void note_file(const std::string& name);
@@ -62,9 +62,9 @@ class FilmFolder {
 
   std::string output_;
   FilmKind kind_;
-  std::string path_;       // of the folder
-  std::string plan_name_;  // in it
-  Descriptor parent_;      // of FILE.part
+  std::string path_;       // path of the folder
+  std::string plan_name_;  // file name of the description in it
+  Descriptor parent_;      // folder that holds FILE.part
   std::optional<OwnFolder> folder_;
   std::optional<FilmPlan> kept_;
   std::string plan_text_;

@@ -22,7 +22,8 @@ constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
   fail({what, path, 0, 0, hint});
 }
 
-// What a new file gets: a file system without users gives all files to one, and one without permissions invents them.
+// Owner and mode that a new file gets here: a file system without users gives all files to one user, and one without
+// permissions invents them.
 std::optional<struct stat> facts_of_new_file(int folder) {
   const std::string name = ".bihive-" + random_digits() + ".part";
   const Descriptor file(openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnerOnly));

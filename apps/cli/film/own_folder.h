@@ -1,5 +1,5 @@
-// A folder of a film, opened once: what is done in it later reaches this folder and no other one, whatever takes its
-// name meanwhile. Links in it are not followed, and files of other users are refused, for they may lead anywhere.
+// A folder of a film, opened once: all later work goes through its descriptor and reaches this folder, whatever takes
+// its name meanwhile. Links in it are not followed, and files of other users are refused, for they may lead anywhere.
 #pragma once
 
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
-// The index of a sequence: what bihive itself has written, so that a picture that was there before is not taken for one
-// of the film.
+// The index of a sequence lists the pictures that bihive itself has written, so that a file that was there before is
+// not taken for one of them.
 //
 // A text file to which a line is added before each picture takes its place. The first line names the film; each other
 // one has number, bytes and hash of a picture. A kill may leave the last line cut, which is then no line.
