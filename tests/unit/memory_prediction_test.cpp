@@ -15,6 +15,9 @@
 #include "bihive/wide/wide_builder.h"
 #include "support/hostile_sets.h"
 
+// Sanitizers keep freed memory.
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
 namespace bihive {
 namespace {
 
@@ -47,8 +50,6 @@ void expect_near(double predicted, double measured, const std::string& what) {
   EXPECT_LE(predicted, kMostFactor * measured) << what;
   EXPECT_GE(kMostFactor * predicted, measured) << what;
 }
-
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 TEST(MemoryPrediction, TreesTakeWhatIsPredicted) {
   for (const bool one_radius : {true, false})
@@ -94,7 +95,7 @@ TEST(MemoryPrediction, FilmsTakeWhatIsPredicted) {
     }
 }
 
-#endif
-
 }  // namespace
 }  // namespace bihive
+
+#endif
