@@ -115,7 +115,7 @@ Scene scene_with_seed(const StepContext& context, std::int64_t scenario, std::in
   return value_or_fail(scenario_scene(scenario_of(scenario), parameters));
 }
 
-// Of the seeds 1, 2, ...: the thesis's values of MAX_PRIMS in one scenario.
+// Counts the trees of the thesis's values of MAX_PRIMS in one scenario, for the seeds 1, 2, ...
 Json count_seeds(const StepContext& context, std::int64_t scenario) {
   Json seeds = Json::array();
   for (int seed = 1; seed <= (context.settings.quick ? kQuickSeeds : kSeeds); ++seed) {

@@ -28,7 +28,7 @@ constexpr const char* kStyle =
     ".bihive-costs .halo{stroke:#fff;stroke-width:3;paint-order:stroke;fill:#1b1b1b}"
     "@media(prefers-color-scheme:dark){.bihive-costs{--paper:#16181c;color:#e6e6e6}}</style>";
 
-// From pale to deep blue, evenly in lightness.
+// From pale to deep blue, in equal steps of sRGB.
 std::string colour_of(int wins, int most) {
   const double part = most == 0 ? 0 : static_cast<double>(wins) / most;
   const auto mix = [part](double pale, double deep) {

@@ -21,7 +21,7 @@ struct RayWork {
   double tests = 0;   ///< spheres tested
 };
 
-/// What the steps of a ray cost.
+/// Costs of the steps of a ray.
 struct StepCosts {
   double inner = 1;  ///< an inner node, in sphere tests; >= 0
   double leaf = 0;   ///< a leaf apart from its spheres, in inner nodes; >= 0

@@ -1,4 +1,4 @@
-// The section of Figure 4.4: where the text's winner wins comes first, then what is counted without a clock, then the
+// The section of Figure 4.4: first the costs at which the text's winner wins, then the counts without a clock, then the
 // engines, then the lost bars.
 #include <fmt/format.h>
 
