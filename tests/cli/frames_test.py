@@ -5,7 +5,7 @@ import os
 import shutil
 import subprocess
 
-from program import BIHIVE, PATIENCE_S, ProgramTest, main
+from program import ProgramTest, main
 
 
 def dump(frames, atoms):
@@ -90,16 +90,9 @@ class Frames(ProgramTest):
         peaks = []
         for name, frames in [("one.dump", 1), ("many.dump", 800)]:
             self.write(name, dump(frames, 2000))
-            script = (
-                "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL);"
-                "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
-            )
-            last = str(frames - 1)
-            done = subprocess.run(
-                ["python3", "-c", script, BIHIVE, "info", name, "--frame", last],
-                cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S, check=True,
-            )
-            peaks.append(int(done.stdout) * 1024)
+            code, _, err, peak = self.peak("info", name, "--frame", str(frames - 1))
+            self.assertEqual(code, 0, err)
+            peaks.append(peak)
         self.assertGreater(os.path.getsize(self.path("many.dump")), 30e6)
         self.assertLess(peaks[1], peaks[0] + 10e6)
 
