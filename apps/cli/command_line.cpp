@@ -574,8 +574,7 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
                   "all (if none is named), figure-4.1, figure-4.2, figure-4.3, table-4.2, figure-4.4,\n"
                   "figure-4.5, section-d")
       ->type_name("")
-      ->check(CLI::IsMember(
-          {"all", "figure-4.1", "figure-4.2", "figure-4.3", "table-4.2", "figure-4.4", "figure-4.5", "section-d"}));
+      ->check(CLI::IsMember(thesis_experiments()));
   command
       .add_option("--out", options.out,
                   "Folder of report.html, results.json, pictures and charts; a run that was\n"

@@ -17,6 +17,7 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
+#include "support/sibling_program.h"
 #include "words/read_program_words.h"
 
 namespace bihive::cli {
@@ -24,6 +25,8 @@ namespace {
 
 // One call for each kind of request.
 struct Run {
+  const char* const* words;  // of the command line, ended by a null pointer
+
   int operator()(const HelpText& help) const {
     if (help.asked_for) {
       print(help.text);
@@ -42,7 +45,9 @@ struct Run {
   int operator()(const StylesOptions& options) const { return run_styles(options), kSuccess; }
   int operator()(const SelectOptions& options) const { return run_select(options), kSuccess; }
   int operator()(const ConvertOptions& options) const { return run_convert(options), kSuccess; }
-  int operator()(const ThesisOptions& options) const { return run_thesis(options), kSuccess; }
+  int operator()(const ThesisOptions&) const {
+    become_program("bihive-thesis", words, "build it: make demo, or cmake --build with the target bihive-thesis");
+  }
   int operator()(const WebOptions& options) const { return run_web(options), kSuccess; }
 };
 
@@ -87,7 +92,7 @@ int run(int argc, const char* const* argv) {
     if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
     const Request request = parse_command_line(argc, argv, describe);
     keep_within_control_group(request);
-    const int code = std::visit(Run{}, request);
+    const int code = std::visit(Run{argv}, request);
     finish_output();
     return code;
   } catch (const Failure& failure) {

@@ -236,19 +236,26 @@ struct ConvertOptions {
 };
 void run_convert(const ConvertOptions& options);
 
+/// "all", and the experiments in the report's order.
+inline const std::vector<std::string>& thesis_experiments() {
+  static const std::vector<std::string> kNames{"all",       "figure-4.1", "figure-4.2", "figure-4.3",
+                                               "section-d", "table-4.2",  "figure-4.4", "figure-4.5"};
+  return kNames;
+}
+
+/// Carried out by the program bihive-thesis, which reads the same command line.
 struct ThesisOptions {
   std::vector<std::string> experiments;  ///< names, or "all"; empty: all
   std::string out;                       ///< folder
   bool quick = false;
   std::uint64_t seed = 1;
   std::int64_t threads = 0;
-  std::vector<double> costs;         ///< of Figure 4.4, for all its claims: thesis/experiment.h; empty: fitted ones
+  std::vector<double> costs;         ///< of Figure 4.4, for all its claims: apps/thesis/experiment.h; empty: fitted ones
   std::string values;                ///< folder of other stated values; empty: the built-in ones
   std::vector<std::string> devices;  ///< runs that the page saved on other devices
   std::string against;               ///< results.json of an older run to compare with; empty: none
   bool json = false;
 };
-void run_thesis(const ThesisOptions& options);
 
 struct WebOptions {
   std::string input;                 ///< a file or a built-in name; empty: the page's own input

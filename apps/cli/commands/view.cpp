@@ -1,10 +1,5 @@
 // bihive view: passes a checked command line on to bihive-view, the program with the window.
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -23,6 +18,7 @@
 #include "support/input.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
+#include "support/sibling_program.h"
 
 namespace bihive::cli {
 namespace {
@@ -169,18 +165,10 @@ void run_view(const ViewOptions& options) {
   }
   const std::string request = request_of(options).dump(-1, ' ', false, ordered_json::error_handler_t::ignore);
 
-  // The program lies beside this one, or in the PATH of the shell.
-  std::error_code unknown;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  const std::string beside = unknown ? "" : (self.parent_path() / kProgram).string();
-  if (!beside.empty()) execl(beside.c_str(), kProgram, request.c_str(), static_cast<char*>(nullptr));
-  const int reason = beside.empty() ? ENOENT : errno;
-  if (reason == ENOENT) execlp(kProgram, kProgram, request.c_str(), static_cast<char*>(nullptr));
-  if (errno != ENOENT) throw Failure{kEnvironment, {std::string(std::strerror(errno)), beside, 0, 0, ""}};
-  throw Failure{
-      kEnvironment,
-      {"the program with the window, bihive-view, is not installed", "", 0, 0,
-       "it is built where GLFW and Dear ImGui are: scripts/setup view, then make demo, or configure and build again"}};
+  const char* const words[] = {kProgram, request.c_str(), nullptr};
+  become_program(
+      kProgram, words,
+      "it is built where GLFW and Dear ImGui are: scripts/setup view, then make demo, or configure and build again");
 }
 
 }  // namespace bihive::cli

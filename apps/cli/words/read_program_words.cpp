@@ -7,8 +7,8 @@
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/style.h"
+#include "commands/commands.h"
 #include "support/failure.h"
-#include "thesis/experiment.h"
 
 namespace bihive::cli {
 namespace {
@@ -50,8 +50,7 @@ Candidates candidates_of_type(const std::string& type) {
 Candidates candidates_of_place(const std::string& place, const std::string& command) {
   Candidates found;
   if (place == "EXPERIMENT") {
-    found.words.emplace_back("all");
-    for (const thesis::Experiment& experiment : thesis::all_experiments()) found.words.push_back(experiment.id);
+    found.words = thesis_experiments();
   } else if (place == "INPUT" || place == "NAME") {
     for (const char* name : kBuiltInScenes)
       if (place == "INPUT" || std::string(name) != "demo") found.words.emplace_back(name);

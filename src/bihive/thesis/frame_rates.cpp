@@ -20,21 +20,7 @@ Error bad_value(const char* name, const char* expected) {
   return {std::string("expected ") + expected + " of \"" + name + "\" in Figure 4.4's values", "", 0, 0, ""};
 }
 
-// Scenario 1 with every sphere moved to the origin.
-Result<std::shared_ptr<const Scene>> one_place_scene(const FrameRatePlan& plan, std::int64_t spheres) {
-  Result<Scene> scene = scenario_scene(Scenario::grid, {spheres, static_cast<float>(plan.radius), plan.seed});
-  if (!scene) return scene.error();
-  const std::vector<double> zero(static_cast<std::size_t>(spheres), 0.0);
-  const std::vector<double> radii(static_cast<std::size_t>(spheres), plan.radius);
-  Result<SphereSet> set = SphereSet::from_world(zero, zero, zero, radii);
-  if (!set) return set.error();
-  set->attributes() = scene->spheres.attributes();
-  scene->spheres = std::move(*set);
-  return std::make_shared<const Scene>(std::move(*scene));
-}
-
 Result<std::shared_ptr<const Scene>> scene_of(const FrameRatePlan& plan, std::int64_t scenario, std::int64_t spheres) {
-  if (scenario == kOnePlace) return one_place_scene(plan, spheres);
   if (scenario < 1 || scenario > 3) return Error{"there are the scenarios 1, 2 and 3", "", 0, 0, ""};
   const ScenarioParameters parameters{spheres, static_cast<float>(plan.radius), plan.seed};
   Result<Scene> scene = scenario_scene(static_cast<Scenario>(scenario), parameters);
@@ -170,19 +156,6 @@ Result<FrameContest> FrameContest::of_trees(const FrameRatePlan& plan, const Fra
   if (Status status = contest.add(*scene, scenario, std::nullopt); !status) return status.error();
   for (const std::int64_t max_prims : plan.max_prims)
     if (Status status = contest.add(*scene, scenario, max_prims); !status) return status.error();
-  return contest;
-}
-
-Result<FrameContest> FrameContest::of_scenarios(const FrameRatePlan& plan, const FrameEngine& engine,
-                                                std::int64_t spheres) {
-  FrameContest contest(plan, engine);
-  std::vector<std::int64_t> places = plan.scenarios;
-  places.push_back(kOnePlace);
-  for (const std::int64_t scenario : places) {
-    const Result<std::shared_ptr<const Scene>> scene = scene_of(plan, scenario, spheres);
-    if (!scene) return scene.error();
-    if (Status status = contest.add(*scene, scenario, std::nullopt); !status) return status.error();
-  }
   return contest;
 }
 

@@ -56,10 +56,6 @@ struct FrameRatePlan {
 /// tree: a smaller share of that, and a constant.
 double frame_cost(std::int64_t spheres, bool tree);
 
-/// Not a scenario of the thesis: all spheres have their centre at the origin. The text says that brute force would be
-/// as fast there.
-constexpr std::int64_t kOnePlace = 0;
-
 /// An engine with a tree, and its brute force: the same code without a tree, or with one leaf if it cannot do without.
 struct FrameEngine {
   Engine tree = Engine::reference, brute = Engine::brute;
@@ -97,8 +93,6 @@ class FrameContest {
   /// Brute force and a tree of each MAX_PRIMS on the same spheres.
   static Result<FrameContest> of_trees(const FrameRatePlan& plan, const FrameEngine& engine, std::int64_t scenario,
                                        std::int64_t spheres);
-  /// Brute force on as many spheres of each scenario, then of kOnePlace.
-  static Result<FrameContest> of_scenarios(const FrameRatePlan& plan, const FrameEngine& engine, std::int64_t spheres);
 
   /// Runs one round of one contestant. An Error ends the contest; one of them says "cancelled".
   Status step(const CancelToken* cancel = nullptr);

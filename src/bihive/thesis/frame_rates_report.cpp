@@ -150,7 +150,7 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
   json["stated"] = ordered_json::object();
   const ordered_json stated = *json_from_text<ordered_json>(values.text());
   for (const auto& [name, entry] : stated["values"].items())
-    if (entry["kind"] == "stated") json["stated"][name] = entry;
+    if (entry["kind"] != "inferred" && entry["kind"] != "own_check") json["stated"][name] = entry;
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -18,16 +18,20 @@ using nlohmann::json;
 constexpr double kMostWhole = 0x1p53;
 
 bool is_value(const json& value) {
-  if (value.is_number()) return true;
+  if (value.is_number() || value.is_string()) return true;
   return value.is_array() && !value.empty() &&
          std::all_of(value.begin(), value.end(), [](const json& item) { return item.is_number(); });
 }
 
-constexpr ValueKind kAllKinds[] = {ValueKind::stated, ValueKind::inferred, ValueKind::own_check};
+constexpr std::pair<ValueKind, const char*> kKinds[] = {{ValueKind::stated, "stated"},
+                                                        {ValueKind::set, "set"},
+                                                        {ValueKind::fitted, "fitted"},
+                                                        {ValueKind::inferred, "inferred"},
+                                                        {ValueKind::own_check, "own_check"}};
 
 std::optional<ValueKind> kind_named(const json& name) {
-  for (const ValueKind kind : kAllKinds)
-    if (name.is_string() && name.get<std::string>() == name_of(kind)) return kind;
+  for (const auto& [kind, word] : kKinds)
+    if (name == word) return kind;
   return std::nullopt;
 }
 
@@ -48,8 +52,7 @@ std::optional<double> number_in_print(std::string printed) {
 }  // namespace
 
 const char* name_of(ValueKind kind) {
-  if (kind == ValueKind::stated) return "stated";
-  return kind == ValueKind::inferred ? "inferred" : "own_check";
+  return kKinds[static_cast<std::size_t>(kind)].second;
 }
 
 Error StatedValues::error_at(const std::string& place, const std::string& expected) const {
@@ -67,16 +70,19 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
     return stated.error_at("/values", "an object with one entry a value");
   for (const auto& [name, entry] : document["values"].items()) {
     if (!entry.is_object() || !entry.contains("value") || !is_value(entry["value"]))
-      return stated.error_at("/values/" + name + "/value", "a number or a list of numbers");
+      return stated.error_at("/values/" + name + "/value", "a number, a list of numbers, or a text");
     if (!entry.contains("sentence") || !entry["sentence"].is_string())
       return stated.error_at("/values/" + name + "/sentence", "the sentence that it comes from");
     const std::optional<ValueKind> kind = kind_named(entry.value("kind", json()));
-    if (!kind) return stated.error_at("/values/" + name + "/kind", R"("stated", "inferred" or "own_check")");
+    if (!kind) return stated.error_at("/values/" + name + "/kind", R"("stated", "set", "fitted", "inferred" or "own_check")");
     const json& value = entry["value"];
-    const bool is_list = value.is_array(), is_printed = entry.contains("printed") && entry["printed"].is_string();
-    stated.values_[name] = {is_list ? value.get<std::vector<double>>() : std::vector<double>{value.get<double>()},
+    const bool is_list = !value.is_number(), is_printed = entry.contains("printed") && entry["printed"].is_string();
+    std::vector<double> numbers;
+    if (value.is_array()) numbers = value.get<std::vector<double>>();
+    if (value.is_number()) numbers = {value.get<double>()};
+    stated.values_[name] = {std::move(numbers),
                             is_list,
-                            value.dump(),
+                            value.is_string() ? value.get<std::string>() : value.dump(),
                             is_printed ? entry["printed"].get<std::string>() : "",
                             entry["sentence"].get<std::string>(),
                             *kind};
@@ -107,6 +113,7 @@ Result<std::int64_t> StatedValues::integer(const std::string& name) const {
 Result<std::vector<double>> StatedValues::numbers(const std::string& name) const {
   const Result<const Value*> value = find(name);
   if (!value) return value.error();
+  if ((*value)->numbers.empty()) return error_at("/values/" + name + "/value", "numbers");
   return (*value)->numbers;
 }
 

@@ -13,28 +13,30 @@
 
 namespace bihive {
 
-/// Whose value it is. A comparison with anything but `stated` is no comparison with the thesis.
+/// Whose value it is. Only what is compared with `stated` can reproduce the thesis, or differ from it.
 enum class ValueKind {
-  stated,    ///< the text says it
-  inferred,  ///< the text is silent: we conclude or choose it, for the reason that stands beside it
+  stated,    ///< the text says it, of an outcome
+  set,       ///< the text says it, and our scenes are made with it: it can only be copied well or badly
+  fitted,    ///< the text says it, and something of ours was made to suit it: the builder, sizes, costs
+  inferred,  ///< the text is silent or vague: we conclude, choose or read it so, for the reason that stands beside it
   own_check  ///< a result of ours that another implementation or an argument of ours must confirm
 };
-/// "stated", "inferred", "own_check".
+/// "stated", "set", "fitted", "inferred", "own_check".
 const char* name_of(ValueKind kind);
 
 /// One experiment's values. Document:
 ///   {"experiment": "table-4.2",
 ///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
 ///                                                    "sentence": "Nodes Internal 4,095 ..."}, ...}}
-/// "value" is a number or a list of numbers. "kind" is one of ValueKind's names. "printed" is optional. "sentence"
-/// quotes the text if the value is stated; else it gives the reasoning.
+/// "value" is a number, a list of numbers, or a text. "kind" is one of ValueKind's names. "printed" is optional. "sentence"
+/// quotes the text, or gives the reasoning where the value is not the text's. Other members are not looked at.
 class StatedValues {
  public:
   /// Error, with file and place: the document is not as above. `file`: as errors name it.
   static Result<StatedValues> parse(std::string_view bytes, std::string file);
 
   bool has(const std::string& name) const { return values_.count(name) != 0; }
-  // Error, with file and place: there is no such value, or it is another kind of value.
+  // Error, with file and place: there is no such value, or it is no number, list of numbers, whole number.
   Result<double> number(const std::string& name) const;
   Result<std::int64_t> integer(const std::string& name) const;
   Result<std::vector<double>> numbers(const std::string& name) const;  ///< a single number is a list of one

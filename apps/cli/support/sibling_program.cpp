@@ -1,0 +1,25 @@
+#include "support/sibling_program.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "support/failure.h"
+
+namespace bihive::cli {
+
+void become_program(const std::string& name, const char* const* words, const std::string& hint) {
+  std::error_code unknown;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const std::string beside = unknown ? "" : (self.parent_path() / name).string();
+  char* const* const arguments = const_cast<char* const*>(words);  // NOLINT: exec*() does not write into them
+  if (!beside.empty()) execv(beside.c_str(), arguments);
+  const int reason = beside.empty() ? ENOENT : errno;
+  if (reason == ENOENT) execvp(name.c_str(), arguments);
+  if (errno != ENOENT) throw Failure{kEnvironment, {std::string(std::strerror(errno)), beside, 0, 0, ""}};
+  throw Failure{kEnvironment, {"the program " + name + " is not installed", "", 0, 0, hint}};
+}
+
+}  // namespace bihive::cli

@@ -1,0 +1,128 @@
+#include "devices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bihive/base/json_text.h"
+#include "bihive/base/write_file.h"
+#include "bihive/thesis/cost_model.h"
+#include "statistics.h"
+
+namespace bihive::thesis {
+namespace {
+
+[[noreturn]] void fail_device(const std::string& file, const std::string& what) {
+  cli::fail({"expected a run of the thesis as the page saves it: " + what, file, 0, 0,
+             "open the page on the device, choose \"Run the thesis on this device\", then \"Save JSON\""});
+}
+
+Json::other_error wrong(const char* what) {
+  return Json::other_error::create(501, what, static_cast<const Json*>(nullptr));
+}
+
+std::string picture_of(const Json& document) {
+  return fmt::format("{} x {}", document.at("width_px").get<int>(), document.at("height_px").get<int>());
+}
+
+// The fastest tree's MAX_PRIMS; 0 without trees.
+std::int64_t fastest_tree(const ConfigurationTimes& times) {
+  std::int64_t fastest = 0;
+  for (const auto& [prims, ms] : times.trees)
+    if (fastest == 0 || median(ms) < median(times.trees.at(fastest))) fastest = prims;
+  return fastest;
+}
+
+Json run_from(const Json& document, const Values& values) {
+  EngineTimes all;
+  std::vector<double> drifts;  // of each contestant: the last round's time over the first's
+  for (const Json& one : document.at("configurations")) {
+    const auto ms = one.at("frame_ms").get<std::vector<double>>();
+    if (ms.empty() || std::any_of(ms.begin(), ms.end(), [](double each) { return !(each > 0); }))
+      throw wrong("a frame without a time");
+    ConfigurationTimes& times = all[{one.at("scenario").get<std::int64_t>(), one.at("spheres").get<std::int64_t>()}];
+    const Json& max_prims = one.at("max_prims");
+    if (!max_prims.is_null() && max_prims.get<std::int64_t>() < 1) throw wrong("max_prims below 1");
+    (max_prims.is_null() ? times.brute : times.trees[max_prims.get<std::int64_t>()]) = ms;
+    drifts.push_back(ms.back() / ms.front());
+  }
+
+  std::int64_t wins = 0, configurations = 0;
+  double best_fps = 0;
+  std::map<std::int64_t, std::vector<double>> gains;
+  for (const auto& [key, times] : all) {
+    const std::int64_t fastest = fastest_tree(times);
+    if (times.brute.empty() || fastest == 0) continue;
+    ++configurations;
+    wins += fastest == values.integer("winner.max_prims") ? 1 : 0;
+    const double ms = median(times.trees.at(fastest));
+    best_fps = std::max(best_fps, 1000 / ms);
+    gains[key.first].push_back(100 * (median(times.brute) / ms - 1));
+  }
+  Json by_scenario = Json::array();
+  for (const auto& [scenario, percents] : gains) {
+    const auto [least, most] = std::minmax_element(percents.begin(), percents.end());
+    by_scenario.push_back(
+        {{"scenario", scenario}, {"least", *least}, {"most", *most}, {"mean", spread_of(percents).mean}});
+  }
+  return {{"device", document.at("device").get<std::string>()},
+          {"engine", document.at("engine").get<std::string>()},
+          {"picture", picture_of(document)},
+          {"quick", document.at("quick").get<bool>()},
+          {"complete", document.at("complete").get<bool>()},
+          {"configurations", configurations},
+          {"wins", wins},
+          {"best_fps", best_fps},
+          {"gains", std::move(by_scenario)},
+          {"drift", drifts.empty() ? 1 : median(drifts)}};
+}
+
+// Frames that a window or a page showed: a row for each engine, at rest and turning.
+void add_shown(const Json& document, Json& rows) {
+  std::map<std::pair<std::int64_t, bool>, Json> rates;  // by MAX_PRIMS (0: the wide engine) and motion
+  for (const Json& one : document.at("configurations")) {
+    const Json& max_prims = one.at("max_prims");
+    const auto frames = one.at("frames").get<std::int64_t>();
+    const auto seconds = one.at("seconds").get<double>();
+    if (frames < 1 || !(seconds > 0)) throw wrong("frames without a time");
+    rates[{max_prims.is_null() ? 0 : max_prims.get<std::int64_t>(), one.at("turning").get<bool>()}].push_back(
+        {{"scenario", one.at("scenario").get<std::int64_t>()},
+         {"spheres", one.at("spheres").get<std::int64_t>()},
+         {"fps", static_cast<double>(frames) / seconds}});
+  }
+  for (auto& [key, list] : rates)
+    rows.push_back({{"by", document.at("by").get<std::string>()},
+                    {"device", document.at("device").get<std::string>()},
+                    {"picture", picture_of(document)},
+                    {"threads", document.at("threads").get<std::int64_t>()},
+                    {"engine", key.first == 0 ? std::string("wide") : fmt::format("BIH {}", key.first)},
+                    {"turning", key.second},
+                    {"complete", document.at("complete").get<bool>()},
+                    {"rates", std::move(list)}});
+}
+
+}  // namespace
+
+Json devices_data(const std::vector<std::string>& files, const Values& figure_4_4) {
+  Json data = Json::object();
+  for (const std::string& file : files) {
+    // Each file is read once: it may be a pipe.
+    const Result<Json> document = json_from_text<Json>(cli::value_or_fail(read_file(file)));
+    if (!document) fail_device(file, document.error().message);
+    try {
+      const Json& experiment = document->at("experiment");
+      if (experiment == "figure-4.4")
+        data["runs"].push_back(run_from(*document, figure_4_4));
+      else if (experiment == "shown-frames")
+        add_shown(*document, data["shown"]);
+      else
+        throw wrong("another experiment");
+    } catch (const Json::exception& error) {
+      fail_device(file, error.what());
+    }
+  }
+  return data;
+}
+
+}  // namespace bihive::thesis

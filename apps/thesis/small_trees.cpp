@@ -1,0 +1,221 @@
+// Figure 4.3: six trees over one set of spheres, each in a picture of its traversal and in a drawing of the tree
+// itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/statistics.h"
+#include "bihive/image/image_diff.h"
+#include "pictures.h"
+#include "ray_counts.h"
+
+namespace bihive::thesis {
+namespace {
+
+constexpr int kQuickDivisor = 4;
+// The drawing of the tree has two parts, so it is twice as large in a quick run.
+constexpr int kQuickTreeDivisor = 2;
+// The pictures that the text calls identical, and those that it describes by MAX_TREE_DEPTH.
+const std::vector<std::string> kLetters{"a", "b", "c", "d", "e", "f"};
+const std::vector<std::pair<std::string, std::string>> kIdentical{{"a", "d"}, {"c", "f"}};
+const std::vector<std::string> kByDepth{"a", "b", "c"};
+constexpr const char* kAsStatedStep = "abc_as_stated";
+
+Scene scene_of(const StepContext& context) {
+  return context.values.scene(context.values.integer("scenario"), context.values.integer("spheres"),
+                              context.settings.seed);
+}
+
+BuildParameters parameters_of(const Values& values, const std::string& letter) {
+  return {values.limit(letter + ".max_prims"), values.limit(letter + ".max_depth")};
+}
+
+// All leaves hold as many, or a range in words.
+Json one_number(const MinAvgMax& of) {
+  return of.min == of.max ? Json(of.min) : Json(fmt::format("{} to {}", of.min, of.max));
+}
+
+Json tree_facts(const Tree& tree) {
+  const TreeStatistics statistics = tree_statistics(tree);
+  return {{"inner_nodes", statistics.inner_nodes},
+          {"leaves", statistics.leaves},
+          {"spheres_per_leaf", one_number(statistics.spheres_per_leaf)},
+          {"depth", statistics.depth.max}};
+}
+
+// The smallest value above 0 of a channel: one gap or one visit.
+double smallest_step(const Image& image, std::size_t channel) {
+  int smallest = 0;
+  for (std::size_t i = channel; i < image.rgb.size(); i += 3)
+    if (image.rgb[i] > 0 && (smallest == 0 || image.rgb[i] < smallest)) smallest = image.rgb[i];
+  return smallest / 255.0;
+}
+
+RayCounts count_traversal(const StepContext& context, const Scene& scene, const Tracer& tracer) {
+  return count_rays(context, scene, *tracer.tree(), picture_size(context.settings, context.values, kQuickDivisor));
+}
+
+// Green for gaps, as `bihive render --view traversal` draws it. Blue for inner nodes and leaves, each by its own step
+// in values.json and at most 1: there that view has one step for both. Nothing if cancelled.
+std::optional<Image> traversal_picture(const StepContext& context, const Scene& scene, const Tracer& tracer,
+                                       const RayCounts& counts) {
+  const cli::PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
+  std::optional<Image> image = draw(context, scene, tracer, picture_settings(context, scene, size, View::traversal));
+  if (!image || counts.rays.empty()) return std::nullopt;
+  const double of_inner = context.values.number("visit.inner.blue"), of_leaf = context.values.number("visit.leaf.blue");
+  for (std::size_t i = 0; i < counts.rays.size(); ++i) {
+    const CountingObserver& ray = counts.rays[i];
+    const double blue =
+        of_inner * static_cast<double>(ray.node_visits) + of_leaf * static_cast<double>(ray.leaf_visits);
+    image->rgb[3 * i + 2] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(blue, 0.0, 1.0)));
+  }
+  return image;
+}
+
+// What can be seen in the picture, as shares of its pixels.
+Json seen_in(const Image& image, const RayCounts& counts) {
+  std::int64_t green = 0, blue = 0, bright = 0, saturated = 0, most_gaps = 0, most_visits = 0;
+  for (std::size_t i = 0; i < counts.rays.size(); ++i) {
+    const CountingObserver& ray = counts.rays[i];
+    const int g = image.rgb[3 * i + 1], b = image.rgb[3 * i + 2];
+    green += g > b;
+    blue += b > 0 && b >= g;
+    bright += ray.empty_gaps >= 2;
+    saturated += g == 255 || b == 255;
+    most_gaps = std::max(most_gaps, ray.empty_gaps);
+    most_visits = std::max(most_visits, ray.node_visits + ray.leaf_visits);
+  }
+  const double all = static_cast<double>(counts.rays.size());
+  const RayCounts::Mean mean = counts.mean();
+  return {{"green_percent", 100 * static_cast<double>(green) / all},
+          {"blue_percent", 100 * static_cast<double>(blue) / all},
+          {"several_gaps_percent", 100 * static_cast<double>(bright) / all},
+          {"saturated_percent", 100 * static_cast<double>(saturated) / all},
+          {"gaps_per_ray", mean.gaps},
+          {"nodes_per_ray", mean.nodes + mean.leaves},
+          {"most_gaps", most_gaps},
+          {"most_nodes", most_visits}};
+}
+
+Json draw_tree(const StepContext& context, const std::string& letter) {
+  const Scene scene = scene_of(context);
+  const Tracer tracer =
+      cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, letter)));
+  const RayCounts counts = count_traversal(context, scene, tracer);
+  const std::optional<Image> traversal = traversal_picture(context, scene, tracer, counts);
+  const cli::PictureSize size = picture_size(context.settings, context.values, kQuickTreeDivisor);
+  const std::optional<Image> tree = draw(context, scene, tracer, picture_settings(context, scene, size, View::tree));
+  if (!traversal || !tree) return {};
+  const auto limit_text = [&](const std::string& name) {
+    const std::int64_t limit = context.values.limit(letter + name);
+    return limit == kUnlimited ? std::string("∞") : std::to_string(limit);
+  };
+  return {{"letter", letter},
+          {"max_depth", limit_text(".max_depth")},
+          {"max_prims", limit_text(".max_prims")},
+          {"traversal", write_picture(context, letter + "-traversal.png", *traversal)},
+          {"tree_picture", write_picture(context, letter + "-tree.png", *tree)},
+          {"tree", tree_facts(*tracer.tree())},
+          {"green_step", smallest_step(*traversal, 1)},
+          {"seen", seen_in(*traversal, counts)}};
+}
+
+bool same_node(const Node& a, const Node& b) {
+  return a.left_clip == b.left_clip && a.right_clip == b.right_clip && a.kind == b.kind &&
+         a.split_axis == b.split_axis && a.first == b.first && a.sphere_count == b.sphere_count;
+}
+
+// The number of different entries of two lists.
+template <class T, class Same>
+std::int64_t differences(const std::vector<T>& a, const std::vector<T>& b, const Same& same) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+    if (i >= a.size() || i >= b.size() || !same(a[i], b[i])) ++count;
+  return count;
+}
+
+// Compares two trees node by node and two pictures pixel by pixel.
+Json compare(const StepContext& context, const std::string& first, const std::string& second) {
+  const Scene scene = scene_of(context);
+  const Tracer one =
+      cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, first)));
+  const Tracer other =
+      cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, second)));
+  const RayCounts of_one = count_traversal(context, scene, one), of_other = count_traversal(context, scene, other);
+  const std::optional<Image> one_image = traversal_picture(context, scene, one, of_one);
+  const std::optional<Image> other_image = traversal_picture(context, scene, other, of_other);
+  if (!one_image || !other_image) return {};
+  const auto equal = [](std::int64_t a, std::int64_t b) { return a == b; };
+  return {{"nodes", one.tree()->nodes.size()},
+          {"different_nodes", differences(one.tree()->nodes, other.tree()->nodes, same_node)},
+          {"different_places", differences(one.tree()->sphere_ids, other.tree()->sphere_ids, equal)},
+          {"different_pixels", difference_of(*one_image, *other_image).pixels}};
+}
+
+// The trees of (a) to (c) with the MAX_PRIMS that the text gives for them.
+Json build_as_stated(const StepContext& context) {
+  const Scene scene = scene_of(context);
+  Json trees = Json::object();
+  for (const std::string& letter : kByDepth) {
+    BuildParameters parameters = parameters_of(context.values, letter);
+    parameters.max_prims = context.values.limit("abc.max_prims_stated");
+    trees[letter] = tree_facts(build_reference_tree(scene.spheres, parameters));
+  }
+  return trees;
+}
+
+std::string pair_name(const std::pair<std::string, std::string>& pair) {
+  return pair.first + "_and_" + pair.second;
+}
+
+std::vector<Step> steps_of(const Settings& settings, const Values&) {
+  const double weight = settings.quick ? 0.1 : 0.7;
+  std::vector<Step> steps;
+  for (const std::string& letter : kLetters)
+    steps.push_back({letter, weight, [letter](StepContext& context) { return draw_tree(context, letter); }});
+  for (const auto& pair : kIdentical)
+    steps.push_back(
+        {pair_name(pair), weight, [pair](StepContext& context) { return compare(context, pair.first, pair.second); }});
+  steps.push_back({kAsStatedStep, 0.01, [](StepContext& context) { return build_as_stated(context); }});
+  return steps;
+}
+
+// What the text says of the colours: the smallest green is that of one gap; where there is more green than blue; where
+// a ray passes the most gaps.
+void add_colours(Json& data) {
+  double smallest = 1, most = 0;
+  std::vector<std::string> green, widest;
+  for (const auto& [letter, tree] : data["trees"].items()) {
+    if (const double step = tree["green_step"].get<double>(); step > 0) smallest = std::min(smallest, step);
+    const Json& seen = tree["seen"];
+    if (seen["green_percent"].get<double>() > 0) green.push_back(letter);
+    const double gaps = seen["gaps_per_ray"].get<double>();
+    if (gaps > most) widest.clear();
+    if (gaps >= most) widest.push_back(letter);
+    most = std::max(most, gaps);
+  }
+  data["gap"] = {{"green", smallest}};
+  data["green_areas"] = fmt::format("{}", fmt::join(green, ", "));
+  data["most_empty_space"] = fmt::format("{}", fmt::join(widest, ", "));
+}
+
+Json data_of(const DataContext& context) {
+  Json data = Json::object();
+  for (const std::string& letter : kLetters)
+    if (const Json* const tree = context.result(letter)) data["trees"][letter] = *tree;
+  for (const auto& pair : kIdentical)
+    if (const Json* const same = context.result(pair_name(pair))) data[pair_name(pair)] = *same;
+  if (const Json* const stated = context.result(kAsStatedStep)) data["as_stated"] = *stated;
+  if (data.contains("trees") && data["trees"].size() == kLetters.size()) add_colours(data);
+  return data;
+}
+
+}  // namespace
+
+Experiment figure_4_3() {
+  return {"figure-4.3", "D", "Figure 4.3: the tree and its traversal", steps_of, data_of};
+}
+
+}  // namespace bihive::thesis

@@ -1,0 +1,49 @@
+// The values of an experiment (bihive/thesis/stated_values.h) with their claims. If a value is missing or of another
+// kind, the program fails (failure.h), because every value that code needs must be in the file.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bihive/bih/tree.h"
+#include "bihive/scene/generators.h"
+#include "bihive/thesis/stated_values.h"
+#include "support/failure.h"
+
+namespace bihive::thesis {
+
+class Values {
+ public:
+  Values(const std::string& bytes, const std::string& file);
+
+  bool has(const std::string& name) const { return stated_.has(name); }
+  double number(const std::string& name) const { return cli::value_or_fail(stated_.number(name)); }
+  std::int64_t integer(const std::string& name) const { return cli::value_or_fail(stated_.integer(name)); }
+  std::vector<double> numbers(const std::string& name) const { return cli::value_or_fail(stated_.numbers(name)); }
+  std::vector<std::int64_t> integers(const std::string& name) const {
+    return cli::value_or_fail(stated_.integers(name));
+  }
+  std::string printed(const std::string& name) const { return cli::value_or_fail(stated_.printed(name)); }
+  ValueKind kind(const std::string& name) const { return cli::value_or_fail(stated_.kind(name)); }
+  const StatedValues& stated() const { return stated_; }
+  /// The whole file: "values", each with its claim if it has one, and "remarks": claims without a comparison.
+  const nlohmann::ordered_json& document() const { return document_; }
+
+  /// A limit of a tree: 0 stands for infinity.
+  std::int64_t limit(const std::string& name) const;
+  /// The scene of a scenario with so many spheres, of the value "radius". Fails if there is no such scenario.
+  Scene scene(std::int64_t scenario, std::int64_t spheres, std::uint64_t seed) const;
+
+ private:
+  StatedValues stated_;
+  nlohmann::ordered_json document_;
+};
+
+/// The scenario with that number. Fails if there is none.
+Scenario scenario_of(std::int64_t number);
+
+/// The values of folder/<experiment>/values.json if a folder is given and has that file, else the built-in ones.
+Values load_values(const std::string& experiment, const std::string& folder);
+
+}  // namespace bihive::thesis

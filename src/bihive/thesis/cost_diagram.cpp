@@ -1,0 +1,212 @@
+#include "bihive/thesis/cost_diagram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "bihive/image/html_text.h"
+
+namespace bihive {
+namespace {
+
+// Units of the view box.
+constexpr double kWidth = 480, kLeft = 56, kRight = 12, kTop = 30, kPlotHeight = 230, kLine = 17;
+constexpr double kPlotWidth = kWidth - kLeft - kRight;
+constexpr double kCharacter = 6.6;  // mean width of a character of 12 units
+constexpr double kMarker = 4.2;
+
+constexpr const char* kStyle =
+    "<style>.bihive-costs{--paper:#fff;color:#1b1b1b;background:var(--paper);font:12px system-ui,sans-serif}"
+    ".bihive-costs text{fill:currentColor}.bihive-costs .strong{font-weight:600;font-size:13px}"
+    ".bihive-costs .axis{stroke:currentColor;fill:none}"
+    ".bihive-costs .pattern{stroke:#d55e00;stroke-width:2.4;fill:none}"
+    ".bihive-costs .share{stroke:#d55e00;stroke-width:1.6;fill:none;stroke-dasharray:4 3}"
+    ".bihive-costs .point{stroke:#1b1b1b;stroke-width:1.2;fill:#fff}"
+    ".bihive-costs .error{stroke:#1b1b1b;stroke-width:1.2}"
+    ".bihive-costs .halo{stroke:#fff;stroke-width:3;paint-order:stroke;fill:#1b1b1b}"
+    "@media(prefers-color-scheme:dark){.bihive-costs{--paper:#16181c;color:#e6e6e6}}</style>";
+
+// From pale to deep blue, in equal steps of sRGB.
+std::string colour_of(int wins, int most) {
+  const double part = most == 0 ? 0 : static_cast<double>(wins) / most;
+  const auto mix = [part](double pale, double deep) {
+    return static_cast<int>(std::lround(pale + part * (deep - pale)));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", mix(247, 8), mix(251, 81), mix(255, 156));
+}
+
+class Diagram {
+ public:
+  explicit Diagram(const CostDiagram& data) : data_(data) {
+    log_low_ = std::log10(data.inner.front());
+    log_high_ = std::log10(data.inner.back());
+    cell_width_ = kPlotWidth / static_cast<double>(data.inner.size());
+    cell_height_ = kPlotHeight / static_cast<double>(data.leaf.size());
+  }
+
+  std::string svg() {
+    cells();
+    outline("pattern", [this](std::size_t at) { return bool(data_.pattern[at]); });
+    if (!data_.share.empty()) outline("share", [this](std::size_t at) { return data_.share[at] >= 0.5; });
+    axes();
+    for (const CostPoint& point : data_.points) mark(point);
+    legend();
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bihive-costs\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
+        "aria-label=\"{}\">{}{}</svg>\n",
+        kWidth, height_, escape_html(data_.title), kStyle, body_);
+  }
+
+ private:
+  std::size_t columns() const { return data_.inner.size(); }
+  std::size_t rows() const { return data_.leaf.size(); }
+
+  // The middle of the first column lies half a cell right of the axis, and so does that of the first row.
+  double x_of(double inner) const {
+    const double part = (std::log10(inner) - log_low_) / (log_high_ - log_low_);
+    return kLeft + cell_width_ / 2 + part * (kPlotWidth - cell_width_);
+  }
+  double y_of(double leaf) const {
+    const double part = (leaf - data_.leaf.front()) / (data_.leaf.back() - data_.leaf.front());
+    return kTop + kPlotHeight - cell_height_ / 2 - part * (kPlotHeight - cell_height_);
+  }
+  double x_at(std::size_t column) const { return kLeft + static_cast<double>(column) * cell_width_; }
+  double y_at(std::size_t row) const { return kTop + kPlotHeight - static_cast<double>(row) * cell_height_; }
+
+  void text(double x, double y, const std::string& words, const char* anchor = "start", const char* style = "") {
+    body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor, style,
+                         escape_html(words));
+  }
+
+  // One rectangle for each run of equal cells of a row.
+  void cells() {
+    text(kLeft, 18, data_.title, "start", " class=\"strong\"");
+    for (std::size_t row = 0; row < rows(); ++row)
+      for (std::size_t begin = 0, end = 0; begin < columns(); begin = end) {
+        const int wins = data_.wins[row * columns() + begin];
+        for (end = begin; end < columns() && data_.wins[row * columns() + end] == wins; ++end) {
+        }
+        body_ += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>",
+                             x_at(begin), y_at(row + 1), static_cast<double>(end - begin) * cell_width_ + 0.2,
+                             cell_height_ + 0.2, colour_of(wins, data_.most_wins));
+      }
+  }
+
+  // The edges between cells that belong and cells that do not.
+  void outline(const char* style, const std::function<bool(std::size_t)>& belongs) {
+    std::string path;
+    const auto at = [&](std::size_t row, std::size_t column) {
+      return row < rows() && column < columns() && belongs(row * columns() + column);
+    };
+    for (std::size_t row = 0; row <= rows(); ++row)
+      for (std::size_t column = 0; column <= columns(); ++column) {
+        const bool here = at(row, column);
+        if (column > 0 ? at(row, column - 1) != here : here)
+          path += fmt::format("M{:.2f} {:.2f}V{:.2f}", x_at(column), y_at(row), y_at(row + 1));
+        if (row > 0 ? at(row - 1, column) != here : here)
+          path += fmt::format("M{:.2f} {:.2f}H{:.2f}", x_at(column), y_at(row), x_at(column + 1));
+      }
+    if (!path.empty()) body_ += fmt::format("<path class=\"{}\" d=\"{}\"/>", style, path);
+  }
+
+  void axes() {
+    const double bottom = kTop + kPlotHeight;
+    body_ += fmt::format("<rect class=\"axis\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", kLeft, kTop, kPlotWidth,
+                         kPlotHeight);
+    for (double inner = 1.0 / 64; inner <= data_.inner.back() * 1.001; inner *= 2) {
+      if (inner < data_.inner.front() * 0.999) continue;
+      body_ += fmt::format("<path class=\"axis\" d=\"M{0:.1f} {1}v4\"/>", x_of(inner), bottom);
+      text(x_of(inner), bottom + kLine, inner < 1 ? fmt::format("1/{:.0f}", 1 / inner) : fmt::format("{:.0f}", inner),
+           "middle");
+    }
+    for (int i = 0; i * 0.25 <= data_.leaf.back() * 1.001; ++i) {
+      const double y = y_of(i * 0.25);
+      body_ += fmt::format("<path class=\"axis\" d=\"M{} {:.1f}h-4\"/>", kLeft, y);
+      text(kLeft - 7, y + 4, fmt::format("{:g}", i * 0.25), "end");
+    }
+    text(kLeft + kPlotWidth / 2, bottom + 2 * kLine, "an inner node costs, in sphere tests", "middle");
+    body_ += fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+                         kTop + kPlotHeight / 2, "a leaf costs, in inner nodes");
+  }
+
+  // At the edge, with its numbers, where it lies outside.
+  void mark(const CostPoint& point) {
+    const double inner = std::clamp(point.inner, data_.inner.front(), data_.inner.back());
+    const double leaf = std::clamp(point.leaf, data_.leaf.front(), data_.leaf.back());
+    const double x = x_of(inner), y = y_of(leaf);
+    const bool outside = inner != point.inner || leaf != point.leaf;
+    if (!outside) {
+      const double left = x_of(std::max(point.inner - point.inner_error, data_.inner.front()));
+      const double right = x_of(std::min(point.inner + point.inner_error, data_.inner.back()));
+      const double low = y_of(std::max(point.leaf - point.leaf_error, data_.leaf.front()));
+      const double high = y_of(std::min(point.leaf + point.leaf_error, data_.leaf.back()));
+      body_ += fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>", left, y, right,
+                           x, low, high);
+    }
+    const std::string numbers = fmt::format("{:.2f}, {:.2f}", point.inner, point.leaf);
+    body_ += fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {}</title></circle>",
+                         x, y, kMarker, escape_html(point.name), numbers);
+    const std::string name = outside ? point.name + " (" + numbers + ")" : point.name;
+    const bool to_the_left = x + 8 + kCharacter * static_cast<double>(name.size()) > kWidth - kRight;
+    // Below other names that stand there already.
+    const double width = kCharacter * static_cast<double>(name.size()), left = to_the_left ? x - 8 - width : x + 8;
+    double base = std::max(y - 6, kTop + 12);
+    for (const Name& other : names_)
+      if (left < other.right && other.left < left + width && std::abs(base - other.base) < kLine)
+        base = other.base + kLine;
+    names_.push_back({left, left + width, base});
+    text(to_the_left ? x - 8 : x + 8, base, name, to_the_left ? "end" : "start", " class=\"halo\"");
+  }
+
+  void legend() {
+    double x = kLeft, y = kTop + kPlotHeight + 3.2 * kLine;
+    text(x, y, data_.wins_label);
+    x += kCharacter * static_cast<double>(data_.wins_label.size()) + 6;
+    for (int wins = 0; wins <= data_.most_wins; ++wins, x += 18) {
+      body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"18\" height=\"14\" fill=\"{}\"/>", x, y - 11,
+                           colour_of(wins, data_.most_wins));
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" style=\"fill:{}\">{}</text>", x + 9,
+                           y, 2 * wins > data_.most_wins ? "#fff" : "#1b1b1b", wins);
+    }
+    const auto entry = [&](const char* style, const std::string& words) {
+      if (words.empty()) return;
+      y += kLine;
+      body_ += fmt::format("<path class=\"{}\" d=\"M{} {:.1f}h22\"/>", style, kLeft, y - 4);
+      text(kLeft + 28, y, words);
+    };
+    entry("pattern", data_.pattern_label);
+    if (!data_.share.empty()) entry("share", data_.share_label);
+    height_ = y + kLine / 2;
+  }
+
+  struct Name {
+    double left, right, base;
+  };
+
+  const CostDiagram& data_;
+  std::vector<Name> names_;
+  double log_low_ = 0, log_high_ = 1, cell_width_ = 1, cell_height_ = 1, height_ = 0;
+  std::string body_;
+};
+
+}  // namespace
+
+std::string cost_diagram_svg(const CostDiagram& diagram) {
+  return Diagram(diagram).svg();
+}
+
+std::string cost_diagram_csv(const CostDiagram& diagram) {
+  std::string text = "inner_node_per_sphere_test,leaf_per_inner_node,wins,pattern,share_of_seeds\n";
+  for (std::size_t row = 0; row < diagram.leaf.size(); ++row)
+    for (std::size_t column = 0; column < diagram.inner.size(); ++column) {
+      const std::size_t at = row * diagram.inner.size() + column;
+      text += fmt::format("{:.6g},{:.6g},{},{},{}\n", diagram.inner[column], diagram.leaf[row], diagram.wins[at],
+                          diagram.pattern[at] ? 1 : 0,
+                          diagram.share.empty() ? "" : fmt::format("{:.4g}", diagram.share[at]));
+    }
+  return text;
+}
+
+}  // namespace bihive

@@ -1,0 +1,37 @@
+// The diagram of Figure 4.4: at which costs which tree wins.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace bihive {
+
+/// A measured engine: its fitted costs, with standard errors.
+struct CostPoint {
+  std::string name;
+  double inner = 1, leaf = 0;              ///< as StepCosts has them
+  double inner_error = 0, leaf_error = 0;  ///< standard errors
+};
+
+struct CostDiagram {
+  std::string title, wins_label;  ///< of the picture, and of the legend of colours
+  std::string pattern_label, share_label;
+  std::vector<double> inner;  ///< a column each, evenly spaced on a logarithmic axis, from low to high
+  std::vector<double> leaf;   ///< a row each, evenly spaced, from low to high
+  /// Row by row: the configurations that the tree wins; whether the whole pattern holds; the share of the seeds with
+  /// which it does (empty without other seeds).
+  std::vector<int> wins;
+  std::vector<bool> pattern;
+  std::vector<double> share;
+  int most_wins = 9;
+  std::vector<CostPoint> points;  ///< those outside the axes stand at the edge, with their numbers
+};
+
+/// An SVG text: colours for wins, an outline around the pattern, a dashed one where half of the seeds have it, a point
+/// with error bars for each engine.
+std::string cost_diagram_svg(const CostDiagram& diagram);
+
+/// A line for each cell: inner_node_per_sphere_test,leaf_per_inner_node,wins,pattern,share_of_seeds.
+std::string cost_diagram_csv(const CostDiagram& diagram);
+
+}  // namespace bihive

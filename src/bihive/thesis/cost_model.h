@@ -1,0 +1,93 @@
+// A frame's time without a clock: the work of its rays, counted, times what each kind of step costs.
+//
+// A leaf is charged apart from its spheres. Which tree is the fastest depends on two ratios alone: what an inner node
+// costs in sphere tests, and what a leaf costs in inner nodes.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace bihive {
+
+/// Means per primary ray of the picture.
+struct RayWork {
+  double inner = 0;   ///< inner nodes entered
+  double leaves = 0;  ///< leaves entered
+  double tests = 0;   ///< spheres tested
+};
+
+/// Costs of the steps of a ray.
+struct StepCosts {
+  double inner = 1;  ///< an inner node, in sphere tests; >= 0
+  double leaf = 0;   ///< a leaf apart from its spheres, in inner nodes; >= 0
+  double fixed = 1;  ///< everything that no tree takes away, in sphere tests per ray; >= 0
+
+  /// Of one ray, in sphere tests.
+  double of(const RayWork& work) const { return fixed + inner * (work.inner + leaf * work.leaves) + work.tests; }
+};
+
+using Configuration = std::pair<std::int64_t, std::int64_t>;  ///< scenario, number of spheres
+using WorkByTree = std::map<std::int64_t, RayWork>;           ///< by MAX_PRIMS
+using FigureWork = std::map<Configuration, WorkByTree>;
+
+/// Milliseconds of a frame, one per round.
+struct ConfigurationTimes {
+  std::vector<double> brute;
+  std::map<std::int64_t, std::vector<double>> trees;  ///< by MAX_PRIMS
+};
+using EngineTimes = std::map<Configuration, ConfigurationTimes>;
+
+/// The frames that these costs predict, in sphere tests per ray, as one round. Brute force tests every sphere.
+EngineTimes predicted_times(const FigureWork& work, const StepCosts& costs);
+
+/// From low to high; empty if low > high.
+struct CostRange {
+  double low = 0, high = std::numeric_limits<double>::infinity();
+  bool empty() const { return low > high; }
+  bool holds(double cost) const { return low <= cost && cost <= high; }
+};
+
+/// The costs of an inner node at which a tree is the fastest of `among`, where a leaf costs `leaf` inner nodes.
+CostRange fastest_range(const WorkByTree& trees, std::int64_t max_prims, const std::vector<std::int64_t>& among,
+                        double leaf);
+
+/// The number of configurations that a tree wins, ties included.
+std::int64_t wins_of(const FigureWork& work, std::int64_t max_prims, const std::vector<std::int64_t>& among,
+                     double inner, double leaf);
+
+/// The text's pattern: one MAX_PRIMS wins exactly so many configurations, and another one wins a certain configuration.
+struct WinPattern {
+  std::int64_t max_prims = 0, wins = 0;
+  Configuration exception;
+  std::int64_t exception_max_prims = 0;
+};
+
+/// How one MAX_PRIMS fares at a leaf's cost, over all costs of an inner node. The bounds are exact: between two costs
+/// at which two trees are equal nothing changes.
+struct WinsByCost {
+  std::int64_t most = 0;           ///< configurations won at most
+  std::vector<CostRange> most_at;  ///< where that is so
+  std::vector<CostRange> stated;   ///< where it wins as many as the pattern says
+  std::vector<CostRange> pattern;  ///< where the whole pattern holds
+};
+WinsByCost wins_by_cost(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& among,
+                        double leaf);
+
+/// Costs fitted to measured frames by least squares of the relative error, none of them negative.
+struct FittedCosts {
+  double fixed_ns = 0, inner_ns = 0, leaf_ns = 0, test_ns = 0;  ///< per ray and thread
+  double inner_error = 0, leaf_error = 0;                       ///< standard errors of costs().inner and costs().leaf
+  double rms = 0;                                               ///< relative error of a frame's time
+  std::size_t frames = 0;
+
+  StepCosts costs() const { return {inner_ns / test_ns, inner_ns > 0 ? leaf_ns / inner_ns : 0, fixed_ns / test_ns}; }
+};
+/// `ns_per_ms`: nanoseconds per ray and thread that a millisecond of a frame's time stands for. Nothing fits (`frames`
+/// is 0) with fewer than eight frames, or where a sphere test costs nothing.
+FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, const std::vector<std::int64_t>& among,
+                      double ns_per_ms);
+
+}  // namespace bihive
