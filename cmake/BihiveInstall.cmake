@@ -30,14 +30,14 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} 
 # from where they stand, wherever the folder is moved. RPATH instead of RUNPATH, because it also counts for what those
 # libraries need.
 file(RELATIVE_PATH from_programs ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-foreach(program bihive bihive-mpi bihive-view)
+foreach(program bihive bihive-mpi bihive-thesis bihive-view)
   if(TARGET ${program} AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
     set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${from_programs};$ORIGIN/${from_programs}/bihive")
     target_link_options(${program} PRIVATE LINKER:--disable-new-dtags)
   endif()
 endforeach()
 if(TARGET bihive)
-  install(TARGETS bihive COMPONENT bihive)
+  install(TARGETS bihive bihive-thesis COMPONENT bihive)
   include(BihiveWords)
   # The page of `bihive web`, if `make web` has built it.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build-web/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bihive/web COMPONENT bihive

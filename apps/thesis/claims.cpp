@@ -275,9 +275,11 @@ std::vector<Claim> claims_of(const Experiment& experiment, const Values& values,
   }
   for (const Json& remark : values.document().value("remarks", Json::array())) {
     const auto claim = begin(remark);
-    const bool lost = remark["verdict"] == "value_lost";
-    claim->words = {lost ? "value lost" : "not compared", "–", "open"};
-    claim->verdict = remark["verdict"].get<std::string>();
+    const std::string verdict = remark["verdict"].get<std::string>();
+    claim->words = verdict == "tested"       ? Words{"so in this program", "=", "set"}
+                   : verdict == "value_lost" ? Words{"value lost", "–", "open"}
+                                             : Words{"not compared", "–", "open"};
+    claim->verdict = verdict;
     claim->found = remark["reason"].get<std::string>();
     for (const Json& test : remark.value("held_by", Json::array())) claim->held_by.push_back(test.get<std::string>());
   }

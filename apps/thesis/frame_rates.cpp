@@ -8,6 +8,7 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/write_file.h"
 #include "bihive/thesis/cost_diagram.h"
+#include "bihive/thesis/frame_rates.h"
 #include "bihive/thesis/frame_rates_report.h"
 #include "claims.h"
 #include "claims_at_costs.h"
@@ -62,6 +63,7 @@ const std::vector<Variation>& variations() {
 }
 
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
+  cli::value_or_fail(FrameRatePlan::from_values(values.stated()));  // every number is in range
   const std::vector<std::int64_t> scenarios = values.integers("scenarios"), counts = values.integers("spheres_list");
   const std::vector<std::int64_t> max_prims = values.integers("max_prims_list");
   std::vector<Step> steps;

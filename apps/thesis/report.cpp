@@ -104,6 +104,7 @@ std::string filled(std::string_view page, const Json& view, const std::string& f
            }});
   data.set("findings", must::partial{[] { return std::string(thesis_template_findings()); }});
   must::mustache parsed{std::string(page)};
+  parsed.set_custom_escape([](const std::string& text) { return escape_html(text); });
   if (!parsed.is_valid()) cli::fail({"a template of the report: " + parsed.error_message(), "", 0, 0, ""});
   return parsed.render(data);
 }
@@ -220,6 +221,7 @@ std::string report_html(const Report& report, const std::string& folder) {
         if (claim.section != letter) continue;
         Json row = claim_json(claim);
         row.update(words_json(claim.words));
+        row["sentence"] = claim.sentence;
         rows.push_back(std::move(row));
       }
     if (!rows.empty()) view["sections"].push_back({{"letter", letter}, {"title", title}, {"rows", std::move(rows)}});

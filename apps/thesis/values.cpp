@@ -34,6 +34,13 @@ Values::Values(const std::string& bytes, const std::string& file)
     : stated_(value_or_fail(StatedValues::parse(bytes, file))),
       document_(value_or_fail(json_from_text<nlohmann::ordered_json>(bytes, file))) {}
 
+std::vector<std::int64_t> Values::integers(const std::string& name) const {
+  std::vector<std::int64_t> all = value_or_fail(stated_.integers(name));
+  for (const std::int64_t one : all)
+    if (one < 1) fail({"/values/" + name + ": expected whole numbers above 0", "values.json", 0, 0, ""});
+  return all;
+}
+
 std::int64_t Values::limit(const std::string& name) const {
   const std::int64_t limit = integer(name);
   if (limit < 0) fail({"/values/" + name + ": a limit cannot be negative", "values.json", 0, 0, "0 is infinity"});

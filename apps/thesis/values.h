@@ -21,9 +21,8 @@ class Values {
   double number(const std::string& name) const { return cli::value_or_fail(stated_.number(name)); }
   std::int64_t integer(const std::string& name) const { return cli::value_or_fail(stated_.integer(name)); }
   std::vector<double> numbers(const std::string& name) const { return cli::value_or_fail(stated_.numbers(name)); }
-  std::vector<std::int64_t> integers(const std::string& name) const {
-    return cli::value_or_fail(stated_.integers(name));
-  }
+  /// Whole numbers above 0.
+  std::vector<std::int64_t> integers(const std::string& name) const;
   std::string printed(const std::string& name) const { return cli::value_or_fail(stated_.printed(name)); }
   ValueKind kind(const std::string& name) const { return cli::value_or_fail(stated_.kind(name)); }
   const StatedValues& stated() const { return stated_; }

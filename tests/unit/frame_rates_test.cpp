@@ -100,20 +100,6 @@ TEST(FrameRateRun, EndsWithAnError) {
   EXPECT_TRUE(run.rates().empty());
 }
 
-TEST(FrameContest, MeasuresBruteForceInEveryScenario) {
-  Result<FrameContest> contest = FrameContest::of_scenarios(small_plan(), {}, 64);
-  ASSERT_TRUE(contest) << contest.error().to_string();
-  while (!contest->finished()) ASSERT_TRUE(contest->step());
-  ASSERT_EQ(contest->rates().size(), 3u);
-  EXPECT_EQ(contest->rates()[2].scenario, kOnePlace);
-  for (const MeasuredRate& rate : contest->rates()) {
-    EXPECT_FALSE(rate.max_prims);
-    EXPECT_EQ(rate.spheres, 64);
-    EXPECT_EQ(rate.frame_ms.size(), 3u);
-  }
-  EXPECT_EQ(contest->rates()[1].scenario, 2);
-}
-
 TEST(FrameContest, EndsWhereItIsCancelled) {
   Result<FrameContest> contest = FrameContest::of_trees(small_plan(), {}, 1, 64);
   ASSERT_TRUE(contest) << contest.error().to_string();

@@ -24,7 +24,8 @@ TEST(StatedValues, GivesNumbersListsAndPrint) {
   const auto values = with(R"("a": {"value": 4095, "kind": "stated", "printed": "4,095", "sentence": "s"},
                               "b": {"value": [1, 2.5], "kind": "inferred", "sentence": ""},
                               "c": {"value": 7, "kind": "own_check", "printed": "8%", "sentence": ""},
-                              "d": {"value": 0, "kind": "stated", "printed": "did not vary", "sentence": ""})");
+                              "d": {"value": 0, "kind": "set", "printed": "did not vary", "sentence": ""},
+                              "f": {"value": "only rises", "kind": "fitted", "sentence": "", "claim": "it rises"})");
   ASSERT_TRUE(values) << message_of(values);
   EXPECT_EQ(values->number("a").value(), 4095);
   EXPECT_EQ(values->integer("a").value(), 4095);
@@ -39,17 +40,21 @@ TEST(StatedValues, GivesNumbersListsAndPrint) {
   EXPECT_EQ(values->kind("a").value(), ValueKind::stated);
   EXPECT_EQ(values->kind("b").value(), ValueKind::inferred);
   EXPECT_EQ(values->kind("c").value(), ValueKind::own_check);
+  EXPECT_EQ(values->kind("d").value(), ValueKind::set);
+  EXPECT_EQ(values->kind("f").value(), ValueKind::fitted);
+  EXPECT_EQ(values->printed("f").value(), "only rises");
+  EXPECT_EQ(values->numbers("f").error().to_string(), "file.json: /values/f/value: expected numbers");
 }
 
 TEST(StatedValues, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(message_of(StatedValues::parse("{", "file.json")), "file.json: it is not valid JSON");
   EXPECT_EQ(message_of(StatedValues::parse("[]", "file.json")),
             "file.json: /values: expected an object with one entry a value");
-  EXPECT_EQ(message_of(with(R"("a": {"value": "x", "sentence": ""})")),
-            "file.json: /values/a/value: expected a number or a list of numbers");
+  EXPECT_EQ(message_of(with(R"("a": {"value": {}, "sentence": ""})")),
+            "file.json: /values/a/value: expected a number, a list of numbers, or a text");
   EXPECT_EQ(message_of(with(R"("a": {"value": 1})")),
             "file.json: /values/a/sentence: expected the sentence that it comes from");
-  const std::string kinds = R"(file.json: /values/a/kind: expected "stated", "inferred" or "own_check")";
+  const std::string kinds = R"(file.json: /values/a/kind: expected "stated", "set", "fitted", "inferred" or "own_check")";
   EXPECT_EQ(message_of(with(R"("a": {"value": 1, "sentence": ""})")), kinds) << "nothing is the thesis's by default";
   EXPECT_EQ(message_of(with(R"("a": {"value": 1, "kind": "chosen", "sentence": ""})")), kinds);
   EXPECT_EQ(message_of(with(R"("a": {"value": 1, "kind": 1, "sentence": ""})")), kinds);
@@ -80,8 +85,8 @@ TEST(StatedValues, BuiltinOnesSayWhoseTheyAre) {
   }
   const auto memory = StatedValues::parse(builtin_values_figure_4_5(), "values.json");
   EXPECT_EQ(memory->kind("node_bytes").value(), ValueKind::inferred);
-  EXPECT_EQ(memory->kind("ours.scenario1.spheres1024.max_prims1.bytes").value(), ValueKind::own_check);
-  EXPECT_EQ(memory->kind("radius").value(), ValueKind::stated);
+  EXPECT_EQ(memory->kind("wrong_trees").value(), ValueKind::own_check);
+  EXPECT_EQ(memory->kind("radius").value(), ValueKind::set);
 }
 
 }  // namespace

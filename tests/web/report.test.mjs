@@ -31,10 +31,20 @@ async function look({ width, largestShare, leastTextHeight }) {
   const nameOf = (element) => element.closest('figure')?.querySelector('figcaption')?.textContent ?? element.tagName;
   const root = document.documentElement;
 
-  // Nothing is wider than the window; wider things scroll inside their own box.
+  // Nothing is wider than the window.
   check(root.scrollWidth <= width, `the page is ${root.scrollWidth} wide in a window of ${width}`);
-  for (const box of document.querySelectorAll('.scroll'))
-    check(box.getBoundingClientRect().right <= width, `a table's box leaves the window: ${box.ariaLabel}`);
+  // What is folded too.
+  for (const folded of document.querySelectorAll('details')) folded.open = true;
+  check(root.scrollWidth <= width, `the page is ${root.scrollWidth} wide in a window of ${width} when all is unfolded`);
+  // Every column of a table is in sight: on a phone a row is a card, and each of its cells has the column's name.
+  for (const cell of document.querySelectorAll('.cards tbody > tr > *')) {
+    const box = cell.getBoundingClientRect();
+    check(box.right <= width + 1, `a cell leaves the window: ${cell.textContent.slice(0, 60)}`);
+    if (width < 500 && cell.tagName === 'TD' && cell.textContent.trim() !== '') {
+      check(cell.dataset.label, `a cell without its column's name: ${cell.textContent.slice(0, 60)}`);
+      check(getComputedStyle(cell, '::before').content.includes(cell.dataset.label), `no name before: ${cell.textContent.slice(0, 60)}`);
+    }
+  }
 
   // Every chart and drawing has marks that can be seen.
   const drawings = [...document.querySelectorAll('figure > svg')];
@@ -70,32 +80,24 @@ async function look({ width, largestShare, leastTextHeight }) {
     check(share <= largestShare, `a picture with ${share} of one colour: "${nameOf(image)}"`);
   }
 
-  // The contents lead to the sections, and show each experiment's state by a colour and a word.
-  const entries = [...document.querySelectorAll('.contents li')];
-  for (const entry of entries) {
-    const link = entry.querySelector('a');
-    check(document.getElementById(link.hash.slice(1)), `the contents lead nowhere: ${link.hash}`);
-    const states = ['agrees', 'differs', 'inconsistent', 'undecided', 'inferred', 'check', 'open'];
-    check(states.includes(entry.className), `no state of ${link.hash}`);
-    check(entry.querySelector('.state').textContent.trim() !== '', `no words on ${link.hash}`);
-  }
-
-  // Each claim of the page of verdicts leads to its figure, and has a colour and a word.
-  const claims = [...document.querySelectorAll('#verdicts tbody tr')];
+  // Each claim leads to its experiment, and has a sign and words.
+  const claims = [...document.querySelectorAll('#claims .claims tbody tr')];
   for (const claim of claims) {
     const link = claim.querySelector('a');
     check(link && document.getElementById(link.hash.slice(1)), `a claim leads nowhere: ${claim.textContent}`);
-    check(claim.className !== '' && claim.cells[1].textContent.trim() !== '', `a claim without a verdict: ${claim.textContent}`);
+    const verdict = claim.cells[1];
+    check(verdict.querySelector('.sign') && verdict.textContent.trim().length > 5, `a claim without a verdict: ${claim.textContent}`);
   }
 
-  // Green is what agrees with the text alone: nothing inferred, no check of our own.
-  const papers = ['agrees', 'inferred', 'check', 'differs'].map((state) => {
-    const row = document.querySelector(`section tr.${state}`);
-    return row && getComputedStyle(row).backgroundColor;
+  // Green is what agrees with the text alone: nothing set, fitted or read.
+  const colours = ['agrees', 'set', 'fitted', 'unlike', 'differs'].map((state) => {
+    const sign = document.querySelector(`#claims td .sign.${state}`);
+    return sign && getComputedStyle(sign).color;
   });
-  const shown = papers.filter(Boolean);
-  check(new Set(shown).size === shown.length, `two states share a colour: ${papers}`);
-  return { claims: claims.length, faults, drawings: drawings.length, pictures: pictures.length, entries: entries.length };
+  const shown = colours.filter(Boolean);
+  check(new Set(shown).size === shown.length, `two states share a colour: ${colours}`);
+  const experiments = document.querySelectorAll('section[id]').length - 2; // the claims, and this run
+  return { claims: claims.length, faults, drawings: drawings.length, pictures: pictures.length, experiments };
 }
 
 // Opens the file in a window; errors of the browser also count as faults.
@@ -116,18 +118,19 @@ async function inspect(file, window) {
 }
 
 const results = JSON.parse(readFileSync(join(dirname(report), 'results.json'), 'utf8'));
-const files = results.experiments.flatMap((experiment) => experiment.illustrations.map((each) => each.file));
+const picturesIn = (part) =>
+  part === null || typeof part !== 'object' ? 0 : part.picture_hash ? 1 : Object.values(part).reduce((sum, one) => sum + picturesIn(one), 0);
+const pictures = results.experiments.reduce((sum, experiment) => sum + picturesIn(experiment.data), 0);
 
 for (const [name, window] of Object.entries(windows))
   test(`the report on a ${name}`, async () => {
     const found = await inspect(report, window);
     assert.deepEqual(found.faults, []);
-    assert.equal(found.entries, results.experiments.length);
-    assert.equal(found.claims, results.verdicts.length);
-    assert.ok(found.claims > 0);
-    assert.equal(found.drawings, files.filter((file) => file.endsWith('.svg')).length);
-    assert.equal(found.pictures, files.filter((file) => file.endsWith('.png')).length);
-    assert.ok(found.drawings > 0 && found.pictures > 0);
+    assert.equal(found.experiments, results.experiments.length);
+    assert.equal(found.claims, results.claims.length);
+    assert.ok(found.claims > 60);
+    assert.equal(found.pictures, pictures + 6); // six on the first page again
+    assert.equal(found.drawings, 8); // the diagram twice, and three charts each of Figures 4.4 and 4.5
   });
 
 // A report that is damaged on purpose: each damage must be found.
@@ -141,9 +144,9 @@ const damages = {
   'something too wide': ['<main>', '<main><div style="width:2000px">wide</div>', /wide in a window of 360/],
   'a request': ['</main>', '<img src="http://127.0.0.1:9/a.png"></main>', /leaves the file/],
   'an error': ['</main>', '<script>console.error("bad")</script></main>', /console: bad/],
-  'a dead link': ['href="#', 'href="#no-', /lead nowhere/],
-  'a claim that leads nowhere': [/(id="verdicts"[\s\S]*?)href="#/, (all, before) => `${before}href="#no-`, /a claim leads nowhere/],
-  'a check that looks like agreement': ['--check-paper: #24223a', '--check-paper: #17301e', /share a colour/],
+  'a claim that leads nowhere': [/(id="claims"[\s\S]*?)href="#/, (all, before) => `${before}href="#no-`, /a claim leads nowhere/],
+  'a fit that looks like agreement': ['--fitted: #8cc3ee', '--fitted: #7fd898', /share a colour/],
+  'a cell without its name': [/data-label="Verdict"/g, 'data-other="Verdict"', /without its column's name/],
 };
 for (const [name, [what, instead, fault]] of Object.entries(damages))
   test(`the test finds ${name}`, async () => {
