@@ -50,9 +50,9 @@ Json measure_tree(const StepContext& context, std::int64_t scenario, std::int64_
   return {{"scenario", scenario},
           {"spheres", count},
           {"max_prims", max_prims},
-          {"predicted_thesis_bytes", range(predicted.thesis_bytes)},
+          {"predicted_compact_bytes", range(predicted.compact_bytes)},
           {"predicted_allocated_bytes", range(predicted.allocated_bytes)},
-          {"thesis_bytes", counted_bytes(values, tree, count)},
+          {"compact_bytes", counted_bytes(values, tree, count)},
           {"allocated_bytes", tree.allocated_bytes()},
           {"depth_avg", tree_statistics(tree).depth.avg},
           {"seeds", bytes.size()},
@@ -116,7 +116,7 @@ void draw_chart(const DataContext& context, std::int64_t scenario, const Json& t
   for (const std::int64_t max_prims : context.values.integers("max_prims_list")) {
     Series series{fmt::format("MAX_PRIMS {}", max_prims), {}};
     for (const Json& tree : trees)
-      if (tree["max_prims"] == max_prims) series.values.push_back(tree["thesis_bytes"].get<double>() / 1000);
+      if (tree["max_prims"] == max_prims) series.values.push_back(tree["compact_bytes"].get<double>() / 1000);
     data.series.push_back(std::move(series));
   }
   const std::string file = fmt::format("{}/scenario{}.svg", context.folder, scenario);
@@ -138,7 +138,7 @@ Json data_of(const DataContext& context) {
         not_shallower += tree["depth_avg"] >= (*before)["depth_avg"] ? 1 : 0;
       }
       before = &tree;
-      for (const char* const bytes : {"thesis_bytes", "allocated_bytes"}) {
+      for (const char* const bytes : {"compact_bytes", "allocated_bytes"}) {
         const Json& range = tree[std::string("predicted_") + bytes];
         missed += tree[bytes] >= range[0] && tree[bytes] <= range[1] ? 0 : 1;
       }

@@ -87,7 +87,7 @@ class Info(ProgramTest):
         held = self.succeed_json("stats", "demo")
         self.assertTrue(predicted["allocated_bytes"]["low"] <= held["allocated_bytes"])
         self.assertTrue(held["allocated_bytes"] <= predicted["allocated_bytes"]["high"])
-        self.assertTrue(predicted["thesis_bytes"]["low"] <= held["bytes"]["total"] <= predicted["thesis_bytes"]["high"])
+        self.assertTrue(predicted["compact_bytes"]["low"] <= held["bytes"]["total"] <= predicted["compact_bytes"]["high"])
 
     def test_of_a_file_with_everything(self):
         self.write("a.csv", "x,y,z,radius,charge\n0,0,0,1,-2\n10,0,0,0,3\n0,5,0,2,4\n")

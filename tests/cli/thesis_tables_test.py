@@ -146,16 +146,16 @@ class ThesisTables(ProgramTest):
             entry = entries[int(row["scenario"]), int(row["spheres"]), int(row["max_prims"])]
             expected = float(row["bytes"])
             if row["scenario"] == "1":
-                self.assertEqual((entry["thesis_bytes"], entry["mean"]), (expected, expected))
+                self.assertEqual((entry["compact_bytes"], entry["mean"]), (expected, expected))
             else:
                 self.assertLess(abs(entry["mean"] - expected), 0.02 * expected)
-            for kind in ["thesis_bytes", "allocated_bytes"]:
+            for kind in ["compact_bytes", "allocated_bytes"]:
                 low, high = entry["predicted_" + kind]
                 self.assertTrue(low <= entry[kind] <= high, entry)
                 self.assertLess(high, 5 * low, "or it predicts nothing")
         one = self.succeed_json("stats", "scenario3", "--count", "2048", "--radius", "0.001", "--max-prims", "4")
         entry = entries[3, 2048, 4]
-        self.assertEqual((entry["thesis_bytes"], entry["allocated_bytes"]), (one["bytes"]["total"], one["allocated_bytes"]))
+        self.assertEqual((entry["compact_bytes"], entry["allocated_bytes"]), (one["bytes"]["total"], one["allocated_bytes"]))
 
     def test_one_leaf_against_brute_force_is_reported_as_measured(self):
         data, findings = self.data["section-d"], self.results["experiments"][0]["findings"]

@@ -65,7 +65,7 @@ Spread spread_over_seeds(int scenario, std::int64_t count, float radius, std::in
     const TreeStatistics statistics = statistics_of(set, max_prims);
     std::map<std::string, double> rows = rows_of(statistics);
     rows["bytes"] =
-        static_cast<double>(thesis_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres).total());
+        static_cast<double>(compact_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres).total());
     for (const auto& [name, value] : rows) {
       sum[name] += value;
       squares[name] += value * value;
@@ -170,7 +170,7 @@ TEST(TreeMemory, Scenario1IsExactAndTheOthersAgreeInTheMean) {
     ++compared;
     if (scenario == 1) {
       const TreeStatistics s = statistics_of(spheres_of(1, count, kRadius, 1), max_prims);
-      EXPECT_EQ(static_cast<double>(thesis_bytes(s.inner_nodes, s.leaves, s.spheres).total()), bytes)
+      EXPECT_EQ(static_cast<double>(compact_bytes(s.inner_nodes, s.leaves, s.spheres).total()), bytes)
           << count << " spheres, max_prims " << max_prims;
       continue;
     }

@@ -22,7 +22,7 @@ void expect_predicted(const SphereSet& spheres, const BuildParameters& parameter
   const TreeStatistics s = tree_statistics(tree);
   const MemoryPrediction prediction = predict_tree_memory(spheres.size(), parameters);
   expect_inside("nodes", s.inner_nodes + s.leaves, prediction.nodes);
-  expect_inside("thesis bytes", thesis_bytes(s.inner_nodes, s.leaves, s.spheres).total(), prediction.thesis_bytes);
+  expect_inside("thesis bytes", compact_bytes(s.inner_nodes, s.leaves, s.spheres).total(), prediction.compact_bytes);
   expect_inside("allocated bytes", tree.allocated_bytes(), prediction.allocated_bytes);
 }
 

@@ -58,8 +58,8 @@ TEST(Statistics, OfOneLeaf) {
   EXPECT_EQ(s.spheres_per_leaf.avg, 3);
 }
 
-TEST(Statistics, ThesisBytesAreTwelveFourAndTwentyFour) {
-  const ThesisBytes bytes = thesis_bytes(4095, 4096, 4096);
+TEST(Statistics, CompactBytesAreTwelveFourAndTwentyFour) {
+  const CompactBytes bytes = compact_bytes(4095, 4096, 4096);
   EXPECT_EQ(bytes.nodes, 98292);
   EXPECT_EQ(bytes.indices, 16384);
   EXPECT_EQ(bytes.aabb, 24);

@@ -119,7 +119,7 @@ void print_json(const Facts& facts) {
   json["predicted_tree"] = {{"max_prims", limit(facts.parameters.max_prims)},
                             {"max_depth", limit(facts.parameters.max_depth)},
                             {"nodes", range(facts.memory.nodes)},
-                            {"thesis_bytes", range(facts.memory.thesis_bytes)},
+                            {"compact_bytes", range(facts.memory.compact_bytes)},
                             {"allocated_bytes", range(facts.memory.allocated_bytes)}};
   json["predicted_wide_tree"] = {{"used_bytes", range({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes})},
                                  {"peak_bytes", facts.wide_memory.peak_bytes}};
@@ -170,7 +170,7 @@ void print_text(const Facts& facts) {
   row("wide tree", bytes({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes}) + ", about " +
                        readable_bytes(static_cast<double>(facts.wide_memory.peak_bytes)) + " while it is built");
   row("reference tree", bytes(facts.memory.allocated_bytes));
-  row("", bytes(facts.memory.thesis_bytes) + " as the thesis counts");
+  row("", bytes(facts.memory.compact_bytes) + " with nodes of 12 bytes");
   row("instruction set", active_target());
 }
 

@@ -69,7 +69,7 @@ void print_wide_table(const WideFacts& wide) {
 // The rows of the thesis's Table 4.2 in its order, then further rows; the wide tree below.
 void print_table(const Scene& scene, const ReferenceFacts& reference, const WideFacts& wide) {
   const TreeStatistics& statistics = reference.statistics;
-  const ThesisBytes bytes = thesis_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);
+  const CompactBytes bytes = compact_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);
   print(fmt::format("{}: {} spheres, max_prims {}, max_depth {}{}\n", escaped(scene.name), grouped(statistics.spheres),
                     limit_text(reference.parameters.max_prims), limit_text(reference.parameters.max_depth),
                     scene.seed ? fmt::format(", seed {}", *scene.seed) : ""));

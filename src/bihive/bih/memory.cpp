@@ -44,13 +44,13 @@ MemoryPrediction predict_tree_memory(std::int64_t spheres, const BuildParameters
                        0};
 
   MemoryPrediction prediction;
-  const auto as_thesis = [spheres](const TreeShape& shape) { return thesis_bytes(shape.nodes(), 0, spheres).total(); };
+  const auto compact = [spheres](const TreeShape& shape) { return compact_bytes(shape.nodes(), 0, spheres).total(); };
   const auto as_allocated = [spheres](const TreeShape& shape) {
     return static_cast<std::int64_t>(sizeof(Tree)) + shape.stored_nodes() * static_cast<std::int64_t>(sizeof(Node)) +
            spheres * static_cast<std::int64_t>(sizeof(std::int64_t));
   };
   prediction.nodes = {low.nodes(), high.nodes()};
-  prediction.thesis_bytes = {as_thesis(low), as_thesis(high)};
+  prediction.compact_bytes = {compact(low), compact(high)};
   prediction.allocated_bytes = {as_allocated(low), as_allocated(high)};
   const TreeShape usual{std::min(high.leaves, std::max(1.0, 1.45 * full_leaves)), 0, 0};
   prediction.peak_bytes = as_allocated(usual) + usual.nodes() * static_cast<std::int64_t>(sizeof(Node));

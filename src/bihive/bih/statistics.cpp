@@ -78,10 +78,10 @@ TreeStatistics tree_statistics(const Tree& tree) {
   return statistics;
 }
 
-ThesisBytes thesis_bytes(std::int64_t inner_nodes, std::int64_t leaves, std::int64_t spheres) {
+CompactBytes compact_bytes(std::int64_t inner_nodes, std::int64_t leaves, std::int64_t spheres) {
   constexpr std::int64_t kNodeBytes = 12;
   constexpr std::int64_t kIndexBytes = 4;
-  ThesisBytes bytes;
+  CompactBytes bytes;
   bytes.nodes = kNodeBytes * (inner_nodes + leaves);
   bytes.indices = kIndexBytes * spheres;
   return bytes;

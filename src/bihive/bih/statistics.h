@@ -29,11 +29,12 @@ struct TreeStatistics {
 
 TreeStatistics tree_statistics(const Tree& tree);
 
-/// Memory as the thesis counts it: 12 bytes a node (inner or leaf), 4 a sphere for the index array, 24 for the box.
-struct ThesisBytes {
+/// Memory in a compact layout: 12 bytes per node (inner or leaf), 4 per sphere for the index array, 24 for the box. The
+/// thesis names these three and gives no sizes; 12 is our inference.
+struct CompactBytes {
   std::int64_t nodes = 0, indices = 0, aabb = 24;
   std::int64_t total() const { return nodes + indices + aabb; }
 };
-ThesisBytes thesis_bytes(std::int64_t inner_nodes, std::int64_t leaves, std::int64_t spheres);
+CompactBytes compact_bytes(std::int64_t inner_nodes, std::int64_t leaves, std::int64_t spheres);
 
 }  // namespace bihive

@@ -73,7 +73,9 @@ std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, 
   ChartData chart = frame_rate_bars(scenario, counts, max_prims, measured);
   chart.logarithmic = true;
 
-  // Add the thesis's values, if it states any.
+  // Add the thesis's values, if it states any. A smaller picture has other rates.
+  const auto is_side = [&](const char* name, int px) { return stated_number(stated, name) == static_cast<double>(px); };
+  if (!is_side("width_px", run.plan().width_px) || !is_side("height_px", run.plan().height_px)) return bar_chart(chart);
   Series stated_brute{fmt::format("BF, {}", kStatedDevice), {}}, stated_tree{fmt::format("BIH, {}", kStatedDevice), {}};
   for (const std::int64_t spheres : counts) {
     stated_brute.values.push_back(stated_fps(stated, scenario, spheres, std::nullopt));

@@ -75,7 +75,7 @@ WideFacts wide_facts(const BuiltWideTree& built) {
 
 std::string statistics_json(const ReferenceFacts& reference, const WideFacts& wide, std::optional<std::uint64_t> seed) {
   const TreeStatistics& statistics = reference.statistics;
-  const ThesisBytes bytes = thesis_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);
+  const CompactBytes bytes = compact_bytes(statistics.inner_nodes, statistics.leaves, statistics.spheres);
   ordered_json json = ordered_json::object();
   json["spheres"] = statistics.spheres;
   json["inner_nodes"] = statistics.inner_nodes;
