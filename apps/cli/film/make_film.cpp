@@ -69,7 +69,7 @@ class PixelsInMemory final : public PictureFile {
 class FilmSteps {
  public:
   FilmSteps(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-            const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team)
+            const PictureNumbers& pictures, FilmSink* sink, Team* team)
       : source_(source), plan_(plan), options_(options), style_(style), pictures_(pictures), sink_(sink), team_(team) {}
 
   FilmTimes run() {
@@ -96,7 +96,7 @@ class FilmSteps {
       if (CancellableSection::token().cancelled()) throw Interrupted{};
       std::rethrow_exception(failure_);
     }
-    times_.pictures = static_cast<std::int64_t>(pictures_.size());
+    times_.pictures = pictures_.size();
     return times_;
   }
 
@@ -208,7 +208,7 @@ class FilmSteps {
   const FilmPlan& plan_;
   const RenderOptions& options_;
   const Style& style_;
-  const std::vector<std::int64_t>& pictures_;
+  const PictureNumbers& pictures_;
   FilmSink* sink_;
   Team* team_;
   PictureQueue<ReadPicture> read_{1, CancellableSection::token()};
@@ -222,7 +222,7 @@ class FilmSteps {
 }  // namespace
 
 FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-                    const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team) {
+                    const PictureNumbers& pictures, FilmSink* sink, Team* team) {
   return FilmSteps(source, plan, options, style, pictures, sink, team).run();
 }
 

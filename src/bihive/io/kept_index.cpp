@@ -44,21 +44,22 @@ std::array<std::int64_t, 7> head_of(const IndexedFile& file) {
           stamp.inode};
 }
 
-void put(std::string& bytes, const std::vector<TextPlace>& places) {
+void put(std::string& bytes, const PlaceList& places) {
   put(bytes, static_cast<std::uint64_t>(places.size()));
   for (const TextPlace& place : places)
     for (const std::int64_t number : {place.begin, place.end, place.lines_before}) put(bytes, number);
 }
 
-bool take(ByteReader& reader, std::vector<TextPlace>& places, std::int64_t size) {
+bool take(ByteReader& reader, PlaceList& places, std::int64_t size) {
   std::uint64_t count = 0;
   if (!reader.take(count) || count > reader.left() / kPlaceBytes) return false;
-  places.resize(static_cast<std::size_t>(count));
   TextPlace before;
-  for (TextPlace& place : places) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    TextPlace place;
     if (!reader.take(place.begin) || !reader.take(place.end) || !reader.take(place.lines_before)) return false;
     if (place.begin < before.end || place.end < place.begin || place.end > size) return false;
     if (place.lines_before < before.lines_before || place.lines_before > place.begin) return false;
+    places.push_back(place);
     before = place;
   }
   return true;

@@ -276,7 +276,7 @@ class IndexedText : public RawFrames {
   }
 
   Result<RawSpheres> read_indexed(std::int64_t frame) const {
-    const TextPlace& place = index_.frames[static_cast<std::size_t>(frame)];
+    const TextPlace place = index_.frames[static_cast<std::size_t>(frame)];
     const std::string what = index_.count() == 1 ? "the file" : "frame " + std::to_string(frame);
     if (Status status = check_memory(static_cast<double>(place.end - place.begin), what); !status)
       return Error{status.error().message, file_.path(), 0, 0, ""};
