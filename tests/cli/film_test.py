@@ -128,6 +128,17 @@ class Sequences(FilmTest):
         self.write("run.xyz", frames_of(6, seed=2))
         self.assertIn("its input was", self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL))
 
+    def test_an_input_of_the_far_future(self):
+        """Its time in nanoseconds does not fit into 64 bits."""
+        seconds = 10_000_000_000
+        os.utime(self.path("run.xyz"), (seconds, seconds))
+        if os.stat(self.path("run.xyz")).st_mtime != seconds:
+            self.skipTest("this file system has no such time")
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL)
+        (described,) = json.loads(self.read("run/film.json"))["asked"]["input"]
+        self.assertEqual((described["changed_s"], described["changed_ns"]), (seconds, 0))
+        self.assertEqual(self.succeed_json("film", "run.xyz", "-o", "run/%d.png", *SMALL)["kept"], 6)
+
     def test_frames_of_different_numbers_of_spheres(self):
         self.write("run.xyz", frames_of(5, changing=True))
         self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--select", "x > 0", "--colour", "red")

@@ -16,6 +16,7 @@ namespace {
 
 // The digit at the end is the version.
 constexpr std::string_view kIndexMark = "bihive frames 2\n";
+constexpr std::string_view kMarkOfAnyVersion = kIndexMark.substr(0, kIndexMark.size() - 2);
 constexpr std::size_t kSumBytes = 8;
 constexpr std::size_t kPlaceBytes = 24;
 
@@ -95,6 +96,10 @@ std::string encode_index(const FrameIndex& index, const IndexedFile& file) {
   for (const auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines}) put(bytes, *places);
   put(bytes, sum_of(bytes));
   return bytes;
+}
+
+bool looks_like_index(std::string_view bytes) {
+  return bytes.substr(0, kMarkOfAnyVersion.size()) == kMarkOfAnyVersion;
 }
 
 std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile& file) {

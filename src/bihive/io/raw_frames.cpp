@@ -235,6 +235,10 @@ class IndexedText : public RawFrames {
       warn(path + ": " + bytes.error().message + ", so it is not used");
       return open(wanted);
     }
+    if (*bytes && !looks_like_index(**bytes)) {
+      warn(path + ": is no index of bihive, so it stays as it is, and none is kept");
+      return open(wanted);
+    }
     if (*bytes) {
       std::optional<FrameIndex> index = decode_index(**bytes, of);
       if (index && take_kept(std::move(*index))) {
