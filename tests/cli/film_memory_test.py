@@ -13,21 +13,21 @@ class FilmMemory(ProgramTest):
         if is_sanitized():
             self.skipTest("the address sanitizer keeps freed memory")
 
-    def peak(self, frames, *more):
+    def peak_of_film(self, frames, *more):
         self.write("frames.xyz", "".join(f"3\nframe\nO {0.001 * k} 0 0\nH 1 0 0\nH 0 1 0\n" for k in range(frames)))
         done = self.succeed_json("film", "frames.xyz", "--size", "16x16", "--samples", "1", "--style", "plain", *more)
         return done["peak_memory_bytes"]
 
     def test_pictures(self):
         few, many = 300, 1500
-        growth = min(self.peak(many, "-o", f"{k}_many.y4m") - self.peak(few, "-o", f"{k}_few.y4m") for k in range(2))
+        growth = min(self.peak_of_film(many, "-o", f"{k}_many.y4m") - self.peak_of_film(few, "-o", f"{k}_few.y4m") for k in range(2))
         self.assertLess(growth, MOST_BYTES * many + ROOM)
 
     def test_frames(self):
         """Of each a shard draws one."""
         few, many = 1000, 200_000
-        growth = min(self.peak(many, "-o", f"{k}_many/%d.png", "--shard", f"0/{many}") -
-                     self.peak(few, "-o", f"{k}_few/%d.png", "--shard", f"0/{few}") for k in range(2))
+        growth = min(self.peak_of_film(many, "-o", f"{k}_many/%d.png", "--shard", f"0/{many}") -
+                     self.peak_of_film(few, "-o", f"{k}_few/%d.png", "--shard", f"0/{few}") for k in range(2))
         self.assertLess(growth, MOST_BYTES * many + ROOM)
 
 

@@ -42,6 +42,16 @@ class FilmTest(ProgramTest):
     def film(self, *arguments):
         return self.succeed_json("film", *arguments)
 
+    def begin(self, *arguments, **options):
+        return subprocess.Popen([BIHIVE, "film", *arguments], cwd=self.folder, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, **options)
+
+    def wait_for(self, there):
+        end = time.monotonic() + PATIENCE_S
+        while not there():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+
     def names(self, folder="."):
         return sorted(os.listdir(self.path(folder)))
 
@@ -209,16 +219,6 @@ class Interrupted(FilmTest):
         super().setUp()
         # A frame takes a part of a second; the whole film minutes.
         self.slow = ["--size", "400x300", "--style", "plain", "--samples", "9"]
-
-    def begin(self, *arguments, **options):
-        return subprocess.Popen([BIHIVE, "film", *arguments], cwd=self.folder, stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, **options)
-
-    def wait_for(self, there):
-        end = time.monotonic() + PATIENCE_S
-        while not there():
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.01)
 
     def test_a_killed_sequence_goes_on(self):
         self.write("run.xyz", frames_of(20))

@@ -17,6 +17,7 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
+#include "support/thread_reserve.h"
 
 namespace bihive::cli {
 namespace {
@@ -169,7 +170,11 @@ class FilmSteps {
       const auto update = [&](double share) {
         progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
       };
+      const bool renews_limit = done == 0 && is_limited();
+      if (renews_limit) renew_group_limit_for_threads(picture.settings.threads);
       draw(picture, drawn.pixels, update);
+      // The threads have their buffers now.
+      if (renews_limit) turn_group_limit_into_failing_allocations();
       if (sink_ != nullptr) {
         const nlohmann::ordered_json described =
             settings_json(picture.options, picture.settings, picture.input.scene, {});
@@ -181,6 +186,9 @@ class FilmSteps {
     }
     drawn_.end();
   }
+
+  // Whether allocations fail where a control group has no more memory: see main.cpp.
+  bool is_limited() const { return team() == nullptr && film_kind(options_.output) != FilmKind::encoded; }
 
   // With a team the picture is whole when all have done their share.
   void draw(const BuiltPicture& picture, PngPixels& drawn, const ProgressCallback& update) {
