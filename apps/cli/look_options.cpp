@@ -41,6 +41,8 @@ void LookOptions::add(LookAction action, const std::string& option) {
     of_look.push_back(option);
   }
   looks[current_].actions.push_back(std::move(action));
+  of_actions.resize(looks.size());
+  of_actions[current_].push_back(option);
 }
 
 void LookOptions::add_row(const std::string& action, const std::string& value) {
@@ -110,8 +112,8 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
       }
   if (looks.empty()) return;
 
-  std::size_t failed = 0;
-  const auto counts = apply_looks(input.scene, looks, &failed);
+  std::size_t failed = 0, failed_action = 0;
+  const auto counts = apply_looks(input.scene, looks, &failed, &failed_action);
   const std::size_t own = input.looks.size();
   if (!counts) {
     const Error& error = counts.error();
@@ -120,6 +122,9 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
       const std::string place = error.column > 0 ? "/select: column " + std::to_string(error.column) : "";
       fail({"/looks/" + std::to_string(failed) + place + ": " + error.message, input.scene.name, 0, 0, error.hint});
     }
+    const bool is_of_action =
+        failed - own < options.of_actions.size() && failed_action < options.of_actions[failed - own].size();
+    if (is_of_action) fail_usage(options.of_actions[failed - own][failed_action] + ": " + error.message, error.hint);
     fail_selection(options.of_look[failed - own], looks[failed].select, error);
   }
   for (std::size_t i = own; i < looks.size(); ++i)

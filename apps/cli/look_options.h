@@ -17,12 +17,13 @@ namespace bihive::cli {
 /// all spheres. An error says what was expected.
 struct LookOptions {
   std::vector<Look> looks;
-  std::vector<std::string> of_look;  ///< for messages: the option that begins each look
-  std::vector<std::string> words;    ///< the options as they were given, one each
-  std::vector<LookRow> rows;         ///< the same for the window: an action each, as text
-  std::string nan_colour;            ///< empty: the default
-  std::string element_colours;       ///< "cpk", "jmol" or a file; empty: the usual ones
-  bool selected = false;             ///< a --select was there
+  std::vector<std::string> of_look;                  ///< for messages: the option that begins each look
+  std::vector<std::vector<std::string>> of_actions;  ///< and those of its actions
+  std::vector<std::string> words;                    ///< the options as they were given, one each
+  std::vector<LookRow> rows;                         ///< the same for the window: an action each, as text
+  std::string nan_colour;                            ///< empty: the default
+  std::string element_colours;                       ///< "cpk", "jmol" or a file; empty: the usual ones
+  bool selected = false;                             ///< a --select was there
 
   /// Fails with kBadUsage on a text that is no selection, and shows the place.
   void select(const std::string& text);

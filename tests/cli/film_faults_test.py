@@ -22,16 +22,6 @@ LAST = 'for word in "$@"; do last=${word#file:}; done\n'
 
 
 class FaultTest(FilmTest):
-    def begin(self, *arguments, **options):
-        return subprocess.Popen([BIHIVE, "film", *arguments], cwd=self.folder, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.PIPE, text=True, **options)
-
-    def wait_for(self, there):
-        end = time.monotonic() + PATIENCE_S
-        while not there():
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.01)
-
     def hidden(self):
         return [name for name in self.names() if name.startswith(".bihive-")]
 

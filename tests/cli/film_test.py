@@ -42,6 +42,16 @@ class FilmTest(ProgramTest):
     def film(self, *arguments):
         return self.succeed_json("film", *arguments)
 
+    def begin(self, *arguments, **options):
+        return subprocess.Popen([BIHIVE, "film", *arguments], cwd=self.folder, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, **options)
+
+    def wait_for(self, there):
+        end = time.monotonic() + PATIENCE_S
+        while not there():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+
     def names(self, folder="."):
         return sorted(os.listdir(self.path(folder)))
 
@@ -128,6 +138,17 @@ class Sequences(FilmTest):
         self.write("run.xyz", frames_of(6, seed=2))
         self.assertIn("its input was", self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL))
 
+    def test_an_input_of_the_far_future(self):
+        """Its time in nanoseconds does not fit into 64 bits."""
+        seconds = 10_000_000_000
+        os.utime(self.path("run.xyz"), (seconds, seconds))
+        if os.stat(self.path("run.xyz")).st_mtime != seconds:
+            self.skipTest("this file system has no such time")
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL)
+        (described,) = json.loads(self.read("run/film.json"))["asked"]["input"]
+        self.assertEqual((described["changed_s"], described["changed_ns"]), (seconds, 0))
+        self.assertEqual(self.succeed_json("film", "run.xyz", "-o", "run/%d.png", *SMALL)["kept"], 6)
+
     def test_frames_of_different_numbers_of_spheres(self):
         self.write("run.xyz", frames_of(5, changing=True))
         self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--select", "x > 0", "--colour", "red")
@@ -198,16 +219,6 @@ class Interrupted(FilmTest):
         super().setUp()
         # A frame takes a part of a second; the whole film minutes.
         self.slow = ["--size", "400x300", "--style", "plain", "--samples", "9"]
-
-    def begin(self, *arguments, **options):
-        return subprocess.Popen([BIHIVE, "film", *arguments], cwd=self.folder, stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, **options)
-
-    def wait_for(self, there):
-        end = time.monotonic() + PATIENCE_S
-        while not there():
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.01)
 
     def test_a_killed_sequence_goes_on(self):
         self.write("run.xyz", frames_of(20))

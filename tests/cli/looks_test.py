@@ -143,6 +143,8 @@ class Looks(ProgramTest):
             (["--colour-by", "charge:magma:5"], "--colour-by: expected a range MIN,MAX"),
             (["--colour-by", "chrage"], "did you mean 'charge'?"),
             (["--colour-by", "part:magma"], '"part" holds texts'),
+            (["--select", "x > 0", "--colour", "red", "--colour-by", "chrage"], "--colour-by: there is no attribute"),
+            (["--colour", "red", "--select", "x > 0", "--crease", "chrage"], "--crease: there is no attribute"),
             (["--nan-colour", "x"], "--nan-colour: expected"),
             (["--opacity", "2"], "--opacity: expected a number from 0 to 1"),
             (["--select", "all", "--radius-scale", "-1"], "--radius-scale: expected a number from 0"),

@@ -343,11 +343,13 @@ class Replacing(OutputTest):
     def test_files_of_others(self):
         # In a folder of everybody, a link of somebody else may lead anywhere.
         os.mkdir(self.path("tmp"))
-        os.chmod(self.path("tmp"), 0o1777)
         os.symlink(self.path("victim.png"), self.path("tmp/a.png"))
         os.lchown(self.path("tmp/a.png"), NOBODY, NOBODY)
         self.write("victim.png", "old")
-        self.assertIn("link", self.fail_input("render", "demo", "-o", "tmp/a.png", *SMALL))
+        for mode in (0o777, 0o1777):
+            os.chmod(self.path("tmp"), mode)
+            self.assertIn("link", self.fail_input("render", "demo", "-o", "tmp/a.png", *SMALL))
+            self.assertEqual(self.read("victim.png"), b"old")
         # A sticky folder, and one of everybody: both are said before the work.
         self.write("tmp/b.png", "old")
         self.write("c.png", "old")

@@ -3,7 +3,7 @@
 import json
 import os
 
-from program import ProgramTest, main, png_pixels, png_size, png_text
+from program import ProgramTest, is_sanitized, main, png_pixels, png_size, png_text
 
 SMALL = ["--size", "48x32"]
 
@@ -204,6 +204,12 @@ class Render(ProgramTest):
         for key in ["read_ms", "build_ms", "render_ms", "write_ms", "mray_per_s"]:
             self.assertGreater(said[key], 0)
         self.assertGreater(said["peak_memory_bytes"], 4e6)
+
+    def test_peak_memory_is_that_of_the_program_alone(self):
+        if is_sanitized():
+            self.skipTest("the address sanitizer takes much memory")
+        held = bytearray(b"1") * 200_000_000  # by the program that calls bihive
+        self.assertLess(self.render("demo", *SMALL)["peak_memory_bytes"], len(held) / 2)
 
     def test_text_is_one_line(self):
         said = self.succeed("render", "demo", "-o", "a.png", *SMALL)

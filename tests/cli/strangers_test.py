@@ -382,6 +382,15 @@ class KeptIndex(ProgramTest):
         os.mkfifo(index)
         self.assertIn("is no file, so it is not used", self.told())
 
+    def test_a_file_of_that_name_stays(self):
+        for other in (b"", b"my notes\n", self.read("a.xyz.bihive-index")[1:]):
+            self.write("a.xyz.bihive-index", other)
+            self.assertIn("a.xyz.bihive-index: is no index of bihive, so it stays as it is", self.told())
+            self.assertEqual(self.read("a.xyz.bihive-index"), other)
+        self.write("a.xyz.bihive-index", b"bihive frames 1\n")
+        self.assertIn("made anew", self.told())
+        self.assertEqual(self.told(), "")
+
 
 if __name__ == "__main__":
     main()

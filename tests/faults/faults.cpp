@@ -11,6 +11,7 @@
 // BIHIVE_FAULT_REPORT=path: the library makes this file, and writes into it "fault" when a call failed, and at the end
 // of the program "open N", where N descriptors beyond the first three are still open.
 // Without BIHIVE_FAULT the report says how often each kind was called: "malloc 1234".
+// BIHIVE_FAULT_LATE_LOCKS=N: each flock() waits up to N microseconds first.
 // BIHIVE_FAULT_PROGRAM=name: calls of other programs, which the first one starts, neither fail nor count.
 //
 // Nothing here reserves memory or uses the C++ library.
@@ -30,6 +31,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -317,6 +319,11 @@ int fchown(int file, uid_t user, gid_t group) {
   return fails("fchown", EPERM) ? -1 : static_cast<int>(syscall(SYS_fchown, file, user, group));
 }
 int flock(int file, int how) {
+  if (const char* const late = getenv("BIHIVE_FAULT_LATE_LOCKS")) {
+    timespec now = {};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    usleep(static_cast<useconds_t>(now.tv_nsec / 1000 % atol(late)));
+  }
   return fails("flock", ENOLCK) ? -1 : static_cast<int>(syscall(SYS_flock, file, how));
 }
 int ftruncate(int file, off_t size) {

@@ -362,6 +362,26 @@ def leftovers(options):
     return []
 
 
+def at_once(options):
+    """Films that begin at once in one folder do not remove each other's hidden folders, however late they lock them."""
+    environment = {"PATH": "/usr/bin:/bin", "LD_PRELOAD": os.path.abspath(options.library), "BIHIVE_FAULT_LATE_LOCKS": "20000"}
+    program = os.path.abspath(options.bihive)
+    wrong = set()
+    with tempfile.TemporaryDirectory(prefix="bihive_faults_") as folder:
+        with open(os.path.join(folder, "in.xyz"), "w") as file:
+            file.write(XYZ)
+        for number in range(6):
+            films = [subprocess.Popen([program, "film", "in.xyz", *SMALL, "--pictures", "1", "-o", f"{number}-{k}.y4m"],
+                                      cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                     for k in range(8)]
+            for film in films:
+                err = film.communicate(timeout=PATIENCE_S)[1]
+                if film.returncode != 0 or err:
+                    wrong.add(f"films at once: {film.returncode}: {err!r}")
+        wrong |= {f"films at once leave {name}" for name in os.listdir(folder) if name.startswith(".bihive-")}
+    return sorted(wrong)
+
+
 def step(case, kind, most, pool, jobs):
     """Lets calls of a kind fail: each until a run meets no fault, or so many of them. (runs, texts of wrong ones)"""
     # The part of all commands before they look at their words is tried once, by one of them.
@@ -404,7 +424,7 @@ def main():
     version = Case(options, "version", True, 0)
     shared = version.calls["malloc"] - OF_ITS_OWN
     version.close()
-    all_runs, all_wrong, by_glibc = 0, leftovers(options), 0
+    all_runs, all_wrong, by_glibc = 0, leftovers(options) + at_once(options), 0
     for text in all_wrong:
         print("WRONG", text)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

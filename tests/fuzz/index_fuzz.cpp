@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   FrameIndex index;
   index.lines = next();
-  const auto fill = [&](std::vector<TextPlace>& places, int count) {
+  const auto fill = [&](PlaceList& places, int count) {
     for (int i = 0; i < count; ++i) {
       const std::int64_t begin = next(), end = next();
       places.push_back({begin, end, next()});

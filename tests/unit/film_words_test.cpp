@@ -1,11 +1,14 @@
-// Parts of `bihive film`: the words of a codec that stand in a file, and the index of a sequence.
+// Parts of `bihive film`: the words of a codec that stand in a file, the index of a sequence, and lists of pictures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "film/codec_words.h"
 #include "film/picture_index.h"
+#include "film/picture_numbers.h"
 
 namespace bihive::cli {
 namespace {
@@ -101,6 +104,44 @@ TEST(PictureIndex, HasANameForEachShard) {
   for (const char* const name : {"film.index", "pfilm.json", "pfilm.3.index", "pfilm.3-16index", "pfilm.x-y.index",
                                  "pfilm.-.index", "pfilm..index", "pfilm.3-16.index.x"})
     EXPECT_FALSE(is_index_name("p", name)) << name;
+}
+
+std::vector<std::int64_t> listed(const PictureNumbers& numbers) {
+  std::vector<std::int64_t> all;
+  for (const std::int64_t number : numbers) all.push_back(number);
+  return all;
+}
+
+TEST(PictureNumbers, OfAFilmTakeNoMoreMemoryThanOne) {
+  const PictureNumbers all = PictureNumbers::every(1, 0, 100'000'000);
+  EXPECT_EQ(all.size(), 100'000'000);
+  EXPECT_EQ(all.runs().size(), 1u);
+  EXPECT_TRUE(all.contains(0) && all.contains(99'999'999));
+  EXPECT_FALSE(all.contains(-1) || all.contains(100'000'000));
+
+  PictureNumbers drawn(3);
+  for (std::int64_t k = 2; k < 300'000; k += 3) drawn.add(k);
+  EXPECT_EQ(drawn.size(), 100'000);
+  EXPECT_EQ(drawn.runs().size(), 1u);
+}
+
+TEST(PictureNumbers, OfAShard) {
+  EXPECT_EQ(listed(PictureNumbers::every(3, 1, 11)), (std::vector<std::int64_t>{1, 4, 7, 10}));
+  EXPECT_EQ(listed(PictureNumbers::every(3, 1, 10)), (std::vector<std::int64_t>{1, 4, 7}));
+  EXPECT_EQ(listed(PictureNumbers::every(3, 1, 2)), (std::vector<std::int64_t>{1}));
+  EXPECT_TRUE(PictureNumbers::every(3, 1, 1).empty());
+  EXPECT_TRUE(listed(PictureNumbers(3)).empty());
+}
+
+TEST(PictureNumbers, WithGaps) {
+  const std::vector<std::int64_t> some{0, 2, 4, 5, 7, 20, 22};
+  PictureNumbers numbers(2);
+  for (const std::int64_t number : some) numbers.add(number);
+  EXPECT_EQ(numbers.size(), 7);
+  EXPECT_EQ(listed(numbers), some);
+  EXPECT_EQ(listed(PictureNumbers(2, numbers.runs())), some) << "as another rank gets them";
+  for (std::int64_t k = -1; k < 25; ++k)
+    EXPECT_EQ(numbers.contains(k), std::find(some.begin(), some.end(), k) != some.end()) << k;
 }
 
 }  // namespace

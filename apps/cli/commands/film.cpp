@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numeric>
-#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "bihive/base/place_file.h"
 #include "bihive/base/version.h"
@@ -28,6 +24,7 @@
 #include "film/fix_film.h"
 #include "film/frame_source.h"
 #include "film/make_film.h"
+#include "film/picture_numbers.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
@@ -57,8 +54,7 @@ void check_film_options(const FilmOptions& options, FilmKind kind) {
 }
 
 std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
-                                    const std::string& ffmpeg, const std::vector<std::int64_t>& wanted,
-                                    FilmFolder& folder) {
+                                    const std::string& ffmpeg, const PictureNumbers& wanted, FilmFolder& folder) {
   const std::string& output = options.picture.output;
   const bool store = options.shard && kind != FilmKind::pictures;
   if (store || kind == FilmKind::pictures)
@@ -68,11 +64,9 @@ std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& opt
 }
 
 // The pictures of this run: its shard's, or all.
-std::vector<std::int64_t> wanted_pictures(const FilmPlan& plan, const FilmOptions& options) {
+PictureNumbers wanted_pictures(const FilmPlan& plan, const FilmOptions& options) {
   const Shard shard = options.shard.value_or(Shard{});
-  std::vector<std::int64_t> numbers;
-  for (std::int64_t k = shard.index; k < plan.asked.pictures; k += shard.count) numbers.push_back(k);
-  return numbers;
+  return PictureNumbers::every(shard.count, shard.index, plan.asked.pictures);
 }
 
 struct FilmReport {
@@ -119,11 +113,13 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
 // Makes the pictures that are missing, and the film of all unless this is a shard. After a signal or a failure nothing
 // is left if no picture is whole.
 FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
-                       const std::vector<std::int64_t>& wanted, const std::vector<std::int64_t>& missing,
-                       FilmFolder& folder, FilmSink* sink, Team* team) {
+                       const PictureNumbers& wanted, const PictureNumbers& missing, FilmFolder& folder, FilmSink* sink,
+                       Team* team) {
   const auto nothing_is_whole = [&] {
-    return sink != nullptr &&
-           std::none_of(wanted.begin(), wanted.end(), [&](std::int64_t number) { return sink->has(number); });
+    if (sink == nullptr) return false;
+    for (const std::int64_t number : wanted)
+      if (sink->has(number)) return false;
+    return true;
   };
   try {
     const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink, team);
@@ -152,7 +148,7 @@ void check_codec_of_shards(const FilmOptions& options, const FilmPlan& plan, con
 
 // The whole film of the shards' pictures. A signal leaves what is done for the next join.
 void encode_shards(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const FilmPlan& plan,
-                   const std::vector<std::int64_t>& all, FilmFolder& folder) {
+                   const PictureNumbers& all, FilmFolder& folder) {
   const CancellableSection section;
   try {
     const std::unique_ptr<FilmSink> sink = open_sink(plan, options, kind, ffmpeg, all, folder);
@@ -190,8 +186,7 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
   const FilmPlan plan = *folder.kept();
   check_codec_of_shards(options, plan, folder.plan_path());
   folder.begin(plan, /*alone=*/true);
-  std::vector<std::int64_t> all(static_cast<std::size_t>(plan.asked.pictures));
-  std::iota(all.begin(), all.end(), std::int64_t{0});
+  const PictureNumbers all = PictureNumbers::every(1, 0, plan.asked.pictures);
   const std::unique_ptr<FilmSink> shards = open_sequence(folder, {output, kind != FilmKind::pictures, Shard{}, all, 0});
   std::int64_t missing = 0, first = -1;
   for (std::int64_t k = plan.asked.pictures - 1; k >= 0; --k)
@@ -238,13 +233,13 @@ void run_in_team(Team* team, const Run& run) {
   if (team->end_with(kSuccess) != kSuccess) throw OtherRankFailed{kSuccess};
 }
 
-std::vector<std::int64_t> from_first(const std::vector<std::int64_t>& numbers, Team& team) {
+PictureNumbers from_first(const PictureNumbers& numbers, Team& team) {
   Bytes bytes;
-  ByteWriter(bytes).put_array(numbers.data(), numbers.size());
+  ByteWriter(bytes).put_array(numbers.runs().data(), numbers.runs().size());
   bytes = team.from_first(std::move(bytes));
-  std::vector<std::int64_t> of_first(bytes.size() / sizeof(std::int64_t));
+  std::vector<PictureNumbers::Run> of_first(bytes.size() / sizeof(PictureNumbers::Run));
   ByteReader(bytes).take_array(of_first.data(), of_first.size());
-  return of_first;
+  return PictureNumbers(numbers.step(), std::move(of_first));
 }
 
 // All that follows when it is known what the film shows.
@@ -255,7 +250,7 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
   CancellableSection::leave_if_cancelled();
   value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
   const bool writes = team == nullptr || team->rank() == 0;
-  const std::vector<std::int64_t> wanted = wanted_pictures(plan, options);
+  const PictureNumbers wanted = wanted_pictures(plan, options);
   std::unique_ptr<FilmSink> sink;
   if (writes) {
     folder.begin(plan, /*alone=*/!options.shard);
@@ -266,15 +261,15 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
       throw;
     }
   }
-  std::vector<std::int64_t> missing;
+  PictureNumbers missing(wanted.step());
   if (writes)
-    std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
-                 [&](std::int64_t number) { return !sink->has(number); });
+    for (const std::int64_t number : wanted)
+      if (!sink->has(number)) missing.add(number);
   if (team != nullptr) missing = from_first(missing, *team);
 
   // Make it.
   FilmReport report;
-  report.kept = static_cast<std::int64_t>(wanted.size() - missing.size());
+  report.kept = wanted.size() - missing.size();
   report.times = make_missing(source, plan, options, style, wanted, missing, folder, sink.get(), team);
   report.all_ms = timer.elapsed_ms();
   if (!options.silent) print_film_report(options, plan, report);

@@ -274,10 +274,6 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   return json;
 }
 
-std::string as_text(const ordered_json& json, int indent) {
-  return json.dump(indent, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace);
-}
-
 std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const ordered_json& settings) {
   std::vector<std::pair<std::string, std::string>> text{
       {"Software", "bihive " + std::string(version())}, {"Scene", scene.name}, {"Settings", as_text(settings, -1)}};

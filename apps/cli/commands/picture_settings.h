@@ -8,6 +8,7 @@
 
 #include "commands/commands.h"
 #include "support/input.h"
+#include "support/report_text.h"
 
 namespace bihive::cli {
 
@@ -38,8 +39,5 @@ nlohmann::ordered_json settings_json(const RenderOptions& options, const RenderS
 
 /// The texts in the file about its picture.
 std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const nlohmann::ordered_json& settings);
-
-/// As every report is written: ASCII, broken UTF-8 replaced. An indent below 0 makes one line.
-std::string as_text(const nlohmann::ordered_json& json, int indent);
 
 }  // namespace bihive::cli

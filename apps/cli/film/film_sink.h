@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "bihive/image/png.h"
 #include "film/film_plan.h"
+#include "film/picture_numbers.h"
 
 namespace bihive::cli {
 
@@ -56,10 +56,10 @@ std::string shard_picture_path(const std::string& output, std::int64_t number);
 /// A film as PNG files.
 struct SequenceForm {
   std::string output;
-  bool store = false;                ///< pictures of a shard, which wait in part_path() whatever the kind is
-  Shard shard;                       ///< that draws them
-  std::vector<std::int64_t> wanted;  ///< its pictures
-  double dots_per_inch = 0;          ///< as for encode_png()
+  bool store = false;        ///< pictures of a shard, which wait in part_path() whatever the kind is
+  Shard shard;               ///< that draws them
+  PictureNumbers wanted;     ///< its pictures
+  double dots_per_inch = 0;  ///< as for encode_png()
 };
 
 /// All of these make the folder when the first picture comes. They fail where something else has the name of a picture.

@@ -33,8 +33,8 @@ ordered_json described_file(const std::string& path) {
   if (is_built_in_scene(path) || stat(data_path(path).file.c_str(), &found) != 0 || !S_ISREG(found.st_mode))
     return object;
   object["bytes"] = static_cast<std::int64_t>(found.st_size);
-  object["changed_ns"] = static_cast<std::int64_t>(found.st_mtim.tv_sec) * 1'000'000'000 +
-                         static_cast<std::int64_t>(found.st_mtim.tv_nsec);
+  object["changed_s"] = static_cast<std::int64_t>(found.st_mtim.tv_sec);
+  object["changed_ns"] = static_cast<std::int64_t>(found.st_mtim.tv_nsec);
   return object;
 }
 

@@ -68,7 +68,8 @@ HiddenFolder make_hidden_folder(int parent, const std::string& path_of_parent, i
       std::optional<OwnFolder> folder = OwnFolder::open_private(path_of_parent + "/" + name);
       if (!folder) continue;
       std::optional<Descriptor> lock = lock_folder(*folder, kind);
-      if (!lock) continue;
+      // That run may have ended since, and this is the lock of a folder that it has removed.
+      if (!lock || !folder->has(kLockOfFilm)) continue;
       return {name, std::move(*folder), std::move(*lock)};
     } catch (const Failure&) {
       unlinkat(parent, name.c_str(), AT_REMOVEDIR);

@@ -17,6 +17,7 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
+#include "support/thread_reserve.h"
 
 namespace bihive::cli {
 namespace {
@@ -69,7 +70,7 @@ class PixelsInMemory final : public PictureFile {
 class FilmSteps {
  public:
   FilmSteps(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-            const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team)
+            const PictureNumbers& pictures, FilmSink* sink, Team* team)
       : source_(source), plan_(plan), options_(options), style_(style), pictures_(pictures), sink_(sink), team_(team) {}
 
   FilmTimes run() {
@@ -96,7 +97,7 @@ class FilmSteps {
       if (CancellableSection::token().cancelled()) throw Interrupted{};
       std::rethrow_exception(failure_);
     }
-    times_.pictures = static_cast<std::int64_t>(pictures_.size());
+    times_.pictures = pictures_.size();
     return times_;
   }
 
@@ -169,7 +170,11 @@ class FilmSteps {
       const auto update = [&](double share) {
         progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
       };
+      const bool renews_limit = done == 0 && is_limited();
+      if (renews_limit) renew_group_limit_for_threads(picture.settings.threads);
       draw(picture, drawn.pixels, update);
+      // The threads have their buffers now.
+      if (renews_limit) turn_group_limit_into_failing_allocations();
       if (sink_ != nullptr) {
         const nlohmann::ordered_json described =
             settings_json(picture.options, picture.settings, picture.input.scene, {});
@@ -181,6 +186,9 @@ class FilmSteps {
     }
     drawn_.end();
   }
+
+  // Whether allocations fail where a control group has no more memory: see main.cpp.
+  bool is_limited() const { return team() == nullptr && film_kind(options_.output) != FilmKind::encoded; }
 
   // With a team the picture is whole when all have done their share.
   void draw(const BuiltPicture& picture, PngPixels& drawn, const ProgressCallback& update) {
@@ -208,7 +216,7 @@ class FilmSteps {
   const FilmPlan& plan_;
   const RenderOptions& options_;
   const Style& style_;
-  const std::vector<std::int64_t>& pictures_;
+  const PictureNumbers& pictures_;
   FilmSink* sink_;
   Team* team_;
   PictureQueue<ReadPicture> read_{1, CancellableSection::token()};
@@ -222,7 +230,7 @@ class FilmSteps {
 }  // namespace
 
 FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-                    const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team) {
+                    const PictureNumbers& pictures, FilmSink* sink, Team* team) {
   return FilmSteps(source, plan, options, style, pictures, sink, team).run();
 }
 

@@ -1,13 +1,11 @@
 // Makes the pictures of a film, several steps at a time.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "bihive/scene/style.h"
 #include "film/film_plan.h"
 #include "film/film_sink.h"
 #include "film/frame_source.h"
+#include "film/picture_numbers.h"
 #include "support/team.h"
 
 namespace bihive::cli {
@@ -17,6 +15,6 @@ namespace bihive::cli {
 /// failure. The caller has a CancellableSection. `team`: null, or those who draw each picture together; its rank 0 has
 /// the sink, and the others have none. Throws OtherRankFailed where another one of them has failed.
 FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-                    const std::vector<std::int64_t>& pictures, FilmSink* sink, Team* team);
+                    const PictureNumbers& pictures, FilmSink* sink, Team* team);
 
 }  // namespace bihive::cli

@@ -37,7 +37,8 @@ std::uint64_t hash_of_file(int file, const std::string& path) {
 
 class PictureSequence final : public FilmSink {
  public:
-  PictureSequence(FilmFolder& film, SequenceForm form) : film_(film), form_(std::move(form)) {
+  PictureSequence(FilmFolder& film, SequenceForm form)
+      : film_(film), form_(std::move(form)), whole_(form_.wanted.step()) {
     prefix_ = form_.store ? "" : last_name(plan_path(form_.output));
     if (!form_.store) prefix_.resize(prefix_.size() - std::string("film.json").size());
     index_name_ = index_name(prefix_, form_.shard.index, form_.shard.count);
@@ -48,9 +49,7 @@ class PictureSequence final : public FilmSink {
     if (!whole_.empty()) film_.folder();
   }
 
-  bool has(std::int64_t number) const override {
-    return number <= last_added_ || std::binary_search(whole_.begin(), whole_.end(), number);
-  }
+  bool has(std::int64_t number) const override { return number <= last_added_ || whole_.contains(number); }
 
   void add(const FilmPicture& picture) override {
     const std::string bytes = value_or_fail(encode_png(picture.pixels, picture.text, form_.dots_per_inch));
@@ -75,7 +74,7 @@ class PictureSequence final : public FilmSink {
     if (!index_) open_index(folder);
     std::string lines;
     for (const IndexEntry& entry : entries_)
-      if (std::binary_search(whole_.begin(), whole_.end(), entry.number)) lines += index_line(entry);
+      if (whole_.contains(entry.number)) lines += index_line(entry);
     append(lines);
     for (const std::string& name : indices_)
       if (name != index_name_) folder.remove(name);
@@ -111,7 +110,7 @@ class PictureSequence final : public FilmSink {
       const std::string name = name_of(number);
       if (!folder.has(name)) continue;
       if (!is_of_film(folder, name, number)) refuse(folder.path_of(name));
-      whole_.push_back(number);
+      whole_.add(number);
     }
   }
 
@@ -158,7 +157,7 @@ class PictureSequence final : public FilmSink {
   std::string prefix_, index_name_;
   std::vector<std::string> indices_;
   std::vector<IndexEntry> entries_;  // by rising number
-  std::vector<std::int64_t> whole_;  // rising
+  PictureNumbers whole_;
   std::int64_t last_added_ = -1;
   std::optional<Descriptor> index_;
 };

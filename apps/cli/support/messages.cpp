@@ -9,8 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <mutex>
-#include <set>
+#include <unordered_set>
 
 #include "support/failure.h"
 
@@ -54,9 +55,9 @@ void warn(const std::string& text) {
   if (t_collected != nullptr) return t_collected->push_back(text);
   if (g_once) {
     static std::mutex mutex;
-    static std::set<std::string> said;
+    static std::unordered_set<std::size_t> said;  // hashes: a film may have a warning for each frame
     const std::lock_guard<std::mutex> lock(mutex);
-    if (!said.insert(text).second) return;
+    if (!said.insert(std::hash<std::string>()(text)).second) return;
     // A progress line of another thread may stand there.
     if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
   }

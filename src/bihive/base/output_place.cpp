@@ -83,8 +83,7 @@ bool keeps_foreign_files(const struct stat& folder) {
 
 // In a folder where everybody may make links, somebody else's link may lead anywhere.
 bool is_foreign_link(const struct stat& link, const struct stat& folder) {
-  const bool of_everybody = (folder.st_mode & S_ISVTX) != 0 && (folder.st_mode & S_IWOTH) != 0;
-  return of_everybody && link.st_uid != geteuid() && link.st_uid != folder.st_uid;
+  return (folder.st_mode & S_IWOTH) != 0 && link.st_uid != geteuid() && link.st_uid != folder.st_uid;
 }
 
 // The folder must be there. check_replacement() looks whether it may be written to.

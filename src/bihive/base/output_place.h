@@ -27,8 +27,8 @@ struct OutputPlace {
 
 /// An Error if the path can surely not be written to: a missing folder, a folder in its place, no permission, a file
 /// that is immutable, belongs to somebody else, or stands in a folder where files can only be added. A link in a folder
-/// of everybody (/tmp) is followed if it belongs to this user or to the folder's owner, as Linux does by
-/// fs.protected_symlinks.
+/// to which everybody may write (/tmp) is followed if it belongs to this user or to the folder's owner, as Linux does
+/// by fs.protected_symlinks in those of them that are sticky.
 Result<OutputPlace> find_output(const std::string& path);
 
 /// Whether both come to one file: by the file that is there, else by folder and name.

@@ -2,27 +2,22 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "bihive/io/column_choice.h"
+#include "bihive/io/place_list.h"
 #include "bihive/io/text_scanner.h"
 #include "bihive/io/trajectory/random_file.h"
 
 namespace bihive {
 
-/// Bytes `begin` to `end` of a file, and the number of lines before them.
-struct TextPlace {
-  std::int64_t begin = 0, end = 0, lines_before = 0;
-};
-
 /// A reader needs this of the whole file to read one frame by its bytes alone. Everything in it is places: the
 /// bytes themselves stay in the file.
 struct FrameIndex {
-  std::vector<TextPlace> frames;          ///< one behind the other, the first from byte 0 on
-  std::vector<TextPlace> assembly_lines;  ///< PDB: runs of REMARK 350
-  std::vector<TextPlace> cell_lines;      ///< PDB: each CRYST1
-  bool text_behind = false;               ///< XYZ: text that is no frame follows the last one
-  std::int64_t lines = 0;                 ///< up to the end of the last frame
+  PlaceList frames;          ///< one behind the other, the first from byte 0 on
+  PlaceList assembly_lines;  ///< PDB: runs of REMARK 350
+  PlaceList cell_lines;      ///< PDB: each CRYST1
+  bool text_behind = false;  ///< XYZ: text that is no frame follows the last one
+  std::int64_t lines = 0;    ///< up to the end of the last frame
 
   std::int64_t count() const { return static_cast<std::int64_t>(frames.size()); }
 };

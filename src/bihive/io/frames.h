@@ -30,7 +30,7 @@ class Frames {
 struct FramesOptions {
   /// Text on the disk: the places of its frames are kept in FILE.bihive-index, and taken from there if this user made
   /// it for this file as it is now (docs/formats.md). An index of no use is replaced, with a warning; one that cannot
-  /// be written, or that another user may have written, is a warning too.
+  /// be written, or that another user may have written, is a warning too, and so is another file in its place.
   bool keep_index = false;
 };
 

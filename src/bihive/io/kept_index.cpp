@@ -16,6 +16,7 @@ namespace {
 
 // The digit at the end is the version.
 constexpr std::string_view kIndexMark = "bihive frames 2\n";
+constexpr std::string_view kMarkOfAnyVersion = kIndexMark.substr(0, kIndexMark.size() - 2);
 constexpr std::size_t kSumBytes = 8;
 constexpr std::size_t kPlaceBytes = 24;
 
@@ -44,21 +45,22 @@ std::array<std::int64_t, 7> head_of(const IndexedFile& file) {
           stamp.inode};
 }
 
-void put(std::string& bytes, const std::vector<TextPlace>& places) {
+void put(std::string& bytes, const PlaceList& places) {
   put(bytes, static_cast<std::uint64_t>(places.size()));
   for (const TextPlace& place : places)
     for (const std::int64_t number : {place.begin, place.end, place.lines_before}) put(bytes, number);
 }
 
-bool take(ByteReader& reader, std::vector<TextPlace>& places, std::int64_t size) {
+bool take(ByteReader& reader, PlaceList& places, std::int64_t size) {
   std::uint64_t count = 0;
   if (!reader.take(count) || count > reader.left() / kPlaceBytes) return false;
-  places.resize(static_cast<std::size_t>(count));
   TextPlace before;
-  for (TextPlace& place : places) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    TextPlace place;
     if (!reader.take(place.begin) || !reader.take(place.end) || !reader.take(place.lines_before)) return false;
     if (place.begin < before.end || place.end < place.begin || place.end > size) return false;
     if (place.lines_before < before.lines_before || place.lines_before > place.begin) return false;
+    places.push_back(place);
     before = place;
   }
   return true;
@@ -94,6 +96,10 @@ std::string encode_index(const FrameIndex& index, const IndexedFile& file) {
   for (const auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines}) put(bytes, *places);
   put(bytes, sum_of(bytes));
   return bytes;
+}
+
+bool looks_like_index(std::string_view bytes) {
+  return bytes.substr(0, kMarkOfAnyVersion.size()) == kMarkOfAnyVersion;
 }
 
 std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile& file) {

@@ -30,6 +30,9 @@ std::string encode_index(const FrameIndex& index, const IndexedFile& file);
 /// or of root, that not everybody may write. Nothing: there is none. Error: it is not to be trusted, or not readable.
 Result<std::optional<std::string>> read_kept_index(const std::string& path);
 
+/// Whether the bytes begin as those of an index of any version.
+bool looks_like_index(std::string_view bytes);
+
 /// Nothing: damaged, of another version, or of another file. Places are checked: they lie in the file, one after the
 /// other, and no frame is empty.
 std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile& file);

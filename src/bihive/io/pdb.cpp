@@ -81,9 +81,9 @@ class PdbReader {
   // Runs of lines become one place.
   void note_assembly_line(std::int64_t begin) {
     if (pass_.made == nullptr) return;
-    std::vector<TextPlace>& places = pass_.made->assembly_lines;
+    PlaceList& places = pass_.made->assembly_lines;
     if (places.empty() || places.back().end != begin) places.push_back({begin, begin, scanner_.line_number() - 1});
-    places.back().end = scanner_.place();
+    places.set_last_end(scanner_.place());
   }
 
   // Lines elsewhere in the file that are true of this model too.
@@ -98,10 +98,17 @@ class PdbReader {
       for_lines(place, [this](std::string_view line) { assemblies_.add_line(line); });
     if (index.cell_lines.empty()) return;
     const std::int64_t end = index.frames[static_cast<std::size_t>(frame_)].end;
-    auto behind = std::lower_bound(index.cell_lines.begin(), index.cell_lines.end(), end,
-                                   [](const TextPlace& place, std::int64_t at) { return place.begin < at; });
-    if (behind != index.cell_lines.begin()) --behind;
-    for_lines(*behind, [this](std::string_view line) { read_cell(line); });
+    // The last cell before the model's end, or the first one.
+    std::size_t first = 0, behind = index.cell_lines.size();
+    while (first < behind) {
+      const std::size_t middle = first + (behind - first) / 2;
+      if (index.cell_lines[middle].begin < end)
+        first = middle + 1;
+      else
+        behind = middle;
+    }
+    for_lines(index.cell_lines[first - std::min<std::size_t>(first, 1)],
+              [this](std::string_view line) { read_cell(line); });
   }
 
   Status read_atom() {

@@ -235,6 +235,10 @@ class IndexedText : public RawFrames {
       warn(path + ": " + bytes.error().message + ", so it is not used");
       return open(wanted);
     }
+    if (*bytes && !looks_like_index(**bytes)) {
+      warn(path + ": is no index of bihive, so it stays as it is, and none is kept");
+      return open(wanted);
+    }
     if (*bytes) {
       std::optional<FrameIndex> index = decode_index(**bytes, of);
       if (index && take_kept(std::move(*index))) {
@@ -276,7 +280,7 @@ class IndexedText : public RawFrames {
   }
 
   Result<RawSpheres> read_indexed(std::int64_t frame) const {
-    const TextPlace& place = index_.frames[static_cast<std::size_t>(frame)];
+    const TextPlace place = index_.frames[static_cast<std::size_t>(frame)];
     const std::string what = index_.count() == 1 ? "the file" : "frame " + std::to_string(frame);
     if (Status status = check_memory(static_cast<double>(place.end - place.begin), what); !status)
       return Error{status.error().message, file_.path(), 0, 0, ""};

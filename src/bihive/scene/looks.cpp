@@ -227,17 +227,23 @@ class LookedAt {
 
 }  // namespace
 
-Result<std::vector<std::int64_t>> apply_looks(Scene& scene, const std::vector<Look>& looks, std::size_t* failed) {
+Result<std::vector<std::int64_t>> apply_looks(Scene& scene, const std::vector<Look>& looks, std::size_t* failed,
+                                              std::size_t* failed_action) {
   LookedAt looked_at(scene);
   std::vector<std::int64_t> counts;
   for (const Look& look : looks) {
     if (failed != nullptr) *failed = counts.size();
+    if (failed_action != nullptr) *failed_action = look.actions.size();
     Result<std::vector<std::uint8_t>> mask = select_spheres(scene.spheres, look.select);
     if (!mask) return mask.error();
     const std::int64_t count = std::count(mask->begin(), mask->end(), std::uint8_t{1});
     looked_at.select(std::move(*mask));
-    for (const LookAction& action : look.actions)
-      if (Status status = std::visit(looked_at, action); !status) return status.error();
+    for (std::size_t i = 0; i < look.actions.size(); ++i) {
+      const Status status = std::visit(looked_at, look.actions[i]);
+      if (status) continue;
+      if (failed_action != nullptr) *failed_action = i;
+      return status.error();
+    }
     counts.push_back(count);
   }
   if (failed != nullptr) *failed = looks.size();

@@ -58,8 +58,9 @@ struct Look {
 ///
 /// Returns how many spheres each look selects. Errors: a selection's (column and line as in select_spheres()), an
 /// action's, or that every sphere is hidden or cut away. The scene is then as it was, and `failed` (if given) is the
-/// look's position; looks.size() if none is to blame.
+/// look's position; looks.size() if none is to blame. `failed_action` (if given) is the position of its action; the
+/// number of its actions if the selection is to blame.
 Result<std::vector<std::int64_t>> apply_looks(Scene& scene, const std::vector<Look>& looks,
-                                              std::size_t* failed = nullptr);
+                                              std::size_t* failed = nullptr, std::size_t* failed_action = nullptr);
 
 }  // namespace bihive

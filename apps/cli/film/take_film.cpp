@@ -1,0 +1,38 @@
+// One picture of a film: its frame, camera and ranges.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "film/film_plan.h"
+#include "support/failure.h"
+#include "support/input.h"
+
+namespace bihive::cli {
+
+void take_film(RenderOptions& options, const FilmPlan& plan) {
+  const FilmPlan::Asked& asked = plan.asked;
+  if (!options.picture && !options.input.frame)
+    fail_usage("--film needs the number of a frame of the input or of a picture of the film",
+               "give --frame I or --picture K, from 0");
+  std::int64_t picture = options.picture.value_or(0);
+  if (options.picture && options.input.frame) fail_usage("--picture and --frame both say which picture it is");
+  if (!options.picture) {
+    const std::optional<std::int64_t> found = asked.frames.picture_of(*options.input.frame);
+    if (!found)
+      fail_usage(fmt::format("frame {} is not in the film, which has frames {} to {} by steps of {}",
+                             *options.input.frame, asked.frames.first, asked.frames.frame(asked.frames.count - 1),
+                             asked.frames.step));
+    if (asked.frames.count == 1 && asked.pictures > 1)
+      fail_usage("all pictures of the film show this frame", "say which one by --picture K, from 0");
+    picture = *found;
+  }
+  if (picture >= asked.pictures)
+    fail_usage(fmt::format("the film has no picture {}: its last one is {}", picture, asked.pictures - 1));
+  if (!is_generated(options.input.input)) options.input.frame = plan.frame_of(picture);
+  options.fixed = FixedByFilm{camera_at(asked.path, plan.fixed.camera, picture, asked.pictures),
+                              plan.fixed.range_of_style, plan.fixed.ranges_of_looks};
+}
+
+}  // namespace bihive::cli
