@@ -1,4 +1,5 @@
-// Section D: is a tree of one leaf slower than brute force, and a leaf for each sphere faster? Times of rays.
+// Section D: does a tree of one leaf take more than brute force, and is a leaf for each sphere faster? The work of rays
+// is counted; their times stand beside it.
 #include <fmt/format.h>
 
 #include "bihive/bih/observer.h"
@@ -71,6 +72,13 @@ Json time_in_turns(const StepContext& context, const Tracer& one, const Tracer& 
           {"ratio", quartiles_json(ratios)}};
 }
 
+// The tests of one leaf over those of brute force, where this share of the rays meets the box. The test of the box
+// counts as one of a sphere.
+double work_ratio(double share, const Scene& scene) {
+  const double spheres = static_cast<double>(scene.spheres.size());
+  return (1 + share * spheres) / spheres;
+}
+
 Json time_one_leaf(StepContext& context) {
   const Values& values = context.values;
   const Scene scene = values.scene(values.integer("scenario"), values.integer("spheres"), context.settings.seed);
@@ -94,9 +102,12 @@ Json time_one_leaf(StepContext& context) {
     if (context.cancel.cancelled()) return {};
     timed["width_px"] = values.integer(shape.width);
     timed["height_px"] = values.integer(shape.height);
-    timed["box_percent"] = 100 * static_cast<double>(in_box.size()) / static_cast<double>(rays.size());
+    const double share = static_cast<double>(in_box.size()) / static_cast<double>(rays.size());
+    timed["box_percent"] = 100 * share;
+    timed["work_ratio"] = work_ratio(share, scene);
     if (result.contains("box")) continue;
     result["box"] = time_in_turns(context, one_leaf, brute, in_box);
+    result["box"]["work_ratio"] = work_ratio(1, scene);
     result["leaf_each"] = time_in_turns(context, one_leaf, leaf_each, rays);
   }
   return result;
