@@ -42,7 +42,8 @@ OlderRun read_older_run(const std::string& file) {
   const Json document = parsed ? *parsed : Json();
   const auto format = document.is_object() ? document.find("bihive_results") : document.end();
   if (format == document.end() || *format != 3 || !document.contains("experiments"))
-    cli::fail({"expected results.json of bihive thesis, format 3", file, 0, 0, "make one with bihive thesis all --out DIR"});
+    cli::fail(
+        {"expected results.json of bihive thesis, format 3", file, 0, 0, "make one with bihive thesis all --out DIR"});
   try {
     return parse_run(document, file);
   } catch (const Json::exception& error) {
@@ -79,9 +80,12 @@ Json compared_with(const OlderRun& older, const std::vector<ReportPart>& parts) 
                       {"now_ours", finding.ours}});
     }
   for (const auto& [key, words] : older.findings) gone += static_cast<int>(seen.count(key) == 0);
-  return {{"file", older.file},       {"version", older.version}, {"commit", older.commit}, {"machine", older.machine},
-          {"date", older.date},       {"same", same},             {"changed", changed},     {"moved", moved},
-          {"fresh", fresh},           {"gone", gone},             {"rows", std::move(rows)}};
+  return {{"file", older.file},     {"version", older.version},
+          {"commit", older.commit}, {"machine", older.machine},
+          {"date", older.date},     {"same", same},
+          {"changed", changed},     {"moved", moved},
+          {"fresh", fresh},         {"gone", gone},
+          {"rows", std::move(rows)}};
 }
 
 }  // namespace bihive::thesis

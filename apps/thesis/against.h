@@ -21,8 +21,8 @@ struct OlderRun {
 /// Fails if the file is none.
 OlderRun read_older_run(const std::string& file);
 
-/// {"file", "version", "commit", "machine", "date", "same", "changed", "moved", "fresh", "gone", "rows": [{"experiment",
-/// "name", "claim", "changed": "verdict" or "value", "then", "now", "then_ours", "now_ours"}]}
+/// {"file", "version", "commit", "machine", "date", "same", "changed", "moved", "fresh", "gone", "rows":
+/// [{"experiment", "name", "claim", "changed": "verdict" or "value", "then", "now", "then_ours", "now_ours"}]}
 Json compared_with(const OlderRun& older, const std::vector<ReportPart>& parts);
 
 }  // namespace bihive::thesis

@@ -131,8 +131,8 @@ Verdict compared(const std::string& is, const Json& quantity, const Json& entry,
   }
   // A mean over seeds: the value lies within three standard deviations, widened by half of its last printed digit.
   if (is == "within 3 sd")
-    return verdict_if(inside_three_sd(value.get<double>(), printed,
-                                      {quantity["mean"].get<double>(), quantity["sd"].get<double>()}));
+    return verdict_if(
+        inside_three_sd(value.get<double>(), printed, {quantity["mean"].get<double>(), quantity["sd"].get<double>()}));
   // A range of ours lies inside of the stated one.
   if (is == "inside")
     return verdict_if(quantity[0].get<double>() >= value[0].get<double>() - tolerance &&
@@ -152,8 +152,7 @@ Verdict compared(const std::string& is, const Json& quantity, const Json& entry,
     return verdict_if(ratio <= tolerance && ratio >= 1 / tolerance);
   }
   // A map of quantities: which is the highest, the lowest; their order from the highest to the lowest.
-  if (is == "highest" || is == "lowest")
-    return extreme(quantity, keys_in(value).front(), is == "highest");
+  if (is == "highest" || is == "lowest") return extreme(quantity, keys_in(value).front(), is == "highest");
   if (is == "in order") return verdict_if(by_size(quantity) == keys_in(value));
   fail({"/values: there is no comparison \"" + is + "\" of such a quantity", "values.json", 0, 0, ""});
 }
@@ -169,8 +168,13 @@ Finding finding_of(const Values& values, const std::string& name, const Json& en
   const std::string is = entry.value("is", "equal"), printed = values.printed(name);
   Verdict verdict = compared(is, quantity, entry, printed);
   if (verdict == Verdict::differs && entry.contains("contradicts")) verdict = Verdict::text_inconsistent;
-  return {name,    entry["claim"].get<std::string>(), entry.value("row", ""), expected_text(entry, is, printed),
-          text_of(quantity, entry), verdict, values.kind(name)};
+  return {name,
+          entry["claim"].get<std::string>(),
+          entry.value("row", ""),
+          expected_text(entry, is, printed),
+          text_of(quantity, entry),
+          verdict,
+          values.kind(name)};
 }
 
 // From the best to the worst.
@@ -236,8 +240,15 @@ std::vector<Finding> judge_on(const Values& values, const std::string& name, con
 std::vector<Claim> claims_of(const Experiment& experiment, const Values& values, const std::vector<Finding>& findings) {
   std::vector<Claim> claims;
   const auto begin = [&](const Json& entry) {
-    claims.push_back({entry.value("section", experiment.section), entry["claim"].get<std::string>(), experiment.id,
-                      entry.value("sentence", ""), {}, {"not run", "–", "open"}, "not_run", "", {}});
+    claims.push_back({entry.value("section", experiment.section),
+                      entry["claim"].get<std::string>(),
+                      experiment.id,
+                      entry.value("sentence", ""),
+                      {},
+                      {"not run", "–", "open"},
+                      "not_run",
+                      "",
+                      {}});
     return claims.end() - 1;
   };
   std::map<std::string, std::pair<std::string, std::string>> notes;  // by claim: note, reason

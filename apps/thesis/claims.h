@@ -60,9 +60,9 @@ struct Claim {
   std::vector<const Finding*> findings;
   /// The worst of its findings; of a remark "value lost" or "not compared".
   Words words;
-  std::string verdict;                     ///< for machines
-  std::string found;                       ///< our numbers in short, the note, and the reason where it applies
-  std::vector<std::string> held_by;        ///< tests
+  std::string verdict;               ///< for machines
+  std::string found;                 ///< our numbers in short, the note, and the reason where it applies
+  std::vector<std::string> held_by;  ///< tests
 };
 std::vector<Claim> claims_of(const Experiment& experiment, const Values& values, const std::vector<Finding>& findings);
 

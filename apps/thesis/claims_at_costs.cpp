@@ -76,8 +76,9 @@ class Quantities {
     for (const std::int64_t prims : max_prims_)
       if (trees.count(prims) > 0) rates.push_back(1 / costs_.of(trees.at(prims)));
     const auto peak = std::max_element(rates.begin(), rates.end());
-    const bool one_peak = std::is_sorted(rates.begin(), peak + 1) && std::is_sorted(rates.rbegin(), std::make_reverse_iterator(peak));
-    found_["curve"][name_of(configuration)] = !one_peak               ? "up and down"
+    const bool one_peak =
+        std::is_sorted(rates.begin(), peak + 1) && std::is_sorted(rates.rbegin(), std::make_reverse_iterator(peak));
+    found_["curve"][name_of(configuration)] = !one_peak                 ? "up and down"
                                               : peak + 1 == rates.end() ? "only rises"
                                               : peak == rates.begin()   ? "only falls"
                                                                         : "rises, peaks, falls";

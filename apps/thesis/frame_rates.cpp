@@ -1,5 +1,7 @@
 // Figure 4.4: at which costs of inner nodes, leaves and sphere tests do the text's claims hold, and what do they cost
 // here? The work of the rays is counted without a clock; clocks give costs, and costs are points in a diagram.
+#include "bihive/thesis/frame_rates.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/write_file.h"
 #include "bihive/thesis/cost_diagram.h"
-#include "bihive/thesis/frame_rates.h"
 #include "bihive/thesis/frame_rates_report.h"
 #include "claims.h"
 #include "claims_at_costs.h"
@@ -77,26 +78,25 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
                        return count_work(context, scenario, picture, limits, /*one_leaf=*/true);
                      }});
   for (const std::int64_t scenario : scenarios)
-    steps.push_back({seeds_step(scenario), settings.quick ? 0.3 : 20, [scenario](StepContext& context) {
-                       Json seeds = Json::array();
-                       CountedPicture picture = counted_picture(context);
-                       picture.stride = context.settings.quick ? kQuickOtherStride : kOtherStride;
-                       for (picture.seed = 1; picture.seed <= (context.settings.quick ? kQuickSeeds : kSeeds);
-                            ++picture.seed) {
-                         seeds.push_back(count_work(context, scenario, picture,
-                                                    context.values.integers("max_prims_list"), false));
-                         if (context.cancel.cancelled()) return Json();
-                       }
-                       return seeds;
-                     }});
+    steps.push_back(
+        {seeds_step(scenario), settings.quick ? 0.3 : 20, [scenario](StepContext& context) {
+           Json seeds = Json::array();
+           CountedPicture picture = counted_picture(context);
+           picture.stride = context.settings.quick ? kQuickOtherStride : kOtherStride;
+           for (picture.seed = 1; picture.seed <= (context.settings.quick ? kQuickSeeds : kSeeds); ++picture.seed) {
+             seeds.push_back(count_work(context, scenario, picture, context.values.integers("max_prims_list"), false));
+             if (context.cancel.cancelled()) return Json();
+           }
+           return seeds;
+         }});
   for (const Variation& variation : variations())
     steps.push_back({variation.key, settings.quick ? 0.2 : 2, [variation](StepContext& context) {
                        Json rows = Json::array();
                        CountedPicture picture = variation.change(counted_picture(context));
                        picture.stride = context.settings.quick ? kQuickOtherStride : kOtherStride;
                        for (const std::int64_t scenario : context.values.integers("scenarios"))
-                         for (Json& row : count_work(context, scenario, picture,
-                                                     context.values.integers("max_prims_list"), false))
+                         for (Json& row :
+                              count_work(context, scenario, picture, context.values.integers("max_prims_list"), false))
                            rows.push_back(std::move(row));
                        return rows;
                      }});
@@ -124,8 +124,8 @@ std::string ranges_text(const std::vector<CostRange>& ranges) {
   std::string text;
   for (const CostRange& range : ranges)
     text += (text.empty() ? "" : " or ") + (std::isinf(range.high)
-                                              ? fmt::format("{:.2f} or more", range.low)
-                                              : fmt::format("{:.2f} to {:.2f}", range.low, range.high));
+                                                ? fmt::format("{:.2f} or more", range.low)
+                                                : fmt::format("{:.2f} to {:.2f}", range.low, range.high));
   return text.empty() ? "nowhere" : text;
 }
 
@@ -242,10 +242,9 @@ class FigureData {
     CostDiagram diagram;
     diagram.title = fmt::format("Configurations won by {}", winner);
     diagram.wins_label = "won:";
-    diagram.pattern_label =
-        fmt::format("{} wins {}, {} Scenario {} with {} spheres (seed {})", winner, pattern_.wins,
-                    tree_name(pattern_.exception_max_prims), pattern_.exception.first, pattern_.exception.second,
-                    context_.settings.seed);
+    diagram.pattern_label = fmt::format("{} wins {}, {} Scenario {} with {} spheres (seed {})", winner, pattern_.wins,
+                                        tree_name(pattern_.exception_max_prims), pattern_.exception.first,
+                                        pattern_.exception.second, context_.settings.seed);
     diagram.share_label = fmt::format("the same with at least half of {} seeds", seeds_.size());
     diagram.most_wins = static_cast<int>(work_.size());
     for (int i = 0; i < kColumns; ++i)
@@ -261,8 +260,8 @@ class FigureData {
         diagram.share.push_back(static_cast<double>(with) / static_cast<double>(seeds_.size()));
       }
     for (const auto& [key, name, fitted] : fits_)
-      diagram.points.push_back(
-          {name.substr(0, name.find(',')), fitted.costs().inner, fitted.costs().leaf, fitted.inner_error, fitted.leaf_error});
+      diagram.points.push_back({name.substr(0, name.find(',')), fitted.costs().inner, fitted.costs().leaf,
+                                fitted.inner_error, fitted.leaf_error});
     write("costs.svg", cost_diagram_svg(diagram));
     write("costs.csv", cost_diagram_csv(diagram));
     const Json numbers = {{"inner_node_per_sphere_test", diagram.inner},
@@ -415,7 +414,9 @@ class FigureData {
     double most = 0, most_with_one_place = 0;
     for (const auto& [name, times] : result->items()) {
       std::vector<double> ms;
-      const auto ratio = [&] { return *std::max_element(ms.begin(), ms.end()) / *std::min_element(ms.begin(), ms.end()); };
+      const auto ratio = [&] {
+        return *std::max_element(ms.begin(), ms.end()) / *std::min_element(ms.begin(), ms.end());
+      };
       for (const std::int64_t scenario : scenarios_)
         ms.push_back(times.at(fmt::format("scenario{}", scenario)).get<double>());
       most = std::max(most, ratio());

@@ -42,7 +42,8 @@ std::int64_t pixels_that_differ(const std::vector<std::int32_t>& ids, const Scen
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const Hit hit = closest_hit(tree, scene.spheres, pixels.at(x + 0.5, y + 0.5));
-      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
+      const auto pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
       differ += (hit.found() ? hit.sphere_id : -1) != ids[pixel] ? 1 : 0;
     }
   return differ;
@@ -70,8 +71,7 @@ Json measure_program(const StepContext& context, std::int64_t scenario, std::int
     };
     measure("brute", [&] { programs.begin()->second.draw_by_brute_force(size.width, size.height, ids); });
     for (const auto& each : programs) {  // clang 14 does not capture bindings
-      measure(fmt::format("max_prims{}", each.first),
-              [&] { each.second.draw_by_tree(size.width, size.height, ids); });
+      measure(fmt::format("max_prims{}", each.first), [&] { each.second.draw_by_tree(size.width, size.height, ids); });
       if (round < 0) differ = std::max(differ, pixels_that_differ(ids, scene, trees[each.first], size));
     }
     if (context.cancel.cancelled()) return {};

@@ -32,8 +32,7 @@ Json count_work(const StepContext& context, std::int64_t scenario, const Counted
     if (one_leaf) limits.push_back(spheres);
     for (const std::int64_t limit : limits) {
       const Tree tree = build_reference_tree(scene.spheres, {limit, kUnlimited});
-      const RayCounts counts =
-          count_rays(context, scene, tree, {picture.width_px, picture.height_px}, picture.stride);
+      const RayCounts counts = count_rays(context, scene, tree, {picture.width_px, picture.height_px}, picture.stride);
       if (counts.rays.empty()) return {};
       const RayCounts::Mean mean = counts.mean();
       rows.push_back({{"scenario", scenario},

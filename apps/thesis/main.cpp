@@ -95,8 +95,7 @@ void check_values(const ThesisOptions& options) {
   std::string bundled;
   std::int64_t found = 0;
   for (const Experiment& experiment : all_experiments()) {
-    const bool named =
-        std::count(options.experiments.begin(), options.experiments.end(), experiment.id) > 0;
+    const bool named = std::count(options.experiments.begin(), options.experiments.end(), experiment.id) > 0;
     if (!asks_for(options, experiment.id)) continue;
     const std::string file = options.values + "/" + experiment.id + "/values.json";
     std::error_code unknown;
@@ -257,7 +256,8 @@ void run_thesis(const ThesisOptions& options) {
   std::optional<OlderRun> older;
   if (!options.against.empty()) older = read_older_run(options.against);
   Report report;
-  if (!options.devices.empty()) report.devices = devices_data(options.devices, load_values("figure-4.4", options.values));
+  if (!options.devices.empty())
+    report.devices = devices_data(options.devices, load_values("figure-4.4", options.values));
   make_folder(options.out);
   cli::check_outputs(cli::outputs_of(options), cli::inputs_of(options));
   const StepStore store(options.out, settings);

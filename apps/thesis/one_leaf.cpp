@@ -16,7 +16,8 @@ namespace {
 constexpr int kRepetitions = 15, kQuickRepetitions = 5;
 constexpr int kRowStride = 2, kQuickRowStride = 8;  // of the picture's rows
 
-// The same camera in pictures of several shapes: the angle is that of the shorter side, so a box fills more of a square.
+// The same camera in pictures of several shapes: the angle is that of the shorter side, so a box fills more of a
+// square.
 struct Shape {
   const char *name, *width, *height;  // the names of its values
 };
@@ -66,10 +67,8 @@ Json time_in_turns(const StepContext& context, const Tracer& one, const Tracer& 
     ratios.push_back(one_ns.back() / other_ns.back());
   }
   if (ratios.empty()) return {};
-  return {{"rays", rays.size()},
-          {"ns", median(one_ns)},
-          {"other_ns", median(other_ns)},
-          {"ratio", quartiles_json(ratios)}};
+  return {
+      {"rays", rays.size()}, {"ns", median(one_ns)}, {"other_ns", median(other_ns)}, {"ratio", quartiles_json(ratios)}};
 }
 
 // The tests of one leaf over those of brute force, where this share of the rays meets the box. The test of the box
@@ -83,8 +82,7 @@ Json time_one_leaf(StepContext& context) {
   const Values& values = context.values;
   const Scene scene = values.scene(values.integer("scenario"), values.integer("spheres"), context.settings.seed);
   const auto tree_of = [&](std::int64_t max_prims) {
-    return cli::value_or_fail(
-        Tracer::build(scene.spheres, Engine::reference, BuildParameters{max_prims, kUnlimited}));
+    return cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, BuildParameters{max_prims, kUnlimited}));
   };
   const Tracer one_leaf = tree_of(kUnlimited), leaf_each = tree_of(1);
   const Tracer brute = cli::value_or_fail(Tracer::build(scene.spheres, Engine::brute));

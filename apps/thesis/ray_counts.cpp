@@ -6,7 +6,8 @@
 
 namespace bihive::thesis {
 
-RayCounts count_rays(const StepContext& context, const Scene& scene, const Tree& tree, cli::PictureSize size, int stride) {
+RayCounts count_rays(const StepContext& context, const Scene& scene, const Tree& tree, cli::PictureSize size,
+                     int stride) {
   const PixelRays pixels(scene.camera, size.width_px, size.height_px);
   RayCounts counts{(size.width_px + stride - 1) / stride, (size.height_px + stride - 1) / stride, {}};
   counts.rays.resize(static_cast<std::size_t>(counts.width) * static_cast<std::size_t>(counts.height));

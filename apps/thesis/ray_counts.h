@@ -6,8 +6,8 @@
 #include "bihive/bih/observer.h"
 #include "bihive/bih/tree.h"
 #include "bihive/scene/scene.h"
-#include "support/values.h"
 #include "experiment.h"
+#include "support/values.h"
 
 namespace bihive::thesis {
 

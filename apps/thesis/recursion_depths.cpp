@@ -38,8 +38,8 @@ Json transparent_sphere(const Scene& scene, const Tracer& tracer, const Image& i
     for (int x = 0; x < image.width; ++x) {
       const SceneHit hit = scene_hit(scene, tracer, rays.at(x + 0.5, y + 0.5));
       if (hit.id < 0 || !(material_of(scene, hit.id).transmissive > 0)) continue;
-      const Pixel pixel = pixel_at(image, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                              static_cast<std::size_t>(x));
+      const Pixel pixel = pixel_at(
+          image, static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
       brightness.push_back(pixel.brightness());
       coloured += pixel.grey() ? 0 : 1;
     }
@@ -53,8 +53,8 @@ Json transparent_sphere(const Scene& scene, const Tracer& tracer, const Image& i
 Json draw_depth(const StepContext& context, std::int64_t depth) {
   const Scene scene = four_spheres_scene();
   const Tracer tracer = cli::value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
-  RenderSettings settings = picture_settings(
-      context, scene, picture_size(context.settings, context.values, kQuickDivisor), View::shaded);
+  RenderSettings settings =
+      picture_settings(context, scene, picture_size(context.settings, context.values, kQuickDivisor), View::shaded);
   settings.recursion = static_cast<int>(std::clamp<std::int64_t>(depth, 1, 16));
   std::int64_t rays = 0;
   const std::optional<Image> image = draw(context, scene, tracer, settings, &rays);
@@ -77,8 +77,8 @@ Json draw_depth(const StepContext& context, std::int64_t depth) {
 Json draw_coding(const StepContext& context) {
   const Scene scene = four_spheres_scene();
   const Tracer tracer = cli::value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
-  RenderSettings settings = picture_settings(
-      context, scene, picture_size(context.settings, context.values, kQuickDivisor), View::recursion);
+  RenderSettings settings =
+      picture_settings(context, scene, picture_size(context.settings, context.values, kQuickDivisor), View::recursion);
   settings.recursion = static_cast<int>(std::clamp<std::int64_t>(context.values.integer("coding.depth"), 1, 16));
   const std::optional<Image> image = draw(context, scene, tracer, settings);
   if (!image) return {};
@@ -94,12 +94,11 @@ Json draw_coding(const StepContext& context) {
       if (Vec3d{pixel.r / 255.0, pixel.g / 255.0, pixel.b / 255.0} == colour) ++pixels;
     }
     const std::string name = fmt::format("coding.depth{}.colour", depth);
-    depths[step_name(depth)] = {
-        {"depth", depth},
-        {"colour", numbers_of(colour)},
-        {"words", context.values.has(name) ? context.values.printed(name) : "black"},
-        {"pixels", pixels},
-        {"percent", 100 * static_cast<double>(pixels) / all}};
+    depths[step_name(depth)] = {{"depth", depth},
+                                {"colour", numbers_of(colour)},
+                                {"words", context.values.has(name) ? context.values.printed(name) : "black"},
+                                {"pixels", pixels},
+                                {"percent", 100 * static_cast<double>(pixels) / all}};
   }
   std::int64_t transparent = 0;
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id)

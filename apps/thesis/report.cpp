@@ -19,9 +19,9 @@ using Data = must::data;
 
 // A PNG file begins with 16 bytes of signature and chunk header, then width and height in big-endian order.
 constexpr std::size_t kPngWidthAt = 16, kPngHeightAt = 20;
-constexpr std::pair<const char*, const char*> kSections[] = {{"B", "Setup"},           {"C", "Visual quality"},
-                                                             {"D", "Parameters"},      {"E", "Statistics of trees"},
-                                                             {"F", "Performance"},     {"G", "Memory"}};
+constexpr std::pair<const char*, const char*> kSections[] = {{"B", "Setup"},       {"C", "Visual quality"},
+                                                             {"D", "Parameters"},  {"E", "Statistics of trees"},
+                                                             {"F", "Performance"}, {"G", "Memory"}};
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -122,8 +122,12 @@ std::string_view template_of(const std::string& experiment) {
 }
 
 Json finding_json(const Finding& finding) {
-  return {{"name", finding.name},       {"claim", finding.claim}, {"row", finding.row},
-          {"kind", name_of(finding.kind)}, {"expected", finding.expected}, {"ours", finding.ours},
+  return {{"name", finding.name},
+          {"claim", finding.claim},
+          {"row", finding.row},
+          {"kind", name_of(finding.kind)},
+          {"expected", finding.expected},
+          {"ours", finding.ours},
           {"verdict", name_of(finding.verdict)}};
 }
 
@@ -228,7 +232,8 @@ std::string report_html(const Report& report, const std::string& folder) {
   }
   for (const ReportPart& part : report.parts) {
     std::string key = part.experiment->id;
-    std::replace_if(key.begin(), key.end(), [](char c) { return c == '-' || c == '.'; }, '_');
+    std::replace_if(
+        key.begin(), key.end(), [](char c) { return c == '-' || c == '.'; }, '_');
     view["of"][key] = part.data;
     Json shown{{"id", part.experiment->id},
                {"title", part.experiment->title},
@@ -258,23 +263,21 @@ Json results_json(const Report& report) {
                            {"data", part.data}});
     for (const Claim& claim : part.claims) claims.push_back(claim_json(claim));
   }
-  Json results{{"bihive_results", 3},
-               {"version", report.version},
-               {"commit", report.commit},
-               {"command", report.command},
-               {"compiler", report.compiler},
-               {"machine", report.machine},
-               {"load", load_json(report.load)},
-               {"date", report.date},
-               {"settings",
-                {{"quick", report.settings.quick},
-                 {"seed", report.settings.seed},
-                 {"threads", report.settings.threads}}},
-               {"complete", complete},
-               {"claims", std::move(claims)},
-               {"experiments", std::move(experiments)}};
-  for (const auto& [name, list] : report.devices.items())
-    results[name == "runs" ? "devices" : "shown_frames"] = list;
+  Json results{
+      {"bihive_results", 3},
+      {"version", report.version},
+      {"commit", report.commit},
+      {"command", report.command},
+      {"compiler", report.compiler},
+      {"machine", report.machine},
+      {"load", load_json(report.load)},
+      {"date", report.date},
+      {"settings",
+       {{"quick", report.settings.quick}, {"seed", report.settings.seed}, {"threads", report.settings.threads}}},
+      {"complete", complete},
+      {"claims", std::move(claims)},
+      {"experiments", std::move(experiments)}};
+  for (const auto& [name, list] : report.devices.items()) results[name == "runs" ? "devices" : "shown_frames"] = list;
   if (!report.against.is_null()) results["against"] = report.against["rows"];
   return results;
 }

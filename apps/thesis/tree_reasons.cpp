@@ -121,8 +121,7 @@ Json measure_tree(const StepContext& context, std::int64_t scenario, std::int64_
   std::vector<double> mean, sd, overlap, gap, depth, coinciding;
   std::vector<std::vector<double>> by_level;
   for (std::int64_t seed = 1; seed <= seeds && !context.cancel.cancelled(); ++seed) {
-    const SphereSet set =
-        context.values.scene(scenario, spheres, static_cast<std::uint64_t>(seed)).spheres;
+    const SphereSet set = context.values.scene(scenario, spheres, static_cast<std::uint64_t>(seed)).spheres;
     const TreeFacts facts = facts_of(build_reference_tree(set, {max_prims, kUnlimited}));
     mean.push_back(spread_of(facts.spheres).mean);
     sd.push_back(spread_of(facts.spheres).sd);

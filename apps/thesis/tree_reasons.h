@@ -17,9 +17,9 @@ struct ReasonTrees {
 
 /// [{"scenario", "spheres", "max_prims", "seeds", "spheres_per_leaf", "spheres_per_leaf_sd", "depth_sd",
 /// "overlap_percent", "gap_percent", "void_percent", "void_percent_by_level", "coinciding"}]: means over the seeds.
-/// Deviations are over the leaves of a tree; overlaps and gaps are percent of the split nodes. Void is the exact volume,
-/// in percent of the root's box, that no node of a level covers (and no leaf above it): by level from the root on, and
-/// on the tenth. Empty if cancelled.
+/// Deviations are over the leaves of a tree; overlaps and gaps are percent of the split nodes. Void is the exact
+/// volume, in percent of the root's box, that no node of a level covers (and no leaf above it): by level from the root
+/// on, and on the tenth. Empty if cancelled.
 Json measure_reasons(const StepContext& context, const ReasonTrees& trees);
 
 }  // namespace bihive::thesis

@@ -79,8 +79,7 @@ Json count_trees(const StepContext& context, std::int64_t scenario, std::int64_t
   const std::int64_t wanted = context.settings.quick ? kQuickSeeds : kSeeds;
   std::vector<TreeStatistics> trees(static_cast<std::size_t>(scenario_of(scenario) == Scenario::grid ? 1 : wanted));
   parallel_for(context.settings.threads, static_cast<std::int64_t>(trees.size()), [&](std::int64_t i) {
-    if (!context.cancel.cancelled())
-      trees[static_cast<std::size_t>(i)] = statistics(static_cast<std::uint64_t>(i + 1));
+    if (!context.cancel.cancelled()) trees[static_cast<std::size_t>(i)] = statistics(static_cast<std::uint64_t>(i + 1));
   });
 
   Json result{{"seeds", trees.size()}};

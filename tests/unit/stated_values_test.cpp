@@ -54,7 +54,8 @@ TEST(StatedValues, SaysWhatIsWrongWithAFile) {
             "file.json: /values/a/value: expected a number, a list of numbers, or a text");
   EXPECT_EQ(message_of(with(R"("a": {"value": 1})")),
             "file.json: /values/a/sentence: expected the sentence that it comes from");
-  const std::string kinds = R"(file.json: /values/a/kind: expected "stated", "set", "fitted", "inferred" or "own_check")";
+  const std::string kinds =
+      R"(file.json: /values/a/kind: expected "stated", "set", "fitted", "inferred" or "own_check")";
   EXPECT_EQ(message_of(with(R"("a": {"value": 1, "sentence": ""})")), kinds) << "nothing is the thesis's by default";
   EXPECT_EQ(message_of(with(R"("a": {"value": 1, "kind": "chosen", "sentence": ""})")), kinds);
   EXPECT_EQ(message_of(with(R"("a": {"value": 1, "kind": 1, "sentence": ""})")), kinds);

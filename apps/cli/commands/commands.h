@@ -250,8 +250,8 @@ struct ThesisOptions {
   bool quick = false;
   std::uint64_t seed = 1;
   std::int64_t threads = 0;
-  std::vector<double> costs;         ///< of Figure 4.4, for all its claims: apps/thesis/experiment.h; empty: fitted ones
-  std::string values;                ///< folder of other stated values; empty: the built-in ones
+  std::vector<double> costs;  ///< of Figure 4.4, for all its claims: apps/thesis/experiment.h; empty: fitted ones
+  std::string values;         ///< folder of other stated values; empty: the built-in ones
   std::vector<std::string> devices;  ///< runs that the page saved on other devices
   std::string against;               ///< results.json of an older run to compare with; empty: none
   bool json = false;

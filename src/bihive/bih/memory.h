@@ -14,7 +14,7 @@ struct MemoryPrediction {
     std::int64_t low = 0, high = 0;
   };
   Range nodes;            ///< inner nodes and leaves, empty leaves too
-  Range compact_bytes;     ///< in a compact layout (bih/statistics.h)
+  Range compact_bytes;    ///< in a compact layout (bih/statistics.h)
   Range allocated_bytes;  ///< as this program allocates
   /// The same while it is built, for sets of a usual kind: nodes are twice in memory while their array grows.
   std::int64_t peak_bytes = 0;

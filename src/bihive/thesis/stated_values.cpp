@@ -74,7 +74,8 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
     if (!entry.contains("sentence") || !entry["sentence"].is_string())
       return stated.error_at("/values/" + name + "/sentence", "the sentence that it comes from");
     const std::optional<ValueKind> kind = kind_named(entry.value("kind", json()));
-    if (!kind) return stated.error_at("/values/" + name + "/kind", R"("stated", "set", "fitted", "inferred" or "own_check")");
+    if (!kind)
+      return stated.error_at("/values/" + name + "/kind", R"("stated", "set", "fitted", "inferred" or "own_check")");
     const json& value = entry["value"];
     const bool is_list = !value.is_number(), is_printed = entry.contains("printed") && entry["printed"].is_string();
     std::vector<double> numbers;

@@ -28,8 +28,9 @@ const char* name_of(ValueKind kind);
 ///   {"experiment": "table-4.2",
 ///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
 ///                                                    "sentence": "Nodes Internal 4,095 ..."}, ...}}
-/// "value" is a number, a list of numbers, or a text. "kind" is one of ValueKind's names. "printed" is optional. "sentence"
-/// quotes the text, or gives the reasoning where the value is not the text's. Other members are not looked at.
+/// "value" is a number, a list of numbers, or a text. "kind" is one of ValueKind's names. "printed" is optional.
+/// "sentence" quotes the text, or gives the reasoning where the value is not the text's. Other members are not looked
+/// at.
 class StatedValues {
  public:
   /// Error, with file and place: the document is not as above. `file`: as errors name it.
