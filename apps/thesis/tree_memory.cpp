@@ -1,4 +1,4 @@
-// Figure 4.5: the memory of the tree, predicted, as the thesis counts it, and as this program allocates it.
+// Figure 4.5: the memory of the tree, predicted, counted by the text's rule, and as this program allocates it.
 #include <fmt/format.h>
 
 #include <algorithm>
