@@ -129,6 +129,13 @@ class BadFiles(ProgramTest):
         self.assertIn("folder", self.fail_input("info", "folder"))
         self.assertIn("missing", self.fail_input("render", "missing/a.pdb", "-o", "a.png"))
         self.assertIn("scenario4", self.fail_input("stats", "scenario4"))
+        self.assertEqual("the path is empty; name a file", self.fail_input("info", ""))
+
+    def test_the_description_of_a_film(self):
+        self.write("film.json", '{"bihive_film": 1, "asked": {}, "fixed": {}}')
+        for command in (["info", "film.json"], ["render", "film.json", "-o", "a.png"]):
+            self.assertIn("film.json: is the description of a film, not a scene; name the film's input, and this file after --film",
+                          self.fail_input(*command))
 
     def test_names_with_line_breaks_stay_one_line(self):
         self.fail_input("info", "two\nlines\x1b[31m.pdb")

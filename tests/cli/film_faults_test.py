@@ -181,6 +181,37 @@ class Privacy(FaultTest):
         self.assertEqual(self.read("inside.y4m"), b"x")
 
 
+    def test_a_link_to_another_ending(self):
+        for link, target in (("a.y4m", "nowhere"), ("b.mp4", "c.y4m"), ("d.y4m", "e.mkv")):
+            os.symlink(target, self.path(link))
+            said = self.fail_usage("film", "run.xyz", "-o", link, *SMALL)
+            self.assertIn(f"the link {link} leads to {target}, which does not end in {link[1:]}", said)
+
+    def test_descriptions_that_are_none(self):
+        """The message says what to do."""
+        os.mkdir(self.path("run.y4m.part"), 0o700)
+        os.mkdir(self.path("run"))
+        for text in ("", '{"bihive_film": 1', "[]"):
+            self.write("run.y4m.part/film.json", text)
+            self.assertIn("is no description of a film; remove the folder to begin anew",
+                          self.fail_input("film", "run.xyz", "-o", "run.y4m", *SMALL))
+            self.write("run/film.json", text)
+            self.assertIn("is no description of a film; move it away",
+                          self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL))
+
+    def test_a_full_disk(self):
+        """What is whole stays, and the message says so."""
+        script = 'mount -t tmpfs -o size=16k none "$0/disk" && cd "$0" && "$@"; code=$?; ls disk; exit $code'
+        os.mkdir(self.path("disk"))
+        if subprocess.run(["unshare", "-rm", "sh", "-c", script, self.folder, "true"], capture_output=True).returncode:
+            self.skipTest("mounting is not permitted here")
+        words = [BIHIVE, "film", "run.xyz", "-o", "disk/a.y4m", *SMALL]
+        done = subprocess.run(["unshare", "-rm", "sh", "-c", script, self.folder, *words], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (1, "a.y4m.part\n"))
+        self.assertIn("No space left on device; free some space, and run the same again: whole pictures are kept", done.stderr)
+        self.assert_one_error_line(done.stderr)
+
+
 class PicturesThatWereThere(FaultTest):
     whole = ["run.xyz", "-o", "run/%d.png", *SMALL]
 

@@ -135,6 +135,9 @@ class Sequences(FilmTest):
             said = self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL, *more)
             self.assertIn("holds pictures of another film", said)
             self.assertIn("run/film.json", said)
+        self.assertRegex(said, r"its turntable_deg was 0.0, and is 90.0 now")
+        self.assertRegex(self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL, "--zoom", "2"),
+                         r"its options were \[.*\], and are \[.*\] now")
         self.write("run.xyz", frames_of(6, seed=2))
         self.assertIn("its input was", self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL))
 

@@ -84,11 +84,12 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
     const std::string of_shard =
         options.shard ? fmt::format(" (shard {}/{})", options.shard->index, options.shard->count) : "";
     print(
-        fmt::format("{}{}: {} pictures of {} x {}{}; {} at {:.3g} a second; read {}, build {}, trace {}, write {}; "
+        fmt::format("{}{}: {} {} of {} x {}{}; {} at {:.3g} a second; read {}, build {}, trace {}, write {}; "
                     "peak memory {}\n",
-                    escaped(output), of_shard, grouped(times.pictures), plan.fixed.width_px, plan.fixed.height_px, kept,
-                    readable_ms(report.all_ms), rate, readable_ms(times.read_ms), readable_ms(times.build_ms),
-                    readable_ms(times.trace_ms), readable_ms(times.write_ms), readable_bytes(peak_memory_bytes())));
+                    escaped(output), of_shard, grouped(times.pictures), times.pictures == 1 ? "picture" : "pictures",
+                    plan.fixed.width_px, plan.fixed.height_px, kept, readable_ms(report.all_ms), rate,
+                    readable_ms(times.read_ms), readable_ms(times.build_ms), readable_ms(times.trace_ms),
+                    readable_ms(times.write_ms), readable_bytes(peak_memory_bytes())));
     return;
   }
   ordered_json json = ordered_json::object();
@@ -289,7 +290,10 @@ FilmTimes run_film(const FilmOptions& asked) {
   const std::string ffmpeg = kind == FilmKind::encoded && !options.shard ? find_ffmpeg() : "";
   check_film_outputs(options.picture.output, inputs_of(options));
   // A link stays, and the film is made beside the file that it leads to.
-  if (kind != FilmKind::pictures) options.picture.output = value_or_fail(path_behind_links(options.picture.output));
+  if (kind != FilmKind::pictures) {
+    options.picture.output = value_or_fail(path_behind_links(options.picture.output));
+    check_link_of_film(asked.picture.output, options.picture.output);
+  }
   if (options.join) {
     join_shards(options, kind, ffmpeg);
     return {};

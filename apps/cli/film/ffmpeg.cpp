@@ -242,7 +242,7 @@ std::string FfmpegRun::output() const {
 void FfmpegRun::fail_with_log(const std::string& what) {
   const std::string said = last_line(end_of_file(log_.get()));
   fail_environment({"ffmpeg " + what + (said.empty() ? "" : ", and said: " + said), "", 0, 0,
-                    "what is encoded already is kept: run the same again when ffmpeg works"});
+                    "what is encoded already is kept: run the same again when ffmpeg works, or give another --codec"});
 }
 
 namespace {

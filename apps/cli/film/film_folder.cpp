@@ -53,7 +53,9 @@ FilmFolder::FilmFolder(std::string output, FilmKind kind) : output_(std::move(ou
   if (!folder_) return;
   if (std::optional<std::string> text = folder_->read(plan_name_)) {
     plan_text_ = std::move(*text);
-    kept_ = parse_film_plan(plan_text_, plan_path());
+    kept_ = parse_film_plan(
+        plan_text_, plan_path(),
+        parts ? "remove the folder to begin anew, or name another output" : "move it away, or name another output");
     return;
   }
   if (!parts) return;

@@ -28,7 +28,7 @@ struct NumberPlace {
 NumberPlace number_place(const std::string& pattern) {
   constexpr std::size_t kMostDigits = 2;
   const auto wrong = [&] {
-    fail_usage("a sequence of pictures has one place for their number in its name, found " + pattern,
+    fail_usage("a sequence of pictures has one place for their number in its name, found \"" + pattern + "\"",
                "name it run/%05d.png");
   };
   NumberPlace place;
@@ -58,8 +58,16 @@ FilmKind film_kind(const std::string& output) {
   if (ending == ".y4m") return FilmKind::y4m;
   for (const char* known : {".mp4", ".mov", ".mkv", ".webm"})
     if (ending == known) return FilmKind::encoded;
-  fail_usage("a film ends in .mp4, .mov, .mkv, .webm or .y4m, or is a sequence such as run/%05d.png; found " + output,
-             "choose one of these endings");
+  fail_usage(
+      "a film ends in .mp4, .mov, .mkv, .webm or .y4m, or is a sequence such as run/%05d.png; found \"" + output + "\"",
+      "choose one of these endings");
+}
+
+void check_link_of_film(const std::string& link, const std::string& film) {
+  const std::string ending = lower_ending(link);
+  if (ending != lower_ending(film))
+    fail_usage("the link " + link + " leads to " + film + ", which does not end in " + ending,
+               "let both end alike, or name the file itself");
 }
 
 std::string plan_path(const std::string& output) {

@@ -147,7 +147,7 @@ FilmPlan read_film_plan(const std::string& path) {
   return parse_film_plan(value_or_fail(read_file(path)), path);
 }
 
-FilmPlan parse_film_plan(const std::string& text, const std::string& path) {
+FilmPlan parse_film_plan(const std::string& text, const std::string& path, const std::string& hint) {
   try {
     const Result<ordered_json> parsed = json_from_text<ordered_json>(text, path);
     const ordered_json document = parsed ? *parsed : ordered_json();
@@ -162,14 +162,18 @@ FilmPlan parse_film_plan(const std::string& text, const std::string& path) {
   } catch (const std::out_of_range&) {
     // A number that no film has.
   }
-  fail({"is no description of a film", path, 0, 0, "bihive film writes one beside the film, with the ending .json"});
+  fail({"is no description of a film", path, 0, 0,
+        hint.empty() ? "bihive film writes one beside the film, with the ending .json" : hint});
 }
 
 std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked) {
   const ordered_json old = asked_json(kept), now = asked_json(asked);
   for (const auto& [word, value] : now.items())
-    if (old.at(word) != value)
-      return fmt::format("its {} was {}, and is {} now", word, as_text(old.at(word), -1), as_text(value, -1));
+    if (old.at(word) != value) {
+      const bool are_many = word.back() == 's' && word != "fps";
+      return fmt::format("its {} {} {}, and {} {} now", word, are_many ? "were" : "was", as_text(old.at(word), -1),
+                         are_many ? "are" : "is", as_text(value, -1));
+    }
   return "";
 }
 

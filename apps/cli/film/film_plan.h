@@ -46,8 +46,8 @@ constexpr std::int64_t kMostPictures = 100'000'000;
 
 /// Fails with kBadInput if the file is no such description, or has numbers that no film has.
 FilmPlan read_film_plan(const std::string& path);
-/// The same of its bytes; `path` is for messages.
-FilmPlan parse_film_plan(const std::string& text, const std::string& path);
+/// The same of its bytes; `path` and `hint`, if it is not empty, are for messages.
+FilmPlan parse_film_plan(const std::string& text, const std::string& path, const std::string& hint = "");
 
 /// The difference of two wishes, for a message: "its frames are ..., not ..."; empty: nothing.
 std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked);

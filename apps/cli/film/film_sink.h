@@ -41,6 +41,9 @@ enum class FilmKind { pictures, y4m, encoded };
 /// Fails with kBadUsage on another ending, or on a sequence without one place for the number.
 FilmKind film_kind(const std::string& output);
 
+/// Fails with kBadUsage if the file to which the film's output leads has another ending.
+void check_link_of_film(const std::string& link, const std::string& film);
+
 /// The file beside the film: run.mp4.json, or film.json for run/%05d.png.
 std::string plan_path(const std::string& output);
 

@@ -104,6 +104,7 @@ Result<std::string> read_descriptor(int file, const std::string& name, bool* gre
 }
 
 Result<std::string> read_file(const std::string& path, bool* grew) {
+  if (path.empty()) return Error{"the path is empty", "", 0, 0, "name a file"};
   const OwnDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (file.get() < 0) return system_error("cannot be opened", path, errno);
   return read_descriptor(file.get(), path, grew);

@@ -462,6 +462,9 @@ Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, 
                                 LooksOfFile looks, const Style* style) {
   const Result<json> document = parse_json(text, name);
   if (!document) return document.error();
+  if (document->contains("bihive_film"))
+    return Error{"is the description of a film, not a scene", name, 0, 0,
+                 "name the film's input, and this file after --film"};
   const Status status = check_against_schema(*document, name);
   if (!status) return status.error();
   return Extraction(*document, name, options, looks, style).run();
