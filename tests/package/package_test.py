@@ -53,6 +53,7 @@ class Packages(unittest.TestCase):
         commands = output_of(BUILD / "bihive", "describe", "commands").split()
         expected = {
             "usr/bin/bihive",
+            "usr/bin/bihive-thesis",
             "usr/share/bash-completion/completions/bihive",
             "usr/share/zsh/vendor-completions/_bihive",
             "usr/share/fish/vendor_completions.d/bihive.fish",
@@ -122,7 +123,7 @@ class Packages(unittest.TestCase):
         root = SCRATCH / "moved"
         output_of("tar", "-xzf", one("bihive-*.tar.gz"), "-C", SCRATCH)
         next(path for path in SCRATCH.glob("bihive-*") if path.is_dir()).rename(root)
-        for name in ("bihive", "bihive-view"):
+        for name in ("bihive", "bihive-thesis", "bihive-view"):
             program = root / "bin" / name
             if not program.exists():
                 continue
