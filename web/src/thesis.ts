@@ -1,5 +1,5 @@
 // The dialog that runs Figure 4.4 of the thesis on this device, and counts the frames that its screen shows. A run is
-// kept in the browser after each configuration, so that a page that was closed, or that the system ended, goes on.
+// kept in the browser after each six configurations, so that a page that was closed, or that the system ended, goes on.
 import { chart_element, charts_as_png } from './chart';
 import { element } from './dom';
 import { save } from './download';
@@ -115,7 +115,7 @@ export class ThesisDialog {
     this.anew.hidden = running || kept === '';
   }
 
-  /** After each configuration. */
+  /** After each scenario and number of spheres. */
   saved(result: string): void {
     storage((store) => store.setItem(key, result));
   }

@@ -127,7 +127,7 @@ class FrameRateRun {
  public:
   FrameRateRun(FrameRatePlan plan, const FrameEngine& engine);
 
-  /// Before the first step: goes on behind the complete rates of an earlier run of the same plan. Rates that are not
+  /// Before the first step: goes on after the complete rates of an earlier run of the same plan. Rates that are not
   /// whole groups in the order of the plan, with all rounds, are left out, and measured again.
   void resume(const std::vector<MeasuredRate>& rates);
 
