@@ -66,7 +66,7 @@ Json run_from(const Json& document, const Values& values) {
     by_scenario.push_back(
         {{"scenario", scenario}, {"least", *least}, {"most", *most}, {"mean", spread_of(percents).mean}});
   }
-  return {{"device", document.at("device").get<std::string>()},
+  Json run = {{"device", document.at("device").get<std::string>()},
           {"engine", document.at("engine").get<std::string>()},
           {"picture", picture_of(document)},
           {"quick", document.at("quick").get<bool>()},
@@ -76,6 +76,11 @@ Json run_from(const Json& document, const Values& values) {
           {"best_fps", best_fps},
           {"gains", std::move(by_scenario)},
           {"drift", drifts.empty() ? 1 : median(drifts)}};
+  // What the page found of its steps; runs of earlier versions have none.
+  if (document.contains("costs"))
+    for (const char* const name : {"inner_per_test", "inner_per_test_error", "leaf_per_inner", "leaf_per_inner_error"})
+      run["costs"][name] = document["costs"].at(name).get<double>();
+  return run;
 }
 
 // Frames that a window or a page showed: a row for each engine, at rest and turning.

@@ -9,7 +9,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/write_file.h"
-#include "bihive/thesis/cost_diagram.h"
+#include "bihive/thesis/figure_costs.h"
 #include "bihive/thesis/frame_rates_report.h"
 #include "claims.h"
 #include "claims_at_costs.h"
@@ -26,9 +26,6 @@ constexpr const char *kBalanceStep = "balance", *kBruteForceStep = "brute_force"
 // more coarsely.
 constexpr int kQuickStride = 4, kOtherStride = 4, kQuickOtherStride = 8;
 constexpr std::uint64_t kSeeds = 60, kQuickSeeds = 5;
-// Axes of the diagram: an inner node in sphere tests, a leaf in inner nodes.
-constexpr double kLeastInner = 0.25, kMostInner = 16, kMostLeaf = 1;
-constexpr int kColumns = 120, kRows = 51;
 // Rows of the table: a leaf in inner nodes.
 constexpr double kLeafCosts[] = {0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 1};
 // Costs of an inner node at which the claims are tried, across the range in which the pattern holds.
@@ -47,19 +44,19 @@ std::string times_step(const TimedProgram& program, std::int64_t scenario, std::
 // What the results depend on, and to what it is changed to see how much.
 struct Variation {
   const char *key, *what, *usual, *other;
-  CountedPicture (*change)(CountedPicture);
+  FigurePicture (*change)(FigurePicture);
 };
 const std::vector<Variation>& variations() {
   static const std::vector<Variation> kAll{
       {"square", "The picture's format", "1136 x 640", "640 x 640",
-       [](CountedPicture picture) { return picture.width_px = picture.height_px, picture; }},
+       [](FigurePicture picture) { return picture.width_px = picture.height_px, picture; }},
       {"portrait", "The picture's format", "1136 x 640", "640 x 1136",
-       [](CountedPicture picture) { return std::swap(picture.width_px, picture.height_px), picture; }},
+       [](FigurePicture picture) { return std::swap(picture.width_px, picture.height_px), picture; }},
       {"near", "The angle along the shorter side", "30 degrees", "27.8 degrees",
-       [](CountedPicture picture) { return picture.fov_deg = 27.8, picture; }},
+       [](FigurePicture picture) { return picture.fov_deg = 27.8, picture; }},
       {"small", "The spheres' radius", "1", "0.5",
-       [](CountedPicture picture) { return picture.radius = 0.5, picture; }},
-      {"large", "The spheres' radius", "1", "2", [](CountedPicture picture) { return picture.radius = 2, picture; }}};
+       [](FigurePicture picture) { return picture.radius = 0.5, picture; }},
+      {"large", "The spheres' radius", "1", "2", [](FigurePicture picture) { return picture.radius = 2, picture; }}};
   return kAll;
 }
 
@@ -73,7 +70,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
                        std::vector<std::int64_t> limits = context.values.integers("max_prims_list");
                        for (const std::int64_t beyond : context.values.integers("max_prims_beyond"))
                          limits.push_back(beyond);
-                       CountedPicture picture = counted_picture(context);
+                       FigurePicture picture = counted_picture(context);
                        picture.stride = context.settings.quick ? kQuickStride : 1;
                        return count_work(context, scenario, picture, limits, /*one_leaf=*/true);
                      }});
@@ -81,7 +78,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
     steps.push_back(
         {seeds_step(scenario), settings.quick ? 0.3 : 20, [scenario](StepContext& context) {
            Json seeds = Json::array();
-           CountedPicture picture = counted_picture(context);
+           FigurePicture picture = counted_picture(context);
            picture.stride = context.settings.quick ? kQuickOtherStride : kOtherStride;
            for (picture.seed = 1; picture.seed <= (context.settings.quick ? kQuickSeeds : kSeeds); ++picture.seed) {
              seeds.push_back(count_work(context, scenario, picture, context.values.integers("max_prims_list"), false));
@@ -92,7 +89,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   for (const Variation& variation : variations())
     steps.push_back({variation.key, settings.quick ? 0.2 : 2, [variation](StepContext& context) {
                        Json rows = Json::array();
-                       CountedPicture picture = variation.change(counted_picture(context));
+                       FigurePicture picture = variation.change(counted_picture(context));
                        picture.stride = context.settings.quick ? kQuickOtherStride : kOtherStride;
                        for (const std::int64_t scenario : context.values.integers("scenarios"))
                          for (Json& row :
@@ -137,10 +134,7 @@ class FigureData {
         scenarios_(values_.integers("scenarios")),
         counts_(values_.integers("spheres_list")),
         max_prims_(values_.integers("max_prims_list")),
-        pattern_{values_.integer("winner.max_prims"),
-                 values_.integer("winner.wins"),
-                 {values_.integer("only_rises.scenario"), values_.integer("only_rises.spheres")},
-                 max_prims_.back()} {
+        pattern_(cli::value_or_fail(stated_pattern(values_.stated()))) {
     for (const std::int64_t scenario : scenarios_)
       if (const Json* const rows = context.result(counts_step(scenario))) {
         add_work(*rows, work_);
@@ -166,13 +160,6 @@ class FigureData {
   }
 
  private:
-  bool holds(const FigureWork& work, double inner, double leaf) const {
-    if (wins_of(work, pattern_.max_prims, max_prims_, inner, leaf) != pattern_.wins) return false;
-    const auto found = work.find(pattern_.exception);
-    return found != work.end() &&
-           fastest_range(found->second, pattern_.exception_max_prims, max_prims_, leaf).holds(inner);
-  }
-
   // One figure for each seed that was counted. A scenario without random numbers is the same with every seed.
   void collect_seeds() {
     for (const std::int64_t scenario : scenarios_) {
@@ -205,7 +192,7 @@ class FigureData {
           gpu = result->value("gpu", "");
           if (!gpu.empty()) fixed_ms = median(result->at("one_sphere_ms").get<std::vector<double>>());
         }
-      if (times.empty()) continue;
+      if (times.size() != work_.size()) continue;
       const bool on_all_threads = std::string(program.key) == "reference";
       const int threads = context_.settings.threads > 0 ? context_.settings.threads : hardware_threads();
       const double ns_per_ms = 1e6 / pixels * (on_all_threads ? threads : 1);
@@ -213,8 +200,7 @@ class FigureData {
       times_[program.key] = std::move(times);
       if (fitted.frames == 0) continue;
       // Software that takes the place of a graphics processor is none.
-      const bool software = gpu.find("llvmpipe") != std::string::npos || gpu.find("softpipe") != std::string::npos ||
-                            gpu.find("SwiftShader") != std::string::npos;
+      const bool software = is_software(gpu);
       const StepCosts costs = fitted.costs();
       Json row{{"key", program.key},
                {"name", program.name + std::string(software ? " in software, no graphics processor" : "")},
@@ -238,27 +224,7 @@ class FigureData {
   }
 
   void add_diagram() {
-    const std::string winner = tree_name(pattern_.max_prims);
-    CostDiagram diagram;
-    diagram.title = fmt::format("Configurations won by {}", winner);
-    diagram.wins_label = "won:";
-    diagram.pattern_label = fmt::format("{} wins {}, {} Scenario {} with {} spheres (seed {})", winner, pattern_.wins,
-                                        tree_name(pattern_.exception_max_prims), pattern_.exception.first,
-                                        pattern_.exception.second, context_.settings.seed);
-    diagram.share_label = fmt::format("the same with at least half of {} seeds", seeds_.size());
-    diagram.most_wins = static_cast<int>(work_.size());
-    for (int i = 0; i < kColumns; ++i)
-      diagram.inner.push_back(kLeastInner * std::pow(kMostInner / kLeastInner, i / (kColumns - 1.0)));
-    for (int i = 0; i < kRows; ++i) diagram.leaf.push_back(kMostLeaf * i / (kRows - 1));
-    for (const double leaf : diagram.leaf)
-      for (const double inner : diagram.inner) {
-        diagram.wins.push_back(static_cast<int>(wins_of(work_, pattern_.max_prims, max_prims_, inner, leaf)));
-        diagram.pattern.push_back(holds(work_, inner, leaf));
-        if (seeds_.empty()) continue;
-        const auto with = std::count_if(seeds_.begin(), seeds_.end(),
-                                        [&](const FigureWork& seed) { return holds(seed, inner, leaf); });
-        diagram.share.push_back(static_cast<double>(with) / static_cast<double>(seeds_.size()));
-      }
+    CostDiagram diagram = cost_diagram(work_, pattern_, max_prims_, seeds_);
     for (const auto& [key, name, fitted] : fits_)
       diagram.points.push_back({name.substr(0, name.find(',')), fitted.costs().inner, fitted.costs().leaf,
                                 fitted.inner_error, fitted.leaf_error});

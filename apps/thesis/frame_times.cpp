@@ -18,8 +18,8 @@ namespace {
 
 // Rounds that count; one before them warms up.
 constexpr int kRounds = 5, kQuickRounds = 3;
-// Pictures have a part of the width and height: the time of a ray does not depend on how many there are. The shader's
-// fixed part does, so its frames are whole in a full run.
+// Pictures have a part of the width and height: the time of a ray does not depend on how many there are. On a graphics
+// processor it does, so its frames are whole in a full run.
 constexpr int kDivisor = 2, kQuickDivisor = 4, kQuickReferenceDivisor = 6;
 
 struct Size {
@@ -116,7 +116,9 @@ Json measure_shader(const StepContext& context, std::int64_t scenario, std::int6
   if (!egl) return {{"missing", egl.error().message}};
   Result<GlRenderer> renderer = GlRenderer::create(egl->functions());
   if (!renderer) return {{"missing", renderer.error().message}};
-  const Size size = size_of(context, context.settings.quick ? kQuickDivisor : 1);
+  const Size size = size_of(context, context.settings.quick                 ? kQuickDivisor
+                                     : is_software(renderer->description()) ? kDivisor
+                                                                            : 1);
   Json result = measure_contest(context, scenario, spheres, size, &*renderer);
   if (result.is_null()) return {};
   // What a frame costs whatever is in it: one sphere, and no tree.
@@ -134,6 +136,11 @@ const std::vector<TimedProgram>& timed_programs() {
                                                    {"reference", "reference engine", measure_reference, 120},
                                                    {"shader", "shader", measure_shader, 60}};
   return kPrograms;
+}
+
+bool is_software(const std::string& gpu) {
+  return gpu.find("llvmpipe") != std::string::npos || gpu.find("softpipe") != std::string::npos ||
+         gpu.find("SwiftShader") != std::string::npos;
 }
 
 Json measure_brute_force(const StepContext& context) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "bihive/bih/reference_builder.h"
-#include "ray_counts.h"
+#include "bihive/thesis/figure_costs.h"
 
 namespace bihive::thesis {
 
-CountedPicture counted_picture(const StepContext& context) {
-  CountedPicture picture;
+FigurePicture counted_picture(const StepContext& context) {
+  FigurePicture picture;
   picture.seed = context.settings.seed;
   picture.radius = context.values.number("radius");
   const auto side = [&](const char* name) {
@@ -19,7 +19,7 @@ CountedPicture counted_picture(const StepContext& context) {
   return picture;
 }
 
-Json count_work(const StepContext& context, std::int64_t scenario, const CountedPicture& picture,
+Json count_work(const StepContext& context, std::int64_t scenario, const FigurePicture& picture,
                 const std::vector<std::int64_t>& max_prims, bool one_leaf) {
   Json rows = Json::array();
   for (const std::int64_t spheres : context.values.integers("spheres_list")) {
@@ -32,15 +32,16 @@ Json count_work(const StepContext& context, std::int64_t scenario, const Counted
     if (one_leaf) limits.push_back(spheres);
     for (const std::int64_t limit : limits) {
       const Tree tree = build_reference_tree(scene.spheres, {limit, kUnlimited});
-      const RayCounts counts = count_rays(context, scene, tree, {picture.width_px, picture.height_px}, picture.stride);
-      if (counts.rays.empty()) return {};
-      const RayCounts::Mean mean = counts.mean();
+      const std::optional<RayWork> work =
+          counted_work(scene, tree, {picture.width_px, picture.height_px, picture.stride}, context.settings.threads,
+                       &context.cancel);
+      if (!work) return {};
       rows.push_back({{"scenario", scenario},
                       {"spheres", spheres},
                       {"max_prims", limit},
-                      {"inner", mean.nodes},
-                      {"leaves", mean.leaves},
-                      {"tests", mean.tests}});
+                      {"inner", work->inner},
+                      {"leaves", work->leaves},
+                      {"tests", work->tests}});
     }
   }
   return rows;

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/base/parallel.h"
+#include "bihive/bih/observer.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
+#include "bihive/bih/traversal.h"
 #include "bihive/image/image_diff.h"
 #include "pictures.h"
-#include "ray_counts.h"
 
 namespace bihive::thesis {
 namespace {
@@ -53,20 +55,32 @@ double smallest_step(const Image& image, std::size_t channel) {
   return smallest / 255.0;
 }
 
-RayCounts count_traversal(const StepContext& context, const Scene& scene, const Tracer& tracer) {
-  return count_rays(context, scene, *tracer.tree(), picture_size(context.settings, context.values, kQuickDivisor));
+// What the primary ray of each pixel does, row by row. Empty if cancelled.
+std::vector<CountingObserver> count_traversal(const StepContext& context, const Scene& scene, const Tracer& tracer) {
+  const cli::PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
+  const PixelRays pixels(scene.camera, size.width_px, size.height_px);
+  std::vector<CountingObserver> rays(static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
+  parallel_for(context.settings.threads, size.height_px, [&](std::int64_t y) {
+    if (context.cancel.cancelled()) return;
+    for (int x = 0; x < size.width_px; ++x)
+      traverse<false>(*tracer.tree(), scene.spheres,
+                      ScaledRay(pixels.at(x + 0.5, static_cast<double>(y) + 0.5), scene.spheres),
+                      rays[static_cast<std::size_t>(y * size.width_px + x)]);
+  });
+  if (context.cancel.cancelled()) rays.clear();
+  return rays;
 }
 
 // Green for gaps, as `bihive render --view traversal` draws it. Blue for inner nodes and leaves, each by its own step
 // in values.json and at most 1: there that view has one step for both. Nothing if cancelled.
 std::optional<Image> traversal_picture(const StepContext& context, const Scene& scene, const Tracer& tracer,
-                                       const RayCounts& counts) {
+                                       const std::vector<CountingObserver>& counts) {
   const cli::PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
   std::optional<Image> image = draw(context, scene, tracer, picture_settings(context, scene, size, View::traversal));
-  if (!image || counts.rays.empty()) return std::nullopt;
+  if (!image || counts.empty()) return std::nullopt;
   const double of_inner = context.values.number("visit.inner.blue"), of_leaf = context.values.number("visit.leaf.blue");
-  for (std::size_t i = 0; i < counts.rays.size(); ++i) {
-    const CountingObserver& ray = counts.rays[i];
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const CountingObserver& ray = counts[i];
     const double blue =
         of_inner * static_cast<double>(ray.node_visits) + of_leaf * static_cast<double>(ray.leaf_visits);
     image->rgb[3 * i + 2] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(blue, 0.0, 1.0)));
@@ -75,35 +89,32 @@ std::optional<Image> traversal_picture(const StepContext& context, const Scene& 
 }
 
 // What can be seen in the picture, as shares of its pixels.
-Json seen_in(const Image& image, const RayCounts& counts) {
-  std::int64_t green = 0, blue = 0, bright = 0, saturated = 0, most_gaps = 0, most_visits = 0;
-  for (std::size_t i = 0; i < counts.rays.size(); ++i) {
-    const CountingObserver& ray = counts.rays[i];
+Json seen_in(const Image& image, const std::vector<CountingObserver>& counts) {
+  std::int64_t green = 0, blue = 0, bright = 0, saturated = 0, gaps = 0, visits = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const CountingObserver& ray = counts[i];
     const int g = image.rgb[3 * i + 1], b = image.rgb[3 * i + 2];
     green += g > b;
     blue += b > 0 && b >= g;
     bright += ray.empty_gaps >= 2;
     saturated += g == 255 || b == 255;
-    most_gaps = std::max(most_gaps, ray.empty_gaps);
-    most_visits = std::max(most_visits, ray.node_visits + ray.leaf_visits);
+    gaps += ray.empty_gaps;
+    visits += ray.node_visits + ray.leaf_visits;
   }
-  const double all = static_cast<double>(counts.rays.size());
-  const RayCounts::Mean mean = counts.mean();
+  const double all = static_cast<double>(counts.size());
   return {{"green_percent", 100 * static_cast<double>(green) / all},
           {"blue_percent", 100 * static_cast<double>(blue) / all},
           {"several_gaps_percent", 100 * static_cast<double>(bright) / all},
           {"saturated_percent", 100 * static_cast<double>(saturated) / all},
-          {"gaps_per_ray", mean.gaps},
-          {"nodes_per_ray", mean.nodes + mean.leaves},
-          {"most_gaps", most_gaps},
-          {"most_nodes", most_visits}};
+          {"gaps_per_ray", static_cast<double>(gaps) / all},
+          {"nodes_per_ray", static_cast<double>(visits) / all}};
 }
 
 Json draw_tree(const StepContext& context, const std::string& letter) {
   const Scene scene = scene_of(context);
   const Tracer tracer =
       cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, letter)));
-  const RayCounts counts = count_traversal(context, scene, tracer);
+  const std::vector<CountingObserver> counts = count_traversal(context, scene, tracer);
   const std::optional<Image> traversal = traversal_picture(context, scene, tracer, counts);
   const cli::PictureSize size = picture_size(context.settings, context.values, kQuickTreeDivisor);
   const std::optional<Image> tree = draw(context, scene, tracer, picture_settings(context, scene, size, View::tree));
@@ -143,7 +154,8 @@ Json compare(const StepContext& context, const std::string& first, const std::st
       cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, first)));
   const Tracer other =
       cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, second)));
-  const RayCounts of_one = count_traversal(context, scene, one), of_other = count_traversal(context, scene, other);
+  const std::vector<CountingObserver> of_one = count_traversal(context, scene, one),
+                                      of_other = count_traversal(context, scene, other);
   const std::optional<Image> one_image = traversal_picture(context, scene, one, of_one);
   const std::optional<Image> other_image = traversal_picture(context, scene, other, of_other);
   if (!one_image || !other_image) return {};

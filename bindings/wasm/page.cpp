@@ -402,9 +402,16 @@ std::string Page::thesis_so_far(const std::string& device) const {
     if (!thesis_) return failure({"no run of the thesis has begun", "", 0, 0, ""});
     const Result<StatedValues> values = stated_values();
     if (!values) return failure(values.error());
+    std::optional<MeasuredCosts> costs;
+    if (thesis_->finished()) {
+      Result<MeasuredCosts> measured = measured_costs(*thesis_, *values, thesis_gl_ ? 1 : hardware_threads());
+      if (!measured) return failure(measured.error());
+      costs = std::move(*measured);
+    }
+    const MeasuredCosts* const known = costs ? &*costs : nullptr;
     ordered_json json;
-    json["result"] = frame_rates_json(*thesis_, *values, thesis_engine(), device_from(device));
-    json["charts"] = frame_rates_charts(*thesis_, *values, "this device");
+    json["result"] = frame_rates_json(*thesis_, *values, thesis_engine(), device_from(device), known);
+    json["charts"] = frame_rates_charts(*thesis_, *values, "this device", known);
     return text_of(json);
   });
 }

@@ -100,7 +100,8 @@ class Page {
   std::string begin_thesis(bool quick, const std::string& saved);
   /// {"finished", "done", "seconds_left", "configurations_done", "configurations", "scenario", "spheres"}.
   std::string step_thesis();
-  /// The results so far: {"result": JSON text, "charts": [SVG text]}. `device`: a JSON object with "device", words, and
+  /// The results so far: {"result": JSON text, "charts": [SVG text]}; of a complete run also what the steps of a ray
+  /// cost here, which takes a second or two. `device`: a JSON object with "device", words, and
   /// other texts by name.
   std::string thesis_so_far(const std::string& device) const;
   void end_thesis();

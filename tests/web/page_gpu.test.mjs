@@ -280,7 +280,10 @@ for (const engine of ['cpu', 'gpu'])
     if (engine === 'cpu') assert.match(await text(), /pictures of 284 × 160/);
     assert.equal(await page.textContent('#thesis_run'), 'Run');
     assert.equal(await page.evaluate(() => localStorage.getItem('bihive-thesis')), null);
-    assert.equal(await page.locator('#thesis_charts svg').count(), 4);
+    // The diagram of costs, with this device as a point; the gains; and three charts of rates.
+    assert.equal(await page.locator('#thesis_charts svg').count(), 5);
+    assert.equal(await page.locator('#thesis_charts .bihive-costs .point').count(), 1);
+    assert.match(await text(), /an inner node costs \d+\.\d\d sphere tests and a leaf \d+\.\d\d inner nodes: BIH 8 wins \d of 9/);
     assert.match(await page.textContent('#thesis_charts'), /iPhone 5s, stated/);
     const [json] = await Promise.all([page.waitForEvent('download'), page.click('#thesis_json')]);
     const result = JSON.parse(readFileSync(await json.path(), 'utf8'));
@@ -293,6 +296,7 @@ for (const engine of ['cpu', 'gpu'])
     assert.match(result.screen, /^\d+ x \d+, [\d.]+ pixels each$/);
     assert.ok(result.device.includes(result.gpu) && result.device.includes(result.browser));
     assert.ok(result.drift > 0);
+    assert.ok(result.costs.test_ns > 0 && result.costs.wins >= 0 && result.costs.configurations === 9);
     assert.ok(result.configurations.every(({ fps }) => fps > 0));
     assert.equal(result.stated['brute.fps.spheres256'].value, 1.87);
     const [png] = await Promise.all([page.waitForEvent('download'), page.click('#thesis_png')]);

@@ -7,7 +7,7 @@ export function chart_element(text: string): SVGSVGElement {
   return document.importNode(parsed, true) as unknown as SVGSVGElement;
 }
 
-const copied = ['fill', 'stroke', 'stroke-width', 'stroke-linejoin', 'font-family', 'font-size', 'font-weight', 'color'];
+const copied = ['fill', 'stroke', 'stroke-width', 'stroke-linejoin', 'font-family', 'font-size', 'font-weight', 'color', 'paint-order'];
 
 // A copy that needs no style sheet and looks the same.
 function with_looks(chart: SVGSVGElement): SVGSVGElement {

@@ -56,6 +56,25 @@ interface PictureSize {
 // A quick run's frame rates are those of small pictures; a note beside them says so.
 const pixels = ({ width_px, height_px }: PictureSize) => `pictures of ${width_px} × ${height_px}`;
 
+interface Costs {
+  inner_per_test: number;
+  leaf_per_inner: number;
+  winner: string;
+  wins: number;
+  configurations: number;
+}
+
+// What the steps of a ray cost on this device, and who wins at these costs; '' where nothing was found.
+function verdict(result: string): string {
+  const { costs } = JSON.parse(result) as { costs?: Costs };
+  if (!costs) return '';
+  const [inner, leaf] = [costs.inner_per_test.toFixed(2), costs.leaf_per_inner.toFixed(2)];
+  return (
+    `Here an inner node costs ${inner} sphere tests and a leaf ${leaf} inner nodes: ` +
+    `${costs.winner} wins ${costs.wins} of ${costs.configurations}, where the thesis says 7 of 9.`
+  );
+}
+
 export class ThesisDialog {
   private readonly dialog = element<HTMLDialogElement>('thesis');
   private readonly quick = element<HTMLInputElement>('thesis_quick');
@@ -180,7 +199,7 @@ export class ThesisDialog {
     this.json.hidden = this.png.hidden = this.charts.length === 0;
     this.bar.value = cancelled ? this.bar.value : 1;
     this.text.textContent = !cancelled
-      ? `All configurations are measured, ${pixels(JSON.parse(result) as PictureSize)}.`
+      ? `All configurations are measured, ${pixels(JSON.parse(result) as PictureSize)}. ${verdict(result)}`
       : this.charts.length > 0
         ? 'Cancelled; what was complete is below.'
         : 'Cancelled before a configuration was complete.';
@@ -202,7 +221,8 @@ export class ThesisDialog {
       };
       const heading = `bihive: Figure 4.4 by the ${engine.toUpperCase()} engine, ${pixels(size)}`;
       const drifted = `Last round over first: ${drift < 1 ? '−' : '+'}${Math.abs(100 * (drift - 1)).toFixed(1)} % time`;
-      const about = [device, ...(rounds > 1 ? [drifted] : []), ...rate_lines(configurations)];
+      const found = verdict(this.result);
+      const about = [device, ...(found === '' ? [] : [found]), ...(rounds > 1 ? [drifted] : []), ...rate_lines(configurations)];
       save(await charts_as_png(this.charts, heading, about, png_width), `${this.file}.png`);
     } catch (error) {
       fail((error as Error).message);

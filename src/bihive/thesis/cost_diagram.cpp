@@ -19,7 +19,8 @@ constexpr double kMarker = 4.2;
 
 constexpr const char* kStyle =
     "<style>.bihive-costs{--paper:#fff;color:#1b1b1b;background:var(--paper);font:12px system-ui,sans-serif}"
-    ".bihive-costs text{fill:currentColor}.bihive-costs .strong{font-weight:600;font-size:13px}"
+    ".bihive-costs text{fill:currentColor}.bihive-costs .on-deep{fill:#fff}.bihive-costs .on-pale{fill:#1b1b1b}"
+    ".bihive-costs .strong{font-weight:600;font-size:13px}"
     ".bihive-costs .axis{stroke:currentColor;fill:none}"
     ".bihive-costs .pattern{stroke:#d55e00;stroke-width:2.4;fill:none}"
     ".bihive-costs .share{stroke:#d55e00;stroke-width:1.6;fill:none;stroke-dasharray:4 3}"
@@ -167,8 +168,8 @@ class Diagram {
     for (int wins = 0; wins <= data_.most_wins; ++wins, x += 18) {
       body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"18\" height=\"14\" fill=\"{}\"/>", x, y - 11,
                            colour_of(wins, data_.most_wins));
-      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" style=\"fill:{}\">{}</text>", x + 9,
-                           y, 2 * wins > data_.most_wins ? "#fff" : "#1b1b1b", wins);
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" class=\"{}\">{}</text>", x + 9,
+                           y, 2 * wins > data_.most_wins ? "on-deep" : "on-pale", wins);
     }
     const auto entry = [&](const char* style, const std::string& words) {
       if (words.empty()) return;

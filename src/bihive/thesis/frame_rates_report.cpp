@@ -8,6 +8,7 @@
 
 #include "bihive/base/json_text.h"
 #include "bihive/math/quartiles.h"
+#include "bihive/thesis/figure_costs.h"
 
 namespace bihive {
 namespace {
@@ -122,8 +123,27 @@ double drift_of(const std::vector<MeasuredRate>& rates) {
   return drifts.empty() ? 1 : median(drifts);
 }
 
+Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues& values, int threads) {
+  // Every so many rows and columns say enough of means.
+  constexpr int kStride = 4;
+  const FrameRatePlan& plan = run.plan();
+  const Result<FrameRatePlan> whole = FrameRatePlan::from_values(values);
+  if (!whole) return whole.error();
+  const Result<WinPattern> pattern = stated_pattern(values);
+  if (!pattern) return pattern.error();
+  Result<FigureWork> work = counted_figure(plan, {whole->width_px, whole->height_px, kStride});
+  if (!work) return work.error();
+  MeasuredCosts costs{std::move(*work), *pattern, {}, 0};
+  const double pixels = static_cast<double>(plan.width_px) * plan.height_px;
+  costs.fitted = fit_costs(costs.work, times_of_rates(run.rates()), plan.max_prims, 1e6 / pixels * threads);
+  if (costs.fitted.frames == 0) return costs;
+  const StepCosts steps = costs.fitted.costs();
+  costs.wins = wins_of(costs.work, pattern->max_prims, plan.max_prims, steps.inner, steps.leaf);
+  return costs;
+}
+
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
-                             const MeasuringDevice& device) {
+                             const MeasuringDevice& device, const MeasuredCosts* costs) {
   const FrameRatePlan& plan = run.plan();
   ordered_json json;
   json["experiment"] = "figure-4.4";
@@ -149,6 +169,21 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
                              {"spheres", each.spheres},
                              {"max_prims", plan.max_prims[each.best()]},
                              {"percent", each.gain_percent()}});
+  if (costs != nullptr && costs->fitted.frames > 0) {
+    const FittedCosts& fitted = costs->fitted;
+    json["costs"] = {{"fixed_ns", fitted.fixed_ns},
+                     {"inner_ns", fitted.inner_ns},
+                     {"leaf_ns", fitted.leaf_ns},
+                     {"test_ns", fitted.test_ns},
+                     {"inner_per_test", fitted.costs().inner},
+                     {"inner_per_test_error", fitted.inner_error},
+                     {"leaf_per_inner", fitted.costs().leaf},
+                     {"leaf_per_inner_error", fitted.leaf_error},
+                     {"rms", fitted.rms},
+                     {"winner", tree_name(costs->pattern.max_prims)},
+                     {"wins", costs->wins},
+                     {"configurations", costs->work.size()}};
+  }
   json["stated"] = ordered_json::object();
   const ordered_json stated = *json_from_text<ordered_json>(values.text());
   for (const auto& [name, entry] : stated["values"].items())
@@ -184,8 +219,14 @@ std::optional<SavedFrameRates> saved_frame_rates(const std::string& json) {
 }
 
 std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const StatedValues& values,
-                                            const std::string& here) {
+                                            const std::string& here, const MeasuredCosts* costs) {
   std::vector<std::string> charts;
+  if (costs != nullptr && costs->fitted.frames > 0) {
+    CostDiagram diagram = cost_diagram(costs->work, costs->pattern, run.plan().max_prims, {});
+    const FittedCosts& fitted = costs->fitted;
+    diagram.points = {{here, fitted.costs().inner, fitted.costs().leaf, fitted.inner_error, fitted.leaf_error}};
+    charts.push_back(cost_diagram_svg(diagram));
+  }
   const auto add = [&charts](std::string chart) {
     if (!chart.empty()) charts.push_back(std::move(chart));
   };

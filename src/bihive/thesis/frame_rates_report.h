@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bihive/image/svg_chart.h"
+#include "bihive/thesis/cost_model.h"
 #include "bihive/thesis/frame_rates.h"
 #include "bihive/thesis/stated_values.h"
 
@@ -32,11 +33,24 @@ struct MeasuringDevice {
 /// device that grows hot and slow has more than 1.
 double drift_of(const std::vector<MeasuredRate>& rates);
 
+/// What the steps of a ray cost here, by the frames of a complete run, and what the text says of its own.
+struct MeasuredCosts {
+  FigureWork work;       ///< of the plan's trees
+  WinPattern pattern;    ///< the text's
+  FittedCosts fitted;    ///< `frames` is 0 where nothing fits
+  std::int64_t wins = 0; ///< configurations that the text's winner wins at these costs
+};
+/// Counts the work of a complete run's trees; takes about a second. `threads`: that draw; the graphics processor
+/// counts as one. Error: a value is missing.
+Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues& values, int threads);
+
 /// {"experiment", "engine", "device", (its facts), "width_px", "height_px", "quick", "rounds", "complete", "drift",
 /// "configurations": [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains":
-/// [{"scenario", "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}.
+/// [{"scenario", "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}; with
+/// `costs` also "costs": {"fixed_ns", "inner_ns", "leaf_ns", "test_ns", "inner_per_test", "leaf_per_inner", and both with
+/// "_error" (standard errors), "rms", "winner", "wins", "configurations"}.
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
-                             const MeasuringDevice& device);
+                             const MeasuringDevice& device, const MeasuredCosts* costs = nullptr);
 
 /// What FrameRateRun::resume() needs of such a text.
 struct SavedFrameRates {
@@ -49,8 +63,9 @@ struct SavedFrameRates {
 std::optional<SavedFrameRates> saved_frame_rates(const std::string& json);
 
 /// SVG texts: the gains over brute force beside the stated ones, then the frame rates of each scenario beside the few
-/// that the thesis states. `here` names this device in the legend.
+/// that the thesis states. `here` names this device in the legend. With `costs` the diagram of who wins at which costs
+/// comes first, with this device as a point.
 std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const StatedValues& values,
-                                            const std::string& here);
+                                            const std::string& here, const MeasuredCosts* costs = nullptr);
 
 }  // namespace bihive

@@ -1,0 +1,122 @@
+#include "bihive/thesis/figure_costs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bihive/base/parallel.h"
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/traversal.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/generators.h"
+#include "bihive/thesis/frame_rates_report.h"
+
+namespace bihive {
+namespace {
+
+// Axes of the diagram: an inner node in sphere tests, a leaf in inner nodes.
+constexpr double kLeastInner = 0.25, kMostInner = 16, kMostLeaf = 1;
+constexpr int kColumns = 120, kRows = 51;
+
+}  // namespace
+
+std::optional<RayWork> counted_work(const Scene& scene, const Tree& tree, const CountedPicture& picture, int threads,
+                                    const CancelToken* cancel) {
+  const PixelRays pixels(scene.camera, picture.width_px, picture.height_px);
+  const auto [width, height, stride] = picture;
+  const std::int64_t rows = (height + stride - 1) / stride, columns = (width + stride - 1) / stride;
+  std::vector<CountingObserver> of_rows(static_cast<std::size_t>(rows));
+  parallel_for(threads, rows, [&, stride = stride](std::int64_t row) {
+    if (cancel != nullptr && cancel->cancelled()) return;
+    for (std::int64_t column = 0; column < columns; ++column) {
+      const Ray ray = pixels.at(static_cast<double>(column * stride) + 0.5, static_cast<double>(row * stride) + 0.5);
+      traverse<false>(tree, scene.spheres, ScaledRay(ray, scene.spheres), of_rows[static_cast<std::size_t>(row)]);
+    }
+  });
+  if (cancel != nullptr && cancel->cancelled()) return std::nullopt;
+  RayWork sum;
+  for (const CountingObserver& row : of_rows) {
+    sum.inner += static_cast<double>(row.node_visits);
+    sum.leaves += static_cast<double>(row.leaf_visits);
+    sum.tests += static_cast<double>(row.sphere_tests);
+  }
+  const double rays = static_cast<double>(rows * columns);
+  return RayWork{sum.inner / rays, sum.leaves / rays, sum.tests / rays};
+}
+
+Result<FigureWork> counted_figure(const FrameRatePlan& plan, const CountedPicture& picture) {
+  FigureWork work;
+  for (const std::int64_t scenario : plan.scenarios)
+    for (const std::int64_t spheres : plan.spheres) {
+      const ScenarioParameters parameters{spheres, static_cast<float>(plan.radius), plan.seed};
+      const Result<Scene> scene = scenario_scene(static_cast<Scenario>(scenario), parameters);
+      if (!scene) return scene.error();
+      for (const std::int64_t max_prims : plan.max_prims)
+        work[{scenario, spheres}][max_prims] = *counted_work(
+            *scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), picture, plan.threads);
+    }
+  return work;
+}
+
+Result<WinPattern> stated_pattern(const StatedValues& values) {
+  WinPattern pattern;
+  for (const auto& [name, number] : {std::pair{"winner.max_prims", &pattern.max_prims},
+                                     {"winner.wins", &pattern.wins},
+                                     {"only_rises.scenario", &pattern.exception.first},
+                                     {"only_rises.spheres", &pattern.exception.second}}) {
+    const Result<std::int64_t> value = values.integer(name);
+    if (!value) return value.error();
+    *number = *value;
+  }
+  const Result<std::vector<std::int64_t>> max_prims = values.integers("max_prims_list");
+  if (!max_prims) return max_prims.error();
+  pattern.exception_max_prims = max_prims->back();
+  return pattern;
+}
+
+bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
+                   double inner, double leaf) {
+  if (wins_of(work, pattern.max_prims, max_prims, inner, leaf) != pattern.wins) return false;
+  const auto found = work.find(pattern.exception);
+  return found != work.end() &&
+         fastest_range(found->second, pattern.exception_max_prims, max_prims, leaf).holds(inner);
+}
+
+CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
+                         const std::vector<FigureWork>& seeds) {
+  const std::string winner = tree_name(pattern.max_prims);
+  CostDiagram diagram;
+  diagram.title = fmt::format("Configurations won by {}", winner);
+  diagram.wins_label = "won:";
+  diagram.pattern_label =
+      fmt::format("the text's pattern: {} wins {}, {} Scenario {} with {} spheres", winner, pattern.wins,
+                  tree_name(pattern.exception_max_prims), pattern.exception.first, pattern.exception.second);
+  diagram.share_label = fmt::format("the same with at least half of {} seeds", seeds.size());
+  diagram.most_wins = static_cast<int>(work.size());
+  for (int i = 0; i < kColumns; ++i)
+    diagram.inner.push_back(kLeastInner * std::pow(kMostInner / kLeastInner, i / (kColumns - 1.0)));
+  for (int i = 0; i < kRows; ++i) diagram.leaf.push_back(kMostLeaf * i / (kRows - 1));
+  for (const double leaf : diagram.leaf)
+    for (const double inner : diagram.inner) {
+      diagram.wins.push_back(static_cast<int>(wins_of(work, pattern.max_prims, max_prims, inner, leaf)));
+      diagram.pattern.push_back(pattern_holds(work, pattern, max_prims, inner, leaf));
+      if (seeds.empty()) continue;
+      const auto with = std::count_if(seeds.begin(), seeds.end(), [&, inner = inner, leaf = leaf](const auto& seed) {
+        return pattern_holds(seed, pattern, max_prims, inner, leaf);
+      });
+      diagram.share.push_back(static_cast<double>(with) / static_cast<double>(seeds.size()));
+    }
+  return diagram;
+}
+
+EngineTimes times_of_rates(const std::vector<MeasuredRate>& rates) {
+  EngineTimes times;
+  for (const MeasuredRate& rate : rates) {
+    ConfigurationTimes& one = times[{rate.scenario, rate.spheres}];
+    (rate.max_prims ? one.trees[*rate.max_prims] : one.brute) = rate.frame_ms;
+  }
+  return times;
+}
+
+}  // namespace bihive
