@@ -318,7 +318,9 @@ class Encoded(FilmTest):
 
     def test_an_ffmpeg_that_fails(self):
         for script, words in (("cat >/dev/null; echo 'no codec' >&2; exit 4", "failed with exit code 4, and said: no codec"),
-                              ("echo bad >&2; exit 1", "bad"), ("cat >/dev/null; kill -9 $$", "ended by signal 9"),
+                              ("echo bad >&2; exit 1", "bad"),
+                              ("cat >/dev/null; kill -9 $$", "ended by signal 9, as the system does where there is too little memory"),
+                              ("exec <&-; sleep 0.2; kill -11 $$", "ended by signal 11"),
                               ("cat >/dev/null", "wrote no film")):
             environment = self.fake_ffmpeg(script)
             done = self.run_bihive("film", "run.xyz", "-o", "run.mp4", *SMALL, env=environment)

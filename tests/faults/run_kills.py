@@ -118,6 +118,9 @@ class Case:
 
     def is_same(self, path, data):
         expected = self.clean.get(path)
+        # The first line of an index stands for the film's description, which tells the time of the input.
+        if path.endswith("film.index") and data and expected:
+            data, expected = data.split(b"\n", 1)[1:], expected.split(b"\n", 1)[1:]
         return data == expected or (any(mark in path for mark in NAMES_ALONE) and data is not None and expected is not None)
 
     def judge(self, kind, at, replaces):

@@ -84,6 +84,14 @@ void pause_ms(int ms) {
   nanosleep(&time, nullptr);
 }
 
+// `status` is that of waitpid().
+std::string how_it_ended(int status) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "ended too early";
+  if (WIFEXITED(status)) return "failed with exit code " + std::to_string(WEXITSTATUS(status));
+  const std::string ended = "was ended by signal " + std::to_string(WTERMSIG(status));
+  return WTERMSIG(status) == SIGKILL ? ended + ", as the system does where there is too little memory" : ended;
+}
+
 }  // namespace
 
 std::string find_ffmpeg() {
@@ -211,8 +219,7 @@ void FfmpegRun::write(const std::uint8_t* bytes, std::size_t size) {
   while (size > 0) {
     const ssize_t written = ::write(pipe_.get(), bytes, size);
     if (written < 0 && errno != EINTR && errno != EAGAIN) {
-      wait_for_end();
-      fail_with_log("ended too early");
+      fail_with_log(how_it_ended(wait_for_end()));
     }
     if (is_given_up(written > 0)) {
       kill_all();
@@ -231,8 +238,7 @@ void FfmpegRun::write(const std::uint8_t* bytes, std::size_t size) {
 void FfmpegRun::finish() {
   const int status = wait_for_end();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  fail_with_log(WIFEXITED(status) ? "failed with exit code " + std::to_string(WEXITSTATUS(status))
-                                  : "was ended by signal " + std::to_string(WTERMSIG(status)));
+  fail_with_log(how_it_ended(status));
 }
 
 std::string FfmpegRun::output() const {
