@@ -133,7 +133,7 @@ class Films(ProgramTest):
         last = 'for word in "$@"; do last=$word; done\n'
         for script, words in (("exit 0\n", "ffmpeg"), ("cat > /dev/null\n", "wrote no film"),
                               (last + 'cat > /dev/null; echo rubbish > "${last#file:}"\n', "a file that is not a film"),
-                              ('case "$*" in *pipe:0*) head -c 2304 | "$real" "$@";; *) exec "$real" "$@";; esac\n',
+                              ('case "$*" in *pipe:0*) { head -c 2304; cat >/dev/null; } | "$real" "$@";; *) exec "$real" "$@";; esac\n',
                                "given 3 pictures, and wrote 1 pictures")):
             self.fake_ffmpeg(f"cd {self.path('bin')}\n" + script)
             with self.assertRaisesRegex(bh.MissingError, words):
