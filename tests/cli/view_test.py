@@ -47,13 +47,15 @@ class NoWindow(ProgramTest):
         self.assertIn("no window can be opened here", self.fail_with(3, "view", "demo", env=environment))
 
     def test_without_the_program(self):
-        """A copy of bihive alone in a folder, with no other place to look for bihive-view."""
-        with tempfile.TemporaryDirectory() as folder:
-            alone = shutil.copy(BIHIVE, folder)
-            done = subprocess.run([alone, "view", "demo"], env={"PATH": folder}, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 3)
-        self.assert_one_error_line(done.stderr)
-        self.assertIn("bihive-view, is not installed", done.stderr)
+        """A copy of bihive alone in a folder, with no other place to look for bihive-view and bihive-thesis."""
+        for words, program in [(("view", "demo"), "bihive-view"), (("thesis", "--out", "out"), "bihive-thesis")]:
+            with tempfile.TemporaryDirectory() as folder:
+                alone = shutil.copy(BIHIVE, folder)
+                done = subprocess.run([alone, *words], env={"PATH": folder}, cwd=folder, capture_output=True, text=True)
+                self.assertEqual(os.listdir(folder), ["bihive"])
+            self.assertEqual(done.returncode, 3)
+            self.assert_one_error_line(done.stderr)
+            self.assertIn(f"the program {program} is not installed", done.stderr)
 
     def test_usage(self):
         self.assertIn("INPUT", self.fail_usage("view"))

@@ -46,7 +46,7 @@ def test_window():
     if (PREFIX / "bin/bihive-view").exists():
         assert "no window can be opened here" in text, text
     else:
-        assert "bihive-view, is not installed" in text, text
+        assert "the program bihive-view is not installed" in text, text
 
 
 def test_page():
