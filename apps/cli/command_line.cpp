@@ -574,7 +574,14 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
                   "all (if none is named), figure-4.1, figure-4.2, figure-4.3, table-4.2, figure-4.4,\n"
                   "figure-4.5, section-d")
       ->type_name("")
-      ->check(CLI::IsMember(thesis_experiments()));
+      ->check([](const std::string& name) {
+        std::string all;
+        for (const std::string& each : thesis_experiments()) {
+          if (name == each) return std::string();
+          all += (all.empty() ? "" : ", ") + each;
+        }
+        return "there is no experiment \"" + name + "\"; there are " + all;
+      });
   command
       .add_option("--out", options.out,
                   "Folder of report.html, results.json, pictures and charts; a run that was\n"
