@@ -67,15 +67,15 @@ Json run_from(const Json& document, const Values& values) {
         {{"scenario", scenario}, {"least", *least}, {"most", *most}, {"mean", spread_of(percents).mean}});
   }
   Json run = {{"device", document.at("device").get<std::string>()},
-          {"engine", document.at("engine").get<std::string>()},
-          {"picture", picture_of(document)},
-          {"quick", document.at("quick").get<bool>()},
-          {"complete", document.at("complete").get<bool>()},
-          {"configurations", configurations},
-          {"wins", wins},
-          {"best_fps", best_fps},
-          {"gains", std::move(by_scenario)},
-          {"drift", drifts.empty() ? 1 : median(drifts)}};
+              {"engine", document.at("engine").get<std::string>()},
+              {"picture", picture_of(document)},
+              {"quick", document.at("quick").get<bool>()},
+              {"complete", document.at("complete").get<bool>()},
+              {"configurations", configurations},
+              {"wins", wins},
+              {"best_fps", best_fps},
+              {"gains", std::move(by_scenario)},
+              {"drift", drifts.empty() ? 1 : median(drifts)}};
   // What the page found of its steps; runs of earlier versions have none.
   if (document.contains("costs"))
     for (const char* const name : {"inner_per_test", "inner_per_test_error", "leaf_per_inner", "leaf_per_inner_error"})

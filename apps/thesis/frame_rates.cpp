@@ -54,8 +54,7 @@ const std::vector<Variation>& variations() {
        [](FigurePicture picture) { return std::swap(picture.width_px, picture.height_px), picture; }},
       {"near", "The angle along the shorter side", "30 degrees", "27.8 degrees",
        [](FigurePicture picture) { return picture.fov_deg = 27.8, picture; }},
-      {"small", "The spheres' radius", "1", "0.5",
-       [](FigurePicture picture) { return picture.radius = 0.5, picture; }},
+      {"small", "The spheres' radius", "1", "0.5", [](FigurePicture picture) { return picture.radius = 0.5, picture; }},
       {"large", "The spheres' radius", "1", "2", [](FigurePicture picture) { return picture.radius = 2, picture; }}};
   return kAll;
 }

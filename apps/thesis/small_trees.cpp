@@ -59,7 +59,8 @@ double smallest_step(const Image& image, std::size_t channel) {
 std::vector<CountingObserver> count_traversal(const StepContext& context, const Scene& scene, const Tracer& tracer) {
   const cli::PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
   const PixelRays pixels(scene.camera, size.width_px, size.height_px);
-  std::vector<CountingObserver> rays(static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
+  std::vector<CountingObserver> rays(static_cast<std::size_t>(size.width_px) *
+                                     static_cast<std::size_t>(size.height_px));
   parallel_for(context.settings.threads, size.height_px, [&](std::int64_t y) {
     if (context.cancel.cancelled()) return;
     for (int x = 0; x < size.width_px; ++x)

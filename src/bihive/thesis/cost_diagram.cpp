@@ -168,8 +168,8 @@ class Diagram {
     for (int wins = 0; wins <= data_.most_wins; ++wins, x += 18) {
       body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"18\" height=\"14\" fill=\"{}\"/>", x, y - 11,
                            colour_of(wins, data_.most_wins));
-      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" class=\"{}\">{}</text>", x + 9,
-                           y, 2 * wins > data_.most_wins ? "on-deep" : "on-pale", wins);
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" class=\"{}\">{}</text>", x + 9, y,
+                           2 * wins > data_.most_wins ? "on-deep" : "on-pale", wins);
     }
     const auto entry = [&](const char* style, const std::string& words) {
       if (words.empty()) return;

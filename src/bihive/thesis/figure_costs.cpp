@@ -53,8 +53,8 @@ Result<FigureWork> counted_figure(const FrameRatePlan& plan, const CountedPictur
       const Result<Scene> scene = scenario_scene(static_cast<Scenario>(scenario), parameters);
       if (!scene) return scene.error();
       for (const std::int64_t max_prims : plan.max_prims)
-        work[{scenario, spheres}][max_prims] = *counted_work(
-            *scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), picture, plan.threads);
+        work[{scenario, spheres}][max_prims] =
+            *counted_work(*scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), picture, plan.threads);
     }
   return work;
 }
@@ -79,8 +79,7 @@ bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const std:
                    double inner, double leaf) {
   if (wins_of(work, pattern.max_prims, max_prims, inner, leaf) != pattern.wins) return false;
   const auto found = work.find(pattern.exception);
-  return found != work.end() &&
-         fastest_range(found->second, pattern.exception_max_prims, max_prims, leaf).holds(inner);
+  return found != work.end() && fastest_range(found->second, pattern.exception_max_prims, max_prims, leaf).holds(inner);
 }
 
 CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,

@@ -35,10 +35,10 @@ double drift_of(const std::vector<MeasuredRate>& rates);
 
 /// What the steps of a ray cost here, by the frames of a complete run, and what the text says of its own.
 struct MeasuredCosts {
-  FigureWork work;       ///< of the plan's trees
-  WinPattern pattern;    ///< the text's
-  FittedCosts fitted;    ///< `frames` is 0 where nothing fits
-  std::int64_t wins = 0; ///< configurations that the text's winner wins at these costs
+  FigureWork work;        ///< of the plan's trees
+  WinPattern pattern;     ///< the text's
+  FittedCosts fitted;     ///< `frames` is 0 where nothing fits
+  std::int64_t wins = 0;  ///< configurations that the text's winner wins at these costs
 };
 /// Counts the work of a complete run's trees; takes about a second. `threads`: that draw; the graphics processor
 /// counts as one. Error: a value is missing.
@@ -47,7 +47,8 @@ Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues
 /// {"experiment", "engine", "device", (its facts), "width_px", "height_px", "quick", "rounds", "complete", "drift",
 /// "configurations": [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains":
 /// [{"scenario", "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}; with
-/// `costs` also "costs": {"fixed_ns", "inner_ns", "leaf_ns", "test_ns", "inner_per_test", "leaf_per_inner", and both with
+/// `costs` also "costs": {"fixed_ns", "inner_ns", "leaf_ns", "test_ns", "inner_per_test", "leaf_per_inner", and both
+/// with
 /// "_error" (standard errors), "rms", "winner", "wins", "configurations"}.
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
                              const MeasuringDevice& device, const MeasuredCosts* costs = nullptr);
