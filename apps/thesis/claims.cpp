@@ -101,6 +101,7 @@ std::vector<std::string> by_size(const Json& map) {
   for (const auto& [key, value] : map.items()) members.emplace_back(-measured(value)->middle, key);
   std::sort(members.begin(), members.end());
   std::vector<std::string> keys;
+  keys.reserve(members.size());
   for (const auto& [size, key] : members) keys.push_back(key);
   return keys;
 }

@@ -64,6 +64,7 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   const std::vector<std::int64_t> scenarios = values.integers("scenarios"), counts = values.integers("spheres_list");
   const std::vector<std::int64_t> max_prims = values.integers("max_prims_list");
   std::vector<Step> steps;
+  steps.reserve(2 * scenarios.size());
   for (const std::int64_t scenario : scenarios)
     steps.push_back({counts_step(scenario), settings.quick ? 0.5 : 8, [scenario](StepContext& context) {
                        std::vector<std::int64_t> limits = context.values.integers("max_prims_list");

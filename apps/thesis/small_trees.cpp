@@ -186,6 +186,7 @@ std::string pair_name(const std::pair<std::string, std::string>& pair) {
 std::vector<Step> steps_of(const Settings& settings, const Values&) {
   const double weight = settings.quick ? 0.1 : 0.7;
   std::vector<Step> steps;
+  steps.reserve(kLetters.size() + kIdentical.size() + 1);
   for (const std::string& letter : kLetters)
     steps.push_back({letter, weight, [letter](StepContext& context) { return draw_tree(context, letter); }});
   for (const auto& pair : kIdentical)

@@ -38,6 +38,7 @@ double volume_of_union(const std::vector<Region>& boxes) {
     return found;
   };
   std::vector<const Region*> all;
+  all.reserve(boxes.size());
   for (const Region& box : boxes) all.push_back(&box);
   double volume = 0;
   const std::vector<double> x = planes(all, 0);

@@ -85,6 +85,7 @@ Json count_trees(const StepContext& context, std::int64_t scenario, std::int64_t
   Json result{{"seeds", trees.size()}};
   for (std::size_t row = 0; row < kRows.size(); ++row) {
     std::vector<double> sample;
+    sample.reserve(trees.size());
     for (const TreeStatistics& tree : trees) sample.push_back(rows_of(tree)[row]);
     result["rows"][kRows[row].first] = spread_of(sample).json();
     result["rows"][kRows[row].first]["this"] = ours[row];
