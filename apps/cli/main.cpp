@@ -25,7 +25,7 @@ namespace {
 
 // One call for each kind of request.
 struct Run {
-  const char* const* words;  // of the command line, ended by a null pointer
+  const char* const* arguments;  // argv
 
   int operator()(const HelpText& help) const {
     if (help.asked_for) {
@@ -46,7 +46,7 @@ struct Run {
   int operator()(const SelectOptions& options) const { return run_select(options), kSuccess; }
   int operator()(const ConvertOptions& options) const { return run_convert(options), kSuccess; }
   int operator()(const ThesisOptions&) const {
-    become_program("bihive-thesis", words, "build it: make demo, or cmake --build with the target bihive-thesis");
+    become_program("bihive-thesis", arguments, "build it: make demo, or cmake --build with the target bihive-thesis");
   }
   int operator()(const WebOptions& options) const { return run_web(options), kSuccess; }
 };

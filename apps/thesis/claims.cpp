@@ -114,7 +114,7 @@ std::vector<std::string> keys_in(const Json& value) {
   return keys;
 }
 
-// The comparisons. `value`: of the entry, a number, a list of numbers or a text.
+// Compares a quantity with the entry's "value": a number, a list of numbers or a string.
 Verdict compared(const std::string& is, const Json& quantity, const Json& entry, const std::string& printed) {
   const Json& value = entry["value"];
   const double tolerance = entry.value("tolerance", 0.0);

@@ -2,16 +2,16 @@
 // compare with the value.
 //
 //   "claim": the sentence, as short as a line; entries with the same claim are its rows
-//   "row": what this entry adds to the sentence; may be left out where it is the only one
+//   "row": the part of the sentence that is this entry's own; optional if the claim has one entry
 //   "of": a path into the data, "trees.b.leaves"; left out: the entry's name
 //   "is": how the quantity must compare with "value"; left out: "equal". See claims.cpp.
-//   "tolerance": of the comparisons that have one; 0 where it is left out
+//   "tolerance": the tolerance of "is", if it has one; 0 by default
 //   "prefix", "unit", "decimals", "key", "expects": how the quantity is written (before a number, after it, its digits,
 //   before the keys of a map), and what is expected where the value alone says too little
 //   "contradicts": what else the text says; where the quantity is another one, the text contradicts itself
 //   "reason": shown where the claim does not simply agree
 //   "note": always shown
-//   "section", "held_by": where it stands if not in the experiment's section, and the tests that hold it
+//   "section", "held_by": the section of the text, by default the experiment's, and the tests that check the claim
 #pragma once
 
 #include <map>
@@ -32,8 +32,8 @@ enum class Verdict {
 /// For machines: "agrees", "differs", "undecided", "text_inconsistent".
 const char* name_of(Verdict verdict);
 
-/// A verdict in words, with a sign and a class of CSS. What agrees is "reproduced" only if the text states it and
-/// nothing of ours was made to suit it; and only what the text states can differ.
+/// How a verdict is written: its words, a sign and a CSS class. A quantity that agrees is "reproduced" only if the text
+/// states it and nothing of ours was made to suit it; and only a quantity that the text states can differ.
 struct Words {
   const char *words, *sign, *css_class;
 };

@@ -1,4 +1,4 @@
-// What section F of the text says of its frame rates, as it would be at certain costs of the steps of a ray.
+// Quantities of the frame rates in section F of the text, at given costs of the steps of a ray.
 #pragma once
 
 #include "bihive/thesis/cost_model.h"
@@ -6,8 +6,8 @@
 
 namespace bihive::thesis {
 
-/// The quantities that the claims of Figure 4.4 look at: who wins where, the shapes of the curves over MAX_PRIMS, the
-/// extremes, the gains. Their names are those of the claims' "of" in thesis/figure-4.4/values.json, behind "at.text.".
+/// The quantities that the claims of Figure 4.4 compare: who wins where, the shapes of the curves over MAX_PRIMS, the
+/// extremes, the gains. Their names are those of the claims' "of" in thesis/figure-4.4/values.json, after "at.text.".
 Json quantities_at(const FigureWork& work, const StepCosts& costs, const Values& values);
 
 }  // namespace bihive::thesis

@@ -76,7 +76,7 @@ Json run_from(const Json& document, const Values& values) {
               {"best_fps", best_fps},
               {"gains", std::move(by_scenario)},
               {"drift", drifts.empty() ? 1 : median(drifts)}};
-  // What the page found of its steps; runs of earlier versions have none.
+  // Costs of the page's steps; runs of earlier versions lack them.
   if (document.contains("costs"))
     for (const char* const name : {"inner_per_test", "inner_per_test_error", "leaf_per_inner", "leaf_per_inner_error"})
       run["costs"][name] = document["costs"].at(name).get<double>();

@@ -1,5 +1,5 @@
-// What other devices measured: runs of Figure 4.4 and frames shown per second, files that the page's "Run the thesis on
-// this device" saves, and the window's by scripts/shown_frames.
+// Measurements of other devices: runs of Figure 4.4 and frames shown per second, in files saved by the page's "Run the
+// thesis on this device" and, for the window, by scripts/shown_frames.
 #pragma once
 
 #include <string>

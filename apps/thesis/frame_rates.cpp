@@ -22,8 +22,8 @@ namespace bihive::thesis {
 namespace {
 
 constexpr const char *kBalanceStep = "balance", *kBruteForceStep = "brute_force";
-// A quick run counts the rays of every so many rows and columns. Other seeds and variations of the picture are counted
-// more coarsely.
+// A quick run counts the rays of every kQuickStride-th row and column. Other seeds and variations of the picture are
+// counted more coarsely.
 constexpr int kQuickStride = 4, kOtherStride = 4, kQuickOtherStride = 8;
 constexpr std::uint64_t kSeeds = 60, kQuickSeeds = 5;
 // Rows of the table: a leaf in inner nodes.
