@@ -3,9 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <set>
 
-#include "bihive/base/near_name.h"
 #include "bihive/base/version.h"
 #include "bihive/io/cell_options.h"
 #include "bihive/scene/element_colours.h"
@@ -15,8 +13,10 @@
 #include "bihive/settings/parameter_text.h"
 #include "commands/names.h"
 #include "film/film_plan.h"
+#include "parameter_options.h"
 #include "server/addresses.h"
 #include "support/failure.h"
+#include "words/short_help.h"
 
 namespace bihive::cli {
 namespace {
@@ -138,42 +138,6 @@ void add_tree_options(CLI::App& app, TreeParameters& tree) {
 void add_thread_options(CLI::App& app, TreeParameters& tree, std::int64_t& threads) {
   add_tree_options(app, tree);
   add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
-}
-
-// "--light-points" of the parameter with that id, and "--no-..." where there is one.
-void add_parameter(CLI::App& app, const Parameter& parameter, Overrides& chosen) {
-  const std::string name = option_of(parameter), id(parameter.id);
-  std::string help(parameter.help);
-  if (!parameter.usual.empty()) help += " (" + std::string(parameter.usual) + ")";
-  if (!parameter.implies.empty() && parameter_named(parameter.implies)->has_option)
-    help += "; implies " + option_of(*parameter_named(parameter.implies));
-  if (parameter.kind != ParameterKind::flag) {
-    const std::string type(parameter.names.empty() ? parameter.value_name : parameter.names);
-    const auto take = [&chosen, &parameter, name](const std::string& text) {
-      Result<SettingValue> value = value_from_text(parameter, text);
-      if (!value) throw CLI::ValidationError(name, value.error().message);
-      chosen.set(parameter.id, std::move(*value));
-    };
-    app.add_option_function<std::string>(name, take, help)->type_name(type);
-    return;
-  }
-  const auto set = [&chosen, id](bool on) { return [&chosen, id, on] { chosen.set(id, on); }; };
-  CLI::Option* const on = app.add_flag_callback(name, set(true), help);
-  if (!parameter.has_no_option) return;
-  app.add_flag_callback("--no" + name.substr(1), set(false), "Switches " + name + " off")->excludes(on);
-}
-
-// All parameters of a group that have an option of their own. A window has not all of them.
-void add_parameters(CLI::App& app, ParameterGroup group, Overrides& chosen, bool of_window) {
-  for (const Parameter& parameter : picture_parameters())
-    if (parameter.group == group && parameter.has_option && (parameter.in_window || !of_window))
-      add_parameter(app, parameter, chosen);
-  // What implies a switch contradicts its opposite.
-  for (const Parameter& parameter : picture_parameters()) {
-    const Parameter* const implied = parameter.implies.empty() ? nullptr : parameter_named(parameter.implies);
-    if (parameter.group != group || implied == nullptr || !implied->has_no_option) continue;
-    app.get_option("--no" + option_of(*implied).substr(1))->excludes(app.get_option(option_of(parameter)));
-  }
 }
 
 void add_style_options(CLI::App& app, StyleOptions& look) {
@@ -653,46 +617,6 @@ void add_web(CLI::App& app, WebOptions& options, Request& request) {
   command.add_flag_callback(
       "--no-browser", [&options] { options.browser = false; }, "Open no browser");
   command.add_flag("--json", options.json, "Print the addresses as one JSON object in a line");
-}
-
-// The options that the short help of a long command shows.
-constexpr std::array kCommonOptions{"--help",       "--help-all", "--output",    "--frames",    "--fps",
-                                    "--turntable",  "--size",     "--samples",   "--style",     "--background",
-                                    "--light",      "--ao",       "--view-from", "--turn",      "--zoom",
-                                    "--projection", "--select",   "--colour",    "--colour-by", "--hide",
-                                    "--opacity",    "--radius",   "--frame",     "--legend",    "--title"};
-// A command with more options than this has a short help and a long one.
-constexpr std::size_t kLongHelp = 30;
-
-// Hides all but the common options of a command with many, and says where they are.
-void shorten_help(CLI::App& command) {
-  std::vector<CLI::Option*> named;
-  for (CLI::Option* option : command.get_options())
-    if (option->nonpositional()) named.push_back(option);
-  if (named.size() <= kLongHelp) return;
-  for (CLI::Option* option : named) {
-    const auto is_common = [option](const char* name) { return option->check_name(name); };
-    if (std::none_of(kCommonOptions.begin(), kCommonOptions.end(), is_common)) option->group("");
-    // Contradictions stand in the long help.
-    const std::set<CLI::Option*> excluded = option->get_excludes();
-    for (CLI::Option* other : excluded) option->remove_excludes(other);
-  }
-  command.footer(command.get_footer() + "\n\nbihive " + command.get_name() + " --help-all shows all " +
-                 std::to_string(named.size()) + " options.");
-}
-
-// What to do about words that a command does not take.
-std::string advice_on(const CLI::App* command, const std::vector<std::string>& unknown, const std::string& otherwise) {
-  if (command == nullptr) return otherwise;
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command->get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  for (const std::string& word : unknown) {
-    const std::string name = word.substr(0, word.find('='));
-    const std::string near = name.rfind("--", 0) == 0 ? near_name(name, names) : "";
-    if (!near.empty()) return "did you mean " + near + "? " + otherwise;
-  }
-  return otherwise;
 }
 
 std::string version_text() {
