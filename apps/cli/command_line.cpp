@@ -560,25 +560,30 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
   CLI::App& command =
       add_command(app, "thesis", "Reproduce the thesis's tables and figures", "bihive thesis all --out report",
                   "bihive thesis table-4.2 figure-4.3 --out report --quick", options, request);
-  command
-      .add_option("EXPERIMENT", options.experiments,
-                  "all (if none is named), figure-4.1, figure-4.2, figure-4.3, table-4.2, figure-4.4,\n"
-                  "figure-4.5, section-d")
+  std::string all;
+  for (const std::string& each : thesis_experiments()) all += (all.empty() ? "" : ", ") + each;
+  command.add_option("EXPERIMENT", options.experiments, "One or several of, or all if none is named:\n" + all)
       ->type_name("")
-      ->check([](const std::string& name) {
-        std::string all;
-        for (const std::string& each : thesis_experiments()) {
+      ->check([all](const std::string& name) {
+        for (const std::string& each : thesis_experiments())
           if (name == each) return std::string();
-          all += (all.empty() ? "" : ", ") + each;
-        }
         return "there is no experiment \"" + name + "\"; there are " + all;
       });
+  CLI::Option* const out = command
+                               .add_option("--out", options.out,
+                                           "Folder of report.html, results.json, pictures and charts; a run that was\n"
+                                           "interrupted goes on where it stopped. Required but with --page")
+                               ->type_name("DIR");
   command
-      .add_option("--out", options.out,
-                  "Folder of report.html, results.json, pictures and charts; a run that was\n"
-                  "interrupted goes on where it stopped")
-      ->type_name("DIR")
-      ->required();
+      .add_option("--page", options.page,
+                  "Write the page that measures a phone: one file to send there, which opens\n"
+                  "without a network; what it saves is for --device")
+      ->type_name("FILE")
+      ->excludes(out);
+  command.final_callback([&options, &request] {
+    if (options.out.empty() && options.page.empty()) throw CLI::RequiredError("--out");
+    request = options;
+  });
   command.add_flag("--quick", options.quick, "Everything small: within a minute on two cores");
   add_value(command, "--seed", options.seed, "S", "Seed of the random scenarios (1)", seed_from);
   add_integer(command, "--threads", options.threads, 0, kMostThreads,

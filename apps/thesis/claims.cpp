@@ -19,15 +19,10 @@ constexpr std::size_t kListed = 4;
 
 // The quantity at a path like "trees.b.leaves"; null if there is none.
 const Json* at_path(const Json& data, const std::string& path) {
-  const Json* found = &data;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    const std::string key = path.substr(begin, end - begin);
-    if (!found->is_object() || !found->contains(key)) return nullptr;
-    found = &(*found)[key];
-    begin = end + 1;
-  }
-  return found->is_null() ? nullptr : found;
+  std::string pointer = "/" + path;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  const Json::json_pointer place(pointer);
+  return data.contains(place) && !data.at(place).is_null() ? &data.at(place) : nullptr;
 }
 
 // A quantity with its spread: {"lower", "median", "upper"}, {"mean", "sd"}, or a number without any.

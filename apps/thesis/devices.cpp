@@ -26,12 +26,10 @@ std::string picture_of(const Json& document) {
   return fmt::format("{} x {}", document.at("width_px").get<int>(), document.at("height_px").get<int>());
 }
 
-// The fastest tree's MAX_PRIMS; 0 without trees.
-std::int64_t fastest_tree(const ConfigurationTimes& times) {
-  std::int64_t fastest = 0;
-  for (const auto& [prims, ms] : times.trees)
-    if (fastest == 0 || median(ms) < median(times.trees.at(fastest))) fastest = prims;
-  return fastest;
+// The share of the text's picture that this one has.
+double scale_of(const Json& document, const Values& values) {
+  return document.at("width_px").get<double>() * document.at("height_px").get<double>() /
+         (values.number("width_px") * values.number("height_px"));
 }
 
 Json run_from(const Json& document, const Values& values) {
@@ -52,13 +50,12 @@ Json run_from(const Json& document, const Values& values) {
   double best_fps = 0;
   std::map<std::int64_t, std::vector<double>> gains;
   for (const auto& [key, times] : all) {
-    const std::int64_t fastest = fastest_tree(times);
+    const std::int64_t fastest = times.fastest();
     if (times.brute.empty() || fastest == 0) continue;
     ++configurations;
     wins += fastest == values.integer("winner.max_prims") ? 1 : 0;
-    const double ms = median(times.trees.at(fastest));
-    best_fps = std::max(best_fps, 1000 / ms);
-    gains[key.first].push_back(100 * (median(times.brute) / ms - 1));
+    best_fps = std::max(best_fps, frames_per_second(times.trees.at(fastest)));
+    gains[key.first].push_back(times.gain_percent());
   }
   Json by_scenario = Json::array();
   for (const auto& [scenario, percents] : gains) {
@@ -74,6 +71,7 @@ Json run_from(const Json& document, const Values& values) {
               {"configurations", configurations},
               {"wins", wins},
               {"best_fps", best_fps},
+              {"best_fps_scaled", best_fps * scale_of(document, values)},
               {"gains", std::move(by_scenario)},
               {"drift", drifts.empty() ? 1 : median(drifts)}};
   // Costs of the page's steps; runs of earlier versions lack them.
@@ -84,7 +82,7 @@ Json run_from(const Json& document, const Values& values) {
 }
 
 // Frames that a window or a page showed: a row for each engine, at rest and turning.
-void add_shown(const Json& document, Json& rows) {
+void add_shown(const Json& document, Json& data) {
   std::map<std::pair<std::int64_t, bool>, Json> rates;  // by MAX_PRIMS (0: the wide engine) and motion
   for (const Json& one : document.at("configurations")) {
     const Json& max_prims = one.at("max_prims");
@@ -97,14 +95,44 @@ void add_shown(const Json& document, Json& rows) {
          {"fps", static_cast<double>(frames) / seconds}});
   }
   for (auto& [key, list] : rates)
-    rows.push_back({{"by", document.at("by").get<std::string>()},
-                    {"device", document.at("device").get<std::string>()},
-                    {"picture", picture_of(document)},
-                    {"threads", document.at("threads").get<std::int64_t>()},
-                    {"engine", key.first == 0 ? std::string("wide") : fmt::format("BIH {}", key.first)},
-                    {"turning", key.second},
-                    {"complete", document.at("complete").get<bool>()},
-                    {"rates", std::move(list)}});
+    data["shown"].push_back({{"by", document.at("by").get<std::string>()},
+                             {"device", document.at("device").get<std::string>()},
+                             {"picture", picture_of(document)},
+                             {"threads", document.at("threads").get<std::int64_t>()},
+                             {"engine", key.first == 0 ? std::string("wide") : fmt::format("BIH {}", key.first)},
+                             {"turning", key.second},
+                             {"complete", document.at("complete").get<bool>()},
+                             {"rates", std::move(list)}});
+}
+
+// All 54 configurations together, one frame of each, in the first minute and in the last one.
+Json heat_of(const Json& passes, const Json& engine) {
+  std::map<std::int64_t, std::vector<double>> by_minute;
+  for (const Json& pass : passes)
+    if (pass.at("engine") == engine)
+      by_minute[pass.at("minute").get<std::int64_t>()].push_back(pass.at("round_ms").get<double>());
+  if (by_minute.size() < 2) return {};
+  const auto& [first, first_ms] = *by_minute.begin();
+  const auto& [last, last_ms] = *by_minute.rbegin();
+  return {{"first_minute", first}, {"first_ms", median(first_ms)}, {"last_minute", last}, {"last_ms", median(last_ms)}};
+}
+
+void add_document(const Json& document, const Values& values, Json& data) {
+  const Json& experiment = document.at("experiment");
+  if (experiment == "figure-4.4") {
+    data["runs"].push_back(run_from(document, values));
+  } else if (experiment == "shown-frames") {
+    add_shown(document, data);
+  } else if (experiment == "phone") {
+    for (const Json& run : document.at("runs")) {
+      add_document(run, values, data);
+      if (Json heat = heat_of(document.at("passes"), run.at("engine")); !heat.is_null())
+        data["runs"].back()["heat"] = std::move(heat);
+    }
+    add_document(document.at("shown"), values, data);
+  } else {
+    throw wrong("another experiment");
+  }
 }
 
 }  // namespace
@@ -116,13 +144,7 @@ Json devices_data(const std::vector<std::string>& files, const Values& figure_4_
     const Result<Json> document = json_from_text<Json>(cli::value_or_fail(read_file(file)));
     if (!document) fail_device(file, document.error().message);
     try {
-      const Json& experiment = document->at("experiment");
-      if (experiment == "figure-4.4")
-        data["runs"].push_back(run_from(*document, figure_4_4));
-      else if (experiment == "shown-frames")
-        add_shown(*document, data["shown"]);
-      else
-        throw wrong("another experiment");
+      add_document(*document, figure_4_4, data);
     } catch (const Json::exception& error) {
       fail_device(file, error.what());
     }

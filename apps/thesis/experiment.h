@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bihive/base/cancel.h"
+#include "bihive/thesis/experiments.h"
 #include "values.h"
 
 namespace bihive::thesis {
@@ -59,23 +60,26 @@ struct DataContext {
   }
 };
 
-struct Experiment {
-  std::string id;       ///< "table-4.2": its name on the command line and its folder in thesis/ and in the output
-  std::string section;  ///< of the thesis's chapter: "B" to "G"
-  std::string title;    ///< "Table 4.2: tree statistics"
+/// The code of an experiment.
+struct ExperimentCode {
   std::function<std::vector<Step>(const Settings&, const Values&)> steps;
   /// An object. Must work with any subset of the results; leaves out what follows from missing ones.
   std::function<Json(const DataContext&)> data;
 };
 
-/// One factory for each file; the order is that of the report.
-Experiment figure_4_1();  // scenes.cpp
-Experiment figure_4_2();  // recursion_depths.cpp
-Experiment figure_4_3();  // small_trees.cpp
-Experiment section_d();   // one_leaf.cpp
-Experiment table_4_2();   // tree_statistics.cpp
-Experiment figure_4_4();  // frame_rates.cpp
-Experiment figure_4_5();  // tree_memory.cpp
+/// A row of bihive/thesis/experiments.h with its code.
+struct Experiment {
+  std::string id;       ///< "table-4.2": its name on the command line and its folder in thesis/ and in the output
+  std::string section;  ///< of the thesis's chapter: "B" to "G"
+  std::string title;    ///< "Table 4.2: statistics of the trees"
+  ExperimentCode code;
+};
+
+/// figure_4_1() in scenes.cpp, figure_4_2() in recursion_depths.cpp, figure_4_3() in small_trees.cpp, section_d() in
+/// one_leaf.cpp, table_4_2() in tree_statistics.cpp, figure_4_4() in frame_rates.cpp, figure_4_5() in tree_memory.cpp.
+#define BIHIVE_DECLARE(name, id, section, title) ExperimentCode name();
+BIHIVE_THESIS_EXPERIMENTS(BIHIVE_DECLARE)
+#undef BIHIVE_DECLARE
 std::vector<Experiment> all_experiments();
 
 }  // namespace bihive::thesis

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/write_file.h"
@@ -14,7 +15,6 @@
 #include "claims.h"
 #include "claims_at_costs.h"
 #include "frame_times.h"
-#include "frame_work.h"
 #include "statistics.h"
 #include "tree_reasons.h"
 
@@ -44,19 +44,51 @@ std::string times_step(const TimedProgram& program, std::int64_t scenario, std::
 // What the results depend on, and to what it is changed to see how much.
 struct Variation {
   const char *key, *what, *usual, *other;
-  FigurePicture (*change)(FigurePicture);
+  void (*change)(FrameRatePlan&);
 };
 const std::vector<Variation>& variations() {
   static const std::vector<Variation> kAll{
       {"square", "The picture's format", "1136 x 640", "640 x 640",
-       [](FigurePicture picture) { return picture.width_px = picture.height_px, picture; }},
+       [](FrameRatePlan& plan) { plan.width_px = plan.height_px; }},
       {"portrait", "The picture's format", "1136 x 640", "640 x 1136",
-       [](FigurePicture picture) { return std::swap(picture.width_px, picture.height_px), picture; }},
+       [](FrameRatePlan& plan) { std::swap(plan.width_px, plan.height_px); }},
       {"near", "The angle along the shorter side", "30 degrees", "27.8 degrees",
-       [](FigurePicture picture) { return picture.fov_deg = 27.8, picture; }},
-      {"small", "The spheres' radius", "1", "0.5", [](FigurePicture picture) { return picture.radius = 0.5, picture; }},
-      {"large", "The spheres' radius", "1", "2", [](FigurePicture picture) { return picture.radius = 2, picture; }}};
+       [](FrameRatePlan& plan) { plan.fov_deg = 27.8; }},
+      {"small", "The spheres' radius", "1", "0.5", [](FrameRatePlan& plan) { plan.radius = 0.5; }},
+      {"large", "The spheres' radius", "1", "2", [](FrameRatePlan& plan) { plan.radius = 2; }}};
   return kAll;
+}
+
+// The plan of the rays that a step counts, in one scenario or in all.
+FrameRatePlan plan_of(const StepContext& context, std::optional<std::int64_t> scenario) {
+  FrameRatePlan plan = cli::value_or_fail(FrameRatePlan::from_values(context.values.stated()));
+  if (scenario) plan.scenarios = {*scenario};
+  plan.seed = context.settings.seed;
+  plan.threads = context.settings.threads;
+  return plan;
+}
+
+// [{"scenario", "spheres", "max_prims", "inner", "leaves", "tests"}], or null if cancelled.
+Json count_rays(const StepContext& context, const FrameRatePlan& plan, int stride, int quick_stride) {
+  const Result<FigureWork> work = counted_figure(plan, context.settings.quick ? quick_stride : stride, &context.cancel);
+  if (context.cancel.cancelled()) return {};
+  Json rows = Json::array();
+  for (const auto& [configuration, trees] : cli::value_or_fail(work))
+    for (const auto& [max_prims, one] : trees)
+      rows.push_back({{"scenario", configuration.first},
+                      {"spheres", configuration.second},
+                      {"max_prims", max_prims},
+                      {"inner", one.inner},
+                      {"leaves", one.leaves},
+                      {"tests", one.tests}});
+  return rows;
+}
+
+void add_work(const Json& rows, FigureWork& work) {
+  for (const Json& row : rows)
+    work[{row["scenario"].get<std::int64_t>(), row["spheres"].get<std::int64_t>()}]
+        [row["max_prims"].get<std::int64_t>()] = {row["inner"].get<double>(), row["leaves"].get<double>(),
+                                                  row["tests"].get<double>()};
 }
 
 std::vector<Step> steps_of(const Settings& settings, const Values& values) {
@@ -67,35 +99,25 @@ std::vector<Step> steps_of(const Settings& settings, const Values& values) {
   steps.reserve(2 * scenarios.size());
   for (const std::int64_t scenario : scenarios)
     steps.push_back({counts_step(scenario), settings.quick ? 0.5 : 8, [scenario](StepContext& context) {
-                       std::vector<std::int64_t> limits = context.values.integers("max_prims_list");
+                       FrameRatePlan plan = plan_of(context, scenario);
                        for (const std::int64_t beyond : context.values.integers("max_prims_beyond"))
-                         limits.push_back(beyond);
-                       FigurePicture picture = counted_picture(context);
-                       picture.stride = context.settings.quick ? kQuickStride : 1;
-                       return count_work(context, scenario, picture, limits, /*one_leaf=*/true);
+                         plan.max_prims.push_back(beyond);
+                       plan.max_prims.push_back(kUnlimited);
+                       return count_rays(context, plan, 1, kQuickStride);
                      }});
   for (const std::int64_t scenario : scenarios)
-    steps.push_back(
-        {seeds_step(scenario), settings.quick ? 0.3 : 20, [scenario](StepContext& context) {
-           Json seeds = Json::array();
-           FigurePicture picture = counted_picture(context);
-           picture.stride = context.settings.quick ? kQuickOtherStride : kOtherStride;
-           for (picture.seed = 1; picture.seed <= (context.settings.quick ? kQuickSeeds : kSeeds); ++picture.seed) {
-             seeds.push_back(count_work(context, scenario, picture, context.values.integers("max_prims_list"), false));
-             if (context.cancel.cancelled()) return Json();
-           }
-           return seeds;
-         }});
+    steps.push_back({seeds_step(scenario), settings.quick ? 0.3 : 20, [scenario](StepContext& context) {
+                       Json seeds = Json::array();
+                       FrameRatePlan plan = plan_of(context, scenario);
+                       for (plan.seed = 1; plan.seed <= (context.settings.quick ? kQuickSeeds : kSeeds); ++plan.seed)
+                         seeds.push_back(count_rays(context, plan, kOtherStride, kQuickOtherStride));
+                       return seeds;
+                     }});
   for (const Variation& variation : variations())
     steps.push_back({variation.key, settings.quick ? 0.2 : 2, [variation](StepContext& context) {
-                       Json rows = Json::array();
-                       FigurePicture picture = variation.change(counted_picture(context));
-                       picture.stride = context.settings.quick ? kQuickOtherStride : kOtherStride;
-                       for (const std::int64_t scenario : context.values.integers("scenarios"))
-                         for (Json& row :
-                              count_work(context, scenario, picture, context.values.integers("max_prims_list"), false))
-                           rows.push_back(std::move(row));
-                       return rows;
+                       FrameRatePlan plan = plan_of(context, std::nullopt);
+                       variation.change(plan);
+                       return count_rays(context, plan, kOtherStride, kQuickOtherStride);
                      }});
   steps.push_back({kBalanceStep, 0.3, [](StepContext& context) {
                      const Values& of = context.values;
@@ -344,32 +366,21 @@ class FigureData {
       Json table{{"key", key}, {"trees", max_prims_}, {"rows", Json::array()}};
       for (const TimedProgram& program : timed_programs())
         if (key == program.key) table["name"] = program.name;
-      std::vector<ConfigurationFps> all;
       for (const auto& [configuration, one] : times) {
-        ConfigurationFps fps{configuration.first, configuration.second, 1000 / median(one.brute), {}};
         Json trees = Json::array();
-        for (const std::int64_t prims : max_prims_)
-          if (const auto found = one.trees.find(prims); found != one.trees.end()) {
-            fps.trees.push_back(1000 / median(found->second));
-            trees.push_back({{"tree", tree_name(prims)}, {"fps", fps.trees.back()}});
-          }
+        for (const auto& [prims, ms] : one.trees)
+          trees.push_back({{"tree", tree_name(prims)}, {"fps", frames_per_second(ms)}});
         table["rows"].push_back({{"scenario", configuration.first},
                                  {"spheres", configuration.second},
-                                 {"brute_fps", fps.brute},
+                                 {"brute_fps", frames_per_second(one.brute)},
                                  {"trees", std::move(trees)},
-                                 {"gain_percent", fps.trees.empty() ? 0 : fps.gain_percent()}});
-        all.push_back(std::move(fps));
+                                 {"gain_percent", one.gain_percent()}});
       }
       data_["rates"].push_back(std::move(table));
       if (key != timed_programs().front().key) continue;
       for (const std::int64_t scenario : scenarios_)
         write(fmt::format("scenario{}.svg", scenario),
-              bar_chart(frame_rate_bars(scenario, counts_, max_prims_, [&](std::int64_t spheres) {
-                const auto found = std::find_if(all.begin(), all.end(), [&](const ConfigurationFps& each) {
-                  return each.scenario == scenario && each.spheres == spheres;
-                });
-                return found == all.end() ? nullptr : &*found;
-              })));
+              bar_chart(frame_rate_bars(scenario, counts_, max_prims_, times)));
     }
   }
 
@@ -439,9 +450,8 @@ class FigureData {
 
 }  // namespace
 
-Experiment figure_4_4() {
-  return {"figure-4.4", "F", "Figure 4.4: frames per second", steps_of,
-          [](const DataContext& context) { return FigureData(context).all(); }};
+ExperimentCode figure_4_4() {
+  return {steps_of, [](const DataContext& context) { return FigureData(context).all(); }};
 }
 
 }  // namespace bihive::thesis

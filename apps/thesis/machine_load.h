@@ -1,7 +1,7 @@
 // Other work of the machine while something was measured.
 #pragma once
 
-#include <optional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace bihive::thesis {
@@ -23,6 +23,7 @@ struct MachineLoad {
   /// Beyond this share in one of the parts a machine counts as busy.
   static constexpr double kBusy = 0.05;
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MachineLoad, seconds, others, known, most_others)
 
 /// Watches from its construction on.
 class LoadWatch {

@@ -78,7 +78,7 @@ bool is_readable(const Run& run, const Settings& settings, const std::string& ou
   if (run.results.empty()) return true;
   make_folder(run.folder);
   try {
-    run.experiment.data({settings, run.values, run.results, run.folder});
+    run.experiment.code.data({settings, run.values, run.results, run.folder});
   } catch (const Json::exception&) {
     cli::warn(out + "/steps/" + run.experiment.id + ": holds what this program did not write; the steps are run again");
     return false;
@@ -117,7 +117,7 @@ std::vector<Run> collect_runs(const ThesisOptions& options, const Settings& sett
   for (Experiment& experiment : all_experiments()) {
     Values values = load_values(experiment.id, options.values);
     Run run{std::move(experiment), std::move(values), {}, {}, {}, "", false};
-    run.steps = run.experiment.steps(settings, run.values);
+    run.steps = run.experiment.code.steps(settings, run.values);
     run.folder = options.out + "/" + run.experiment.id;
     for (const Step& step : run.steps)
       if (std::optional<StepStore::Saved> saved = store.load(run.experiment.id, step.name, run.values)) {
@@ -169,7 +169,7 @@ std::vector<ReportPart> parts_of(const std::vector<Run>& runs, const Settings& s
     ReportPart& part = parts.emplace_back();
     part.experiment = &run.experiment;
     part.values = &run.values;
-    part.data = run.experiment.data({settings, run.values, run.results, run.folder});
+    part.data = run.experiment.code.data({settings, run.values, run.results, run.folder});
     part.findings = judge(run.values, part.data);
     part.claims = claims_of(run.experiment, run.values, part.findings);
     for (const Step& step : run.steps)
@@ -253,7 +253,7 @@ void run_thesis(const ThesisOptions& options) {
   if (options.out == cli::kStandardStream) cli::fail_usage("--out names a folder, and - is none");
   if (fs::is_directory(options.out)) cli::check_outputs(cli::outputs_of(options), cli::inputs_of(options));
   // Other runs are read before the long work: a file that is none is told at once, and this run may write over it.
-  std::optional<OlderRun> older;
+  Json older;
   if (!options.against.empty()) older = read_older_run(options.against);
   Report report;
   if (!options.devices.empty())
@@ -268,16 +268,16 @@ void run_thesis(const ThesisOptions& options) {
   const CancellableSection section;
   run_steps(runs, settings, store);
   report.settings = settings;
-  report.version = version();
-  report.commit = commit();
-  report.machine =
-      fmt::format("{}, {} threads", processor(), settings.threads > 0 ? settings.threads : hardware_threads());
-  report.compiler = compiler();
-  report.command = command_of(options);
-  report.date = now();
+  report.about = {{"version", std::string(version())},
+                  {"commit", std::string(commit())},
+                  {"command", command_of(options)},
+                  {"compiler", compiler()},
+                  {"machine", fmt::format("{}, {} threads", processor(),
+                                          settings.threads > 0 ? settings.threads : hardware_threads())},
+                  {"date", now()}};
   report.parts = parts_of(runs, settings);
   for (const ReportPart& part : report.parts) report.load.add(part.load);
-  if (older) report.against = compared_with(*older, report.parts);
+  if (!older.is_null()) report.against = compared_with(std::move(older), report.parts);
   const Json json = results_json(report);
   const std::string text = json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
   const std::string file = options.out + "/report.html";
@@ -321,7 +321,11 @@ int run(int argc, const char* const* argv) {
 }  // namespace
 
 std::vector<Experiment> all_experiments() {
-  return {figure_4_1(), figure_4_2(), figure_4_3(), section_d(), table_4_2(), figure_4_4(), figure_4_5()};
+  std::vector<Experiment> all;
+#define BIHIVE_ADD(name, id, section, title) all.push_back({id, section, title, name()});
+  BIHIVE_THESIS_EXPERIMENTS(BIHIVE_ADD)
+#undef BIHIVE_ADD
+  return all;
 }
 
 }  // namespace bihive::thesis

@@ -113,9 +113,8 @@ Json time_one_leaf(StepContext& context) {
 
 }  // namespace
 
-Experiment section_d() {
-  return {"section-d", "D", "Section D: one leaf, and a leaf for each sphere",
-          [](const Settings& settings, const Values&) {
+ExperimentCode section_d() {
+  return {[](const Settings& settings, const Values&) {
             return std::vector<Step>{{"one_leaf", settings.quick ? 2.0 : 40.0, time_one_leaf}};
           },
           [](const DataContext& context) {

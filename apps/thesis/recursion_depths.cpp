@@ -141,8 +141,8 @@ Json data_of(const DataContext& context) {
 
 }  // namespace
 
-Experiment figure_4_2() {
-  return {"figure-4.2", "C", "Figure 4.2: recursion depth", steps_of, data_of};
+ExperimentCode figure_4_2() {
+  return {steps_of, data_of};
 }
 
 }  // namespace bihive::thesis

@@ -19,9 +19,9 @@ using Data = must::data;
 
 // A PNG file begins with 16 bytes of signature and chunk header, then width and height in big-endian order.
 constexpr std::size_t kPngWidthAt = 16, kPngHeightAt = 20;
-constexpr std::pair<const char*, const char*> kSections[] = {{"B", "Setup"},       {"C", "Visual quality"},
-                                                             {"D", "Parameters"},  {"E", "Statistics of trees"},
-                                                             {"F", "Performance"}, {"G", "Memory"}};
+#define BIHIVE_PAIR(letter, title) {letter, title},
+constexpr std::pair<const char*, const char*> kSections[] = {BIHIVE_THESIS_SECTIONS(BIHIVE_PAIR)};
+#undef BIHIVE_PAIR
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -110,14 +110,10 @@ std::string filled(std::string_view page, const Json& view, const std::string& f
 }
 
 std::string_view template_of(const std::string& experiment) {
-  using Source = std::string_view (*)();
-  static const std::pair<const char*, Source> kSources[] = {
-      {"figure-4.1", thesis_template_figure_4_1}, {"figure-4.2", thesis_template_figure_4_2},
-      {"figure-4.3", thesis_template_figure_4_3}, {"section-d", thesis_template_section_d},
-      {"table-4.2", thesis_template_table_4_2},   {"figure-4.4", thesis_template_figure_4_4},
-      {"figure-4.5", thesis_template_figure_4_5}};
-  for (const auto& [name, source] : kSources)
-    if (experiment == name) return source();
+#define BIHIVE_TEMPLATE(name, id, section, title) \
+  if (experiment == id) return thesis_template_##name();
+  BIHIVE_THESIS_EXPERIMENTS(BIHIVE_TEMPLATE)
+#undef BIHIVE_TEMPLATE
   return {};
 }
 
@@ -197,21 +193,16 @@ std::string summary_of(const std::vector<ReportPart>& parts) {
 }
 
 std::string report_html(const Report& report, const std::string& folder) {
-  Json view{{"style", std::string(thesis_template_css())},
-            {"version", report.version},
-            {"commit", report.commit},
-            {"machine", report.machine},
-            {"compiler", report.compiler},
-            {"command", report.command},
-            {"date", report.date},
-            {"load", report.load.text()},
-            {"busy", report.load.busy()},
-            {"quick", report.settings.quick},
-            {"seed", report.settings.seed},
-            {"threads", report.settings.threads > 0 ? std::to_string(report.settings.threads) : "all"},
-            {"devices", report.devices},
-            {"has_runs", report.devices.contains("runs")},
-            {"has_shown", report.devices.contains("shown")}};
+  Json view = report.about;
+  view.update({{"style", std::string(thesis_template_css())},
+               {"load", report.load.text()},
+               {"busy", report.load.busy()},
+               {"quick", report.settings.quick},
+               {"seed", report.settings.seed},
+               {"threads", report.settings.threads > 0 ? std::to_string(report.settings.threads) : "all"},
+               {"devices", report.devices},
+               {"has_runs", report.devices.contains("runs")},
+               {"has_shown", report.devices.contains("shown")}});
   if (!report.against.is_null()) view["against"] = report.against;
   for (const auto& [words, count] : counts_of(report.parts)) {
     Json one = words_json(words);
@@ -263,20 +254,14 @@ Json results_json(const Report& report) {
                            {"data", part.data}});
     for (const Claim& claim : part.claims) claims.push_back(claim_json(claim));
   }
-  Json results{
-      {"bihive_results", 3},
-      {"version", report.version},
-      {"commit", report.commit},
-      {"command", report.command},
-      {"compiler", report.compiler},
-      {"machine", report.machine},
-      {"load", load_json(report.load)},
-      {"date", report.date},
-      {"settings",
-       {{"quick", report.settings.quick}, {"seed", report.settings.seed}, {"threads", report.settings.threads}}},
-      {"complete", complete},
-      {"claims", std::move(claims)},
-      {"experiments", std::move(experiments)}};
+  const Settings& settings = report.settings;
+  Json results{{"bihive_results", 3}};
+  results.update(report.about);
+  results.update({{"load", load_json(report.load)},
+                  {"settings", {{"quick", settings.quick}, {"seed", settings.seed}, {"threads", settings.threads}}},
+                  {"complete", complete},
+                  {"claims", std::move(claims)},
+                  {"experiments", std::move(experiments)}});
   for (const auto& [name, list] : report.devices.items()) results[name == "runs" ? "devices" : "shown_frames"] = list;
   if (!report.against.is_null()) results["against"] = report.against["rows"];
   return results;

@@ -29,12 +29,10 @@ struct ReportPart {
 
 struct Report {
   Settings settings;
-  std::string version, commit;
-  std::string machine;   ///< processor and threads
-  std::string compiler;  ///< and the instruction set that vectors use
-  std::string command;   ///< that makes this report
-  std::string date;      ///< ISO 8601
-  MachineLoad load;      ///< of all steps
+  /// {"version", "commit", "command" (that makes this report), "compiler" (and the instruction set that vectors use),
+  /// "machine" (processor and threads), "date" (ISO 8601)}
+  Json about;
+  MachineLoad load;  ///< of all steps
   std::vector<ReportPart> parts;
   Json devices = Json::object();  ///< devices_data()
   Json against;                   ///< compared_with(); null: there is no older run

@@ -183,8 +183,8 @@ std::int64_t coinciding_spheres(const SphereSet& spheres) {
   return spheres.size() - static_cast<std::int64_t>(places.size());
 }
 
-Experiment figure_4_1() {
-  return {"figure-4.1", "B", "Figure 4.1: the three scenarios", steps_of, data_of};
+ExperimentCode figure_4_1() {
+  return {steps_of, data_of};
 }
 
 }  // namespace bihive::thesis

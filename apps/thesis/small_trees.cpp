@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "bihive/base/parallel.h"
 #include "bihive/bih/observer.h"
@@ -24,11 +26,6 @@ const std::vector<std::string> kLetters{"a", "b", "c", "d", "e", "f"};
 const std::vector<std::pair<std::string, std::string>> kIdentical{{"a", "d"}, {"c", "f"}};
 const std::vector<std::string> kByDepth{"a", "b", "c"};
 constexpr const char* kAsStatedStep = "abc_as_stated";
-
-Scene scene_of(const StepContext& context) {
-  return context.values.scene(context.values.integer("scenario"), context.values.integer("spheres"),
-                              context.settings.seed);
-}
 
 BuildParameters parameters_of(const Values& values, const std::string& letter) {
   return {values.limit(letter + ".max_prims"), values.limit(letter + ".max_depth")};
@@ -55,38 +52,40 @@ double smallest_step(const Image& image, std::size_t channel) {
   return smallest / 255.0;
 }
 
-// What the primary ray of each pixel does, row by row. Empty if cancelled.
-std::vector<CountingObserver> count_traversal(const StepContext& context, const Scene& scene, const Tracer& tracer) {
-  const cli::PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
-  const PixelRays pixels(scene.camera, size.width_px, size.height_px);
-  std::vector<CountingObserver> rays(static_cast<std::size_t>(size.width_px) *
-                                     static_cast<std::size_t>(size.height_px));
-  parallel_for(context.settings.threads, size.height_px, [&](std::int64_t y) {
-    if (context.cancel.cancelled()) return;
-    for (int x = 0; x < size.width_px; ++x)
-      traverse<false>(*tracer.tree(), scene.spheres,
-                      ScaledRay(pixels.at(x + 0.5, static_cast<double>(y) + 0.5), scene.spheres),
-                      rays[static_cast<std::size_t>(y * size.width_px + x)]);
-  });
-  if (context.cancel.cancelled()) rays.clear();
-  return rays;
-}
+// A tree of the figure, what the primary ray of each pixel does in it, row by row, and the picture of that.
+struct SmallTree {
+  std::unique_ptr<const Scene> scene;  // the tracer refers to its spheres
+  Tracer tracer;
+  std::vector<CountingObserver> rays;
+  Image picture;
+};
 
 // Green for gaps, as `bihive render --view traversal` draws it. Blue for inner nodes and leaves, each by its own step
 // in values.json and at most 1: there that view has one step for both. Nothing if cancelled.
-std::optional<Image> traversal_picture(const StepContext& context, const Scene& scene, const Tracer& tracer,
-                                       const std::vector<CountingObserver>& counts) {
-  const cli::PictureSize size = picture_size(context.settings, context.values, kQuickDivisor);
-  std::optional<Image> image = draw(context, scene, tracer, picture_settings(context, scene, size, View::traversal));
-  if (!image || counts.empty()) return std::nullopt;
-  const double of_inner = context.values.number("visit.inner.blue"), of_leaf = context.values.number("visit.leaf.blue");
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const CountingObserver& ray = counts[i];
-    const double blue =
-        of_inner * static_cast<double>(ray.node_visits) + of_leaf * static_cast<double>(ray.leaf_visits);
-    image->rgb[3 * i + 2] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(blue, 0.0, 1.0)));
-  }
-  return image;
+std::optional<SmallTree> draw_traversal(const StepContext& context, const std::string& letter) {
+  const Values& values = context.values;
+  auto made = std::make_unique<const Scene>(
+      values.scene(values.integer("scenario"), values.integer("spheres"), context.settings.seed));
+  const Scene& scene = *made;
+  Tracer tracer = cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(values, letter)));
+  const cli::PictureSize size = picture_size(context.settings, values, kQuickDivisor);
+  std::optional<Image> picture = draw(context, scene, tracer, picture_settings(context, scene, size, View::traversal));
+  if (!picture) return std::nullopt;
+
+  const PixelRays pixels(scene.camera, size.width_px, size.height_px);
+  const double of_inner = values.number("visit.inner.blue"), of_leaf = values.number("visit.leaf.blue");
+  std::vector<CountingObserver> rays(picture->rgb.size() / 3);
+  parallel_for(context.settings.threads, size.height_px, [&](std::int64_t y) {
+    for (int x = 0; x < size.width_px; ++x) {
+      const auto i = static_cast<std::size_t>(y * size.width_px + x);
+      traverse<false>(*tracer.tree(), scene.spheres,
+                      ScaledRay(pixels.at(x + 0.5, static_cast<double>(y) + 0.5), scene.spheres), rays[i]);
+      const double blue =
+          of_inner * static_cast<double>(rays[i].node_visits) + of_leaf * static_cast<double>(rays[i].leaf_visits);
+      picture->rgb[3 * i + 2] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(blue, 0.0, 1.0)));
+    }
+  });
+  return SmallTree{std::move(made), std::move(tracer), std::move(rays), std::move(*picture)};
 }
 
 // What can be seen in the picture, as shares of its pixels.
@@ -112,14 +111,12 @@ Json seen_in(const Image& image, const std::vector<CountingObserver>& counts) {
 }
 
 Json draw_tree(const StepContext& context, const std::string& letter) {
-  const Scene scene = scene_of(context);
-  const Tracer tracer =
-      cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, letter)));
-  const std::vector<CountingObserver> counts = count_traversal(context, scene, tracer);
-  const std::optional<Image> traversal = traversal_picture(context, scene, tracer, counts);
+  const std::optional<SmallTree> small = draw_traversal(context, letter);
+  if (!small) return {};
   const cli::PictureSize size = picture_size(context.settings, context.values, kQuickTreeDivisor);
-  const std::optional<Image> tree = draw(context, scene, tracer, picture_settings(context, scene, size, View::tree));
-  if (!traversal || !tree) return {};
+  const std::optional<Image> tree =
+      draw(context, *small->scene, small->tracer, picture_settings(context, *small->scene, size, View::tree));
+  if (!tree) return {};
   const auto limit_text = [&](const std::string& name) {
     const std::int64_t limit = context.values.limit(letter + name);
     return limit == kUnlimited ? std::string("∞") : std::to_string(limit);
@@ -127,11 +124,11 @@ Json draw_tree(const StepContext& context, const std::string& letter) {
   return {{"letter", letter},
           {"max_depth", limit_text(".max_depth")},
           {"max_prims", limit_text(".max_prims")},
-          {"traversal", write_picture(context, letter + "-traversal.png", *traversal)},
+          {"traversal", write_picture(context, letter + "-traversal.png", small->picture)},
           {"tree_picture", write_picture(context, letter + "-tree.png", *tree)},
-          {"tree", tree_facts(*tracer.tree())},
-          {"green_step", smallest_step(*traversal, 1)},
-          {"seen", seen_in(*traversal, counts)}};
+          {"tree", tree_facts(*small->tracer.tree())},
+          {"green_step", smallest_step(small->picture, 1)},
+          {"seen", seen_in(small->picture, small->rays)}};
 }
 
 bool same_node(const Node& a, const Node& b) {
@@ -150,32 +147,23 @@ std::int64_t differences(const std::vector<T>& a, const std::vector<T>& b, const
 
 // Compares two trees node by node and two pictures pixel by pixel.
 Json compare(const StepContext& context, const std::string& first, const std::string& second) {
-  const Scene scene = scene_of(context);
-  const Tracer one =
-      cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, first)));
-  const Tracer other =
-      cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, parameters_of(context.values, second)));
-  const std::vector<CountingObserver> of_one = count_traversal(context, scene, one),
-                                      of_other = count_traversal(context, scene, other);
-  const std::optional<Image> one_image = traversal_picture(context, scene, one, of_one);
-  const std::optional<Image> other_image = traversal_picture(context, scene, other, of_other);
-  if (!one_image || !other_image) return {};
-  const auto equal = [](std::int64_t a, std::int64_t b) { return a == b; };
-  return {{"nodes", one.tree()->nodes.size()},
-          {"different_nodes", differences(one.tree()->nodes, other.tree()->nodes, same_node)},
-          {"different_places", differences(one.tree()->sphere_ids, other.tree()->sphere_ids, equal)},
-          {"different_pixels", difference_of(*one_image, *other_image).pixels}};
+  const std::optional<SmallTree> one = draw_traversal(context, first), other = draw_traversal(context, second);
+  if (!one || !other) return {};
+  const Tree &a = *one->tracer.tree(), &b = *other->tracer.tree();
+  return {{"nodes", a.nodes.size()},
+          {"different_nodes", differences(a.nodes, b.nodes, same_node)},
+          {"different_places", differences(a.sphere_ids, b.sphere_ids, std::equal_to<>())},
+          {"different_pixels", difference_of(one->picture, other->picture).pixels}};
 }
 
 // The trees of (a) to (c) with the MAX_PRIMS that the text gives for them.
 Json build_as_stated(const StepContext& context) {
-  const Scene scene = scene_of(context);
+  const Values& values = context.values;
+  const Scene scene = values.scene(values.integer("scenario"), values.integer("spheres"), context.settings.seed);
   Json trees = Json::object();
-  for (const std::string& letter : kByDepth) {
-    BuildParameters parameters = parameters_of(context.values, letter);
-    parameters.max_prims = context.values.limit("abc.max_prims_stated");
-    trees[letter] = tree_facts(build_reference_tree(scene.spheres, parameters));
-  }
+  for (const std::string& letter : kByDepth)
+    trees[letter] = tree_facts(build_reference_tree(
+        scene.spheres, {values.limit("abc.max_prims_stated"), values.limit(letter + ".max_depth")}));
   return trees;
 }
 
@@ -228,8 +216,8 @@ Json data_of(const DataContext& context) {
 
 }  // namespace
 
-Experiment figure_4_3() {
-  return {"figure-4.3", "D", "Figure 4.3: the tree and its traversal", steps_of, data_of};
+ExperimentCode figure_4_3() {
+  return {steps_of, data_of};
 }
 
 }  // namespace bihive::thesis

@@ -32,10 +32,7 @@ std::optional<StepStore::Saved> StepStore::load(const std::string& experiment, c
   if (!document.is_object() || !document.contains("key") || !document.contains("result")) return std::nullopt;
   if (document["key"] != key(values) || !document.contains("load")) return std::nullopt;
   try {
-    const Json& load = document["load"];
-    const MachineLoad known{load.at("seconds").get<double>(), load.at("others").get<double>(),
-                            load.at("known").get<bool>(), load.at("most_others").get<double>()};
-    return Saved{std::move(document["result"]), known};
+    return Saved{std::move(document["result"]), nlohmann::json(document["load"]).get<MachineLoad>()};
   } catch (const Json::exception&) {
     return std::nullopt;
   }
@@ -47,12 +44,7 @@ void StepStore::save(const std::string& experiment, const std::string& step, con
   std::error_code error;
   fs::create_directories(fs::path(file).parent_path(), error);
   if (error) cli::fail({"the folder cannot be made: " + error.message(), fs::path(file).parent_path(), 0, 0, ""});
-  const MachineLoad& load = saved.load;
-  const Json document{
-      {"key", key(values)},
-      {"load",
-       {{"seconds", load.seconds}, {"others", load.others}, {"known", load.known}, {"most_others", load.most_others}}},
-      {"result", saved.result}};
+  const Json document{{"key", key(values)}, {"load", nlohmann::json(saved.load)}, {"result", saved.result}};
   if (const Status status = write_file(file, document.dump(1) + "\n"); !status) cli::fail(status.error());
 }
 

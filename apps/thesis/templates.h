@@ -1,20 +1,19 @@
 // The report's templates, built into the program.
 #pragma once
 
-#include <string>
 #include <string_view>
+
+#include "bihive/thesis/experiments.h"
 
 namespace bihive {
 
-std::string_view thesis_template_report();      ///< thesis/report/report.html
-std::string_view thesis_template_css();         ///< thesis/report/report.css
-std::string_view thesis_template_findings();    ///< thesis/report/findings.html
-std::string_view thesis_template_figure_4_1();  ///< thesis/figure-4.1/report.html, and so on
-std::string_view thesis_template_figure_4_2();
-std::string_view thesis_template_figure_4_3();
-std::string_view thesis_template_section_d();
-std::string_view thesis_template_table_4_2();
-std::string_view thesis_template_figure_4_4();
-std::string_view thesis_template_figure_4_5();
+std::string_view thesis_template_report();    ///< thesis/report/report.html
+std::string_view thesis_template_css();       ///< thesis/report/report.css
+std::string_view thesis_template_findings();  ///< thesis/report/findings.html
+
+// thesis_template_figure_4_1() and so on: thesis/figure-4.1/report.html.
+#define BIHIVE_DECLARE(name, id, section, title) std::string_view thesis_template_##name();
+BIHIVE_THESIS_EXPERIMENTS(BIHIVE_DECLARE)
+#undef BIHIVE_DECLARE
 
 }  // namespace bihive

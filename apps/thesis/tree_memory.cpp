@@ -167,8 +167,8 @@ Json data_of(const DataContext& context) {
 
 }  // namespace
 
-Experiment figure_4_5() {
-  return {"figure-4.5", "G", "Figure 4.5: memory", steps_of, data_of};
+ExperimentCode figure_4_5() {
+  return {steps_of, data_of};
 }
 
 }  // namespace bihive::thesis

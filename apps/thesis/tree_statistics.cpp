@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "bihive/base/parallel.h"
 #include "bihive/bih/reference_builder.h"
@@ -21,39 +20,33 @@ constexpr std::int64_t kSeeds = 400, kQuickSeeds = 40;
 constexpr int kBuildMeans = 101, kQuickBuildMeans = 21;
 constexpr const char *kBuildTimesStep = "build_times", *kLevelsStep = "levels", *kReasonsStep = "reasons";
 
-// The table's rows by the names of their values; shares are percent of all leaves.
-constexpr std::array<std::pair<const char*, const char*>, 15> kRows{{{"inner_nodes", "Inner nodes"},
-                                                                     {"leaves", "Leaves"},
-                                                                     {"spheres_per_leaf_min", "Spheres per leaf, min"},
-                                                                     {"spheres_per_leaf_avg", "Spheres per leaf, avg"},
-                                                                     {"spheres_per_leaf_max", "Spheres per leaf, max"},
-                                                                     {"depth_min", "Depth, min"},
-                                                                     {"depth_avg", "Depth, avg"},
-                                                                     {"depth_max", "Depth, max"},
-                                                                     {"share_with_0", "Leaves with N = 0, %"},
-                                                                     {"share_with_1", "Leaves with N = 1, %"},
-                                                                     {"share_with_2", "Leaves with N = 2, %"},
-                                                                     {"share_with_3", "Leaves with N = 3, %"},
-                                                                     {"share_with_4", "Leaves with N = 4, %"},
-                                                                     {"share_with_more", "Leaves with N > 4, %"},
-                                                                     {"optimized_nodes", "Optimized nodes"}}};
-using Rows = std::array<double, kRows.size()>;
-
-Rows rows_of(const TreeStatistics& s) {
-  const auto number = [](std::int64_t value) { return static_cast<double>(value); };
-  Rows rows{number(s.inner_nodes),
-            number(s.leaves),
-            number(s.spheres_per_leaf.min),
-            s.spheres_per_leaf.avg,
-            number(s.spheres_per_leaf.max),
-            number(s.depth.min),
-            s.depth.avg,
-            number(s.depth.max)};
-  for (std::size_t i = 0; i < s.leaves_with.size(); ++i)
-    rows[8 + i] = 100 * number(s.leaves_with[i]) / number(s.leaves);
-  rows[14] = number(s.optimized_nodes);
-  return rows;
+// The table's rows: the name of the value, the words, and the number; shares are percent of all leaves.
+struct Row {
+  const char *key, *label;
+  double (*of)(const TreeStatistics& tree);
+};
+double share(const TreeStatistics& tree, std::size_t spheres) {
+  return 100 * static_cast<double>(tree.leaves_with[spheres]) / static_cast<double>(tree.leaves);
 }
+constexpr Row kRows[] = {
+    {"inner_nodes", "Inner nodes", [](const TreeStatistics& tree) { return double(tree.inner_nodes); }},
+    {"leaves", "Leaves", [](const TreeStatistics& tree) { return double(tree.leaves); }},
+    {"spheres_per_leaf_min", "Spheres per leaf, min",
+     [](const TreeStatistics& tree) { return double(tree.spheres_per_leaf.min); }},
+    {"spheres_per_leaf_avg", "Spheres per leaf, avg",
+     [](const TreeStatistics& tree) { return tree.spheres_per_leaf.avg; }},
+    {"spheres_per_leaf_max", "Spheres per leaf, max",
+     [](const TreeStatistics& tree) { return double(tree.spheres_per_leaf.max); }},
+    {"depth_min", "Depth, min", [](const TreeStatistics& tree) { return double(tree.depth.min); }},
+    {"depth_avg", "Depth, avg", [](const TreeStatistics& tree) { return tree.depth.avg; }},
+    {"depth_max", "Depth, max", [](const TreeStatistics& tree) { return double(tree.depth.max); }},
+    {"share_with_0", "Leaves with N = 0, %", [](const TreeStatistics& tree) { return share(tree, 0); }},
+    {"share_with_1", "Leaves with N = 1, %", [](const TreeStatistics& tree) { return share(tree, 1); }},
+    {"share_with_2", "Leaves with N = 2, %", [](const TreeStatistics& tree) { return share(tree, 2); }},
+    {"share_with_3", "Leaves with N = 3, %", [](const TreeStatistics& tree) { return share(tree, 3); }},
+    {"share_with_4", "Leaves with N = 4, %", [](const TreeStatistics& tree) { return share(tree, 4); }},
+    {"share_with_more", "Leaves with N > 4, %", [](const TreeStatistics& tree) { return share(tree, 5); }},
+    {"optimized_nodes", "Optimized nodes", [](const TreeStatistics& tree) { return double(tree.optimized_nodes); }}};
 
 SphereSet spheres_of(const Values& values, std::int64_t scenario, std::uint64_t seed) {
   return values.scene(scenario, values.integer("spheres"), seed).spheres;
@@ -73,7 +66,7 @@ Json count_trees(const StepContext& context, std::int64_t scenario, std::int64_t
   const auto statistics = [&](std::uint64_t seed) {
     return tree_statistics(build_reference_tree(spheres_of(values, scenario, seed), build));
   };
-  const Rows ours = rows_of(statistics(context.settings.seed));
+  const TreeStatistics ours = statistics(context.settings.seed);
 
   // The grid of Scenario 1 has no chance in it.
   const std::int64_t wanted = context.settings.quick ? kQuickSeeds : kSeeds;
@@ -83,12 +76,11 @@ Json count_trees(const StepContext& context, std::int64_t scenario, std::int64_t
   });
 
   Json result{{"seeds", trees.size()}};
-  for (std::size_t row = 0; row < kRows.size(); ++row) {
+  for (const Row& row : kRows) {
     std::vector<double> sample;
-    sample.reserve(trees.size());
-    for (const TreeStatistics& tree : trees) sample.push_back(rows_of(tree)[row]);
-    result["rows"][kRows[row].first] = spread_of(sample).json();
-    result["rows"][kRows[row].first]["this"] = ours[row];
+    for (const TreeStatistics& tree : trees) sample.push_back(row.of(tree));
+    result["rows"][row.key] = spread_of(sample).json();
+    result["rows"][row.key]["this"] = row.of(ours);
   }
   for (const TreeStatistics& tree : trees) result["nodes"].push_back(tree.inner_nodes + tree.leaves);
   return result;
@@ -200,7 +192,7 @@ class TableData {
 
   // For the report: the printed numbers with ours below.
   void add_rows() {
-    for (const auto& [key, label] : kRows) {
+    for (const auto& [key, label, of] : kRows) {
       Json row{{"label", label}, {"cells", Json::array()}};
       for (const std::int64_t scenario : scenarios_)
         for (const std::int64_t prims : max_prims_) {
@@ -325,9 +317,8 @@ class TableData {
 
 }  // namespace
 
-Experiment table_4_2() {
-  return {"table-4.2", "E", "Table 4.2: statistics of the trees", steps_of,
-          [](const DataContext& context) { return TableData(context).all(); }};
+ExperimentCode table_4_2() {
+  return {steps_of, [](const DataContext& context) { return TableData(context).all(); }};
 }
 
 }  // namespace bihive::thesis

@@ -17,14 +17,10 @@ using cli::fail;
 using cli::value_or_fail;
 
 std::string_view builtin_values(const std::string& experiment) {
-  using Source = std::string_view (*)();
-  static const std::pair<const char*, Source> kSources[] = {
-      {"figure-4.1", builtin_values_figure_4_1}, {"figure-4.2", builtin_values_figure_4_2},
-      {"figure-4.3", builtin_values_figure_4_3}, {"table-4.2", builtin_values_table_4_2},
-      {"figure-4.4", builtin_values_figure_4_4}, {"figure-4.5", builtin_values_figure_4_5},
-      {"section-d", builtin_values_section_d}};
-  for (const auto& [name, source] : kSources)
-    if (experiment == name) return source();
+#define BIHIVE_VALUES(name, id, section, title) \
+  if (experiment == id) return builtin_values_##name();
+  BIHIVE_THESIS_EXPERIMENTS(BIHIVE_VALUES)
+#undef BIHIVE_VALUES
   return {};
 }
 

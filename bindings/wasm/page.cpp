@@ -5,23 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "answers.h"
 #include "bihive/base/json_text.h"
-#include "bihive/base/parallel.h"
-#include "bihive/base/version.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/colour_maps.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/names.h"
 #include "bihive/scene/style.h"
-#include "bihive/thesis/builtin_values.h"
-#include "bihive/thesis/frame_rates_report.h"
-#include "bihive/thesis/stated_values.h"
 #include "bihive/viewer/load_file.h"
 #include "bihive/viewer/viewer_json.h"
 
@@ -30,55 +25,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::string_view kFolder = "/files-of-the-user/";
-
-// Nobody knows the folder but this module and its worker.
-std::string text_of(const ordered_json& json) {
-  std::string text = json.dump(-1, ' ', /*ensure_ascii=*/false, ordered_json::error_handler_t::replace);
-  for (std::size_t at = text.find(kFolder); at != std::string::npos; at = text.find(kFolder, at))
-    text.erase(at, kFolder.size());
-  return text;
-}
-
-ordered_json failure_json(const Error& error) {
-  return {{"error",
-           {{"message", error.message},
-            {"file", error.file},
-            {"line", error.line},
-            {"column", error.column},
-            {"hint", error.hint}}}};
-}
-
-std::string failure(const Error& error) {
-  return text_of(failure_json(error));
-}
-
 template <class T>
 ordered_json names_json(const Names<T>& names) {
   ordered_json list = ordered_json::array();
   for (const auto& named : names) list.push_back(named.first);
   return list;
-}
-
-Result<StatedValues> stated_values() {
-  return StatedValues::parse(builtin_values_figure_4_4(), "thesis/figure-4.4/values.json");
-}
-
-// A full run of the thesis ends in about ten minutes, a quick one in about one: slower devices draw smaller pictures.
-constexpr double kThesisSeconds = 600, kQuickThesisSeconds = 60;
-
-MeasuringDevice device_from(const std::string& text) {
-  const Result<ordered_json> json = json_from_text<ordered_json>(text);
-  MeasuringDevice device;
-  if (!json || !json->is_object()) return device;
-  for (const auto& [name, value] : json->items()) {
-    if (!value.is_string()) continue;
-    if (name == "device")
-      device.words = value.get<std::string>();
-    else
-      device.facts.emplace_back(name, value.get<std::string>());
-  }
-  return device;
 }
 
 std::string done_or(const Status& status) {
@@ -106,16 +57,6 @@ ordered_json coloured_by_json(const Scene& scene) {
     list.push_back(std::move(one));
   }
   return list;
-}
-
-// Lack of memory is the only failure that throws.
-template <class Work>
-std::string with_memory(const Work& work) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    return failure({"there is not enough memory for this in the browser", "", 0, 0, "try a smaller file or picture"});
-  }
 }
 
 }  // namespace
@@ -309,18 +250,9 @@ std::string Page::frame(double budget_ms) {
   });
 }
 
-void Page::take_pixels(const Image& image) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  pixels_.resize(4 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t channel = 0; channel < 3; ++channel) pixels_[4 * i + channel] = image.rgb[3 * i + channel];
-    pixels_[4 * i + 3] = 255;
-  }
-}
-
 std::string Page::take_image() {
   const Image& image = viewer_.image();
-  take_pixels(image);
+  pixels_ = pixels_of(image);
   return text_of({{"width", image.width}, {"height", image.height}});
 }
 
@@ -352,138 +284,10 @@ std::string Page::take_picture() {
   });
 }
 
-std::string Page::begin_thesis(bool quick, const std::string& saved) {
-  return with_memory([&] {
-    const Result<StatedValues> values = stated_values();
-    if (!values) return failure(values.error());
-    Result<FrameRatePlan> plan = FrameRatePlan::from_values(*values);
-    if (!plan) return failure(plan.error());
-    if (quick) plan = plan->quickly();
-    end_thesis();
-    if (viewer_.settings().engine == ViewerEngine::gpu) {
-      Result<GlRenderer> renderer = GlRenderer::create(browser_gl_functions());
-      if (!renderer) return failure(renderer.error());
-      thesis_gl_ = std::move(*renderer);
-    }
-    FrameEngine engine;
-    engine.gl = thesis_gl_ ? &*thesis_gl_ : nullptr;
-    const std::optional<SavedFrameRates> earlier = saved_frame_rates(saved);
-    const bool same = earlier && earlier->engine == thesis_engine() && earlier->quick == quick &&
-                      earlier->rounds == plan->rounds && earlier->width_px <= plan->width_px;
-    if (same) {
-      plan->width_px = earlier->width_px;
-      plan->height_px = earlier->height_px;
-    } else {
-      plan = plan->within(quick ? kQuickThesisSeconds : kThesisSeconds, engine);
-      if (!plan) return failure(plan.error());
-    }
-    thesis_.emplace(*plan, engine);
-    if (same) thesis_->resume(earlier->rates);
-    return text_of(
-        {{"width_px", plan->width_px}, {"height_px", plan->height_px}, {"resumed", thesis_->rates().size()}});
-  });
-}
-
-std::string Page::step_thesis() {
-  return with_memory([&] {
-    if (!thesis_) return failure({"no run of the thesis has begun", "", 0, 0, ""});
-    if (const Status status = thesis_->step(); !status) return failure(status.error());
-    return text_of({{"finished", thesis_->finished()},
-                    {"done", thesis_->done()},
-                    {"seconds_left", thesis_->seconds_left()},
-                    {"configurations_done", thesis_->rates().size()},
-                    {"configurations", thesis_->plan().configurations()},
-                    {"scenario", thesis_->scenario()},
-                    {"spheres", thesis_->spheres()}});
-  });
-}
-
-std::string Page::thesis_so_far(const std::string& device) const {
-  return with_memory([&] {
-    if (!thesis_) return failure({"no run of the thesis has begun", "", 0, 0, ""});
-    const Result<StatedValues> values = stated_values();
-    if (!values) return failure(values.error());
-    std::optional<MeasuredCosts> costs;
-    if (thesis_->finished()) {
-      Result<MeasuredCosts> measured = measured_costs(*thesis_, *values, thesis_gl_ ? 1 : hardware_threads());
-      if (!measured) return failure(measured.error());
-      costs = std::move(*measured);
-    }
-    const MeasuredCosts* const known = costs ? &*costs : nullptr;
-    ordered_json json;
-    json["result"] = frame_rates_json(*thesis_, *values, thesis_engine(), device_from(device), known);
-    json["charts"] = frame_rates_charts(*thesis_, *values, "this device", known);
-    return text_of(json);
-  });
-}
-
-void Page::end_thesis() {
-  thesis_.reset();
-  thesis_gl_.reset();
-}
-
-std::string Page::begin_shown_frames(double seconds) {
-  return with_memory([&] {
-    const Result<StatedValues> values = stated_values();
-    if (!values) return failure(values.error());
-    Result<ShownFramesPlan> plan = ShownFramesPlan::from_values(*values);
-    if (!plan) return failure(plan.error());
-    plan->measure_for(seconds);
-    shown_frames_.emplace(std::move(*plan));
-    return std::string("{}");
-  });
-}
-
-std::string Page::draw_shown_frame() {
-  return with_memory([&] {
-    if (!shown_frames_) return failure({"no frames are measured", "", 0, 0, ""});
-    const Result<const Image*> image = shown_frames_->draw();
-    if (!image) return failure(image.error());
-    take_pixels(**image);
-    return text_of({{"width", (*image)->width}, {"height", (*image)->height}});
-  });
-}
-
-std::string Page::frame_is_shown(double now_ms) {
-  return with_memory([&] {
-    if (!shown_frames_) return failure({"no frames are measured", "", 0, 0, ""});
-    shown_frames_->shown(now_ms);
-    const std::vector<ShownRate>& rates = shown_frames_->rates();
-    const ShownRate& now = rates[std::min(shown_frames_->measured(), rates.size() - 1)];
-    return text_of({{"finished", shown_frames_->finished()},
-                    {"done", static_cast<double>(shown_frames_->measured()) / static_cast<double>(rates.size())},
-                    {"scenario", now.scenario},
-                    {"spheres", now.spheres},
-                    {"max_prims", now.max_prims ? ordered_json(*now.max_prims) : ordered_json()},
-                    {"turning", now.turning}});
-  });
-}
-
-std::string Page::end_shown_frames(const std::string& device) {
-  return with_memory([&] {
-    if (!shown_frames_) return failure({"no frames are measured", "", 0, 0, ""});
-    ordered_json json;
-    json["result"] = shown_frames_->json("page", device_from(device).words);
-    shown_frames_.reset();
-    return text_of(json);
-  });
-}
-
 }  // namespace bihive::page
-
-namespace {
-
-std::string version_text() {
-  const std::string commit(bihive::commit());
-  return std::string(bihive::version()) + (commit.empty() ? "" : " (" + commit + ")");
-}
-
-}  // namespace
 
 EMSCRIPTEN_BINDINGS(page) {
   using bihive::page::Page;
-  emscripten::function("version", &version_text);
-  emscripten::function("threads", &bihive::hardware_threads);
   emscripten::class_<Page>("Page")
       .constructor<>()
       .class_function("folder", &Page::folder)
@@ -517,13 +321,5 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("step_picture", &Page::step_picture)
       .function("take_picture", &Page::take_picture)
       .function("drop_picture", &Page::drop_picture)
-      .function("statistics", &Page::statistics)
-      .function("begin_thesis", &Page::begin_thesis)
-      .function("step_thesis", &Page::step_thesis)
-      .function("thesis_so_far", &Page::thesis_so_far)
-      .function("end_thesis", &Page::end_thesis)
-      .function("begin_shown_frames", &Page::begin_shown_frames)
-      .function("draw_shown_frame", &Page::draw_shown_frame)
-      .function("frame_is_shown", &Page::frame_is_shown)
-      .function("end_shown_frames", &Page::end_shown_frames);
+      .function("statistics", &Page::statistics);
 }

@@ -1,7 +1,7 @@
 // The functions that the page's worker calls: the viewer, with text and bytes instead of C++ types.
 //
-// Every method that can fail returns a JSON text; after a failure {"error": {"message", "file", "line", "column",
-// "hint"}}. Everything runs on the thread of the caller, and on the threads that the library makes.
+// Every method that can fail returns a JSON text (answers.h). Everything runs on the thread of the caller, and on the
+// threads that the library makes.
 #pragma once
 
 #include <emscripten/val.h>
@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "bihive/io/frames.h"
-#include "bihive/thesis/frame_rates.h"
-#include "bihive/thesis/shown_frames.h"
 #include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
 
@@ -92,36 +90,10 @@ class Page {
   std::string take_picture();
   void drop_picture() { viewer_.drop_picture(); }
 
-  // Figure 4.4, one step for each call.
-
-  /// Pictures are smaller where the run would take more than ten minutes, of a quick run one. `saved`: the result of an
-  /// earlier run that was not completed, or any other text; its measurements are kept if it is one of the same plan and
-  /// engine. Answers {"width_px", "height_px", "resumed": configurations that are done}.
-  std::string begin_thesis(bool quick, const std::string& saved);
-  /// {"finished", "done", "seconds_left", "configurations_done", "configurations", "scenario", "spheres"}.
-  std::string step_thesis();
-  /// The results so far: {"result": JSON text, "charts": [SVG text]}; of a complete run also what the steps of a ray
-  /// cost here, which takes a second or two. `device`: a JSON object with "device", words, and
-  /// other texts by name.
-  std::string thesis_so_far(const std::string& device) const;
-  void end_thesis();
-
-  // Frames shown a second (thesis/shown_frames.h). The caller draws a picture, shows it, and says when it is shown.
-
-  std::string begin_shown_frames(double seconds);
-  /// {"width", "height"}, and the pixels as a view of memory by pixels().
-  std::string draw_shown_frame();
-  /// {"finished", "done": 0 to 1, "scenario", "spheres", "max_prims" (null: the wide engine), "turning"}
-  std::string frame_is_shown(double now_ms);
-  /// {"result": JSON text}
-  std::string end_shown_frames(const std::string& device);
-
  private:
   void start_player();
   Status show_frame(std::int64_t frame);
   std::string loaded(const Result<SceneFacts>& facts) const;
-  void take_pixels(const Image& image);
-  const char* thesis_engine() const { return thesis_gl_ ? "gpu" : "cpu"; }
 
   Viewer viewer_;
   std::shared_ptr<const Frames> frames_;  // null: there is one
@@ -129,9 +101,6 @@ class Page {
   std::int64_t frame_in_viewer_ = 0;
   bool frame_is_drawn_ = true;  // that one
   std::vector<std::uint8_t> pixels_;
-  std::optional<GlRenderer> thesis_gl_;
-  std::optional<FrameRateRun> thesis_;
-  std::optional<ShownFrames> shown_frames_;
 };
 
 }  // namespace bihive::page

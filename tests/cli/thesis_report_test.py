@@ -224,6 +224,39 @@ class Report(ProgramTest):
             self.assertIn(file + ": ", self.fail_input("thesis", "figure-4.2", "--quick", "--out", "bad", "--device", file))
         self.assertFalse(os.path.exists(self.path("bad")))
 
+    def test_the_file_of_a_phone_has_both_engines_their_heat_and_the_screen(self):
+        rate = {"scenario": 1, "spheres": 64, "max_prims": None, "fps": 10.0, "frame_ms": [100.0, 120.0]}
+        run = {"experiment": "figure-4.4", "device": "a phone", "width_px": 568, "height_px": 320, "quick": False, "rounds": 2,
+               "complete": True, "configurations": [rate, {**rate, "max_prims": 8, "fps": 40.0, "frame_ms": [25.0, 25.0]}]}
+        passes = [{"engine": engine, "minute": minute, "round_ms": ms * slower}
+                  for engine, slower in (("cpu", 1), ("gpu", 0.5)) for minute, ms in ((1, 800), (1, 820), (1, 840), (5, 900), (10, 1000))]
+        shown = {"experiment": "shown-frames", "by": "page", "device": "a phone", "width_px": 1136, "height_px": 640,
+                 "seconds": 1.0, "threads": 1, "complete": False, "configurations": []}
+        phone = {"experiment": "phone", "minutes": 10, "runs": [{**run, "engine": "cpu"}, {**run, "engine": "gpu"}], "passes": passes, "shown": shown}
+        self.write("phone.json", json.dumps(phone))
+        self.succeed("thesis", "figure-4.2", "--quick", "--out", "out", "--device", "phone.json")
+        results = self.results("out")
+        self.assertEqual([each["engine"] for each in results["devices"]], ["cpu", "gpu"])
+        self.assertEqual(results["devices"][0]["heat"], {"first_minute": 1, "first_ms": 820, "last_minute": 10, "last_ms": 1000})
+        self.assertEqual(results["devices"][1]["heat"]["last_ms"], 500)
+        # A quarter of the text's picture: a quarter of the rate in its size.
+        self.assertAlmostEqual(results["devices"][0]["best_fps"], 40)
+        self.assertAlmostEqual(results["devices"][0]["best_fps_scaled"], 10)
+        self.assertNotIn("shown_frames", results)
+        self.assertIn("minute 1: 820 ms, minute 10: 1000 ms", self.report("out"))
+        self.write("bad.json", json.dumps({**phone, "passes": [{"engine": "cpu"}]}))
+        self.assertIn("bad.json: ", self.fail_input("thesis", "figure-4.2", "--quick", "--out", "bad", "--device", "bad.json"))
+
+    def test_the_page_for_phones_is_written(self):
+        os.mkdir(self.path("page"))
+        self.write("page/phone.html", "<!doctype html>")
+        done = self.run_bihive("thesis", "--page", "written.html", env={**os.environ, "BIHIVE_PAGE": self.path("page")})
+        self.assertEqual((done.returncode, done.stderr, self.read("written.html")), (0, "", b"<!doctype html>"))
+        absent = {**os.environ, "BIHIVE_PAGE": self.path("absent")}
+        self.assertIn("without the page", self.fail_with(3, "thesis", "--page", "none.html", env=absent))
+        self.assertIn("--out", self.fail_usage("thesis", "--page", "a.html", "--out", "out"))
+        self.assertIn("--out is required", self.fail_usage("thesis"))
+
     def test_frames_on_a_screen_have_a_part_of_their_own(self):
         configurations = [
             {"scenario": scenario, "spheres": spheres, "max_prims": max_prims, "turning": turning,

@@ -50,9 +50,13 @@ class ThesisMap(unittest.TestCase):
         for entry in self.entries:
             self.assertGreater(len(entry["sentence"]), 20, entry)
 
-    def test_every_experiment_has_a_template(self):
-        self.assertEqual(len(glob.glob(f"{SOURCE}/thesis/*/values.json")), 7)
-        self.assertEqual(len(glob.glob(f"{SOURCE}/thesis/*/report.html")), 8)
+    def test_every_experiment_has_values_and_a_template(self):
+        table = text_of("src/bihive/thesis/experiments.h")
+        named = set(re.findall(r'^  row\(\w+, "([^"]+)"', table, re.MULTILINE))
+        self.assertEqual(len(named), 7)
+        folders = lambda file: {os.path.basename(os.path.dirname(path)) for path in glob.glob(f"{SOURCE}/thesis/*/{file}")}
+        self.assertEqual(folders("values.json"), named)
+        self.assertEqual(folders("report.html"), named | {"report"})
 
 
 if __name__ == "__main__":

@@ -87,7 +87,7 @@ TEST(FrameRateRun, TakesTurnsAndCountsAllButTheFirstRound) {
   EXPECT_EQ(run.rates()[5].max_prims, 8);
   for (const MeasuredRate& rate : run.rates()) {
     EXPECT_EQ(rate.frame_ms.size(), 3u);
-    EXPECT_GT(rate.fps(), 0);
+    EXPECT_GT(frames_per_second(rate.frame_ms), 0);
   }
 }
 
@@ -110,20 +110,14 @@ TEST(FrameContest, EndsWhereItIsCancelled) {
   EXPECT_TRUE(contest->finished());
 }
 
-TEST(ConfigurationFps, GainsByTheBestTree) {
-  const std::vector<ConfigurationFps> found =
-      configurations_of({{1, 64, std::nullopt, {10}}, {1, 64, 1, {5}}, {1, 64, 8, {2}}, {2, 64, std::nullopt, {4}}});
-  ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].best(), 1u);
-  EXPECT_DOUBLE_EQ(found[0].gain_percent(), 400);
-  EXPECT_EQ(found[1].scenario, 2);
-  EXPECT_DOUBLE_EQ(found[1].brute, 250);
-}
-
-TEST(MeasuredRate, IsOfTheMedianRound) {
-  MeasuredRate rate;
-  rate.frame_ms = {100, 10, 20};
-  EXPECT_DOUBLE_EQ(rate.fps(), 50);
+TEST(ConfigurationTimes, GainByTheTreeOfTheMedianRound) {
+  const EngineTimes times = times_of(
+      {{1, 64, std::nullopt, {10}}, {1, 64, 1, {5}}, {1, 64, 8, {2, 100, 1}}, {2, 64, std::nullopt, {20, 1000, 10}}});
+  ASSERT_EQ(times.size(), 2U);
+  EXPECT_EQ(times.at({1, 64}).fastest(), 8);
+  EXPECT_DOUBLE_EQ(times.at({1, 64}).gain_percent(), 400);
+  EXPECT_EQ(times.at({2, 64}).fastest(), 0);
+  EXPECT_DOUBLE_EQ(frames_per_second(times.at({2, 64}).brute), 50);
 }
 
 TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
@@ -181,6 +175,19 @@ TEST(FrameRateRun, GoesOnWhereAnEarlierRunStopped) {
   FrameRateRun third(small_plan(), {});
   third.resume(second.rates());
   EXPECT_TRUE(third.finished());
+}
+
+TEST(FrameRateRun, CountsTheRoundsOfEarlierPassesBeforeItsOwn) {
+  FrameRatePlan plan = small_plan();
+  plan.rounds = 1;
+  FrameRateRun first(plan, {}), second(plan, {});
+  for (FrameRateRun* run : {&first, &second})
+    while (!run->finished()) ASSERT_TRUE(run->step());
+  const double of_second = second.rates().back().frame_ms.front();
+  second.put_after(first);
+  EXPECT_EQ(second.plan().rounds, 2);
+  ASSERT_EQ(second.rates().size(), first.rates().size());
+  EXPECT_EQ(second.rates().back().frame_ms, (std::vector<double>{first.rates().back().frame_ms.front(), of_second}));
 }
 
 TEST(FrameRateRun, TakesNoRatesOfAnotherPlan) {

@@ -1,8 +1,8 @@
 // The canvas of the graphics processor: its WebGL2 context, which the C++ module uses, and the loss of that context.
 import type { GpuState } from './protocol';
-import type { Module } from './module';
+import type { Module, ThesisModule } from './module';
 
-const attributes: WebGLContextAttributes = {
+export const attributes: WebGLContextAttributes = {
   alpha: false,
   antialias: false,
   depth: false,
@@ -12,9 +12,9 @@ const attributes: WebGLContextAttributes = {
 
 // Recognises WebGL2 without a graphics processor: the CPU engine is faster. Browsers do not say so directly, but the
 // names of their software renderers do.
-const is_software = (name: string) => /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+export const is_software = (name: string) => /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 
-function name_of(context: WebGL2RenderingContext): string {
+export function name_of(context: WebGL2RenderingContext): string {
   const unmasked = context.getExtension('WEBGL_debug_renderer_info');
   return String(context.getParameter(unmasked ? unmasked.UNMASKED_RENDERER_WEBGL : context.RENDERER));
 }
@@ -65,11 +65,12 @@ export class GlCanvas {
 
   // Also after a loss: it asks for the extensions again and forgets the names of lost objects.
   private register(): void {
-    const handle = this.module.GL.registerContext(this.context!, {
-      majorVersion: 2,
-      minorVersion: 0,
-      enableExtensionsByDefault: true,
-    });
-    this.module.GL.makeContextCurrent(handle);
+    give_context(this.module, this.context!);
   }
+}
+
+/** Lets the C++ module draw with this context. */
+export function give_context(module: ThesisModule, context: WebGL2RenderingContext): void {
+  const handle = module.GL.registerContext(context, { majorVersion: 2, minorVersion: 0, enableExtensionsByDefault: true });
+  module.GL.makeContextCurrent(handle);
 }

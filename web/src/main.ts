@@ -18,6 +18,7 @@ import {
   is_trajectory, listen_for_reading, listen_for_sources, show_source, wanted_files, wanted_source, with_reading,
   type OwnFiles, type Wanted,
 } from './sources';
+import { describe_device } from './device';
 import { show_statistics } from './statistics';
 import { start_theme } from './theme';
 import { ThesisDialog } from './thesis';
@@ -175,30 +176,8 @@ const thesis = new ThesisDialog({
   goes_on_from: (result) => result['engine'] === settings?.engine && result['version'] === program_version,
 });
 
-// The measuring device, for the files that go from here to `bihive thesis --device`.
 let program_version = '';
-let model = ''; // of a phone; browsers that know it tell
-interface AgentData {
-  getHighEntropyValues?(names: string[]): Promise<{ model?: string }>;
-}
-void (navigator as { userAgentData?: AgentData }).userAgentData
-  ?.getHighEntropyValues?.(['model'])
-  .then((values) => (model = values.model ?? ''))
-  .catch(() => undefined);
-
-function device_json(): string {
-  const threads = `${navigator.hardwareConcurrency} threads`;
-  const gpu_name = gpu.name || 'no WebGL2';
-  return JSON.stringify({
-    device: [model, gpu_name, threads, navigator.userAgent].filter(Boolean).join('; '),
-    model,
-    gpu: gpu_name,
-    browser: navigator.userAgent,
-    screen: `${screen.width} x ${screen.height}, ${devicePixelRatio} pixels each`,
-    threads,
-    version: program_version,
-  });
-}
+const device_json = () => describe_device(gpu.name, navigator.hardwareConcurrency, program_version);
 
 // Answers of the worker.
 

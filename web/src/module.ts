@@ -32,14 +32,25 @@ export interface Page {
   take_picture(): string;
   drop_picture(): void;
   statistics(): string;
-  begin_thesis(quick: boolean, saved: string): string;
-  step_thesis(): string;
-  thesis_so_far(device: string): string;
-  end_thesis(): void;
-  begin_shown_frames(seconds: number): string;
-  draw_shown_frame(): string;
-  frame_is_shown(now_ms: number): string;
-  end_shown_frames(device: string): string;
+}
+
+/** Figure 4.4 by one engine (bindings/wasm/thesis_run.h). */
+export interface ThesisRun {
+  begin(quick: boolean, saved: string): string;
+  begin_pass(seconds: number): string;
+  step(): string;
+  so_far(device: string): string;
+  delete(): void;
+}
+
+/** Frames shown per second. */
+export interface ShownFramesRun {
+  begin(seconds: number): string;
+  draw(): string;
+  pixels(): Uint8Array;
+  shown(now_ms: number): string;
+  result(device: string): string;
+  delete(): void;
 }
 
 /** Emscripten's list of contexts: what the C++ side calls WebGL through. */
@@ -56,12 +67,18 @@ export interface FileSystem {
   unmount(path: string): void;
 }
 
-export interface Module {
-  Page: { new (): Page; folder(): string };
-  FS: FileSystem;
+/** What both modules have. */
+export interface ThesisModule {
+  ThesisRun: { new (gpu: boolean): ThesisRun };
+  ShownFramesRun: { new (): ShownFramesRun };
   GL: GlContexts;
   version(): string;
   threads(): number;
+}
+
+export interface Module extends ThesisModule {
+  Page: { new (): Page; folder(): string };
+  FS: FileSystem;
 }
 
 /** `base`: the page's own address. Throws where the module cannot be loaded. */

@@ -5,6 +5,7 @@ import { element } from './dom';
 import { save } from './download';
 import { fail } from './messages';
 import type { ShownProgress, ThesisProgress } from './protocol';
+import { costs_in_words, type Costs, type Rate } from './thesis_result';
 
 export interface ThesisActions {
   /** `saved`: the result of a run to be continued, or ''. */
@@ -25,13 +26,6 @@ function storage<T>(work: (store: Storage) => T): T | null {
   } catch {
     return null;
   }
-}
-
-interface Rate {
-  scenario: number;
-  spheres: number;
-  max_prims: number | null;
-  fps: number;
 }
 
 // The rates as words: a line for each scenario and number of spheres.
@@ -56,23 +50,11 @@ interface PictureSize {
 // A quick run's frame rates are those of small pictures; a note beside them says so.
 const pixels = ({ width_px, height_px }: PictureSize) => `pictures of ${width_px} × ${height_px}`;
 
-interface Costs {
-  inner_per_test: number;
-  leaf_per_inner: number;
-  winner: string;
-  wins: number;
-  configurations: number;
-}
-
 // What the steps of a ray cost on this device, and who wins at these costs; '' where nothing was found.
 function verdict(result: string): string {
   const { costs } = JSON.parse(result) as { costs?: Costs };
   if (!costs) return '';
-  const [inner, leaf] = [costs.inner_per_test.toFixed(2), costs.leaf_per_inner.toFixed(2)];
-  return (
-    `Here an inner node costs ${inner} sphere tests and a leaf ${leaf} inner nodes: ` +
-    `${costs.winner} wins ${costs.wins} of ${costs.configurations}, where the thesis says 7 of 9.`
-  );
+  return `Here ${costs_in_words(costs)}`;
 }
 
 export class ThesisDialog {

@@ -1,5 +1,5 @@
 // The worker: the C++ module, the loop of frames, and the answers to the page.
-import { BadInput, load_module, value_of, type Module, type Page } from './module';
+import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
 import { GlCanvas } from './gl_canvas';
 import { PictureRun } from './picture_run';
 import type {
@@ -32,6 +32,7 @@ let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
 let saving: PictureRun | null = null;
 let thesis: { device: string; cancelled: boolean; saved: number } | null = null; // saved: configurations
+let thesis_run: ThesisRun | null = null;
 
 function send(answer: Answer): void {
   postMessage(answer);
@@ -185,18 +186,14 @@ function send_player(): void {
 function show_cpu_image(): void {
   const { width, height } = value_of<{ width: number; height: number }>(page.take_image());
   if (width === 0 || height === 0) return;
-  put_cpu_pixels(width, height);
+  put_cpu_pixels(page.pixels(), width, height);
 }
 
-function put_cpu_pixels(width: number, height: number): void {
+function put_cpu_pixels(pixels: Uint8Array, width: number, height: number): void {
   if (cpu_canvas.width !== width) cpu_canvas.width = width;
   if (cpu_canvas.height !== height) cpu_canvas.height = height;
-  cpu_context.putImageData(image_data(width, height), 0, 0);
-}
-
-// A copy of the module's pixels, because the browser takes no shared memory for pictures.
-function image_data(width: number, height: number): ImageData {
-  return new ImageData(new Uint8ClampedArray(page.pixels()), width, height);
+  // A copy of the module's pixels, because the browser takes no shared memory for pictures.
+  cpu_context.putImageData(new ImageData(new Uint8ClampedArray(pixels), width, height), 0, 0);
 }
 
 function show_gpu_image(): void {
@@ -342,34 +339,38 @@ function run_thesis(quick: boolean, device: string, saved: string): void {
   try {
     if (saving) throw new BadInput(busy_saving);
     apply_changes();
-    const { resumed } = value_of<{ resumed: number }>(page.begin_thesis(quick, saved));
+    thesis_run = new module.ThesisRun(settings().engine === 'gpu');
+    const { resumed } = value_of<{ resumed: number }>(thesis_run.begin(quick, saved));
     thesis = { device, cancelled: false, saved: resumed };
     setTimeout(step_thesis);
   } catch (error) {
+    thesis_run?.delete();
+    thesis_run = null;
     send({ type: 'thesis_failed', message: (error as Error).message });
   }
 }
 
 function step_thesis(): void {
-  const run = thesis!;
+  const run = thesis!, measured = thesis_run!;
   try {
     if (!run.cancelled) {
-      const progress = value_of<ThesisProgress>(page.step_thesis());
+      const progress = value_of<ThesisProgress>(measured.step());
       send({ type: 'thesis_progress', progress });
       if (progress.configurations_done > run.saved) {
         run.saved = progress.configurations_done;
-        send({ type: 'thesis_saved', result: value_of<ThesisSoFar>(page.thesis_so_far(run.device)).result });
+        send({ type: 'thesis_saved', result: value_of<ThesisSoFar>(measured.so_far(run.device)).result });
       }
       // The page's messages are read between two steps, so a cancel takes effect.
       if (!progress.finished) return void setTimeout(step_thesis);
     }
-    const { result, charts } = value_of<ThesisSoFar>(page.thesis_so_far(run.device));
+    const { result, charts } = value_of<ThesisSoFar>(measured.so_far(run.device));
     send({ type: 'thesis_done', cancelled: run.cancelled, result, charts });
   } catch (error) {
     send({ type: 'thesis_failed', message: (error as Error).message });
   }
-  page.end_thesis();
+  measured.delete();
   thesis = null;
+  thesis_run = null;
   ask_for_frame();
 }
 
@@ -384,24 +385,26 @@ const next_refresh = () =>
 async function show_frames(seconds: number, device: string): Promise<void> {
   if (thesis) return;
   const run = { device, cancelled: false, saved: 0 };
+  const frames = new module.ShownFramesRun();
   try {
     if (saving) throw new BadInput(busy_saving);
-    value_of(page.begin_shown_frames(seconds));
+    value_of(frames.begin(seconds));
     thesis = run;
     let done = -1;
     for (let finished = false; !finished && !run.cancelled; ) {
-      const { width, height } = value_of<{ width: number; height: number }>(page.draw_shown_frame());
-      put_cpu_pixels(width, height);
-      const progress = value_of<ShownProgress>(page.frame_is_shown(await next_refresh()));
+      const { width, height } = value_of<{ width: number; height: number }>(frames.draw());
+      put_cpu_pixels(frames.pixels(), width, height);
+      const progress = value_of<ShownProgress>(frames.shown(await next_refresh()));
       finished = progress.finished;
       if (progress.done !== done) send({ type: 'shown_progress', progress });
       done = progress.done;
     }
-    const { result } = value_of<{ result: string }>(page.end_shown_frames(device));
+    const { result } = value_of<{ result: string }>(frames.result(device));
     send({ type: 'shown_done', cancelled: run.cancelled, result });
   } catch (error) {
     send({ type: 'thesis_failed', message: (error as Error).message });
   }
+  frames.delete();
   thesis = null;
   // The scene's own picture again.
   if (has_scene && settings().engine === 'cpu') show_cpu_image();

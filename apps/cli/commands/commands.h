@@ -16,6 +16,7 @@
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/turn.h"
 #include "bihive/settings/overrides.h"
+#include "bihive/thesis/experiments.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "look_options.h"
 #include "support/input.h"
@@ -217,8 +218,9 @@ void run_convert(const ConvertOptions& options);
 
 /// "all", and the experiments in the report's order.
 inline const std::vector<std::string>& thesis_experiments() {
-  static const std::vector<std::string> kNames{"all",       "figure-4.1", "figure-4.2", "figure-4.3",
-                                               "section-d", "table-4.2",  "figure-4.4", "figure-4.5"};
+#define BIHIVE_ID(name, id, section, title) , id
+  static const std::vector<std::string> kNames{"all" BIHIVE_THESIS_EXPERIMENTS(BIHIVE_ID)};
+#undef BIHIVE_ID
   return kNames;
 }
 
@@ -226,6 +228,7 @@ inline const std::vector<std::string>& thesis_experiments() {
 struct ThesisOptions {
   std::vector<std::string> experiments;  ///< names, or "all"; empty: all
   std::string out;                       ///< folder
+  std::string page;                      ///< a file for the page that measures a phone; then nothing else is done
   bool quick = false;
   std::uint64_t seed = 1;
   std::int64_t threads = 0;
@@ -244,5 +247,8 @@ struct WebOptions {
   bool json = false;
 };
 void run_web(const WebOptions& options);
+
+/// `bihive thesis --page FILE`: the page that measures Figure 4.4 on a phone, one file with everything.
+void write_phone_page(const std::string& file);
 
 }  // namespace bihive::cli

@@ -72,6 +72,7 @@ Files outputs_of(const ConvertOptions& options) {
 }
 
 Files outputs_of(const ThesisOptions& options) {
+  if (!options.page.empty()) return {options.page};
   return {options.out + "/report.html", options.out + "/results.json"};
 }
 

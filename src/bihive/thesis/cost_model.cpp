@@ -79,14 +79,19 @@ struct Solution {
 
 }  // namespace
 
-EngineTimes predicted_times(const FigureWork& work, const StepCosts& costs) {
-  EngineTimes times;
-  for (const auto& [configuration, trees] : work) {
-    ConfigurationTimes& predicted = times[configuration];
-    predicted.brute = {costs.of({0, 0, static_cast<double>(configuration.second)})};
-    for (const auto& [max_prims, one] : trees) predicted.trees[max_prims] = {costs.of(one)};
-  }
-  return times;
+double frames_per_second(const std::vector<double>& frame_ms) {
+  return 1000 / median(frame_ms);
+}
+
+std::int64_t ConfigurationTimes::fastest() const {
+  std::int64_t best = 0;
+  for (const auto& [prims, ms] : trees)
+    if (best == 0 || median(ms) < median(trees.at(best))) best = prims;
+  return best;
+}
+
+double ConfigurationTimes::gain_percent() const {
+  return 100 * (frames_per_second(trees.at(fastest())) / frames_per_second(brute) - 1);
 }
 
 CostRange fastest_range(const WorkByTree& trees, std::int64_t max_prims, const std::vector<std::int64_t>& among,
@@ -136,11 +141,7 @@ WinsByCost wins_by_cost(const FigureWork& work, const WinPattern& pattern, const
     const CostRange between{changes[i], last ? kInfinity : changes[i + 1]};
     const double inside = last ? 2 * changes[i] + 1 : changes[i] + (changes[i + 1] - changes[i]) / 2;
     const std::int64_t wins = wins_of(work, pattern.max_prims, among, inside, leaf);
-    if (wins > result.most) {
-      result.most = wins;
-      result.most_at.clear();
-    }
-    if (wins == result.most) append(result.most_at, between);
+    result.most = std::max(result.most, wins);
     if (wins != pattern.wins) continue;
     append(result.stated, between);
     if (of_exception.holds(inside)) append(result.pattern, between);

@@ -37,16 +37,20 @@ using FigureWork = std::map<Configuration, WorkByTree>;
 struct ConfigurationTimes {
   std::vector<double> brute;
   std::map<std::int64_t, std::vector<double>> trees;  ///< by MAX_PRIMS
+
+  /// MAX_PRIMS of the tree that is the fastest by the median of its rounds; 0 without trees.
+  std::int64_t fastest() const;
+  /// The gain of that tree over brute force, in percent.
+  double gain_percent() const;
 };
 using EngineTimes = std::map<Configuration, ConfigurationTimes>;
 
-/// The frames that these costs predict, in sphere tests per ray, as one round. Brute force tests every sphere.
-EngineTimes predicted_times(const FigureWork& work, const StepCosts& costs);
+/// Frames per second by the median of the rounds.
+double frames_per_second(const std::vector<double>& frame_ms);
 
 /// From low to high; empty if low > high.
 struct CostRange {
   double low = 0, high = std::numeric_limits<double>::infinity();
-  bool empty() const { return low > high; }
   bool holds(double cost) const { return low <= cost && cost <= high; }
 };
 
@@ -69,7 +73,6 @@ struct WinPattern {
 /// at which two trees are equal nothing changes.
 struct WinsByCost {
   std::int64_t most = 0;           ///< configurations won at most
-  std::vector<CostRange> most_at;  ///< where that is so
   std::vector<CostRange> stated;   ///< where it wins as many as the pattern says
   std::vector<CostRange> pattern;  ///< where the whole pattern holds
 };

@@ -9,7 +9,6 @@
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/scene/camera.h"
-#include "bihive/scene/generators.h"
 #include "bihive/thesis/frame_rates_report.h"
 
 namespace bihive {
@@ -19,22 +18,19 @@ namespace {
 constexpr double kLeastInner = 0.25, kMostInner = 16, kMostLeaf = 1;
 constexpr int kColumns = 120, kRows = 51;
 
-}  // namespace
-
-std::optional<RayWork> counted_work(const Scene& scene, const Tree& tree, const CountedPicture& picture, int threads,
-                                    const CancelToken* cancel) {
-  const PixelRays pixels(scene.camera, picture.width_px, picture.height_px);
-  const auto [width, height, stride] = picture;
-  const std::int64_t rows = (height + stride - 1) / stride, columns = (width + stride - 1) / stride;
+// Means per ray; of no use once it was cancelled.
+RayWork counted_work(const Scene& scene, const Tree& tree, const FrameRatePlan& plan, int stride,
+                     const CancelToken* cancel) {
+  const PixelRays pixels(scene.camera, plan.width_px, plan.height_px);
+  const std::int64_t rows = (plan.height_px + stride - 1) / stride, columns = (plan.width_px + stride - 1) / stride;
   std::vector<CountingObserver> of_rows(static_cast<std::size_t>(rows));
-  parallel_for(threads, rows, [&, stride = stride](std::int64_t row) {
+  parallel_for(plan.threads, rows, [&](std::int64_t row) {
     if (cancel != nullptr && cancel->cancelled()) return;
     for (std::int64_t column = 0; column < columns; ++column) {
       const Ray ray = pixels.at(static_cast<double>(column * stride) + 0.5, static_cast<double>(row * stride) + 0.5);
       traverse<false>(tree, scene.spheres, ScaledRay(ray, scene.spheres), of_rows[static_cast<std::size_t>(row)]);
     }
   });
-  if (cancel != nullptr && cancel->cancelled()) return std::nullopt;
   RayWork sum;
   for (const CountingObserver& row : of_rows) {
     sum.inner += static_cast<double>(row.node_visits);
@@ -42,19 +38,29 @@ std::optional<RayWork> counted_work(const Scene& scene, const Tree& tree, const 
     sum.tests += static_cast<double>(row.sphere_tests);
   }
   const double rays = static_cast<double>(rows * columns);
-  return RayWork{sum.inner / rays, sum.leaves / rays, sum.tests / rays};
+  return {sum.inner / rays, sum.leaves / rays, sum.tests / rays};
 }
 
-Result<FigureWork> counted_figure(const FrameRatePlan& plan, const CountedPicture& picture) {
+// Whether the whole pattern holds at these costs.
+bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
+                   double inner, double leaf) {
+  if (wins_of(work, pattern.max_prims, max_prims, inner, leaf) != pattern.wins) return false;
+  const auto found = work.find(pattern.exception);
+  return found != work.end() && fastest_range(found->second, pattern.exception_max_prims, max_prims, leaf).holds(inner);
+}
+
+}  // namespace
+
+Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel) {
   FigureWork work;
   for (const std::int64_t scenario : plan.scenarios)
     for (const std::int64_t spheres : plan.spheres) {
-      const ScenarioParameters parameters{spheres, static_cast<float>(plan.radius), plan.seed};
-      const Result<Scene> scene = scenario_scene(static_cast<Scenario>(scenario), parameters);
+      const Result<std::shared_ptr<const Scene>> scene = plan.scene(scenario, spheres);
       if (!scene) return scene.error();
       for (const std::int64_t max_prims : plan.max_prims)
-        work[{scenario, spheres}][max_prims] =
-            *counted_work(*scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), picture, plan.threads);
+        work[{scenario, spheres}][std::min(max_prims, spheres)] = counted_work(
+            **scene, build_reference_tree((*scene)->spheres, {max_prims, kUnlimited}), plan, stride, cancel);
+      if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
     }
   return work;
 }
@@ -73,13 +79,6 @@ Result<WinPattern> stated_pattern(const StatedValues& values) {
   if (!max_prims) return max_prims.error();
   pattern.exception_max_prims = max_prims->back();
   return pattern;
-}
-
-bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
-                   double inner, double leaf) {
-  if (wins_of(work, pattern.max_prims, max_prims, inner, leaf) != pattern.wins) return false;
-  const auto found = work.find(pattern.exception);
-  return found != work.end() && fastest_range(found->second, pattern.exception_max_prims, max_prims, leaf).holds(inner);
 }
 
 CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
@@ -107,15 +106,6 @@ CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, cons
       diagram.share.push_back(static_cast<double>(with) / static_cast<double>(seeds.size()));
     }
   return diagram;
-}
-
-EngineTimes times_of_rates(const std::vector<MeasuredRate>& rates) {
-  EngineTimes times;
-  for (const MeasuredRate& rate : rates) {
-    ConfigurationTimes& one = times[{rate.scenario, rate.spheres}];
-    (rate.max_prims ? one.trees[*rate.max_prims] : one.brute) = rate.frame_ms;
-  }
-  return times;
 }
 
 }  // namespace bihive

@@ -1,31 +1,23 @@
 #include "bihive/thesis/frame_rates.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "bihive/base/timer.h"
-#include "bihive/math/quartiles.h"
 #include "bihive/render/renderer.h"
 #include "bihive/scene/generators.h"
 
 namespace bihive {
 namespace {
 
-constexpr int kQuickDivisor = 4, kQuickRounds = 3;
+constexpr int kQuickDivisor = 4;
 constexpr std::int64_t kLargestNumber = 65536;  // of pixels along a side, and of recursions
 // Time between two looks at the cancel token. Without a token a frame is drawn without a break.
 constexpr double kSliceMs = 100, kWholeFrameMs = 1e9;
 
 Error bad_value(const char* name, const char* expected) {
   return {std::string("expected ") + expected + " of \"" + name + "\" in Figure 4.4's values", "", 0, 0, ""};
-}
-
-Result<std::shared_ptr<const Scene>> scene_of(const FrameRatePlan& plan, std::int64_t scenario, std::int64_t spheres) {
-  if (scenario < 1 || scenario > 3) return Error{"there are the scenarios 1, 2 and 3", "", 0, 0, ""};
-  const ScenarioParameters parameters{spheres, static_cast<float>(plan.radius), plan.seed};
-  Result<Scene> scene = scenario_scene(static_cast<Scenario>(scenario), parameters);
-  if (!scene) return scene.error();
-  return std::make_shared<const Scene>(std::move(*scene));
 }
 
 RenderSettings frame_settings(const FrameRatePlan& plan, const Scene& scene) {
@@ -62,18 +54,12 @@ Result<FrameRatePlan> FrameRatePlan::from_values(const StatedValues& values) {
   return plan;
 }
 
-FrameRatePlan FrameRatePlan::with_small_pictures() const {
+FrameRatePlan FrameRatePlan::quickly() const {
   FrameRatePlan plan = *this;
   plan.width_px = std::max(1, width_px / kQuickDivisor);
   plan.height_px = std::max(1, height_px / kQuickDivisor);
-  plan.rounds = kQuickRounds;
-  plan.quick = true;
-  return plan;
-}
-
-FrameRatePlan FrameRatePlan::quickly() const {
-  FrameRatePlan plan = with_small_pictures();
   plan.rounds = 1;
+  plan.quick = true;
   plan.least_ms = 4;
   return plan;
 }
@@ -117,6 +103,14 @@ Result<FrameRatePlan> FrameRatePlan::within(double seconds, const FrameEngine& e
   return smaller(kSmallest);
 }
 
+Result<std::shared_ptr<const Scene>> FrameRatePlan::scene(std::int64_t scenario, std::int64_t count) const {
+  if (scenario < 1 || scenario > 3) return Error{"there are the scenarios 1, 2 and 3", "", 0, 0, ""};
+  Result<Scene> made = scenario_scene(static_cast<Scenario>(scenario), {count, static_cast<float>(radius), seed});
+  if (!made) return made.error();
+  made->camera.fov_deg = fov_deg;
+  return std::make_shared<const Scene>(std::move(*made));
+}
+
 int FrameRatePlan::configurations() const {
   return static_cast<int>(scenarios.size() * spheres.size() * (1 + max_prims.size()));
 }
@@ -125,33 +119,19 @@ double frame_cost(std::int64_t spheres, bool tree) {
   return tree ? 20 + static_cast<double>(spheres) / 8 : 10 + static_cast<double>(spheres);
 }
 
-double MeasuredRate::fps() const {
-  return 1000 / median(frame_ms);
-}
-
-std::size_t ConfigurationFps::best() const {
-  return static_cast<std::size_t>(std::max_element(trees.begin(), trees.end()) - trees.begin());
-}
-
-double ConfigurationFps::gain_percent() const {
-  return 100 * (trees[best()] / brute - 1);
-}
-
-std::vector<ConfigurationFps> configurations_of(const std::vector<MeasuredRate>& rates) {
-  std::vector<ConfigurationFps> configurations;
+EngineTimes times_of(const std::vector<MeasuredRate>& rates) {
+  EngineTimes times;
   for (const MeasuredRate& rate : rates) {
-    if (rate.max_prims)
-      configurations.back().trees.push_back(rate.fps());
-    else
-      configurations.push_back({rate.scenario, rate.spheres, rate.fps(), {}});
+    ConfigurationTimes& one = times[{rate.scenario, rate.spheres}];
+    (rate.max_prims ? one.trees[*rate.max_prims] : one.brute) = rate.frame_ms;
   }
-  return configurations;
+  return times;
 }
 
 Result<FrameContest> FrameContest::of_trees(const FrameRatePlan& plan, const FrameEngine& engine, std::int64_t scenario,
                                             std::int64_t spheres) {
   FrameContest contest(plan, engine);
-  const Result<std::shared_ptr<const Scene>> scene = scene_of(plan, scenario, spheres);
+  const Result<std::shared_ptr<const Scene>> scene = plan.scene(scenario, spheres);
   if (!scene) return scene.error();
   if (Status status = contest.add(*scene, scenario, std::nullopt); !status) return status.error();
   for (const std::int64_t max_prims : plan.max_prims)
@@ -262,6 +242,13 @@ Status FrameRateRun::step() {
   contest_.reset();
   go_on();
   return Done{};
+}
+
+void FrameRateRun::put_after(const FrameRateRun& earlier) {
+  for (std::size_t i = 0; i < rates_.size(); ++i)
+    rates_[i].frame_ms.insert(rates_[i].frame_ms.begin(), earlier.rates_[i].frame_ms.begin(),
+                              earlier.rates_[i].frame_ms.end());
+  plan_.rounds += earlier.plan_.rounds;
 }
 
 // To the next number of spheres, and the next scenario.

@@ -1,5 +1,5 @@
-// The thesis's Figure 4.4: frames a second of brute force and of trees of several MAX_PRIMS. `bihive thesis figure-4.4`
-// and the page's "Run the thesis on this device" are this one experiment.
+// The thesis's Figure 4.4: frames per second of brute force and of trees of several MAX_PRIMS. `bihive thesis
+// figure-4.4` and the page's "Run the thesis on this device" are this one experiment.
 //
 // A frame is the shaded view of primary rays. It is the same for all contestants; only the search for hits differs. The
 // contestants take turns, round by round. The first round warms up and does not count. The measurement goes in small
@@ -19,6 +19,7 @@
 #include "bihive/render/tracer.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
+#include "bihive/thesis/cost_model.h"
 #include "bihive/thesis/stated_values.h"
 
 namespace bihive {
@@ -28,7 +29,7 @@ struct FrameEngine;
 /// The plan: every scenario with every number of spheres, by brute force and by a tree of each MAX_PRIMS.
 struct FrameRatePlan {
   std::vector<std::int64_t> scenarios, spheres, max_prims;  ///< none empty
-  double radius = 1;
+  double radius = 1, fov_deg = 30;  ///< of the spheres; of the camera, along the picture's shorter side
   std::uint64_t seed = 1;
   int width_px = 0, height_px = 0;
   int recursion = 1;
@@ -39,9 +40,7 @@ struct FrameRatePlan {
 
   /// The thesis's plan, from the values of Figure 4.4. Error: a value is missing there.
   static Result<FrameRatePlan> from_values(const StatedValues& values);
-  /// A quarter of the width and height, and a third of the rounds.
-  FrameRatePlan with_small_pictures() const;
-  /// Small pictures and a single round: seconds instead of minutes, and rougher numbers.
+  /// A quarter of the width and height and a single round: seconds instead of minutes, and rougher numbers.
   FrameRatePlan quickly() const;
 
   /// The largest pictures, a whole part of this plan's in width and height, with which the whole run takes about
@@ -49,6 +48,8 @@ struct FrameRatePlan {
   /// Then the run ends also on a slow graphics processor.
   Result<FrameRatePlan> within(double seconds, const FrameEngine& engine) const;
 
+  /// Error: there is no such scenario.
+  Result<std::shared_ptr<const Scene>> scene(std::int64_t scenario, std::int64_t count) const;
   int configurations() const;
 };
 
@@ -69,23 +70,10 @@ struct MeasuredRate {
   std::int64_t scenario = 0, spheres = 0;
   std::optional<std::int64_t> max_prims;  ///< unset: brute force
   std::vector<double> frame_ms;           ///< one for each round
-
-  double fps() const;  ///< by the median of the rounds
 };
 
-/// Frames a second of brute force and of all trees on the same spheres.
-struct ConfigurationFps {
-  std::int64_t scenario = 0, spheres = 0;
-  double brute = 0;
-  std::vector<double> trees;  ///< in the order of the plan's MAX_PRIMS
-
-  /// Position of the fastest in `trees`.
-  std::size_t best() const;
-  /// The gain of the best tree over brute force, in percent.
-  double gain_percent() const;
-};
-/// From rates in the order of FrameRateRun::rates().
-std::vector<ConfigurationFps> configurations_of(const std::vector<MeasuredRate>& rates);
+/// The same times by configuration.
+EngineTimes times_of(const std::vector<MeasuredRate>& rates);
 
 /// Contestants that draw in turn. The engine's renderer must outlive the contest.
 class FrameContest {
@@ -130,6 +118,9 @@ class FrameRateRun {
   /// Before the first step: goes on after the complete rates of an earlier run of the same plan. Rates that are not
   /// whole groups in the order of the plan, with all rounds, are left out, and measured again.
   void resume(const std::vector<MeasuredRate>& rates);
+
+  /// Counts the rounds of an earlier run of the same plan before its own. Both are finished.
+  void put_after(const FrameRateRun& earlier);
 
   /// Runs one round of one configuration. Does nothing after finished(). After an Error the run is over.
   Status step();

@@ -39,11 +39,10 @@ std::optional<double> stated_fps(const StatedValues& values, std::int64_t scenar
 std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, const std::string& here) {
   ChartData chart{"Gain of the best tree over brute force", "",   "percent", {},
                   {{here, {}}, {kStatedDevice, {}}},        false};
-  const std::vector<ConfigurationFps> configurations = configurations_of(run.rates());
   for (const std::int64_t scenario : run.plan().scenarios) {
     std::vector<double> percents;
-    for (const ConfigurationFps& each : configurations)
-      if (each.scenario == scenario) percents.push_back(each.gain_percent());
+    for (const auto& [configuration, times] : times_of(run.rates()))
+      if (configuration.first == scenario) percents.push_back(times.gain_percent());
     if (percents.size() != run.plan().spheres.size()) continue;
     double sum = 0;
     for (const double percent : percents) sum += percent;
@@ -63,15 +62,13 @@ std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, con
 
 // Empty if the scenario has no measurement.
 std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, std::int64_t scenario) {
-  const std::vector<ConfigurationFps> configurations = configurations_of(run.rates());
-  const auto measured = [&](std::int64_t spheres) -> const ConfigurationFps* {
-    for (const ConfigurationFps& each : configurations)
-      if (each.scenario == scenario && each.spheres == spheres) return &each;
-    return nullptr;
-  };
+  const EngineTimes times = times_of(run.rates());
   const std::vector<std::int64_t>&counts = run.plan().spheres, &max_prims = run.plan().max_prims;
-  if (std::none_of(counts.begin(), counts.end(), measured)) return "";
-  ChartData chart = frame_rate_bars(scenario, counts, max_prims, measured);
+  if (std::none_of(counts.begin(), counts.end(), [&](std::int64_t count) {
+        return times.count({scenario, count}) > 0;
+      }))
+    return "";
+  ChartData chart = frame_rate_bars(scenario, counts, max_prims, times);
   chart.logarithmic = true;
 
   // Add the thesis's values, if it states any. A smaller picture has other rates.
@@ -100,18 +97,19 @@ std::string tree_name(std::int64_t max_prims) {
 }
 
 ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>& spheres,
-                          const std::vector<std::int64_t>& max_prims,
-                          const std::function<const ConfigurationFps*(std::int64_t spheres)>& fps) {
+                          const std::vector<std::int64_t>& max_prims, const EngineTimes& times) {
   ChartData bars{
       fmt::format("Scenario {}: frames per second", scenario), "spheres", "frames per second", {}, {}, false};
   bars.series.push_back({"BF", {}});
   for (const std::int64_t each : max_prims) bars.series.push_back({tree_name(each), {}});
   for (const std::int64_t count : spheres) {
     bars.categories.push_back(std::to_string(count));
-    const ConfigurationFps* const found = fps(count);
+    const auto found = times.find({scenario, count});
     for (std::size_t i = 0; i < bars.series.size(); ++i)
-      bars.series[i].values.push_back(found == nullptr ? std::nullopt
-                                                       : std::optional(i == 0 ? found->brute : found->trees[i - 1]));
+      bars.series[i].values.push_back(
+          found == times.end() ? std::nullopt
+                               : std::optional(frames_per_second(i == 0 ? found->second.brute
+                                                                        : found->second.trees.at(max_prims[i - 1]))));
   }
   return bars;
 }
@@ -124,18 +122,21 @@ double drift_of(const std::vector<MeasuredRate>& rates) {
 }
 
 Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues& values, int threads) {
-  // Every so many rows and columns say enough of means.
+  // Every fourth row and column says enough of means. The picture is the thesis's, whatever the size of the run's.
   constexpr int kStride = 4;
   const FrameRatePlan& plan = run.plan();
-  const Result<FrameRatePlan> whole = FrameRatePlan::from_values(values);
+  Result<FrameRatePlan> whole = FrameRatePlan::from_values(values);
   if (!whole) return whole.error();
   const Result<WinPattern> pattern = stated_pattern(values);
   if (!pattern) return pattern.error();
-  Result<FigureWork> work = counted_figure(plan, {whole->width_px, whole->height_px, kStride});
+  FrameRatePlan counted = plan;
+  counted.width_px = whole->width_px;
+  counted.height_px = whole->height_px;
+  Result<FigureWork> work = counted_figure(counted, kStride);
   if (!work) return work.error();
   MeasuredCosts costs{std::move(*work), *pattern, {}, 0};
   const double pixels = static_cast<double>(plan.width_px) * plan.height_px;
-  costs.fitted = fit_costs(costs.work, times_of_rates(run.rates()), plan.max_prims, 1e6 / pixels * threads);
+  costs.fitted = fit_costs(costs.work, times_of(run.rates()), plan.max_prims, 1e6 / pixels * threads);
   if (costs.fitted.frames == 0) return costs;
   const StepCosts steps = costs.fitted.costs();
   costs.wins = wins_of(costs.work, pattern->max_prims, plan.max_prims, steps.inner, steps.leaf);
@@ -161,14 +162,14 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
     json["configurations"].push_back({{"scenario", rate.scenario},
                                       {"spheres", rate.spheres},
                                       {"max_prims", rate.max_prims ? ordered_json(*rate.max_prims) : ordered_json()},
-                                      {"fps", rate.fps()},
+                                      {"fps", frames_per_second(rate.frame_ms)},
                                       {"frame_ms", rate.frame_ms}});
   json["gains"] = ordered_json::array();
-  for (const ConfigurationFps& each : configurations_of(run.rates()))
-    json["gains"].push_back({{"scenario", each.scenario},
-                             {"spheres", each.spheres},
-                             {"max_prims", plan.max_prims[each.best()]},
-                             {"percent", each.gain_percent()}});
+  for (const auto& [configuration, times] : times_of(run.rates()))
+    json["gains"].push_back({{"scenario", configuration.first},
+                             {"spheres", configuration.second},
+                             {"max_prims", times.fastest()},
+                             {"percent", times.gain_percent()}});
   if (costs != nullptr && costs->fitted.frames > 0) {
     const FittedCosts& fitted = costs->fitted;
     json["costs"] = {{"fixed_ns", fitted.fixed_ns},

@@ -1,7 +1,6 @@
 // The result of a run of Figure 4.4: as JSON, and as charts beside the thesis's values for the iPhone 5s.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,11 +13,9 @@
 
 namespace bihive {
 
-/// The thesis's chart: a group of bars for each number of spheres, brute force first. `fps` gives the measurement with
-/// so many spheres, or null if there is none.
+/// The thesis's chart: a group of bars for each number of spheres, brute force first.
 ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>& spheres,
-                          const std::vector<std::int64_t>& max_prims,
-                          const std::function<const ConfigurationFps*(std::int64_t spheres)>& fps);
+                          const std::vector<std::int64_t>& max_prims, const EngineTimes& times);
 
 /// The name of a tree in charts and tables: "BIH 8".
 std::string tree_name(std::int64_t max_prims);
