@@ -1,5 +1,7 @@
 """Pictures by one to eight ranks of mpirun, and ranks that are stopped: for `make test-all`."""
 
+# ctest: LABELS long
+
 import itertools
 import os
 import signal

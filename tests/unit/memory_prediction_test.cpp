@@ -1,4 +1,5 @@
 // What is predicted of the memory of trees and pictures, beside what the system measures of this process.
+// ctest: no-sanitizer
 #include <gtest/gtest.h>
 #include <malloc.h>
 

@@ -1,4 +1,5 @@
 // The drawing of the tree.
+// ctest: asan-long
 #include "bihive/render/tree_picture.h"
 
 #include <gtest/gtest.h>
