@@ -1,5 +1,7 @@
 """bihive render -o a.exr: light and layers of numbers."""
 
+# ctest: asan-long
+
 import math
 import os
 import struct

@@ -1,5 +1,7 @@
 """bihive film: sequences, y4m and encoded films; resume, shards, cameras, titles and wrong options."""
 
+# ctest: asan-long
+
 import glob
 import json
 import os

@@ -1,5 +1,7 @@
 """The options of `bihive render` that write on a picture."""
 
+# ctest: asan-long
+
 import json
 
 from program import ProgramTest, main, png_pixels, png_text

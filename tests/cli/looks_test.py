@@ -1,5 +1,7 @@
 """The options of `bihive render` that select, hide and colour."""
 
+# ctest: asan-long
+
 import json
 
 import numpy

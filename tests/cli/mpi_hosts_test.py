@@ -1,5 +1,7 @@
 """Ranks on two machines: network namespaces with an Ethernet between them. For `make test-all`."""
 
+# ctest: LABELS long
+
 import json
 import os
 import pathlib

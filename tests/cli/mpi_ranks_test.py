@@ -1,5 +1,7 @@
 """Pictures by one to eight ranks of mpirun, and ranks that are stopped: for `make test-all`."""
 
+# ctest: LABELS long
+
 import itertools
 import os
 import signal
@@ -7,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import main
+from program import PATIENCE_S, main
 from ranks import BIHIVE_MPI, OnRanks, is_open_mpi
 
 
@@ -78,7 +80,7 @@ class ManyRanks(OnRanks):
                     os.kill(ranks[1], signal.SIGKILL)
                 else:
                     running.send_signal(signal.SIGINT)
-                self.assertNotEqual(running.wait(timeout=60), 0)
+                self.assertNotEqual(running.wait(timeout=PATIENCE_S), 0)
                 for rank in ranks:
                     self.assertFalse(is_running(rank), "nothing runs on")
                 self.assertEqual(self.leftovers(), [])

@@ -1,5 +1,7 @@
 """bihive render: its picture, its output, and the same picture by every engine and number of threads."""
 
+# ctest: asan-long
+
 import json
 import os
 

@@ -1,5 +1,7 @@
 """Periodic cells: --cell, --replicate, --cell-vectors, --cell-origin, --wrap and --unwrap."""
 
+# ctest: asan-long
+
 import json
 
 import numpy

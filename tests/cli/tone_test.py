@@ -1,5 +1,7 @@
 """bihive render: exposure and tone curves."""
 
+# ctest: asan-long
+
 import json
 
 from program import ProgramTest, main, png_numbers

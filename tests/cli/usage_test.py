@@ -1,5 +1,7 @@
 """Help, version, and every way to call the program wrongly."""
 
+# ctest: asan-long
+
 import os
 import re
 import shlex

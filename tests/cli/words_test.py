@@ -1,5 +1,7 @@
 """Manual pages and completions are written from the command line's own description, so they say what --help says."""
 
+# ctest: asan-long
+
 import os
 import pathlib
 import re

@@ -1,9 +1,10 @@
-// Stands in for libFuzzer where a fuzz target only has to take the inputs of a folder, by the library as users get it.
+// Stands in for libFuzzer where the fuzz targets only have to take the inputs of folders, by the library as users get
+// it.
 //
-//   replay FOLDER
+//   replay TARGET FOLDER...
 //     Each input once. Prints the name of each before it is tried, so that the last one is the one that failed.
-//   replay FOLDER --random COUNT SEED
-//     So many inputs more: one of these or parts of several, changed at random. It knows nothing of the code that they
+//   replay TARGET FOLDER... --random COUNT SEED
+//     COUNT inputs more: one of these or parts of several, changed at random. It knows nothing of the code that they
 //     reach, but is many times faster than a fuzzer with sanitizers. An input that fails is left in the file
 //     failed-SEED-PROCESS.
 #include <fcntl.h>
@@ -25,9 +26,26 @@
 
 #include "bihive/math/rng.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+using Target = int (*)(const std::uint8_t* data, std::size_t size);
+
+// fuzz_targets.inc, which CMake writes, has a line FUZZ_TARGET(NAME) for each file NAME_fuzz.cpp. The function of the
+// file is called fuzz_NAME here.
+#define FUZZ_TARGET(name) extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
+#include "fuzz_targets.inc"
+#undef FUZZ_TARGET
 
 namespace {
+
+struct NamedTarget {
+  std::string_view name;
+  Target run;
+};
+
+#define FUZZ_TARGET(name) {#name, fuzz_##name},
+constexpr NamedTarget kTargets[] = {
+#include "fuzz_targets.inc"
+};
+#undef FUZZ_TARGET
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -113,7 +131,7 @@ void keep_input(int number) {
   std::raise(number);
 }
 
-void run_random(const std::vector<Bytes>& seeds, std::uint64_t count, std::uint64_t seed) {
+void run_random(Target target, const std::vector<Bytes>& seeds, std::uint64_t count, std::uint64_t seed) {
   std::snprintf(name_of_failed, sizeof name_of_failed, "failed-%llu-%d", static_cast<unsigned long long>(seed),
                 static_cast<int>(getpid()));
   for (const int number : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL, SIGALRM}) std::signal(number, keep_input);
@@ -126,7 +144,7 @@ void run_random(const std::vector<Bytes>& seeds, std::uint64_t count, std::uint6
     bytes = seeds[random.below(seeds.size())];
     for (std::size_t changes = 1 + random.below(6); changes > 0; --changes) change(bytes, seeds, random);
     if (bytes.size() > kMostBytes) bytes.resize(kMostBytes);
-    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+    target(bytes.data(), bytes.size());
   }
   alarm(0);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
@@ -135,13 +153,19 @@ void run_random(const std::vector<Bytes>& seeds, std::uint64_t count, std::uint6
 
 }  // namespace
 
-int main(int count, char** words) {
-  const bool is_random = count == 5 && std::string_view(words[2]) == "--random";
+int main(int count, char** arguments) {
+  const bool is_random = count > 4 && std::string_view(arguments[count - 3]) == "--random";
+  const int folders_end = is_random ? count - 3 : count;
+  const std::string_view name = count > 1 ? arguments[1] : "";
+  const auto target =
+      std::find_if(std::begin(kTargets), std::end(kTargets), [&](const NamedTarget& one) { return one.name == name; });
   std::vector<std::filesystem::path> files;
-  if (count == 2 || is_random)
-    for (const auto& entry : std::filesystem::directory_iterator(words[1])) files.push_back(entry.path());
-  if (files.empty()) {
-    std::fprintf(stderr, "usage: replay FOLDER [--random COUNT SEED], with inputs in it\n");
+  for (int i = 2; i < folders_end; ++i)
+    for (const auto& entry : std::filesystem::directory_iterator(arguments[i])) files.push_back(entry.path());
+  if (target == std::end(kTargets) || files.empty()) {
+    std::fprintf(stderr,
+                 "usage: replay TARGET FOLDER... [--random COUNT SEED], with inputs in the folders. Targets:\n");
+    for (const NamedTarget& one : kTargets) std::fprintf(stderr, "  %s\n", one.name.data());
     return 2;
   }
   std::sort(files.begin(), files.end());
@@ -152,9 +176,11 @@ int main(int count, char** words) {
     if (!is_random) {
       std::printf("%s\n", file.c_str());
       std::fflush(stdout);
-      LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+      target->run(bytes.data(), bytes.size());
     }
     seeds.push_back(std::move(bytes));
   }
-  if (is_random) run_random(seeds, std::strtoull(words[3], nullptr, 10), std::strtoull(words[4], nullptr, 10));
+  if (is_random)
+    run_random(target->run, seeds, std::strtoull(arguments[count - 2], nullptr, 10),
+               std::strtoull(arguments[count - 1], nullptr, 10));
 }

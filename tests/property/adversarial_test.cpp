@@ -3,6 +3,7 @@
 // bits, and the oracle must accept the answer.
 //
 // BIHIVE_LONG=N in the environment climbs from N times as many starts (scripts/verify).
+// ctest: kernel
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,7 @@
 // The bounds of wide/trace/beam_bounds.h: hill climbing for the pair of a ray and a sphere with the largest error of a
 // beam of that one ray. See filter_bounds_test.cpp.
+// ctest: inlined
+// ctest: asan-long
 #include "bihive/wide/trace/beam_bounds.h"
 
 #include <gtest/gtest.h>

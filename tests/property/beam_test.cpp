@@ -1,4 +1,5 @@
 // Blocks of neighbouring rays get the reference traversal's answers, bit for bit, on every target.
+// ctest: kernel
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Rays that are sorted first get the reference traversal's answers on every target, each at its own place; and the
 // engine recognises scattered rays.
+// ctest: kernel
 #include "bihive/wide/schedule/cell_order.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,8 @@
 //
 // The bounds are for the sequence of operations in wide/trace/filter_bounds.h. This file repeats it once with fused
 // multiply-adds and once without, because targets differ in that. Truth is long double.
+// ctest: inlined
+// ctest: asan-long
 #include "bihive/wide/trace/filter_bounds.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Pictures of a replicated set are those of a set that holds the copies, bit for bit, with all that a picture can have.
+// ctest: asan-long
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,6 @@
 // Rays that lead to one light from surfaces everywhere get the reference traversal's answers on every target, sorted
 // for beams and not.
+// ctest: kernel
 #include "bihive/wide/schedule/light_order.h"
 
 #include <gtest/gtest.h>

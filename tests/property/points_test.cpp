@@ -1,4 +1,5 @@
 // Points get the answers of brute force, bit for bit, on every target and any number of threads.
+// ctest: kernel *ManyOfThem*
 #include <gtest/gtest.h>
 
 #include <algorithm>

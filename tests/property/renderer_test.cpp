@@ -1,4 +1,5 @@
 // The same picture bit for bit: with any number of threads, with tree or brute force, and with trees of any parameters.
+// ctest: threads
 #include "bihive/render/renderer.h"
 
 #include <gtest/gtest.h>

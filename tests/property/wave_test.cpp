@@ -1,5 +1,6 @@
 // Pictures drawn wave by wave have the same bits as pictures drawn ray by ray (render/integrator.h), on every
 // instruction set.
+// ctest: kernel *cut
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,5 @@
 // The wide engine from several threads: queries beside queries, and beside the build of the next frame's tree.
+// ctest: threads
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -2,6 +2,8 @@
 //
 // BIHIVE_LONG=N in the environment repeats everything with N seeds (scripts/verify); support/effort.h does less on slow
 // machines.
+// ctest: kernel *LargeSets
+// ctest: COST 700
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // Ambient occlusion: the sets of directions, and what places see where the answer is known.
+// ctest: asan-long
 #include "bihive/scene/ambient_occlusion.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // Pixel rays and automatic framing.
+// ctest: asan-long
 #include "bihive/scene/camera.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Drawing by covered area.
+// ctest: asan-long
 #include "bihive/image/canvas.h"
 
 #include <gtest/gtest.h>

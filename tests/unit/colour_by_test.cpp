@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/scene/colour_by.h"
 
 #include <gmock/gmock.h>

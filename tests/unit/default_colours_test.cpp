@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/scene/default_colours.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // Legend, scale bar, axes and title over finished pixels; and what a legend says.
+// ctest: asan-long
 #include "bihive/render/draw_labels.h"
 
 #include <gmock/gmock.h>

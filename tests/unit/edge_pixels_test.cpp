@@ -1,4 +1,5 @@
 // Adaptive samples: which pixels get more, and what becomes of the picture.
+// ctest: asan-long
 #include "bihive/render/edge_pixels.h"
 
 #include <gtest/gtest.h>

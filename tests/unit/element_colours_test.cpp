@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/scene/element_colours.h"
 
 #include <gtest/gtest.h>

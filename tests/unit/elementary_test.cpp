@@ -1,4 +1,6 @@
 // The library's own powers and tangent against the system's, in long double.
+// ctest: inlined
+// ctest: asan-long
 #include "bihive/math/elementary.h"
 
 #include <gtest/gtest.h>

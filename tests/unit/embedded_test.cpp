@@ -1,4 +1,5 @@
 // The data that the build puts into the library: the bundled molecule byte for byte, the version.
+// ctest: asan-long
 #include <gtest/gtest.h>
 
 #include <algorithm>

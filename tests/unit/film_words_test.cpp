@@ -1,4 +1,5 @@
 // Parts of `bihive film`: the words of a codec that stand in a file, the index of a sequence, and lists of pictures.
+// ctest: needs bihive_commands
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // The camera that shows a whole scene beside its labels.
+// ctest: asan-long
 #include "bihive/render/frame_picture.h"
 
 #include <gtest/gtest.h>

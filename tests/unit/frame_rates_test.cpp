@@ -1,4 +1,5 @@
 // The run of Figure 4.4 in steps: the order of the measurements, and their results.
+// ctest: asan-long
 #include "bihive/thesis/frame_rates.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // The thesis's scenes.
+// ctest: asan-long
 #include "bihive/scene/generators.h"
 
 #include <gtest/gtest.h>

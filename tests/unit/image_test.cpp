@@ -1,4 +1,5 @@
 // Transfer curves, hashes, differences and PNG files.
+// ctest: asan-long
 #include "bihive/image/image.h"
 
 #include <gtest/gtest.h>

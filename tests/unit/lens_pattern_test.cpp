@@ -1,4 +1,5 @@
 // The places on the lens, and the rays through them.
+// ctest: asan-long
 #include "bihive/scene/lens_pattern.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Soft shadows: the points of a light, and shadows whose share is known.
+// ctest: asan-long
 #include "bihive/scene/light_points.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // The slices of a sample's light have every direction and every point once.
+// ctest: asan-long
 #include "bihive/gl/light_slices.h"
 
 #include <gtest/gtest.h>

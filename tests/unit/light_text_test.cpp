@@ -1,4 +1,5 @@
 // Lights by text: bihive render --light.
+// ctest: asan-long
 #include "bihive/scene/light_text.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/scene/looks.h"
 
 #include <gmock/gmock.h>

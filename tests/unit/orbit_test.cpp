@@ -1,4 +1,5 @@
 // Camera moves by the pointer, in worlds of any size.
+// ctest: asan-long
 #include "bihive/viewer/orbit.h"
 
 #include <gtest/gtest.h>

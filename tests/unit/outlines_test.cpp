@@ -1,4 +1,5 @@
 // Outlines of some spheres alone, and creases between groups that touch.
+// ctest: asan-long
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 // The fineness of the next picture.
+// ctest: asan-long
 #include "bihive/viewer/pacing.h"
 
 #include <gtest/gtest.h>

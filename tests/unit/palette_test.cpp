@@ -1,4 +1,5 @@
 // Colours by element, by type and by text.
+// ctest: asan-long
 
 #include "bihive/scene/palette.h"
 

@@ -1,4 +1,5 @@
 // parallel_for: every index once, with any number of threads. parallel_tasks: every task.
+// ctest: threads
 #include "bihive/base/parallel.h"
 
 #include <gtest/gtest.h>

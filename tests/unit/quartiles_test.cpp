@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/math/quartiles.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// ctest: inlined
+// ctest: asan-long
 #include "bihive/geometry/ray.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/base/readable.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/image/round_numbers.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/scene/sample_pattern.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/gl/shader_source.h"
 
 #include <gtest/gtest.h>

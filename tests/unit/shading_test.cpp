@@ -1,4 +1,6 @@
 // Whitted shading on scenes with answers calculated by hand.
+// ctest: inlined
+// ctest: asan-long
 #include "bihive/render/shading.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Shapes with exact edges, letters, and how masks are blended over pixels.
+// ctest: asan-long
 #include "bihive/image/shape.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Frames shown a second: what is drawn, what counts, and what is written. The clock is the test's own.
+// ctest: asan-long
 #include "bihive/thesis/shown_frames.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // The thesis's stated values: what a file may hold, and what is said where it does not.
+// ctest: asan-long
 #include "bihive/thesis/stated_values.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/bih/statistics.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Targets of the wide engine: each target of the machine can be forced, and then its code runs.
+// ctest: kernel
 #include "bihive/simd/target.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // The number of draws in a pass, by the time that they take.
+// ctest: asan-long
 #include "bihive/gl/tile_walk.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Exposure and tone curves: their values, and what they do to a picture.
+// ctest: asan-long
 #include "bihive/image/tone.h"
 
 #include <gtest/gtest.h>

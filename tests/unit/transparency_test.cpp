@@ -1,4 +1,5 @@
 // Spheres that light passes straight, under OpacityRule::once: how much gets through, in which order, and to where.
+// ctest: asan-long
 #include "bihive/render/transparency.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// ctest: asan-long
 #include "bihive/gl/tree_textures.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Turns around what the camera looks at.
+// ctest: asan-long
 #include "bihive/scene/turn.h"
 
 #include <gtest/gtest.h>

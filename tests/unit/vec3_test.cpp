@@ -1,3 +1,5 @@
+// ctest: inlined
+// ctest: asan-long
 #include "bihive/math/vec3.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // The looks of the viewer: the pictures that `bihive render` draws with the same choices.
+// ctest: asan-long
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

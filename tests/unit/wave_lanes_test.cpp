@@ -1,4 +1,7 @@
 // The vector form of normalized_again() against the scalar one, on every instruction set.
+// ctest: inlined
+// ctest: kernel
+// ctest: asan-long
 #include <gtest/gtest.h>
 
 #include <cmath>

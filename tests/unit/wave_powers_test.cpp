@@ -1,4 +1,7 @@
 // The vector form of powers against the scalar ones, on every instruction set.
+// ctest: inlined
+// ctest: kernel
+// ctest: asan-long
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,13 +52,13 @@ namespace {
 
 constexpr std::size_t kCount = 1 << 16;
 
-class EachTarget : public ::testing::TestWithParam<std::string> {
+class WavePowers : public ::testing::TestWithParam<std::string> {
  protected:
-  EachTarget() { EXPECT_TRUE(use_target(GetParam())); }
-  ~EachTarget() override { (void)use_target(""); }
+  WavePowers() { EXPECT_TRUE(use_target(GetParam())); }
+  ~WavePowers() override { (void)use_target(""); }
 };
 
-TEST_P(EachTarget, powers_are_portable_pow) {
+TEST_P(WavePowers, powers_are_portable_pow) {
   SplitMix64 rng(1);
   std::vector<double> x(kCount), y(kCount), powers(kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -70,7 +73,7 @@ TEST_P(EachTarget, powers_are_portable_pow) {
   for (std::size_t i = 0; i < kCount; ++i) ASSERT_EQ(powers[i], portable_pow(x[i], y[i])) << x[i] << " ^ " << y[i];
 }
 
-TEST_P(EachTarget, shading_powers_are_shading_power) {
+TEST_P(WavePowers, shading_powers_are_shading_power) {
   SplitMix64 rng(3);
   std::vector<double> x(kCount), y(kCount), powers(kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -92,7 +95,7 @@ TEST_P(EachTarget, shading_powers_are_shading_power) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, EachTarget, ::testing::ValuesIn(test::targets_under_test()));
+INSTANTIATE_TEST_SUITE_P(all, WavePowers, ::testing::ValuesIn(test::targets_under_test()));
 
 }  // namespace
 }  // namespace bihive

@@ -1,4 +1,6 @@
 // The wide tree is right for any spheres and parameters, and its memory is used again.
+// ctest: kernel
+// ctest: threads
 #include "bihive/wide/wide_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Numbers of wide trees that are known by hand, and sums that must agree with the tree.
+// ctest: asan-long
 #include "bihive/wide/wide_statistics.h"
 
 #include <gtest/gtest.h>

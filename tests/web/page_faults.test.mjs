@@ -191,12 +191,11 @@ test('a scene that turns for two seconds announces nothing', async () => {
   });
   const end = Date.now() + 2000;
   let moves = 0;
-  for (; Date.now() < end; ++moves) {
+  for (; Date.now() < end || moves <= 10; ++moves) {
     await page.press('#picture', 'ArrowLeft');
     await page.waitForTimeout(20);
   }
   await settled(page);
-  assert.ok(moves > 10);
   assert.deepEqual(await page.evaluate(() => window.announced), []);
   await context.close();
 });
