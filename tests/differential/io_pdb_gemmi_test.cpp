@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bihive/io/readers.h"
+#include "bihive/io/formats/readers.h"
 
 namespace bihive {
 namespace {

@@ -1,6 +1,6 @@
 // Every reader of a format with columns, with columns that the input chooses. The first byte chooses the reader, each
 // of the next four one part and its column.
-#include "bihive/io/arrays/array_frames.h"
+#include "bihive/io/formats/arrays/array_frames.h"
 #include "read_and_check.h"
 
 namespace {

@@ -2,7 +2,7 @@
 // its first byte on, frame after frame.
 #include <cstring>
 
-#include "bihive/io/kept_index.h"
+#include "bihive/io/frames/kept_index.h"
 #include "read_and_check.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // The readers of PLY, PCD, VTK, NPZ and NetCDF on any bytes. The first byte chooses the reader and the frame.
-#include "bihive/io/arrays/array_frames.h"
+#include "bihive/io/formats/arrays/array_frames.h"
 #include "read_and_check.h"
 
 namespace {

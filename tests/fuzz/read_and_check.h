@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
+#include "bihive/io/formats/readers.h"
 #include "bihive/io/read_spheres.h"
-#include "bihive/io/readers.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/io/write_spheres.h"
 
 namespace bihive::fuzz {

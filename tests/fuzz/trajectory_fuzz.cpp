@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "bihive/io/arrays/array_file.h"
-#include "bihive/io/arrays/array_frames.h"
-#include "bihive/io/trajectory/formats.h"
+#include "bihive/io/formats/arrays/array_file.h"
+#include "bihive/io/formats/arrays/array_frames.h"
+#include "bihive/io/formats/trajectories/formats.h"
 #include "read_and_check.h"
 
 namespace {

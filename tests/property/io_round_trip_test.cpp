@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "bihive/io/formats/readers.h"
 #include "bihive/io/npy.h"
-#include "bihive/io/parse_number.h"
-#include "bihive/io/readers.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/math/rng.h"
 
 namespace bihive {

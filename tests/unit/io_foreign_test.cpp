@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bihive/io/foreign.h"
+#include "bihive/io/formats/foreign.h"
 #include "support/read_text.h"
 
 namespace bihive {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "bihive/io/detect.h"
-#include "bihive/io/pqr_line.h"
+#include "bihive/io/formats/detect.h"
+#include "bihive/io/formats/molecules/pqr_line.h"
 #include "support/read_text.h"
 
 namespace bihive {

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <limits>
 
-#include "bihive/io/detect.h"
 #include "bihive/io/elements.h"
+#include "bihive/io/formats/detect.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/read_spheres.h"
 #include "support/read_text.h"

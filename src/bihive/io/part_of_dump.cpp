@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
-#include "bihive/io/parse_number.h"
-#include "bihive/io/readers.h"
-#include "bihive/io/sphere_table.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/formats/readers.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/sphere_table.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {

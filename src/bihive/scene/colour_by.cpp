@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "bihive/geometry/each_sphere.h"
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/math/elementary.h"
 #include "bihive/scene/colour_of_number.h"
 #include "bihive/scene/colour_text.h"

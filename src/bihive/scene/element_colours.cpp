@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bihive/io/elements.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/palette.h"
 

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/look_text.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/named_materials.h"

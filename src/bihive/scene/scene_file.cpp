@@ -6,8 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bihive/io/assemble/finish.h"
 #include "bihive/io/data_path.h"
-#include "bihive/io/finish.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/colour_text.h"
 #include "bihive/scene/default_colours.h"

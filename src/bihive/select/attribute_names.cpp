@@ -4,7 +4,7 @@
 #include <iterator>
 #include <limits>
 
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {
