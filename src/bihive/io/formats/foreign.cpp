@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "bihive/io/formats/formats.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {
 
-// A format by its name, the endings of its files, and the remedy.
-struct Known {
-  std::string_view key, name, endings, advice;
-};
-constexpr std::string_view kTopologyFirst = "give that file first, as in 'bihive render ATOMS.gro FILE'";
 constexpr std::string_view kTrajectory =
     "write one frame as PDB: 'gmx trjconv -f FILE -s TOPOLOGY -dump 0 -o OUT.pdb', or MDAnalysis";
 constexpr std::string_view kMdanalysis =
@@ -21,10 +17,7 @@ constexpr std::string_view kMdanalysis =
 constexpr std::string_view kBabel = "convert it with 'obabel FILE -O OUT.pdb' (Open Babel)";
 constexpr std::string_view kAse = "convert it with 'ase convert FILE OUT.xyz' (ASE)";
 constexpr std::string_view kPoints = "write the points as CSV with a header, for example with meshio or CloudCompare";
-constexpr Known kKnown[] = {
-    {"dcd", "a DCD trajectory of CHARMM, NAMD or LAMMPS", ".dcd", kTopologyFirst},
-    {"xtc", "an XTC trajectory of GROMACS", ".xtc", kTopologyFirst},
-    {"trr", "a TRR trajectory of GROMACS", ".trr", kTopologyFirst},
+constexpr ForeignFormat kKnown[] = {
     {"tng", "a TNG trajectory of GROMACS", ".tng", kTrajectory},
     {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
     {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'"},
@@ -56,14 +49,10 @@ constexpr Known kKnown[] = {
     {"html", "a web page (HTML)", ".html .htm", "download the file itself, not the page that links to it"},
 };
 
-ForeignFormat format_of(const Known& known) {
-  return {std::string(known.name), std::string(known.advice), known.advice == kTopologyFirst};
-}
-
-std::optional<ForeignFormat> named(std::string_view key) {
-  for (const Known& known : kKnown)
-    if (known.key == key) return format_of(known);
-  return std::nullopt;
+const ForeignFormat* named(std::string_view key) {
+  const auto found =
+      std::find_if(std::begin(kKnown), std::end(kKnown), [key](const ForeignFormat& one) { return one.key == key; });
+  return found == std::end(kKnown) ? nullptr : found;
 }
 
 bool begins(std::string_view text, std::string_view mark) {
@@ -74,8 +63,6 @@ bool begins(std::string_view text, std::string_view mark) {
 std::string_view by_mark(std::string_view bytes) {
   using namespace std::string_view_literals;
   static constexpr std::pair<std::string_view, std::string_view> marks[] = {
-      {"\0\0\x07\xcb"sv, "xtc"},
-      {"\0\0\x07\xc9"sv, "trr"},
       {"BZh"sv, "bzip2"},
       {"\xfd"
        "7zXZ\0"sv,
@@ -94,7 +81,6 @@ std::string_view by_mark(std::string_view bytes) {
   for (const auto& [mark, key] : marks)
     if (begins(bytes, mark)) return key;
   if (bytes.size() < 16) return "";
-  if (bytes.substr(4, 4) == "CORD") return "dcd";
   if (bytes.substr(4, 4) == "\0\0\0\x0d"sv && bytes.substr(8, 8).find("VERSION") != std::string_view::npos)
     return "tpr";
   if (begins(bytes, "\0\0\0"sv) && bytes.substr(0, 24).find("VERSION") != std::string_view::npos) return "tpr";
@@ -183,26 +169,18 @@ std::string_view by_braces(std::string_view text) {
 
 }  // namespace
 
-std::optional<ForeignFormat> foreign_by_content(std::string_view bytes) {
+const ForeignFormat* foreign_by_content(std::string_view bytes) {
   for (const auto recognise : {by_mark, by_element, by_braces})
     if (const std::string_view key = recognise(bytes); !key.empty()) return named(key);
-  if (bytes.substr(0, 65536).find('\0') != std::string_view::npos) return std::nullopt;
+  if (bytes.substr(0, 65536).find('\0') != std::string_view::npos) return nullptr;
   if (const std::string_view key = by_lines(bytes); !key.empty()) return named(key);
-  return std::nullopt;
+  return nullptr;
 }
 
-std::optional<ForeignFormat> foreign_by_name(const std::string& name) {
-  std::string lower = lower_case(name);
-  for (const std::string_view packing : {".gz", ".zst"})
-    if (lower.size() > packing.size() && lower.ends_with(packing)) lower.resize(lower.size() - packing.size());
-  const std::size_t dot = lower.find_last_of("./");
-  if (dot == std::string::npos || lower[dot] != '.') return std::nullopt;
-  const std::string ending = lower.substr(dot);
-  for (const Known& known : kKnown) {
-    const std::string endings = ' ' + std::string(known.endings) + ' ';
-    if (endings.find(' ' + ending + ' ') != std::string::npos) return format_of(known);
-  }
-  return std::nullopt;
+const ForeignFormat* foreign_by_name(const std::string& name) {
+  for (const ForeignFormat& known : kKnown)
+    if (is_named_so(known.endings, name)) return &known;
+  return nullptr;
 }
 
 }  // namespace bihive

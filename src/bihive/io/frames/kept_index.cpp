@@ -36,13 +36,7 @@ void put(std::string& bytes, std::int64_t number) {
 
 std::array<std::int64_t, 7> head_of(const IndexedFile& file) {
   const FileStamp& stamp = file.stamp;
-  return {static_cast<std::int64_t>(file.format),
-          file.size,
-          stamp.written_s,
-          stamp.written_ns,
-          stamp.changed_s,
-          stamp.changed_ns,
-          stamp.inode};
+  return {file.format, file.size, stamp.written_s, stamp.written_ns, stamp.changed_s, stamp.changed_ns, stamp.inode};
 }
 
 void put(std::string& bytes, const PlaceList& places) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "bihive/io/formats/detect.h"
 #include "bihive/io/frames/frame_index.h"
 #include "bihive/io/packed/random_file.h"
 
@@ -15,7 +14,7 @@ namespace bihive {
 /// The file of an index. Where any of it differs, the index is of no use. The stamp holds what nobody can choose: an
 /// index that came with the file from elsewhere, in an archive for example, does not fit.
 struct IndexedFile {
-  Format format;
+  std::int64_t format;    ///< Format::index_number
   std::int64_t size = 0;  ///< bytes
   FileStamp stamp;
 };

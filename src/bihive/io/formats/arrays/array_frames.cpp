@@ -6,6 +6,7 @@
 #include "bihive/base/memory.h"
 #include "bihive/io/formats/arrays/array_file.h"
 #include "bihive/io/formats/arrays/particle_layout.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/points/named_arrays.h"
 #include "bihive/io/text/sphere_table.h"
 #include "bihive/io/text/text_scanner.h"
@@ -257,5 +258,21 @@ Result<std::shared_ptr<const Trajectory>> open_array_trajectory(RandomFile file,
   if (!layout) return or_unwritten(**arrays, name, layout.error());
   return std::shared_ptr<const Trajectory>(std::make_shared<ArrayTrajectory>(*arrays, std::move(*layout)));
 }
+
+extern const Format kHdf5(
+    "HDF5", ".h5 .hdf5 .h5md", Format::kFrames | Format::kColumns | Format::kParts | Format::kDataSets,
+    [](const FileHead& head) { return looks_like_hdf5(head.bytes); }, open_array_frames,
+    "its mark | data sets by name; H5MD: one frame of its particles | r, radius or diameter, else by element, else "
+    "from distances");
+
+extern const Format kNetcdf(
+    "NetCDF", ".nc .ncdf", Format::kFrames | Format::kColumns | Format::kDataSets,
+    [](const FileHead& head) { return looks_like_netcdf(head.bytes); }, open_array_frames,
+    "its mark | one frame of LAMMPS, or of AMBER beside its atoms | radius, else from distances");
+
+extern const TrajectoryFormat kH5mdTrajectory = {
+    .name = "H5MD", .recognise = looks_like_hdf5, .open = open_array_trajectory};
+extern const TrajectoryFormat kAmberTrajectory = {
+    .name = "NetCDF of AMBER", .recognise = looks_like_netcdf, .open = open_array_trajectory};
 
 }  // namespace bihive

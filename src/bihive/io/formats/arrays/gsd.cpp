@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
+#include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -162,16 +163,30 @@ class GsdFrame {
   RawSpheres spheres_;
 };
 
-}  // namespace
+class GsdFrames : public RawFrames {
+ public:
+  explicit GsdFrames(GsdFile file) : file_(std::move(file)) {}
+  Result<RawSpheres> read(std::int64_t frame) const override { return read_gsd_frame(file_, frame); }
 
-Result<RawSpheres> read_gsd(std::string_view bytes, const std::string& file, std::int64_t frame) {
-  const Result<GsdFile> opened = GsdFile::open(RandomFile::of_bytes(bytes, file));
-  if (!opened) return opened.error();
-  return read_gsd_frame(*opened, frame);
+ private:
+  GsdFile file_;
+};
+
+Result<std::shared_ptr<const RawFrames>> open_gsd(RandomFile file, const std::string&, const ColumnChoice&) {
+  Result<GsdFile> gsd = GsdFile::open(std::move(file));
+  if (!gsd) return gsd.error();
+  return std::shared_ptr<const RawFrames>(std::make_shared<GsdFrames>(std::move(*gsd)));
 }
+
+}  // namespace
 
 Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, const SetParts* parts) {
   return GsdFrame(file, frame, parts).read();
 }
+
+extern const Format kGsd(
+    "GSD", ".gsd", Format::kFrames | Format::kParts,
+    [](const FileHead& head) { return GsdFile::looks_like(head.bytes); }, open_gsd,
+    "its mark | one frame of the particles of HOOMD-blue | half of the file's diameter, else from distances");
 
 }  // namespace bihive

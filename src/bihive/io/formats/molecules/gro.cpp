@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -176,8 +176,6 @@ class GroReader {
   NamedNumbers velocity_[3] = {{"vx", {}}, {"vy", {}}, {"vz", {}}};
 };
 
-}  // namespace
-
 bool is_gro_atom(std::string_view line) {
   if (line.size() < kNamesWidth + 15 || !parse_int(trim(line.substr(15, 5)))) return false;
   const std::string_view number = trim(line.substr(0, 5));
@@ -188,12 +186,23 @@ bool is_gro_atom(std::string_view line) {
   return true;
 }
 
-Result<RawSpheres> read_gro(std::string_view text, const std::string& file, std::int64_t frame) {
-  return read_gro(TextScanner(text, file), FramePass{frame});
+// A title, which may be empty, a count, and an atom in columns of five.
+bool is_gro(const FileHead& head) {
+  TextScanner scanner(head.bytes, "");
+  std::string_view field;
+  if (!scanner.next_line() || !scanner.next_line() || !scanner.next_field(field) || !parse_int(field)) return false;
+  return !scanner.next_field(field) && scanner.next_line() && is_gro_atom(scanner.line());
 }
 
 Result<RawSpheres> read_gro(const TextScanner& scanner, const FramePass& pass) {
   return GroReader(scanner, pass).read();
 }
+
+}  // namespace
+
+extern const Format kGro(
+    "GRO", ".gro", Format::kText | Format::kFrames, is_gro, read_gro,
+    "a count alone on the second line, then an atom | one frame, nanometres as Ångström | van der Waals, by element",
+    4);
 
 }  // namespace bihive

@@ -9,8 +9,8 @@
 
 #include "bihive/base/readable.h"
 #include "bihive/io/elements.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/lammps_styles.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/text/parse_number.h"
 
 namespace bihive {
@@ -308,10 +308,8 @@ class LammpsDataReader {
   std::map<std::string, double> masses_;
 };
 
-}  // namespace
-
-bool is_lammps_data(std::string_view head) {
-  TextScanner scanner(head, "");
+bool is_lammps_data(const FileHead& head) {
+  TextScanner scanner(head.bytes, "");
   // XYZ begins with a count, and its comment may be "3 atoms" too.
   if (!scanner.next_line() || parse_int(trim(scanner.line()))) return false;
   scanner.set_comment('#');
@@ -328,5 +326,11 @@ Result<RawSpheres> read_lammps_data(std::string_view text, const std::string& fi
   if (frame != 0) return no_such_frame(file, frame, 1);
   return LammpsDataReader(text, file).read();
 }
+
+}  // namespace
+
+extern const Format kLammpsData("LAMMPS data", ".lmp .lammps", Format::kText, is_lammps_data, read_lammps_data,
+                                "`N atoms` on a line of the head | atoms of every style, the box, image flags | the "
+                                "file's diameters, else by element where masses tell it, else from distances");
 
 }  // namespace bihive

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
@@ -237,14 +237,17 @@ class LammpsReader {
   RawSpheres spheres_;
 };
 
-}  // namespace
-
-Result<RawSpheres> read_lammps_dump(std::string_view text, const std::string& file, std::int64_t frame) {
-  return read_lammps_dump(TextScanner(text, file), FramePass{frame});
-}
-
 Result<RawSpheres> read_lammps_dump(const TextScanner& scanner, const FramePass& pass) {
   return LammpsReader(scanner, pass).read();
 }
+
+}  // namespace
+
+extern const Format kLammpsDump(
+    "LAMMPS dump", ".dump .lammpstrj", Format::kText | Format::kFrames | Format::kColumns | Format::kParts,
+    [](const FileHead& head) { return trim(head.text.line()).substr(0, 5) == "ITEM:"; }, read_lammps_dump,
+    "`ITEM:` | one frame; columns by name; scaled, unwrapped and triclinic coordinates | column, else by element, else "
+    "from distances",
+    5);
 
 }  // namespace bihive

@@ -13,7 +13,7 @@
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/molecules/cif.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -432,9 +432,9 @@ struct Action<rules::item_value> {
   }
 };
 
-}  // namespace
-
 Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, std::int64_t frame) {
+  // The head of a long CIF may hold no atoms yet.
+  if (is_small_cif(text)) return read_small_cif(text, file, frame);
   AtomSites sites(file, frame);
   try {
     tao::pegtl::memory_input<> input(text.data(), text.size(), file);
@@ -450,5 +450,11 @@ Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, st
     return Error{"reading CIF failed: " + std::string(e.what()), file, 0, 0, ""};
   }
 }
+
+}  // namespace
+
+extern const Format kMmcif(
+    "mmCIF", ".cif .mmcif .pdbx", Format::kText | Format::kFrames, is_cif, read_mmcif,
+    "`data_` | ATOM and HETATM of one model; the likeliest of alternate locations | van der Waals, by element");
 
 }  // namespace bihive

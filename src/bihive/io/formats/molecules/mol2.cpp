@@ -5,8 +5,8 @@
 
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/text/fields.h"
 #include "bihive/io/text/parse_number.h"
 
@@ -187,10 +187,8 @@ class Mol2Reader {
   TextCollector names_, residues_, types_;
 };
 
-}  // namespace
-
-bool is_mol2(std::string_view head) {
-  TextScanner scanner(head, "");
+bool is_mol2(const FileHead& head) {
+  TextScanner scanner(head.bytes, "");
   for (int line = 0; line < 200 && scanner.next_line(); ++line)
     if (scanner.line().substr(0, kTripos.size()) == kTripos) return true;
   return false;
@@ -199,5 +197,10 @@ bool is_mol2(std::string_view head) {
 Result<RawSpheres> read_mol2(std::string_view text, const std::string& file, std::int64_t frame) {
   return Mol2Reader(text, file, frame).read();
 }
+
+}  // namespace
+
+extern const Format kMol2("MOL2", ".mol2", Format::kText | Format::kFrames, is_mol2, read_mol2,
+                          "`@<TRIPOS>` | one molecule | van der Waals, by element");
 
 }  // namespace bihive

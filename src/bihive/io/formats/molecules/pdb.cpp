@@ -7,11 +7,12 @@
 #include <limits>
 
 #include "bihive/io/assemble/unit_cell.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_assemblies.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/molecules/pqr_line.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -196,14 +197,17 @@ class PdbReader {
   std::int64_t first_unreadable_line_ = 0;
 };
 
-}  // namespace
-
-Result<RawSpheres> read_pdb(std::string_view text, const std::string& file, std::int64_t frame) {
-  return read_pdb(TextScanner(text, file), FramePass{frame});
-}
-
 Result<RawSpheres> read_pdb(const TextScanner& scanner, const FramePass& pass) {
   return PdbReader(scanner, pass).read();
 }
+
+}  // namespace
+
+extern const Format kPdb(
+    "PDB", ".pdb .ent", Format::kText | Format::kFrames,
+    [](const FileHead& head) { return is_pdb_record(head.text.line()); }, read_pdb,
+    "the name of a record | ATOM and HETATM of one model; the likeliest of alternate locations | van der Waals, by "
+    "element",
+    0);
 
 }  // namespace bihive

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bihive/io/elements.h"
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/text/fields.h"
 #include "bihive/io/text/parse_number.h"
 
@@ -284,18 +284,16 @@ bool begins_as_vasp(TextScanner& scanner) {
   return !words.empty() && parse_int(words[0]).has_value();
 }
 
-}  // namespace
-
-bool is_poscar(std::string_view head) {
-  TextScanner scanner(head, "");
+bool is_poscar(const FileHead& head) {
+  TextScanner scanner(head.bytes, "");
   if (!begins_as_vasp(scanner) || !scanner.next_line()) return false;
   const std::string_view line = trim(scanner.line());
   return !line.empty() && std::string_view("sdck").find(lower_case(line.substr(0, 1))) != std::string_view::npos &&
          !is_configuration(line);
 }
 
-bool is_xdatcar(std::string_view head) {
-  TextScanner scanner(head, "");
+bool is_xdatcar(const FileHead& head) {
+  TextScanner scanner(head.bytes, "");
   return begins_as_vasp(scanner) && scanner.next_filled_line() && is_configuration(scanner.line());
 }
 
@@ -306,5 +304,15 @@ Result<RawSpheres> read_poscar(std::string_view text, const std::string& file, s
 Result<RawSpheres> read_xdatcar(std::string_view text, const std::string& file, std::int64_t frame) {
   return VaspReader(text, file, frame).read_trajectory();
 }
+
+}  // namespace
+
+extern const Format kPoscar(
+    "POSCAR", ".poscar .vasp poscar* contcar*", Format::kText, is_poscar, read_poscar,
+    "three vectors, counts, then the kind of the coordinates | one structure | van der Waals, by element");
+
+extern const Format kXdatcar(
+    "XDATCAR", "xdatcar*", Format::kText | Format::kFrames, is_xdatcar, read_xdatcar,
+    "three vectors, counts, then `Direct configuration=` | one frame | van der Waals, by element");
 
 }  // namespace bihive

@@ -3,14 +3,17 @@
 // pdb2pqr keeps to columns unless it is asked for blanks, so large numbers may touch. Then the columns count.
 #include <algorithm>
 
+#include "bihive/io/formats/formats.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/formats/molecules/pqr_line.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
+
+extern const Format kPdb;
+
 namespace {
 
 class PqrReader {
@@ -105,14 +108,31 @@ class PqrReader {
   PdbElements elements_{false};
 };
 
-}  // namespace
-
-Result<RawSpheres> read_pqr(std::string_view text, const std::string& file, std::int64_t frame) {
-  return read_pqr(TextScanner(text, file), FramePass{frame});
+// PQR has PDB's records, with fields of its own. Its atoms do not fit PDB's columns, or the name says it. A file that
+// is named PDB stays PDB: shifted columns are an error there, and its B factors are no radii.
+bool is_pqr(const FileHead& head) {
+  if (!is_pdb_record(head.text.line()) || is_named_so(kPdb.files, head.name)) return false;
+  const bool named_so = is_named_so(".pqr", head.name);
+  TextScanner scanner = head.text;
+  bool any = false, one_does_not_fit_pdb = false;
+  do {
+    if (!is_atom_record(scanner.line()) || (scanner.at_end() && any)) continue;
+    if (!may_be_pqr(scanner.line())) return named_so && !any && !may_be_pdb(scanner.line());
+    any = true;
+    one_does_not_fit_pdb = one_does_not_fit_pdb || is_pqr_only(scanner.line());
+  } while (!one_does_not_fit_pdb && scanner.next_line());
+  return named_so || one_does_not_fit_pdb;
 }
 
 Result<RawSpheres> read_pqr(const TextScanner& scanner, const FramePass& pass) {
   return PqrReader(scanner, pass).read();
 }
+
+}  // namespace
+
+extern const Format kPqr("PQR", ".pqr", Format::kText | Format::kFrames, is_pqr, read_pqr,
+                         "records of PDB with fields that do not fit its columns, or that the ending names | ATOM and "
+                         "HETATM lines of one model, with charges | the file's",
+                         1);
 
 }  // namespace bihive

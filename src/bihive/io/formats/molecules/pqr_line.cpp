@@ -84,6 +84,18 @@ std::optional<PqrLine> by_columns(std::string_view line) {
 
 }  // namespace
 
+// The record names with which a PDB file may begin, cut to six columns [wwPDB-3.3].
+bool is_pdb_record(std::string_view line) {
+  static constexpr std::string_view names[] = {
+      "HEADER", "OBSLTE", "TITLE",  "SPLIT",  "CAVEAT", "COMPND", "SOURCE", "KEYWDS", "EXPDTA", "NUMMDL",
+      "MDLTYP", "AUTHOR", "REVDAT", "SPRSDE", "JRNL",   "REMARK", "DBREF",  "DBREF1", "SEQADV", "SEQRES",
+      "MODRES", "HET",    "HETNAM", "HELIX",  "SHEET",  "SSBOND", "LINK",   "CISPEP", "SITE",   "CRYST1",
+      "ORIGX1", "SCALE1", "MTRIX1", "MODEL",  "ATOM",   "HETATM", "USER"};
+  const std::string_view name = trim(line.substr(0, 6));
+  if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
+  return line.substr(0, 5) == "ATOM " || line.substr(0, 6) == "HETATM";
+}
+
 bool is_atom_record(std::string_view line) {
   return line.substr(0, 4) == "ATOM" || line.substr(0, 6) == "HETATM";
 }

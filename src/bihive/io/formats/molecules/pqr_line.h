@@ -14,6 +14,9 @@ struct PqrLine {
   std::string_view numbers[5];  ///< x, y, z, charge, radius: parse_double() reads each
 };
 
+/// Whether a PDB file may begin with this line.
+bool is_pdb_record(std::string_view line);
+
 bool is_atom_record(std::string_view line);
 
 /// The fields where blanks stand between them: exactly 9, or 10 with a chain, behind the record's name, of which the

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bihive/io/elements.h"
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/text/fields.h"
 #include "bihive/io/text/parse_number.h"
 
@@ -238,10 +238,8 @@ class SdfReader {
   NamedNumbers charge_{"charge", {}};
 };
 
-}  // namespace
-
-bool is_sdf(std::string_view head) {
-  TextScanner scanner(head, "");
+bool is_sdf(const FileHead& head) {
+  TextScanner scanner(head.bytes, "");
   for (int line = 0; line < 4; ++line)
     if (!scanner.next_line()) return false;
   const std::string_view mark = columns_of_line(scanner.line(), 30, 12);
@@ -251,5 +249,10 @@ bool is_sdf(std::string_view head) {
 Result<RawSpheres> read_sdf(std::string_view text, const std::string& file, std::int64_t frame) {
   return SdfReader(text, file, frame).read();
 }
+
+}  // namespace
+
+extern const Format kSdf("SDF", ".sdf .sd .mol", Format::kText | Format::kFrames, is_sdf, read_sdf,
+                         "`V2000` or `V3000` on the fourth line | one molecule | van der Waals, by element");
 
 }  // namespace bihive

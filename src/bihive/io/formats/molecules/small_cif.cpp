@@ -11,7 +11,7 @@
 #include "bihive/base/memory.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/molecules/cif.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -289,6 +289,13 @@ class CrystalReader {
 
 }  // namespace
 
+bool is_cif(const FileHead& head) {
+  TextScanner scanner = head.text;
+  while (trim(scanner.line()).substr(0, 1) == "#")
+    if (!scanner.next_filled_line()) return false;
+  return lower_case(trim(scanner.line()).substr(0, 5)) == "data_";
+}
+
 bool is_small_cif(std::string_view text) {
   // The tags may be anywhere in the file.
   constexpr std::string_view tag = "_atom_site_";
@@ -326,5 +333,10 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
     return Error{"reading CIF failed: " + printable(e.what()), file, 0, 0, ""};
   }
 }
+
+extern const Format kCrystalCif(
+    "CIF of crystals", "", Format::kText | Format::kFrames,
+    [](const FileHead& head) { return is_cif(head) && is_small_cif(head.bytes); }, read_small_cif,
+    "`data_` and `_atom_site_fract_` | the whole cell, by its symmetry | van der Waals, by element");
 
 }  // namespace bihive

@@ -5,7 +5,7 @@
 
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
@@ -133,9 +133,8 @@ std::string text_behind_all(const RandomFile& file, const FrameIndex& index) {
   return text_behind(scanner, index.count());
 }
 
-}  // namespace
-
-Result<RawSpheres> read_xyz(TextScanner scanner, const FramePass& pass) {
+Result<RawSpheres> read_xyz(const TextScanner& text, const FramePass& pass) {
+  TextScanner scanner = text;
   const std::int64_t frame = pass.wanted;
   RawSpheres spheres;
   std::vector<std::string> warnings;
@@ -204,8 +203,18 @@ Result<RawSpheres> read_xyz(TextScanner scanner, const FramePass& pass) {
   return spheres;
 }
 
-Result<RawSpheres> read_xyz(std::string_view text, const std::string& file, std::int64_t frame) {
-  return read_xyz(TextScanner(text, file), FramePass{frame});
+// A lone number on the first line is enough, so that a cut file gets the reader's own message.
+bool is_xyz(const FileHead& head) {
+  TextScanner scanner = head.text;
+  std::string_view field;
+  return scanner.next_field(field) && parse_double(field) && !scanner.next_field(field);
 }
+
+}  // namespace
+
+extern const Format kXyz("XYZ", ".xyz .extxyz", Format::kText | Format::kFrames | Format::kColumns, is_xyz, read_xyz,
+                         "a count alone on the first line | one frame; extended XYZ: any columns named by `Properties` "
+                         "| column, else by element",
+                         3);
 
 }  // namespace bihive

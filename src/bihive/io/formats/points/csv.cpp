@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
@@ -48,8 +48,6 @@ std::vector<TableColumn> columns_of_header(const std::vector<std::string>& names
   return columns;
 }
 
-}  // namespace
-
 Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame,
                             const ColumnChoice& choice) {
   TextScanner scanner(text, file);
@@ -93,5 +91,33 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
   spheres.rules.insert(spheres.rules.begin(), (has_header ? "columns by the header: " : "plain columns: ") + names);
   return spheres;
 }
+
+bool is_table(const FileHead& head) {
+  TextScanner scanner = head.text;
+  // Skip comments.
+  while (trim(scanner.line()).substr(0, 1) == "#")
+    if (!scanner.next_filled_line()) return false;
+
+  // Either three numbers, or a header that has x, y and z.
+  std::string spaced(scanner.line());
+  for (char& c : spaced)
+    if (c == ',' || c == ';' || c == '"') c = ' ';
+  TextScanner fields(spaced, "");
+  fields.next_line();
+  int numbers = 0, others = 0;
+  bool has[3] = {}, begins_with_number = false;
+  for (std::string_view field; fields.next_field(field);) {
+    ++(parse_double(field) ? numbers : others);
+    if (numbers == 1 && others == 0) begins_with_number = true;
+    for (int axis = 0; axis < 3; ++axis) has[axis] = has[axis] || lower_case(field) == std::string(1, char('x' + axis));
+  }
+  return (numbers >= 3 && others == 0) || (!begins_with_number && has[0] && has[1] && has[2]);
+}
+
+}  // namespace
+
+extern const Format kCsv("CSV", ".csv .tsv .txt .dat", Format::kText | Format::kColumns, is_table, read_csv,
+                         "three numbers, or a header with x, y and z | columns by name or place; plain `x y z [r]` | "
+                         "column, else by element, else from distances");
 
 }  // namespace bihive

@@ -1,5 +1,5 @@
 #include "bihive/base/memory.h"
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/text/sphere_table.h"
 
@@ -25,8 +25,6 @@ Result<RawSpheres> columns_of_npy(const NpyArray& array, const std::string& file
   spheres.rules.insert(spheres.rules.begin(), "NPY " + array.dtype + ": columns " + names);
   return spheres;
 }
-
-}  // namespace
 
 Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std::int64_t frame,
                             const ColumnChoice& choice) {
@@ -71,5 +69,13 @@ Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std
                           (columns == 4 ? std::string(", radius") : std::string()));
   return spheres;
 }
+
+}  // namespace
+
+extern const Format kNpy(
+    "NPY", ".npy", Format::kColumns | Format::kParts,
+    [](const FileHead& head) { return head.bytes.substr(0, 6) == "\x93NUMPY"; }, read_npy,
+    "its mark | n x 3 or n x 4, float32 or float64, either byte order, C or Fortran order | fourth column, else from "
+    "distances");
 
 }  // namespace bihive

@@ -2,13 +2,14 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/points/named_arrays.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/packed/zip_file.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
+namespace {
 
 Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std::int64_t frame,
                             const ColumnChoice& choice) {
@@ -43,5 +44,13 @@ Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std
   }
   return spheres_of_named_arrays(all, file, choice);
 }
+
+}  // namespace
+
+extern const Format kNpz(
+    "NPZ", ".npz", Format::kColumns, [](const FileHead& head) { return head.bytes.substr(0, 4) == "PK\x03\x04"; },
+    read_npz,
+    "the mark of zip | columns x, y, z, or one array of places; stored or packed | r, radius or diameter, else from "
+    "distances");
 
 }  // namespace bihive

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bihive/base/memory.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/points/lzf.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/text/fields.h"
 #include "bihive/io/text/parse_number.h"
@@ -247,11 +247,9 @@ class PcdReader {
   bool has_rgb_ = false;
 };
 
-}  // namespace
-
-bool is_pcd(std::string_view head) {
-  if (head.substr(0, 6) == "# .PCD") return true;
-  TextScanner scanner(head, "");
+bool is_pcd(const FileHead& head) {
+  if (head.bytes.substr(0, 6) == "# .PCD") return true;
+  TextScanner scanner(head.bytes, "");
   scanner.set_comment('#');
   if (!scanner.next_filled_line() || scanner.line().substr(0, 7) != "VERSION") return false;
   return scanner.next_filled_line() &&
@@ -263,5 +261,11 @@ Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std
   if (frame != 0) return no_such_frame(file, frame, 1);
   return PcdReader(bytes, file, choice).read();
 }
+
+}  // namespace
+
+extern const Format kPcd("PCD", ".pcd", Format::kColumns, is_pcd, read_pcd,
+                         "`# .PCD`, or `VERSION` and `FIELDS` | points and their numbers, in text, binary and packed | "
+                         "the file's, else from distances");
 
 }  // namespace bihive

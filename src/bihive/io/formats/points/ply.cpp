@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "bihive/io/formats/readers.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/text/fields.h"
 #include "bihive/io/text/parse_number.h"
@@ -268,12 +268,17 @@ class PlyReader {
   RawSpheres spheres_;
 };
 
-}  // namespace
-
 Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std::int64_t frame,
                             const ColumnChoice& choice) {
   if (frame != 0) return no_such_frame(file, frame, 1);
   return PlyReader(bytes, file, choice).read();
 }
+
+}  // namespace
+
+extern const Format kPly(
+    "PLY", ".ply", Format::kColumns,
+    [](const FileHead& head) { return head.bytes.rfind("ply\n", 0) == 0 || head.bytes.rfind("ply\r\n", 0) == 0; },
+    read_ply, "`ply` | points and their numbers, in text and binary | the file's, else from distances");
 
 }  // namespace bihive

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "bihive/base/memory.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/points/vtk_arrays.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
@@ -283,12 +283,17 @@ class VtkReader {
   std::vector<PointArray> arrays_;
 };
 
-}  // namespace
-
 Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& file, std::int64_t frame,
                                    const ColumnChoice& choice) {
   if (frame != 0) return no_such_frame(file, frame, 1);
   return VtkReader(bytes, file, choice).read();
 }
+
+}  // namespace
+
+extern const Format kVtk(
+    "VTK", ".vtk", Format::kColumns, [](const FileHead& head) { return head.bytes.substr(0, 15) == "# vtk DataFile "; },
+    read_vtk_legacy,
+    "`# vtk DataFile` | points and their numbers, in text and binary | the file's, else from distances");
 
 }  // namespace bihive

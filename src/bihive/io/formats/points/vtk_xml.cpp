@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "bihive/base/memory.h"
+#include "bihive/io/formats/format.h"
 #include "bihive/io/formats/points/vtk_arrays.h"
-#include "bihive/io/formats/readers.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
@@ -385,9 +385,8 @@ class VtkXmlReader {
   std::int64_t line_ = 1;
 };
 
-}  // namespace
-
-bool is_vtk_xml(std::string_view head) {
+bool is_vtk_xml(const FileHead& file) {
+  const std::string_view head = file.bytes;
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && head[first] == '<' && head.find("<VTKFile") != std::string_view::npos;
 }
@@ -397,5 +396,11 @@ Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file,
   if (frame != 0) return no_such_frame(file, frame, 1);
   return VtkXmlReader(bytes, file, choice).read();
 }
+
+}  // namespace
+
+extern const Format kVtkXml(
+    "VTK XML", ".vtp .vtu .vts", Format::kColumns, is_vtk_xml, read_vtk_xml,
+    "`<VTKFile` | points and their numbers, in text, binary and packed | the file's, else from distances");
 
 }  // namespace bihive

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "bihive/io/assemble/unit_cell.h"
-#include "bihive/io/formats/trajectories/formats.h"
+#include "bihive/io/formats/format.h"
+#include "bihive/io/formats/trajectories/frame_checks.h"
 #include "bihive/io/packed/byte_reader.h"
 
 namespace bihive {
@@ -208,14 +209,12 @@ std::optional<ByteOrder> byte_order_of(std::string_view first_bytes) {
   return std::nullopt;
 }
 
-}  // namespace
-
 bool looks_like_dcd(std::string_view first_bytes) {
   const std::string_view word = first_bytes.substr(std::min<std::size_t>(4, first_bytes.size()), 4);
   return byte_order_of(first_bytes).has_value() && (word == "CORD" || word == "VELD");
 }
 
-Result<std::shared_ptr<const Trajectory>> open_dcd(RandomFile file) {
+Result<std::shared_ptr<const Trajectory>> open_dcd(RandomFile file, const std::string&) {
   const Result<std::string> first = file.read(0, 8);
   if (!first) return first.error();
   const std::optional<ByteOrder> order = byte_order_of(*first);
@@ -225,5 +224,13 @@ Result<std::shared_ptr<const Trajectory>> open_dcd(RandomFile file) {
   if (Status status = trajectory->read_head(*order); !status) return status.error();
   return std::shared_ptr<const Trajectory>(std::move(trajectory));
 }
+
+}  // namespace
+
+extern const TrajectoryFormat kDcd = {.name = "DCD",
+                                      .files = ".dcd",
+                                      .alone = "a DCD trajectory of CHARMM, NAMD or LAMMPS",
+                                      .recognise = looks_like_dcd,
+                                      .open = open_dcd};
 
 }  // namespace bihive

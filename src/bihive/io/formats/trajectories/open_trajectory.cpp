@@ -3,17 +3,17 @@
 #include <string>
 
 #include "bihive/io/data_path.h"
-#include "bihive/io/formats/arrays/array_file.h"
-#include "bihive/io/formats/arrays/array_frames.h"
-#include "bihive/io/formats/trajectories/formats.h"
+#include "bihive/io/formats/formats.h"
+#include "bihive/io/formats/trajectories/frame_checks.h"
+#include "bihive/io/known_formats.h"
 #include "bihive/io/packed/unpacked_file.h"
 #include "bihive/io/trajectory.h"
 
 namespace bihive {
 
 bool looks_like_trajectory(std::string_view first_bytes) {
-  return looks_like_hdf5(first_bytes) || looks_like_netcdf(first_bytes) || looks_like_dcd(first_bytes) ||
-         looks_like_xtc(first_bytes) || looks_like_trr(first_bytes);
+  return std::any_of(trajectory_formats().begin(), trajectory_formats().end(),
+                     [first_bytes](const TrajectoryFormat* format) { return format->recognise(first_bytes); });
 }
 
 Result<std::shared_ptr<const Trajectory>> open_trajectory(const std::string& path) {
@@ -23,13 +23,10 @@ Result<std::shared_ptr<const Trajectory>> open_trajectory(const std::string& pat
   if (!file) return file.error();
   const Result<std::string> first = file->read(0, std::min(kLook, file->size()));
   if (!first) return first.error();
-  if (looks_like_hdf5(*first) || looks_like_netcdf(*first))
-    return open_array_trajectory(std::move(*file), named.inside);
-  if (looks_like_dcd(*first)) return open_dcd(std::move(*file));
-  if (looks_like_xtc(*first)) return open_xtc(std::move(*file));
-  if (looks_like_trr(*first)) return open_trr(std::move(*file));
+  for (const TrajectoryFormat* format : trajectory_formats())
+    if (format->recognise(*first)) return format->open(std::move(*file), named.inside);
   return Error{"this is no trajectory in a known format", path, 0, 0,
-               "known are DCD, XTC, TRR, NetCDF of AMBER and H5MD"};
+               "known are " + names_of_formats(FormatsThat::are_trajectories)};
 }
 
 Error no_such_trajectory_frame(const Trajectory& trajectory, const std::string& path, std::int64_t frame) {

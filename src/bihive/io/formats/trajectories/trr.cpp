@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bihive/io/formats/trajectories/formats.h"
+#include "bihive/io/formats/format.h"
+#include "bihive/io/formats/trajectories/frame_checks.h"
 #include "bihive/io/packed/byte_reader.h"
 
 namespace bihive {
@@ -162,17 +163,24 @@ Result<TrajectoryFrame> TrrTrajectory::read(std::int64_t frame) const {
   return made;
 }
 
-}  // namespace
-
 bool looks_like_trr(std::string_view first_bytes) {
   TrrHead head;
   return head.take(first_bytes);
 }
 
-Result<std::shared_ptr<const Trajectory>> open_trr(RandomFile file) {
+Result<std::shared_ptr<const Trajectory>> open_trr(RandomFile file, const std::string&) {
   auto trajectory = std::make_shared<TrrTrajectory>(std::move(file));
   if (Status status = trajectory->find_frames(); !status) return status.error();
   return std::shared_ptr<const Trajectory>(std::move(trajectory));
 }
+
+}  // namespace
+
+extern const TrajectoryFormat kTrr = {.name = "TRR",
+                                      .files = ".trr",
+                                      .alone = "a TRR trajectory of GROMACS",
+                                      .mark = std::string_view("\0\0\x07\xc9", 4),
+                                      .recognise = looks_like_trr,
+                                      .open = open_trr};
 
 }  // namespace bihive

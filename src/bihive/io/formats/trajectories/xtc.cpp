@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bihive/io/formats/trajectories/formats.h"
+#include "bihive/io/formats/format.h"
+#include "bihive/io/formats/trajectories/frame_checks.h"
 #include "bihive/io/formats/trajectories/packed_places.h"
 #include "bihive/io/packed/byte_reader.h"
 
@@ -142,18 +143,25 @@ Result<TrajectoryFrame> XtcTrajectory::read(std::int64_t frame) const {
   return made;
 }
 
-}  // namespace
-
 bool looks_like_xtc(std::string_view first_bytes) {
   ByteReader reader(first_bytes, ByteOrder::big);
   FrameHead head;
   return head.take(reader) && (head.magic == kMagic || head.magic == kMagicOfLarge);
 }
 
-Result<std::shared_ptr<const Trajectory>> open_xtc(RandomFile file) {
+Result<std::shared_ptr<const Trajectory>> open_xtc(RandomFile file, const std::string&) {
   auto trajectory = std::make_shared<XtcTrajectory>(std::move(file));
   if (Status status = trajectory->find_frames(); !status) return status.error();
   return std::shared_ptr<const Trajectory>(std::move(trajectory));
 }
+
+}  // namespace
+
+extern const TrajectoryFormat kXtc = {.name = "XTC",
+                                      .files = ".xtc",
+                                      .alone = "an XTC trajectory of GROMACS",
+                                      .mark = std::string_view("\0\0\x07\xcb", 4),
+                                      .recognise = looks_like_xtc,
+                                      .open = open_xtc};
 
 }  // namespace bihive
