@@ -101,7 +101,7 @@ if(NOT BIHIVE_ZSTD STREQUAL "OFF")
   find_library(BIHIVE_ZSTD_LIBRARY zstd)
   mark_as_advanced(BIHIVE_ZSTD_FOLDER BIHIVE_ZSTD_LIBRARY)
   if(BIHIVE_ZSTD_FOLDER AND BIHIVE_ZSTD_LIBRARY)
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/bihive/io/unpack.cpp PROPERTIES COMPILE_DEFINITIONS
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/bihive/io/packed/unpack.cpp PROPERTIES COMPILE_DEFINITIONS
                                                                                           BIHIVE_HAS_ZSTD=1)
     list(APPEND BIHIVE_LIBRARY_DEPENDENCIES zstd)
   elseif(NOT BIHIVE_ZSTD STREQUAL "AUTO")

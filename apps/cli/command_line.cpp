@@ -6,6 +6,7 @@
 
 #include "bihive/base/version.h"
 #include "bihive/io/cell_options.h"
+#include "bihive/io/known_formats.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
@@ -86,15 +87,27 @@ void add_generator_options(CLI::App& app, InputOptions& input) {
 }
 
 // `alone`: no other word without an option follows INPUT.
+// A text of --help in lines of at most this many characters.
+std::string in_lines(std::string text) {
+  constexpr std::size_t kWidth = 84;
+  for (std::size_t begin = 0; text.size() - begin > kWidth;) {
+    const std::size_t blank = text.rfind(' ', begin + kWidth);
+    text[blank] = '\n';
+    begin = blank + 1;
+  }
+  return text;
+}
+
 void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
   app.add_option("INPUT", input.input,
-                 "A file (PDB, PQR, mmCIF, CIF, XYZ, GRO, LAMMPS dump and data, POSCAR, XDATCAR, SDF,\n"
-                 "MOL2, GSD, CSV, NPY, NPZ, PLY, PCD, VTK, HDF5, NetCDF, scene JSON) or a built-in name:\n"
-                 "scenario1, scenario2, scenario3, four-spheres, demo; - is the standard input")
+                 in_lines("A file (" + names_of_formats(FormatsThat::hold_spheres) +
+                          ", or scene JSON) or a built-in name: scenario1, scenario2, scenario3, four-spheres, demo; "
+                          "- is the standard input"))
       ->type_name("")
       ->required();
   app.add_option(alone ? "TRAJECTORY,--trajectory" : "--trajectory", input.trajectory,
-                 "Files: the places of the same spheres at many times (DCD, XTC, TRR,\nNetCDF of AMBER, H5MD)")
+                 in_lines("Files: the places of the same spheres at many times (" +
+                          names_of_formats(FormatsThat::are_trajectories) + ")"))
       ->type_name("FILE");
 }
 
@@ -111,8 +124,8 @@ void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scal
               return text;
             });
   add_value(app, "--columns", input.columns, "PART=COLUMN,...",
-            "CSV, XYZ, LAMMPS dump, NPY, NPZ, PLY, PCD, VTK, HDF5, NetCDF: columns by\nname or place, "
-            "e.g. --columns x=px,y=py,z=pz,r=5",
+            in_lines(names_of_formats(FormatsThat::have_columns) +
+                     ": columns by name or place, e.g. --columns x=px,y=py,z=pz,r=5"),
             columns_from_text);
   add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
   add_value(app, "--replicate", input.replicate, "AxBxC",

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bihive/io/readers.h"
+#include "bihive/io/formats/formats.h"
 
 namespace bihive {
 namespace {
@@ -37,7 +37,7 @@ std::vector<Atom> atoms_of_gemmi(const std::string& text) {
 
 void expect_the_same(const std::string& text) {
   const std::vector<Atom> theirs = atoms_of_gemmi(text);
-  const Result<RawSpheres> ours = read_pdb(text, "test", 0);
+  const Result<RawSpheres> ours = read_bytes(format_named("PDB"), text, "test", 0);
   ASSERT_TRUE(ours.ok()) << ours.error().to_string();
   ASSERT_EQ(ours->size(), theirs.size());
   for (std::size_t i = 0; i < theirs.size(); ++i) {

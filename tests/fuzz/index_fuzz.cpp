@@ -2,7 +2,7 @@
 // its first byte on, frame after frame.
 #include <cstring>
 
-#include "bihive/io/kept_index.h"
+#include "bihive/io/frames/kept_index.h"
 #include "read_and_check.h"
 
 namespace {
@@ -26,7 +26,7 @@ void check(const std::optional<FrameIndex>& index, const IndexedFile& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const IndexedFile file{Format::xyz, 1000, {7, 8, 9, 10, 11}};
+  const IndexedFile file{format_named("XYZ").index_number, 1000, {7, 8, 9, 10, 11}};
   check(decode_index({reinterpret_cast<const char*>(data), size}, file), file);
   if (size < 2) return 0;
 

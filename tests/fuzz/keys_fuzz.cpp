@@ -1,7 +1,7 @@
 // parse_camera_keys() on any bytes: keys that are written and read again the same, or an error of one line.
 #include <string_view>
 
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/scene/camera_path.h"
 #include "read_and_check.h"
 

@@ -2,6 +2,6 @@
 #include "read_and_check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  bihive::fuzz::read_raw(bihive::read_npy, data, size);
+  bihive::fuzz::read_raw("NPY", data, size);
   return 0;
 }

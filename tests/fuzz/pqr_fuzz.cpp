@@ -2,6 +2,6 @@
 #include "read_and_check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  bihive::fuzz::read_raw(bihive::read_pqr, data, size);
+  bihive::fuzz::read_raw("PQR", data, size);
   return 0;
 }

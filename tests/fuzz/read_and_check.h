@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
+#include "bihive/io/formats/formats.h"
 #include "bihive/io/read_spheres.h"
-#include "bihive/io/readers.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/io/write_spheres.h"
 
 namespace bihive::fuzz {
@@ -70,11 +70,10 @@ inline void check_raw(const Result<RawSpheres>& raw, std::int64_t frame) {
 }
 
 /// One reader's answer. The first byte of the input chooses the frame.
-inline void read_raw(Result<RawSpheres> (*reader)(std::string_view, const std::string&, std::int64_t),
-                     const std::uint8_t* data, std::size_t size) {
+inline void read_raw(const char* format, const std::uint8_t* data, std::size_t size) {
   if (size == 0) return;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const Result<RawSpheres> raw = reader(text, "fuzz", data[0] % 4);
+  const Result<RawSpheres> raw = read_bytes(format_named(format), text, "fuzz", data[0] % 4);
   check_raw(raw, data[0] % 4);
   if (!raw) return;
 

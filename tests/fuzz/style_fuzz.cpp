@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "bihive/io/read_spheres.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/scene/scene_file.h"
 #include "bihive/scene/style.h"
 #include "engines.h"

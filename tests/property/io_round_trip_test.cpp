@@ -9,15 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "bihive/io/formats/formats.h"
 #include "bihive/io/npy.h"
-#include "bihive/io/parse_number.h"
-#include "bihive/io/readers.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/math/rng.h"
 
 namespace bihive {
 namespace {
 
 constexpr std::uint64_t kSeed = 20140501;
+
+Result<RawSpheres> read_as(const char* format, const std::string& bytes) {
+  return read_bytes(format_named(format), bytes, "t", 0);
+}
 
 std::string digits(double value) {
   char text[40];
@@ -68,17 +72,17 @@ TEST(RoundTrip, EveryFormatGivesBackTheSameBits) {
       numbers.insert(numbers.end(), {spheres.x[i], spheres.y[i], spheres.z[i], spheres.r[i]});
     }
     const std::string n = std::to_string(count);
-    expect_same(spheres, read_csv(rows, "t", 0), "plain text");
-    expect_same(spheres, read_csv(csv, "t", 0), "CSV");
-    expect_same(spheres, read_xyz(n + "\nProperties=pos:R:3:radius:R:1\n" + rows, "t", 0), "XYZ");
+    expect_same(spheres, read_as("CSV", rows), "plain text");
+    expect_same(spheres, read_as("CSV", csv), "CSV");
+    expect_same(spheres, read_as("XYZ", n + "\nProperties=pos:R:3:radius:R:1\n" + rows), "XYZ");
     expect_same(spheres,
-                read_lammps_dump(
-                    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + n + "\nITEM: ATOMS x y z radius\n" + rows, "t", 0),
+                read_as("LAMMPS dump",
+                        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + n + "\nITEM: ATOMS x y z radius\n" + rows),
                 "LAMMPS dump");
-    expect_same(spheres, read_npy(npy_bytes(numbers, {static_cast<std::int64_t>(count), 4}), "t", 0), "NPY");
+    expect_same(spheres, read_as("NPY", npy_bytes(numbers, {static_cast<std::int64_t>(count), 4})), "NPY");
     RawSpheres without_radii = spheres;
     without_radii.r.clear();
-    expect_same(without_radii, read_mmcif(cif, "t", 0), "mmCIF");
+    expect_same(without_radii, read_as("mmCIF", cif), "mmCIF");
   }
 }
 
@@ -110,11 +114,11 @@ TEST(RoundTrip, ATextCutAnywhereIsReadOrRefusedButNeverWorse) {
       "ITEM: ATOMS id xs ys zs radius\n1 0 0 0 1\n2 0.5 0.5 0.5 1\n";
   const std::string xyz = "2\nProperties=species:S:1:pos:R:3\nC 1 2 3\nbead 4 5 6\n";
   for (std::size_t size = 0; size <= dump.size(); ++size) {
-    const Result<RawSpheres> got = read_lammps_dump(dump.substr(0, size), "t", 0);
+    const Result<RawSpheres> got = read_as("LAMMPS dump", dump.substr(0, size));
     EXPECT_EQ(got.ok(), size + 1 >= dump.size()) << "cut at " << size;
   }
   for (std::size_t size = 0; size <= xyz.size(); ++size) {
-    const Result<RawSpheres> got = read_xyz(xyz.substr(0, size), "t", 0);
+    const Result<RawSpheres> got = read_as("XYZ", xyz.substr(0, size));
     EXPECT_EQ(got.ok(), size + 1 >= xyz.size()) << "cut at " << size;
   }
 }

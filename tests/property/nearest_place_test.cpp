@@ -1,6 +1,6 @@
 // The search for the nearest other place against brute force, bit for bit, on sets that are easy and on sets that are
 // meant to make it slow or wrong.
-#include "bihive/io/nearest_place.h"
+#include "bihive/io/assemble/nearest_place.h"
 
 #include <gtest/gtest.h>
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "bihive/io/parse_number.h"
-#include "bihive/io/plain_number.h"
-#include "bihive/io/sphere_table.h"
-#include "bihive/io/trajectory/random_file.h"
+#include "bihive/io/packed/random_file.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/plain_number.h"
+#include "bihive/io/text/sphere_table.h"
 
 namespace bihive {
 namespace {

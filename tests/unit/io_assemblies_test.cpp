@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bihive/io/assemblies.h"
+#include "bihive/io/assemble/assemblies.h"
 #include "support/read_text.h"
 
 namespace bihive {

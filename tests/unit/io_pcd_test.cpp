@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "bihive/image/transfer.h"
-#include "bihive/io/lzf.h"
+#include "bihive/io/formats/points/lzf.h"
 #include "support/read_text.h"
 
 namespace bihive {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "bihive/io/detect.h"
-#include "bihive/io/pqr_line.h"
+#include "bihive/io/formats/formats.h"
+#include "bihive/io/formats/molecules/pqr_line.h"
 #include "support/read_text.h"
 
 namespace bihive {
@@ -52,14 +52,15 @@ TEST(Pqr, TakesFieldsWithBlanks) {
 
 TEST(Pqr, IsFoundByContentAndByName) {
   for (const std::string& text : {kColumns, kFields})
-    for (const char* name : {"a", "a.pqr", "a.txt"}) EXPECT_EQ(format_by_content(text, name), Format::pqr) << name;
+    for (const char* name : {"a", "a.pqr", "a.txt"})
+      EXPECT_EQ(format_by_content(text, name), &format_named("PQR")) << name;
   // Both fit: the name decides. What is named PDB stays PDB, for its last numbers are no radii.
   const std::string both = "ATOM      1  N   MET     1     -11.053  26.680  12.742  0.15  1.82\n";
-  EXPECT_EQ(format_by_content(both, "a.pqr"), Format::pqr);
-  EXPECT_EQ(format_by_content(both, "a"), Format::pdb);
-  EXPECT_EQ(format_by_content(kFields, "a.pdb"), Format::pdb);
+  EXPECT_EQ(format_by_content(both, "a.pqr"), &format_named("PQR"));
+  EXPECT_EQ(format_by_content(both, "a"), &format_named("PDB"));
+  EXPECT_EQ(format_by_content(kFields, "a.pdb"), &format_named("PDB"));
   const std::string pdb = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 20.25           N  \n";
-  EXPECT_EQ(format_by_content(pdb, "a.pqr"), Format::pdb);
+  EXPECT_EQ(format_by_content(pdb, "a.pqr"), &format_named("PDB"));
 }
 
 TEST(Pqr, TakesTheModelAskedFor) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bihive/io/parse_number.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bihive/io/unknown_radii.h"
+#include "bihive/io/assemble/unknown_radii.h"
 #include "support/read_text.h"
 
 namespace bihive {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bihive/io/unpack.h"
+#include "bihive/io/packed/unpack.h"
 #include "support/gzip.h"
 #include "support/read_text.h"
 

@@ -1,5 +1,5 @@
 // A list of places gives back what was put in, by number and in order, whatever the numbers are.
-#include "bihive/io/place_list.h"
+#include "bihive/io/frames/place_list.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {

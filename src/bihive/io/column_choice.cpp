@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "bihive/io/parse_number.h"
-#include "bihive/io/sphere_table.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/sphere_table.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "bihive/io/sphere_frames.h"
+#include "bihive/io/frames/sphere_frames.h"
 #include "bihive/io/without_throwing.h"
 
 namespace bihive {

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "bihive/base/memory.h"
-#include "bihive/io/binary_number.h"
-#include "bihive/io/npy_layout.h"
-#include "bihive/io/parse_number.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/formats/points/npy_layout.h"
+#include "bihive/io/packed/binary_number.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {

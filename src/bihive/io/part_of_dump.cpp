@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
-#include "bihive/io/parse_number.h"
-#include "bihive/io/readers.h"
-#include "bihive/io/sphere_table.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/formats/formats.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/sphere_table.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {
@@ -129,7 +129,7 @@ Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts) {
   text += *lines;
   lines = std::string();
 
-  Result<RawSpheres> spheres = read_lammps_dump(text, file.path(), 0);
+  Result<RawSpheres> spheres = read_bytes(format_named("LAMMPS dump"), text, file.path(), 0);
   if (spheres) return spheres;
   Error error = spheres.error();
   if (error.line > head->lines) error.line += all.before;

@@ -6,13 +6,13 @@
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/set_parts.h"
+#include "bihive/io/packed/random_file.h"
 #include "bihive/io/raw_spheres.h"
-#include "bihive/io/trajectory/random_file.h"
 
 namespace bihive {
 
-/// The atoms of a file that begins as a dump, no column of which needs all rows (io/sphere_table.h), and that is as
-/// large as one frame alone makes it. Nothing: parts of it cannot be read.
+/// The atoms of a file that begins as a dump, no column of which needs all rows (io/text/sphere_table.h), and that is
+/// as large as one frame alone makes it. Nothing: parts of it cannot be read.
 std::optional<std::int64_t> atoms_in_parts(const RandomFile& file);
 
 /// The atoms whose lines begin in this process' share of the bytes. For all processes at the same time. Errors as those

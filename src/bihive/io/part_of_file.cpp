@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "bihive/base/memory.h"
-#include "bihive/io/arrays/array_frames.h"
-#include "bihive/io/binary_number.h"
-#include "bihive/io/npy_layout.h"
+#include "bihive/io/formats/arrays/array_frames.h"
+#include "bihive/io/formats/arrays/gsd.h"
+#include "bihive/io/formats/points/npy_layout.h"
+#include "bihive/io/packed/binary_number.h"
+#include "bihive/io/packed/random_file.h"
 #include "bihive/io/part_of_dump.h"
 #include "bihive/io/raw_spheres.h"
-#include "bihive/io/trajectory/gsd.h"
-#include "bihive/io/trajectory/random_file.h"
 #include "bihive/io/without_throwing.h"
 
 namespace bihive {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 

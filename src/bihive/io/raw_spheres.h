@@ -1,4 +1,4 @@
-// The content of a file as its reader finds it, before the steps that all formats share (io/finish.h).
+// The content of a file as its reader finds it, before the steps that all formats share (io/assemble/finish.h).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "bihive/base/result.h"
 #include "bihive/geometry/cell.h"
 #include "bihive/geometry/sphere_set.h"
-#include "bihive/io/assemblies.h"
+#include "bihive/io/assemble/assemblies.h"
 
 namespace bihive {
 

@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "bihive/io/finish.h"
+#include "bihive/io/assemble/finish.h"
+#include "bihive/io/frames/sphere_frames.h"
 #include "bihive/io/packed.h"
+#include "bihive/io/packed/unpack.h"
 #include "bihive/io/part_of_file.h"
 #include "bihive/io/raw_spheres.h"
-#include "bihive/io/sphere_frames.h"
-#include "bihive/io/unpack.h"
 #include "bihive/io/without_throwing.h"
 
 namespace bihive {

@@ -11,8 +11,8 @@
 
 #include "bihive/io/elements.h"
 #include "bihive/io/npy.h"
-#include "bihive/io/parse_number.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bihive/geometry/cut_sphere.h"
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bihive/geometry/each_sphere.h"
 #include "bihive/image/colour_text.h"
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/math/elementary.h"
 #include "bihive/scene/colour_of_number.h"
 #include "bihive/scene/palette.h"

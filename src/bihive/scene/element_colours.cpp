@@ -4,7 +4,7 @@
 
 #include "bihive/image/colour_text.h"
 #include "bihive/io/elements.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/scene/palette.h"
 
 namespace bihive {

@@ -3,7 +3,7 @@
 #include <variant>
 
 #include "bihive/image/colour_text.h"
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/scene/look_text.h"
 
 namespace bihive {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "bihive/image/colour_text.h"
-#include "bihive/io/parse_number.h"
+#include "bihive/io/text/parse_number.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/named_materials.h"
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/image/colour_text.h"
+#include "bihive/io/assemble/finish.h"
 #include "bihive/io/data_path.h"
-#include "bihive/io/finish.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/default_colours.h"
 #include "bihive/scene/focus.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bihive/base/json_text.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/scene/scene_file.h"
 
 namespace bihive {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "bihive/base/near_name.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/io/elements.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/select/attribute_names.h"
 #include "bihive/select/nearby.h"
 #include "bihive/select/number_term.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/select/parse_expression.h"
 
 namespace bihive {

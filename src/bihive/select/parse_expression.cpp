@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "bihive/io/parse_number.h"
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {

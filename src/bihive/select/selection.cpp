@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/select/evaluate.h"
 #include "bihive/select/parse_expression.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <iterator>
 
-#include "bihive/io/text_scanner.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/select/residue_words.h"
 
 namespace bihive {

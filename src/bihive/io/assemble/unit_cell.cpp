@@ -1,0 +1,50 @@
+#include "bihive/io/assemble/unit_cell.h"
+
+#include <cmath>
+
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
+#include "bihive/math/elementary.h"
+
+namespace bihive {
+
+std::optional<Cell> unit_cell(const std::array<double, 6>& given) {
+  const auto [a, b, c, alpha, beta, gamma] = given;
+  for (const double length : {a, b, c})
+    if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
+  for (const double angle : {alpha, beta, gamma})
+    if (!(angle > 0 && angle < 180)) return std::nullopt;
+  if (a == 1 && b == 1 && c == 1) return std::nullopt;
+  const SineCosine at_a = sine_cosine_deg(alpha);
+  const SineCosine at_b = sine_cosine_deg(beta);
+  const SineCosine at_c = sine_cosine_deg(gamma);
+  const double y = (at_a.cosine - at_b.cosine * at_c.cosine) / at_c.sine;
+  const double z_squared = 1 - at_b.cosine * at_b.cosine - y * y;
+  if (!(z_squared > 0)) return std::nullopt;
+  Cell cell;
+  cell.vectors = {Vec3d{a, 0, 0}, Vec3d{b * at_c.cosine, b * at_c.sine, 0},
+                  Vec3d{c * at_b.cosine, c * y, c * std::sqrt(z_squared)}};
+  return cell;
+}
+
+std::optional<Cell> cell_of_vectors(std::string_view nine) {
+  TextScanner scanner(nine, "");
+  if (!scanner.next_line()) return std::nullopt;
+  Cell cell;
+  std::string_view field;
+  for (Vec3d& vector : cell.vectors)
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!scanner.next_field(field)) return std::nullopt;
+      const std::optional<double> number = parse_double(field);
+      if (!number || !std::isfinite(*number)) return std::nullopt;
+      vector[axis] = *number;
+    }
+  return scanner.next_field(field) ? std::nullopt : std::optional<Cell>(cell);
+}
+
+bool is_finite(const Cell& cell) {
+  return is_finite(cell.origin) && is_finite(cell.vectors[0]) && is_finite(cell.vectors[1]) &&
+         is_finite(cell.vectors[2]);
+}
+
+}  // namespace bihive

@@ -1,0 +1,152 @@
+#include "bihive/io/assemble/wrapping.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
+
+namespace bihive {
+namespace {
+
+// Places as shares of the cell's vectors.
+class Shares {
+ public:
+  explicit Shares(const Cell& cell) : cell_(cell) {
+    const auto& [a, b, c] = cell.vectors;
+    // Lengths near 1, so that no product is too large or too small.
+    double largest = 0;
+    for (const Vec3d& v : cell.vectors)
+      for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(v[axis]));
+    if (!(largest > 0)) return;
+    scale_ = std::ldexp(1, -std::ilogb(largest));
+    const Vec3d as = a * scale_, bs = b * scale_, cs = c * scale_;
+    const double volume = dot(as, cross(bs, cs));
+    if (volume == 0) return;
+    rows_ = {cross(bs, cs) / volume, cross(cs, as) / volume, cross(as, bs) / volume};
+    has_volume_ = is_finite(rows_[0]) && is_finite(rows_[1]) && is_finite(rows_[2]);
+  }
+  bool has_volume() const { return has_volume_; }
+  Vec3d of(Vec3d vector) const {
+    const Vec3d scaled = vector * scale_;
+    return {dot(scaled, rows_[0]), dot(scaled, rows_[1]), dot(scaled, rows_[2])};
+  }
+  Vec3d vectors(Vec3d counts) const {
+    return counts.x * cell_.vectors[0] + counts.y * cell_.vectors[1] + counts.z * cell_.vectors[2];
+  }
+  Vec3d origin() const { return cell_.origin; }
+
+ private:
+  Cell cell_;
+  double scale_ = 1;
+  std::array<Vec3d, 3> rows_;
+  bool has_volume_ = false;
+};
+
+Vec3d floors(Vec3d v) {
+  return {std::floor(v.x), std::floor(v.y), std::floor(v.z)};
+}
+
+Vec3d place_of(const RawSpheres& raw, std::size_t i) {
+  return {raw.x[i], raw.y[i], raw.z[i]};
+}
+void put(RawSpheres& raw, std::size_t i, Vec3d at) {
+  raw.x[i] = at.x;
+  raw.y[i] = at.y;
+  raw.z[i] = at.z;
+}
+
+void wrap(RawSpheres& raw, const Shares& shares) {
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    Vec3d at = place_of(raw, i);
+    // Rounding may leave a centre on the far border, which is the near one of the next cell.
+    for (int turn = 0; turn < 2; ++turn) at = at - shares.vectors(floors(shares.of(at - shares.origin())));
+    put(raw, i, at);
+  }
+  raw.rules.push_back("wrapped: every centre moved into the cell by whole vectors");
+}
+
+const NamedNumbers* column_of(const RawSpheres& raw, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names)
+    for (const NamedNumbers& column : raw.attributes.numbers)
+      if (lower_case(column.name) == name) return &column;
+  return nullptr;
+}
+
+Error no_flag(const RawSpheres&, std::size_t i, const std::string& name) {
+  return {"sphere " + std::to_string(i) + ": the image flags ix, iy and iz must be whole numbers below 2^31", name, 0,
+          0, ""};
+}
+
+Status unwrap_by_flags(RawSpheres& raw, const Shares& shares, const std::array<const NamedNumbers*, 3>& flags,
+                       const std::string& name) {
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    Vec3d counts;
+    for (int axis = 0; axis < 3; ++axis) {
+      counts[axis] = flags[static_cast<std::size_t>(axis)]->values[i];
+      if (!(std::abs(counts[axis]) < 0x1p31) || counts[axis] != std::floor(counts[axis])) return no_flag(raw, i, name);
+    }
+    put(raw, i, place_of(raw, i) + shares.vectors(counts));
+  }
+  raw.rules.push_back("unwrapped: by the image flags ix, iy, iz");
+  return Done{};
+}
+
+// The shortest of the vectors that differ by whole vectors of the cell.
+Vec3d shortest(Vec3d step, const Shares& shares) {
+  const Vec3d share = shares.of(step);
+  const Vec3d base = step - shares.vectors(floors(share + Vec3d{0.5, 0.5, 0.5}));
+  Vec3d best = base;
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -1; k <= 1; ++k) {
+        const Vec3d other = base + shares.vectors({double(i), double(j), double(k)});
+        if (dot(other, other) < dot(best, best)) best = other;
+      }
+  return best;
+}
+
+// Each sphere comes to the image that is nearest to the one before it in its molecule, in the order of the file.
+void unwrap_by_molecule(RawSpheres& raw, const Shares& shares, const NamedNumbers& molecule) {
+  std::map<double, Vec3d> last;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    if (std::isnan(molecule.values[i])) continue;
+    const Vec3d at = place_of(raw, i);
+    const auto [known, is_first] = last.try_emplace(molecule.values[i], at);
+    if (!is_first) known->second = known->second + shortest(at - known->second, shares);
+    put(raw, i, known->second);
+  }
+  raw.rules.push_back("unwrapped: the spheres of a molecule (" + molecule.name + ") each next to the one before");
+}
+
+}  // namespace
+
+Status apply_wrapping(RawSpheres& raw, Wrapping wrapping, const std::string& name) {
+  if (wrapping == Wrapping::none) return Done{};
+  const std::string what = wrapping == Wrapping::wrap ? "wrap" : "unwrap";
+  if (!raw.cell)
+    return Error{"there is no periodic cell to " + what + " by", name, 0, 0, "give one with --cell-vectors"};
+  const Shares shares(*raw.cell);
+  if (!shares.has_volume()) return Error{"the cell has no volume, so nothing can " + what, name, 0, 0, ""};
+  if (wrapping == Wrapping::wrap) {
+    wrap(raw, shares);
+    return Done{};
+  }
+  const std::array<const NamedNumbers*, 3> flags{column_of(raw, {"ix"}), column_of(raw, {"iy"}),
+                                                 column_of(raw, {"iz"})};
+  if (flags[0] != nullptr && flags[1] != nullptr && flags[2] != nullptr)
+    return unwrap_by_flags(raw, shares, flags, name);
+  const NamedNumbers* const molecule = column_of(raw, {"mol", "molecule", "mol_id", "molecule_id"});
+  if (molecule == nullptr)
+    return Error{"nothing says which spheres belong together", name, 0, 0,
+                 "to unwrap needs columns ix, iy and iz, or a column mol"};
+  unwrap_by_molecule(raw, shares, *molecule);
+  return Done{};
+}
+
+}  // namespace bihive

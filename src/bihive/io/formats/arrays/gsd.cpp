@@ -1,0 +1,192 @@
+#include "bihive/io/formats/arrays/gsd.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bihive/io/formats/format.h"
+#include "bihive/io/frames/raw_frames.h"
+#include "bihive/io/text/text_scanner.h"
+
+namespace bihive {
+namespace {
+
+// Columns of numbers that are kept under the names that LAMMPS dumps have for them.
+struct KeptArray {
+  const char* array;
+  std::array<const char*, 3> names;  // one or three
+};
+constexpr KeptArray kKeptArrays[] = {{"particles/mass", {"mass"}},
+                                     {"particles/charge", {"q"}},
+                                     {"particles/body", {"body"}},
+                                     {"particles/velocity", {"vx", "vy", "vz"}},
+                                     {"particles/image", {"ix", "iy", "iz"}}};
+
+class GsdFrame {
+ public:
+  GsdFrame(const GsdFile& file, std::int64_t frame, const SetParts* parts)
+      : file_(file), frame_(frame), parts_(parts) {}
+
+  Result<RawSpheres> read() {
+    if (frame_ < 0 || frame_ >= file_.frame_count()) return no_such_frame(file_.path(), frame_, file_.frame_count());
+    if (file_.schema() != "hoomd")
+      return Error{"the GSD file holds no particles of HOOMD-blue but " + quote(file_.schema()), file_.path(), 0, 0,
+                   ""};
+    spheres_.format = "GSD";
+    spheres_.frames = file_.frame_count();
+    for (Status (GsdFrame::*step)() : {&GsdFrame::read_places, &GsdFrame::read_types, &GsdFrame::read_radii,
+                                       &GsdFrame::read_numbers, &GsdFrame::read_cell})
+      if (Status status = (this->*step)(); !status) return status.error();
+    return std::move(spheres_);
+  }
+
+ private:
+  Error wrong(const std::string& array, const std::string& what) const {
+    return {"frame " + std::to_string(frame_) + " of the GSD file: " + array + " " + what, file_.path(), 0, 0, ""};
+  }
+
+  // An array with one row for each particle.
+  Status take(const std::string& name, std::int64_t columns, std::optional<GsdArray>& array) const {
+    Result<std::optional<GsdArray>> found = file_.array(frame_, name, parts_);
+    if (!found) return found.error();
+    array = std::move(*found);
+    if (!array || !rows_) return Done{};
+    // An array of frame 0 stands for later frames only as long as the particles are as many.
+    if (array->rows != *rows_ || array->columns != columns)
+      return wrong(name, "has " + std::to_string(array->rows) + " x " + std::to_string(array->columns) +
+                             " numbers for " + std::to_string(*rows_) + " particles");
+    return Done{};
+  }
+
+  Status read_places() {
+    std::optional<GsdArray> array;
+    if (Status status = take("particles/position", 3, array); !status) return status;
+    if (!array) return wrong("particles/position", "is missing");
+    if (array->columns != 3) return wrong("particles/position", "has not three columns");
+    rows_ = array->rows;
+    count_ = rows_of_part(parts_, array->rows).count();
+    for (std::size_t i = 0; i < array->values.size(); ++i) {
+      if (coordinate_fault(array->values[i])) return wrong("particles/position", "has a number that is not finite");
+      (i % 3 == 0 ? spheres_.x : i % 3 == 1 ? spheres_.y : spheres_.z).push_back(array->values[i]);
+    }
+    return Done{};
+  }
+
+  // The names of types are texts of one length, padded by zeros.
+  Status read_types() {
+    std::optional<GsdArray> ids;
+    if (Status status = take("particles/typeid", 1, ids); !status) return status;
+    Result<std::optional<GsdArray>> names = file_.array(frame_, "particles/types");
+    if (!names) return names.error();
+    NamedTexts column{"type", {}, {}};
+    if (*names) {
+      for (std::int64_t row = 0; row < (*names)->rows; ++row) {
+        std::string name;
+        for (std::int64_t k = 0; k < (*names)->columns; ++k) {
+          const double letter = (*names)->values[static_cast<std::size_t>(row * (*names)->columns + k)];
+          if (letter == 0) break;
+          if (!(letter >= -128 && letter < 256)) return wrong("particles/types", "has a number that is no letter");
+          name += static_cast<char>(static_cast<int>(letter));
+        }
+        column.texts.push_back(name);
+      }
+    }
+    if (column.texts.empty()) column.texts = {"A"};  // the schema's own
+    for (std::int64_t i = 0; i < count_; ++i) {
+      const double id = ids ? ids->values[static_cast<std::size_t>(i)] : 0;
+      if (!(id >= 0 && id < static_cast<double>(column.texts.size())))
+        return wrong("particles/typeid", "names a type that does not exist");
+      column.text_of_sphere.push_back(static_cast<std::int32_t>(id));
+      spheres_.attributes.type.push_back(static_cast<std::int32_t>(id));
+    }
+    spheres_.attributes.texts.push_back(printable_texts(std::move(column)));
+    return Done{};
+  }
+
+  Status read_radii() {
+    std::optional<GsdArray> diameters;
+    if (Status status = take("particles/diameter", 1, diameters); !status || !diameters) return status;
+    for (const double diameter : diameters->values) {
+      if (radius_fault(diameter / 2)) return wrong("particles/diameter", "has a number that is no diameter");
+      spheres_.r.push_back(diameter / 2);
+    }
+    spheres_.rules.push_back("radii: half of particles/diameter");
+    return Done{};
+  }
+
+  Status read_numbers() {
+    for (const KeptArray& kept : kKeptArrays) {
+      const std::int64_t columns = kept.names[1] != nullptr ? 3 : 1;
+      std::optional<GsdArray> array;
+      if (Status status = take(kept.array, columns, array); !status) return status;
+      if (!array) continue;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) {
+        NamedNumbers column{kept.names[k], {}};
+        for (std::size_t i = k; i < array->values.size(); i += static_cast<std::size_t>(columns))
+          column.values.push_back(array->values[i]);
+        spheres_.attributes.numbers.push_back(std::move(column));
+      }
+    }
+    return Done{};
+  }
+
+  // Lx, Ly, Lz, xy, xz, yz; the middle of the cell is the origin. The tilts are shares of the lengths.
+  Status read_cell() {
+    const Result<std::optional<GsdArray>> box = file_.array(frame_, "configuration/box");
+    if (!box) return box.error();
+    if (*box && (*box)->values.size() == 6) {
+      const std::vector<double>& v = (*box)->values;
+      Cell cell;
+      cell.vectors = {Vec3d{v[0], 0, 0}, Vec3d{v[3] * v[1], v[1], 0}, Vec3d{v[4] * v[2], v[5] * v[2], v[2]}};
+      cell.origin = -0.5 * (cell.vectors[0] + cell.vectors[1] + cell.vectors[2]);
+      bool finite = true;
+      for (const double number : v) finite = finite && std::isfinite(number);
+      if (finite) spheres_.cell = cell;
+    }
+    const Result<std::optional<GsdArray>> step = file_.array(frame_, "configuration/step");
+    if (!step) return step.error();
+    // A step that is not stated is 0, as the schema says.
+    if (!*step) spheres_.step = 0;
+    if (*step && (*step)->values.size() == 1 && (*step)->values[0] >= 0 && (*step)->values[0] < 9e15)
+      spheres_.step = static_cast<std::int64_t>((*step)->values[0]);
+    return Done{};
+  }
+
+  const GsdFile& file_;
+  std::int64_t frame_;
+  const SetParts* parts_;
+  std::optional<std::int64_t> rows_;  // particles of the frame
+  std::int64_t count_ = 0;            // of this process
+  RawSpheres spheres_;
+};
+
+class GsdFrames : public RawFrames {
+ public:
+  explicit GsdFrames(GsdFile file) : file_(std::move(file)) {}
+  Result<RawSpheres> read(std::int64_t frame) const override { return read_gsd_frame(file_, frame); }
+
+ private:
+  GsdFile file_;
+};
+
+Result<std::shared_ptr<const RawFrames>> open_gsd(RandomFile file, const std::string&, const ColumnChoice&) {
+  Result<GsdFile> gsd = GsdFile::open(std::move(file));
+  if (!gsd) return gsd.error();
+  return std::shared_ptr<const RawFrames>(std::make_shared<GsdFrames>(std::move(*gsd)));
+}
+
+}  // namespace
+
+Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, const SetParts* parts) {
+  return GsdFrame(file, frame, parts).read();
+}
+
+extern const Format kGsd(
+    "GSD", ".gsd", Format::kFrames | Format::kParts,
+    [](const FileHead& head) { return GsdFile::looks_like(head.bytes); }, open_gsd,
+    "its mark | one frame of the particles of HOOMD-blue | half of the file's diameter, else from distances");
+
+}  // namespace bihive

@@ -1,0 +1,186 @@
+#include "bihive/io/formats/foreign.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "bihive/io/formats/formats.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
+
+namespace bihive {
+namespace {
+
+constexpr std::string_view kTrajectory =
+    "write one frame as PDB: 'gmx trjconv -f FILE -s TOPOLOGY -dump 0 -o OUT.pdb', or MDAnalysis";
+constexpr std::string_view kMdanalysis =
+    "write it as PDB or XYZ with MDAnalysis: Universe(TOPOLOGY, FILE).atoms.write('OUT.pdb')";
+constexpr std::string_view kBabel = "convert it with 'obabel FILE -O OUT.pdb' (Open Babel)";
+constexpr std::string_view kAse = "convert it with 'ase convert FILE OUT.xyz' (ASE)";
+constexpr std::string_view kPoints = "write the points as CSV with a header, for example with meshio or CloudCompare";
+constexpr ForeignFormat kKnown[] = {
+    {"tng", "a TNG trajectory of GROMACS", ".tng", kTrajectory},
+    {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
+    {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'"},
+    {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'"},
+    {"bcif", "a BinaryCIF file", ".bcif", "take the entry's mmCIF file"},
+    {"mmtf", "an MMTF file", ".mmtf", "take the entry's mmCIF file"},
+    {"pdbml", "a PDBML file (XML)", "", "take the entry's mmCIF file"},
+    {"cml", "a CML file (XML)", ".cml", kBabel},
+    {"ase-json", "a database of ASE in JSON", "", kAse},
+    {"json", "JSON, but no scene of bihive", "", "scene files have the key \"bihive_scene\": docs/scene_format.md"},
+    {"vtk", "a VTK file without points of its own", ".vti .vtr .pvtp .pvtu .vtm .pvd", kPoints},
+    {"stl", "a mesh (STL)", ".stl", kPoints},
+    {"psf", "a topology of CHARMM or NAMD (PSF), without coordinates", ".psf", kMdanalysis},
+    {"prmtop", "a topology of Amber (PRMTOP), without coordinates", ".prmtop .parm7",
+     "convert it with 'cpptraj' or 'ambpdb'"},
+    {"inpcrd", "a file of coordinates of Amber", ".inpcrd .rst7 .restrt",
+     "convert it with 'ambpdb -p TOPOLOGY -c FILE > OUT.pdb'"},
+    {"top", "a topology of GROMACS, without coordinates", ".top .itp", "take its structure: a GRO or PDB file"},
+    {"coor", "a binary structure of NAMD", ".coor", kMdanalysis},
+    {"crd", "a structure of CHARMM (CRD)", ".crd", kMdanalysis},
+    {"cube", "a cube of Gaussian", ".cube .cub", kAse},
+    {"xsf", "a structure of XCrySDen (XSF)", ".xsf .axsf", kAse},
+    {"tinker", "a structure of Tinker", ".txyz .arc", kBabel},
+    {"dms", "a structure of Desmond (SQLite)", ".dms", kMdanalysis},
+    {"ase-db", "an SQLite database", ".db", kAse},
+    {"picture", "a picture", ".png .jpg .jpeg .exr .gif .tif .tiff",
+     "bihive draws files of spheres; it reads no pictures"},
+    {"pdf", "a PDF document", ".pdf", ""},
+    {"html", "a web page (HTML)", ".html .htm", "download the file itself, not the page that links to it"},
+};
+
+const ForeignFormat* named(std::string_view key) {
+  const auto found =
+      std::find_if(std::begin(kKnown), std::end(kKnown), [key](const ForeignFormat& one) { return one.key == key; });
+  return found == std::end(kKnown) ? nullptr : found;
+}
+
+bool begins(std::string_view text, std::string_view mark) {
+  return text.substr(0, mark.size()) == mark;
+}
+
+// Formats with a mark at their begin, which nothing else has.
+std::string_view by_mark(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  static constexpr std::pair<std::string_view, std::string_view> marks[] = {
+      {"BZh"sv, "bzip2"},
+      {"\xfd"
+       "7zXZ\0"sv,
+       "xz"},
+      {"\x89PNG\r\n\x1a\n"sv, "picture"},
+      {"\xff\xd8\xff"sv, "picture"},
+      {"\x76\x2f\x31\x01"sv, "picture"},
+      {"GIF8"sv, "picture"},
+      {"SQLite format 3\0"sv, "ase-db"},
+      {"%PDF-"sv, "pdf"},
+      {"%VERSION"sv, "prmtop"},
+      {"solid "sv, "stl"},
+      {"PSF "sv, "psf"},
+      {"PSF\n"sv, "psf"},
+  };
+  for (const auto& [mark, key] : marks)
+    if (begins(bytes, mark)) return key;
+  if (bytes.size() < 16) return "";
+  if (bytes.substr(4, 4) == "\0\0\0\x0d"sv && bytes.substr(8, 8).find("VERSION") != std::string_view::npos)
+    return "tpr";
+  if (begins(bytes, "\0\0\0"sv) && bytes.substr(0, 24).find("VERSION") != std::string_view::npos) return "tpr";
+  if (bytes.substr(0, 64).find("TNG") != std::string_view::npos && begins(bytes.substr(1), "\0"sv)) return "tng";
+  return "";
+}
+
+// XML and HTML, by their first elements.
+std::string_view by_element(std::string_view text) {
+  const std::string head = lower_case(text.substr(0, 2000));
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos || head[first] != '<') return "";
+  const std::pair<std::string_view, std::string_view> elements[] = {
+      {"<pdbx:", "pdbml"}, {"<html", "html"}, {"<!doctype html", "html"}, {"<cml", "cml"}, {"<molecule", "cml"}};
+  for (const auto& [element, key] : elements)
+    if (head.find(element) != std::string::npos) return key;
+  return "";
+}
+
+// A line's fields, not many of them.
+std::vector<std::string_view> fields_of_line(std::string_view line) {
+  std::vector<std::string_view> fields;
+  TextScanner scanner(line, "");
+  scanner.next_line();
+  for (std::string_view field; fields.size() < 12 && scanner.next_field(field);) fields.push_back(field);
+  return fields;
+}
+
+bool all_numbers(const std::vector<std::string_view>& fields, std::size_t count) {
+  return fields.size() >= count && std::all_of(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(count),
+                                               [](std::string_view field) { return parse_double(field).has_value(); });
+}
+
+// Formats that the first lines show.
+std::string_view by_lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  TextScanner scanner(text.substr(0, 65536), "");
+  while (lines.size() < 40 && scanner.next_line()) lines.push_back(scanner.line());
+  const auto line = [&lines](std::size_t i) { return i < lines.size() ? lines[i] : std::string_view(); };
+
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string_view bare = trim(lines[i]);
+    if (bare == "PRIMCOORD" || bare == "PRIMVEC" || begins(bare, "ANIMSTEPS")) return "xsf";
+  }
+
+  // CHARMM: titles behind asterisks, then the count.
+  if (begins(line(0), "*")) {
+    std::size_t i = 0;
+    while (begins(line(i), "*")) ++i;
+    const std::vector<std::string_view> count = fields_of_line(line(i));
+    if (!count.empty() && parse_int(count[0])) return "crd";
+  }
+
+  // Cube: two comments, a count with the origin, three counts with vectors.
+  const auto counted_vector = [&](std::size_t i) {
+    const std::vector<std::string_view> fields = fields_of_line(line(i));
+    return fields.size() >= 4 && fields.size() <= 5 && parse_int(fields[0]) && all_numbers(fields, 4);
+  };
+  if (counted_vector(2) && counted_vector(3) && counted_vector(4) && counted_vector(5)) return "cube";
+
+  const std::vector<std::string_view> second = fields_of_line(line(1));
+  // Amber: a title, a count (with a time), then six numbers on a line.
+  if ((second.size() == 1 || second.size() == 2) && parse_int(second[0]) && fields_of_line(line(2)).size() == 6 &&
+      all_numbers(fields_of_line(line(2)), 6))
+    return "inpcrd";
+
+  // Tinker: a count with a title, then number, name, three coordinates, type.
+  const std::vector<std::string_view> first = fields_of_line(line(0)), atom = fields_of_line(line(1));
+  if (!first.empty() && parse_int(first[0]) && atom.size() >= 6 && atom[0] == "1" && !parse_double(atom[1]) &&
+      parse_double(atom[2]) && parse_double(atom[3]) && parse_double(atom[4]) && parse_int(atom[5]))
+    return "tinker";
+  return "";
+}
+
+// JSON: what `ase db` writes has numbered rows.
+std::string_view by_braces(std::string_view text) {
+  const std::string_view head = text.substr(0, 65536);
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos || head[first] != '{') return "";
+  const bool numbered = trim(head.substr(first + 1)).substr(0, 16).find("\"1\"") != std::string_view::npos;
+  if (numbered &&
+      (head.find("\"unique_id\"") != std::string_view::npos || head.find("\"numbers\"") != std::string_view::npos))
+    return "ase-json";
+  return head.find("\"bihive_scene\"") == std::string_view::npos ? "json" : "";
+}
+
+}  // namespace
+
+const ForeignFormat* foreign_by_content(std::string_view bytes) {
+  for (const auto recognise : {by_mark, by_element, by_braces})
+    if (const std::string_view key = recognise(bytes); !key.empty()) return named(key);
+  if (bytes.substr(0, 65536).find('\0') != std::string_view::npos) return nullptr;
+  if (const std::string_view key = by_lines(bytes); !key.empty()) return named(key);
+  return nullptr;
+}
+
+const ForeignFormat* foreign_by_name(const std::string& name) {
+  for (const ForeignFormat& known : kKnown)
+    if (is_named_so(known.endings, name)) return &known;
+  return nullptr;
+}
+
+}  // namespace bihive

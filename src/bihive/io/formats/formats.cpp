@@ -1,0 +1,129 @@
+#include "bihive/io/formats/formats.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "bihive/base/check.h"
+#include "bihive/io/frames/raw_frames.h"
+#include "bihive/io/known_formats.h"
+
+namespace bihive {
+
+// Each row is defined at the end of its reader's file.
+extern const Format kNpy, kNpz, kHdf5, kNetcdf, kGsd, kPly, kPcd, kVtk, kVtkXml, kLammpsDump, kSdf, kPoscar, kXdatcar,
+    kMol2, kLammpsData, kPqr, kPdb, kGro, kXyz, kCsv, kCrystalCif, kMmcif;
+extern const TrajectoryFormat kH5mdTrajectory, kAmberTrajectory, kDcd, kXtc, kTrr;
+
+namespace {
+
+constexpr const Format* kFormats[] = {
+    // Their first bytes are their own. After a header of text there may be any bytes.
+    &kNpy, &kNpz, &kHdf5, &kNetcdf, &kGsd, &kPly, &kVtk, &kPcd, &kVtkXml,
+    // Text that no other format has. Titles of these may be anything, also a record of PDB.
+    &kLammpsDump, &kSdf, &kPoscar, &kXdatcar, &kMol2, &kLammpsData,
+    // Text that is told by its first lines, the special before the general.
+    &kPqr, &kPdb, &kGro, &kXyz, &kCsv, &kCrystalCif, &kMmcif};
+constexpr const TrajectoryFormat* kTrajectories[] = {&kH5mdTrajectory, &kAmberTrajectory, &kDcd, &kXtc, &kTrr};
+
+template <class Row>
+std::vector<const Row*> sorted(std::span<const Row* const> rows) {
+  std::vector<const Row*> all(rows.begin(), rows.end());
+  std::sort(all.begin(), all.end(),
+            [](const Row* a, const Row* b) { return lower_case(a->name) < lower_case(b->name); });
+  return all;
+}
+
+template <class Row, class IsIn>
+std::string names_of(std::span<const Row* const> rows, const IsIn& is_in) {
+  std::vector<std::string_view> names;
+  for (const Row* row : sorted(rows))
+    if (is_in(*row)) names.push_back(row->name);
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + std::string(names[i]);
+  return list;
+}
+
+}  // namespace
+
+std::span<const Format* const> formats() {
+  return kFormats;
+}
+
+std::span<const TrajectoryFormat* const> trajectory_formats() {
+  return kTrajectories;
+}
+
+const Format& format_named(std::string_view name) {
+  const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                  [name](const Format* format) { return format->name == name; });
+  BIHIVE_CHECK(found != std::end(kFormats));
+  return **found;
+}
+
+std::string ending_of(const std::string& name) {
+  std::string lower = lower_case(name);
+  for (const std::string_view packing : {".gz", ".zst"})
+    if (lower.size() > packing.size() && lower.ends_with(packing)) lower.resize(lower.size() - packing.size());
+  const std::size_t dot = lower.find_last_of("./");
+  return dot == std::string::npos || lower[dot] != '.' ? "" : lower.substr(dot);
+}
+
+bool is_named_so(std::string_view files, const std::string& name) {
+  const std::string ending = ending_of(name), own = lower_case(name.substr(name.find_last_of('/') + 1));
+  TextScanner scanner(files, "");
+  scanner.next_line();
+  for (std::string_view one; scanner.next_field(one);)
+    if (one.back() == '*' ? own.rfind(one.substr(0, one.size() - 1), 0) == 0 : one == ending) return true;
+  return false;
+}
+
+const Format* format_by_name(const std::string& name) {
+  // An ending before how a name begins. Data sets may be those of another program: content alone shows them.
+  for (const std::string& asked : {ending_of(name), name})
+    for (const Format* format : kFormats)
+      if (!format->has(Format::kDataSets) && is_named_so(format->files, asked)) return format;
+  return nullptr;
+}
+
+const Format* format_by_content(std::string_view bytes, const std::string& name) {
+  bytes = bytes.substr(0, kFileHeadBytes);
+  FileHead head{bytes, name, TextScanner(bytes, "")};
+  const bool may_be_text = bytes.find('\0') == std::string_view::npos && head.text.next_filled_line();
+  for (const Format* format : kFormats)
+    if ((may_be_text || !format->has(Format::kText)) && format->recognise(head)) return format;
+  return nullptr;
+}
+
+Result<RawSpheres> read_bytes(const Format& format, std::string_view bytes, const std::string& name, std::int64_t frame,
+                              const ColumnChoice& columns) {
+  if (const auto* read = std::get_if<PlainReader>(&format.reader)) return (*read)(bytes, name, frame);
+  if (const auto* read = std::get_if<ColumnReader>(&format.reader)) return (*read)(bytes, name, frame, columns);
+  if (const auto* read = std::get_if<TextReader>(&format.reader)) {
+    FramePass pass{frame};
+    pass.columns = columns;
+    return (*read)(TextScanner(bytes, name), pass);
+  }
+  const FramesOpener open = std::get<FramesOpener>(format.reader);
+  const Result<std::shared_ptr<const RawFrames>> frames = open(RandomFile::of_bytes(bytes, name), "", columns);
+  if (!frames) return frames.error();
+  return (*frames)->read(frame);
+}
+
+std::string known_formats() {
+  std::string list;
+  for (const Format* format : sorted(formats()))
+    list += std::string(format->name) + (format->files.empty() ? "" : " (" + std::string(format->files) + ")") + ", ";
+  return list + "each also as .gz or .zst";
+}
+
+std::string names_of_formats(FormatsThat which) {
+  if (which == FormatsThat::are_trajectories)
+    return names_of(trajectory_formats(), [](const TrajectoryFormat&) { return true; });
+  return names_of(formats(), [which](const Format& format) {
+    return which == FormatsThat::hold_spheres || format.has(Format::kColumns);
+  });
+}
+
+}  // namespace bihive

@@ -1,0 +1,213 @@
+// PDB, fixed columns [wwPDB-3.3]. This reader does not use gemmi's PDB reader. That one sorts atoms into chains and
+// residues (file order is lost), reads a coordinate that is no number as 0, and stops at the line numbers of the older
+// format.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "bihive/io/assemble/unit_cell.h"
+#include "bihive/io/formats/format.h"
+#include "bihive/io/formats/molecules/alternates.h"
+#include "bihive/io/formats/molecules/atom_columns.h"
+#include "bihive/io/formats/molecules/pdb_assemblies.h"
+#include "bihive/io/formats/molecules/pdb_elements.h"
+#include "bihive/io/formats/molecules/pqr_line.h"
+#include "bihive/io/text/parse_number.h"
+#include "bihive/io/text/text_scanner.h"
+
+namespace bihive {
+namespace {
+
+// Columns first to last, counted from 1 as in the format's description; shorter if the line ends earlier.
+std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
+  return first > line.size() ? std::string_view() : line.substr(first - 1, last - first + 1);
+}
+
+class PdbReader {
+ public:
+  PdbReader(const TextScanner& scanner, const FramePass& pass) : scanner_(scanner), pass_(pass), frame_(pass.wanted) {
+    spheres_.format = "PDB";
+  }
+
+  Result<RawSpheres> read() {
+    // Models lie between MODEL and ENDMDL. Simulations separate models by ENDMDL or END alone.
+    FrameNotes notes(pass_.made, scanner_);
+    bool in_model = false, any_cell = false;
+    std::int64_t models = pass_.first;
+    for (std::int64_t begin = scanner_.place(); scanner_.next_line(); begin = scanner_.place()) {
+      const std::string_view record = scanner_.line().substr(0, 6);
+      if (record.substr(0, 4) == "ATOM" || record == "HETATM") {
+        if (!in_model) ++models;
+        in_model = true;
+        if (models - 1 != frame_) continue;
+        if (Status atom = read_atom(); !atom) return atom.error();
+      } else if (record == "REMARK" && columns(scanner_.line(), 8, 10) == "350") {
+        if (pass_.index != nullptr) continue;
+        assemblies_.add_line(scanner_.line());
+        note_assembly_line(begin);
+      } else if (record == "CRYST1") {
+        if (pass_.index != nullptr) continue;
+        // The last cell before the model's end counts. Where there is none, the first behind it does.
+        const bool is_behind = models - 1 > frame_ || (models - 1 == frame_ && !in_model);
+        if (!is_behind || !any_cell) read_cell(scanner_.line());
+        any_cell = true;
+        if (pass_.made != nullptr)
+          pass_.made->cell_lines.push_back({begin, scanner_.place(), scanner_.line_number() - 1});
+      } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
+        if (in_model) notes.end_frame(scanner_);
+        in_model = false;
+      }
+    }
+    if (in_model) notes.end_frame(scanner_);
+    if (models == 0) return Error{"there is no ATOM or HETATM record in it", scanner_.file(), 0, 0, ""};
+    if (pass_.reads_none()) return std::move(spheres_);
+    if (frame_ < 0 || frame_ >= models) return no_such_frame(scanner_.file(), frame_, models);
+    if (pass_.index != nullptr) take_lines_of_index();
+    finish(pass_.index != nullptr ? pass_.index->count() : models);
+    return std::move(spheres_);
+  }
+
+ private:
+  // A record that is no cell counts as none: programs write many forms of it.
+  void read_cell(std::string_view line) {
+    std::array<double, 6> six{};
+    constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
+        {{7, 15}, {16, 24}, {25, 33}, {34, 40}, {41, 47}, {48, 54}}};
+    for (std::size_t i = 0; i < 6; ++i)
+      six[i] = parse_double(trim(columns(line, kColumns[i][0], kColumns[i][1]))).value_or(0);
+    spheres_.cell = unit_cell(six);
+  }
+
+  // Runs of lines become one place.
+  void note_assembly_line(std::int64_t begin) {
+    if (pass_.made == nullptr) return;
+    PlaceList& places = pass_.made->assembly_lines;
+    if (places.empty() || places.back().end != begin) places.push_back({begin, begin, scanner_.line_number() - 1});
+    places.set_last_end(scanner_.place());
+  }
+
+  // Lines elsewhere in the file that are true of this model too.
+  void take_lines_of_index() {
+    const FrameIndex& index = *pass_.index;
+    const auto for_lines = [&](const TextPlace& place, const auto& take) {
+      FileText part{*pass_.file, place.begin, place.end, place.lines_before, {}};
+      TextScanner lines(part);
+      while (lines.next_line()) take(lines.line());
+    };
+    for (const TextPlace& place : index.assembly_lines)
+      for_lines(place, [this](std::string_view line) { assemblies_.add_line(line); });
+    if (index.cell_lines.empty()) return;
+    const std::int64_t end = index.frames[static_cast<std::size_t>(frame_)].end;
+    // The last cell before the model's end, or the first one.
+    std::size_t first = 0, behind = index.cell_lines.size();
+    while (first < behind) {
+      const std::size_t middle = first + (behind - first) / 2;
+      if (index.cell_lines[middle].begin < end)
+        first = middle + 1;
+      else
+        behind = middle;
+    }
+    for_lines(index.cell_lines[first - std::min<std::size_t>(first, 1)],
+              [this](std::string_view line) { read_cell(line); });
+  }
+
+  Status read_atom() {
+    // The coordinates are required.
+    const std::string_view line = scanner_.line();
+    std::vector<double>* const axes[3] = {&spheres_.x, &spheres_.y, &spheres_.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t first = 31 + 8 * axis;
+      const std::string name(1, static_cast<char>('x' + axis));
+      const std::string_view field = trim(columns(line, first, first + 7));
+      const auto value = parse_double(field);
+      const auto bad = [&](const std::string& what) {
+        return scanner_.column_error(static_cast<std::int64_t>(first), what);
+      };
+      if (!value)
+        return bad("expected a number for " + name + " in columns " + std::to_string(first) + " to " +
+                   std::to_string(first + 7) + " but found " + quote(field));
+      if (const char* fault = coordinate_fault(*value)) return bad(name + " " + fault + ": " + quote(field));
+      // A line that ends within the columns of a number would change it.
+      if (line.size() < first + 7)
+        return scanner_.column_error(
+            static_cast<std::int64_t>(first),
+            "expected " + name + " in columns " + std::to_string(first) + " to " + std::to_string(first + 7) +
+                ", but the line ends in column " + std::to_string(line.size()),
+            scanner_.at_end() && !scanner_.ends_in_newline() ? "the file is cut on this line" : "");
+      axes[axis]->push_back(*value);
+    }
+    elements_.add({columns(line, 77, 78), columns(line, 13, 16), trim(columns(line, 18, 21)), columns(line, 18, 27),
+                   scanner_.line_number()});
+
+    // All else is optional.
+    const double occupancy = optional_number(columns(line, 55, 60), 1);
+    columns_.add(names_of(line), occupancy, optional_number(columns(line, 61, 66), 0));
+
+    // A residue is named by its chain and number with insertion code.
+    const char mark = line[16];
+    if (mark != ' ')
+      alternates_.add(
+          {std::string(columns(line, 21, 27)), columns(line, 18, 20), columns(line, 13, 16), mark, occupancy},
+          spheres_.size() - 1);
+    return Done{};
+  }
+
+  static AtomNames names_of(std::string_view line) {
+    AtomNames names;
+    names.record = line.substr(0, 4) == "ATOM" ? "ATOM" : "HETATM";
+    names.chain = trim(columns(line, 21, 22));
+    names.residue_number = trim(columns(line, 23, 26));
+    names.insertion = trim(columns(line, 27, 27));
+    names.residue = trim(columns(line, 18, 20));
+    names.name = trim(columns(line, 13, 16));
+    return names;
+  }
+
+  double optional_number(std::string_view field, double missing) {
+    field = trim(field);
+    if (field.empty()) return missing;
+    if (const auto value = parse_double(field)) return *value;
+    if (unreadable_++ == 0) first_unreadable_line_ = scanner_.line_number();
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  void finish(std::int64_t models) {
+    spheres_.frames = models;
+    spheres_.rules.push_back("atoms: ATOM and HETATM records of model " + std::to_string(frame_) + " (from 0)");
+    elements_.take(spheres_, scanner_.file());
+    columns_.take(spheres_.attributes);
+    spheres_.assemblies = assemblies_.take();
+    alternates_.remove_from(spheres_);
+    if (unreadable_ > 0)
+      spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_unreadable_line_) + ": " +
+                                  std::to_string(unreadable_) +
+                                  " occupancies or B factors are no numbers and are taken as unknown");
+  }
+
+  TextScanner scanner_;
+  FramePass pass_;
+  std::int64_t frame_;
+  RawSpheres spheres_;
+  AtomColumns columns_;
+  PdbElements elements_{true};
+  Alternates alternates_;
+  PdbAssemblies assemblies_;
+  std::int64_t unreadable_ = 0;
+  std::int64_t first_unreadable_line_ = 0;
+};
+
+Result<RawSpheres> read_pdb(const TextScanner& scanner, const FramePass& pass) {
+  return PdbReader(scanner, pass).read();
+}
+
+}  // namespace
+
+extern const Format kPdb(
+    "PDB", ".pdb .ent", Format::kText | Format::kFrames,
+    [](const FileHead& head) { return is_pdb_record(head.text.line()); }, read_pdb,
+    "the name of a record | ATOM and HETATM of one model; the likeliest of alternate locations | van der Waals, by "
+    "element",
+    0);
+
+}  // namespace bihive

@@ -1,0 +1,97 @@
+#include "bihive/io/frames/sphere_frames.h"
+
+#include <algorithm>
+
+#include "bihive/io/assemble/finish.h"
+#include "bihive/io/assemble/unknown_radii.h"
+#include "bihive/io/text/text_scanner.h"
+#include "bihive/io/without_throwing.h"
+
+namespace bihive {
+Result<SphereFile> SphereFrames::open(std::int64_t frame) {
+  return without_throwing(name_, [&] {
+    return begin(open_raw_frames(name_, is_moved() ? 0 : frame, of_frames_.keep_index, options_.columns), frame);
+  });
+}
+
+Result<SphereFile> SphereFrames::open(std::string_view bytes, std::int64_t frame) {
+  return without_throwing(
+      name_, [&] { return begin(open_raw_frames(bytes, name_, is_moved() ? 0 : frame, options_.columns), frame); });
+}
+
+Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t frame) {
+  if (!opened) return opened.error();
+  frames_ = std::move(opened->frames);
+  RawSpheres raw = std::move(opened->wanted);
+  if (is_moved()) {
+    // A radius that is a guess is the file's own, so that it is the same in each frame.
+    atoms_ = std::move(raw);
+    if (!options_.radius && lacks_radii(atoms_)) atoms_.unknown_radius = radius_from_neighbours(atoms_);
+    Result<std::shared_ptr<const Trajectory>> trajectory = open_trajectory(options_.trajectory);
+    if (!trajectory) return trajectory.error();
+    trajectory_ = std::move(*trajectory);
+    raw = atoms_;
+  }
+  Result<SphereFile> made = made_of(std::move(raw), frame);
+  if (made) count_ = made->frames;
+  return made;
+}
+
+Result<SphereFile> SphereFrames::read(std::int64_t frame) const {
+  return without_throwing(name_, [&]() -> Result<SphereFile> {
+    if (is_moved()) return made_of(atoms_, frame);
+    Result<RawSpheres> raw = frames_->read(frame);
+    if (!raw) return raw.error();
+    return made_of(std::move(*raw), frame);
+  });
+}
+
+// The places, the cell and the time of the trajectory's frame in place of the file's.
+Status SphereFrames::take_places(std::int64_t frame, RawSpheres& raw) const {
+  const std::string& path = options_.trajectory;
+  const std::int64_t count = trajectory_->sphere_count();
+  if (count != static_cast<std::int64_t>(raw.size()))
+    return Error{"the trajectory has " + std::to_string(count) + " atoms, and the file of the atoms has " +
+                     std::to_string(raw.size()),
+                 path, 0, 0, "both must be of the same simulation, with the same atoms left out"};
+  Result<TrajectoryFrame> read = trajectory_->read(frame);
+  if (!read) return read.error();
+  raw.x = std::move(read->x);
+  raw.y = std::move(read->y);
+  raw.z = std::move(read->z);
+  if (read->cell) raw.cell = read->cell;
+  raw.time_ps = read->time_ps;
+  raw.step = read->step;
+  raw.frames = trajectory_->frame_count();
+  raw.rules.push_back("places: frame " + std::to_string(frame) + " (from 0) of " + printable(path) + ", " +
+                      trajectory_->format());
+  raw.warnings.insert(raw.warnings.end(), trajectory_->warnings().begin(), trajectory_->warnings().end());
+  return Done{};
+}
+
+// The spheres of a film keep their size: a radius that is a guess is the first frame's. If that frame cannot tell, each
+// frame has its own.
+std::optional<double> SphereFrames::radius_of_first_frame() const {
+  const std::lock_guard<std::mutex> lock(first_radius_lock_);
+  if (!first_radius_is_known_)
+    if (const Result<RawSpheres> first = frames_->read(0); first && lacks_radii(*first))
+      first_radius_ = radius_from_neighbours(*first);
+  first_radius_is_known_ = true;
+  return first_radius_;
+}
+
+Result<SphereFile> SphereFrames::made_of(RawSpheres raw, std::int64_t frame) const {
+  if (is_moved())
+    if (Status status = take_places(frame, raw); !status) return status.error();
+  if (frames_->may_be_cut()) raw.warnings.push_back("the last line of " + name_ + " has no end: the file may be cut");
+  if (!options_.assembly.empty())
+    if (Status status = expand_assembly(raw, options_.assembly, name_); !status) return status.error();
+  std::vector<NamedTexts>& texts = raw.attributes.texts;
+  texts.erase(std::remove_if(texts.begin(), texts.end(),
+                             [](const NamedTexts& column) { return column.name == kAssemblyChains; }),
+              texts.end());
+  if (!is_moved() && frame != 0 && !options_.radius && lacks_radii(raw)) raw.unknown_radius = radius_of_first_frame();
+  return finish_spheres(std::move(raw), name_, options_);
+}
+
+}  // namespace bihive

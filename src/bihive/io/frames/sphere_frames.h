@@ -1,0 +1,53 @@
+// From the frames of a file to sets of spheres: what open_frames() and read_spheres() share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bihive/base/result.h"
+#include "bihive/io/frames.h"
+#include "bihive/io/frames/raw_frames.h"
+#include "bihive/io/read_spheres.h"
+#include "bihive/io/trajectory.h"
+
+namespace bihive {
+
+class SphereFrames : public Frames {
+ public:
+  SphereFrames(std::string name, ReadOptions options, FramesOptions of_frames = {})
+      : name_(std::move(name)), options_(std::move(options)), of_frames_(of_frames) {}
+
+  /// Opens the file, or the bytes, which must outlive it, and the trajectory if there is one. Reads a frame on the way.
+  Result<SphereFile> open(std::int64_t frame);
+  Result<SphereFile> open(std::string_view bytes, std::int64_t frame);
+
+  std::int64_t count() const override { return count_; }
+  std::vector<std::string> warnings() const override { return frames_->warnings(); }
+  Result<SphereFile> read(std::int64_t frame) const override;
+
+ private:
+  bool is_moved() const { return !options_.trajectory.empty(); }
+  Result<SphereFile> begin(Result<OpenedFrames> opened, std::int64_t frame);
+  Result<SphereFile> made_of(RawSpheres raw, std::int64_t frame) const;
+  Status take_places(std::int64_t frame, RawSpheres& raw) const;
+  std::optional<double> radius_of_first_frame() const;
+
+  std::string name_;
+  ReadOptions options_;
+  FramesOptions of_frames_;
+  std::int64_t count_ = 0;
+  std::shared_ptr<const RawFrames> frames_;
+  // With a trajectory: the atoms, and the places.
+  RawSpheres atoms_;
+  std::shared_ptr<const Trajectory> trajectory_;
+  // For spheres with neither radius nor element; found when it is asked for.
+  mutable std::mutex first_radius_lock_;
+  mutable bool first_radius_is_known_ = false;
+  mutable std::optional<double> first_radius_;
+};
+
+}  // namespace bihive

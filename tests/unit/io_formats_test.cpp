@@ -1,0 +1,173 @@
+// The table of formats, and the pages and lists of other languages that say the same. BIHIVE_UPDATE_DOCS=1 writes the
+// blocks of the pages anew.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "bihive/io/formats/formats.h"
+#include "bihive/io/known_formats.h"
+
+namespace bihive {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+const std::string kTop = BIHIVE_SOURCE_DIR "/";
+
+std::string text_of(const std::string& name) {
+  std::ifstream file(kTop + name, std::ios::binary);
+  EXPECT_TRUE(file) << name;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> split(std::string_view text) {
+  std::istringstream stream{std::string(text)};
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// The endings of all formats, and of the trajectories.
+std::vector<std::string> all_endings() {
+  std::vector<std::string> all;
+  const auto take = [&all](std::string_view files) {
+    for (const std::string& one : split(files))
+      if (one[0] == '.') all.push_back(one);
+  };
+  for (const Format* format : formats()) take(format->files);
+  for (const TrajectoryFormat* format : trajectory_formats()) take(format->files);
+  return all;
+}
+
+// What matches the first group of an expression.
+std::set<std::string> matches(const std::string& text, const std::string& expression) {
+  const std::regex regex(expression);
+  std::set<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), regex); at != std::sregex_iterator(); ++at)
+    found.insert((*at)[1]);
+  return found;
+}
+
+// The text between "<!-- NAME -->" and "<!-- /NAME -->" of a page is `wanted`.
+void expect_block(const std::string& page, const std::string& name, const std::string& wanted) {
+  const std::string begin = "<!-- " + name + " -->", end = "<!-- /" + name + " -->";
+  std::string text = text_of(page);
+  const std::size_t first = text.find(begin), last = text.find(end);
+  ASSERT_TRUE(first != std::string::npos && last != std::string::npos && first < last) << page << ": " << begin;
+  const std::size_t from = first + begin.size();
+  if (text.substr(from, last - from) == wanted) return;
+  if (std::getenv("BIHIVE_UPDATE_DOCS") != nullptr) {
+    std::ofstream(kTop + page, std::ios::binary) << text.replace(from, last - from, wanted);
+    FAIL() << "updated " << page;
+  }
+  FAIL() << page << " is old: BIHIVE_UPDATE_DOCS=1 build-release/tests/unit_io_formats_test";
+}
+
+std::string table_of_formats() {
+  std::vector<const Format*> rows(formats().begin(), formats().end());
+  std::sort(rows.begin(), rows.end(),
+            [](const Format* a, const Format* b) { return lower_case(a->name) < lower_case(b->name); });
+  std::string table = "\n| format | names of files | known by | taken | radius |\n|---|---|---|---|---|\n";
+  for (const Format* row : rows)
+    table += "| " + std::string(row->name) + " | " + (row->files.empty() ? "" : "`" + std::string(row->files) + "`") +
+             " | " + std::string(row->docs) + " |\n";
+  return table +
+         "| scene file (JSON) | `.json` | `{` | spheres, camera, lights, materials, plane: "
+         "[scene_format.md](scene_format.md) | own, or from a named file |\n";
+}
+
+// "GRO, PDB and XYZ": those for which it is so.
+std::string those(Format::Has what) {
+  std::set<std::string> names;
+  for (const Format* format : formats())
+    if (format->has(what)) names.insert(std::string(format->name));
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : name == *names.rbegin() ? " and " : ", ") + name;
+  return list;
+}
+
+TEST(Formats, HaveWholeRows) {
+  std::set<std::string_view> names;
+  std::set<std::int64_t> numbers;
+  for (const Format* format : formats()) {
+    SCOPED_TRACE(format->name);
+    EXPECT_TRUE(names.insert(format->name).second);
+    EXPECT_EQ(&format_named(format->name), format);
+    EXPECT_NE(format->recognise, nullptr);
+    EXPECT_TRUE(std::visit([](const auto reader) { return reader != nullptr; }, format->reader));
+    EXPECT_EQ(std::count(format->docs.begin(), format->docs.end(), '|'), 2);
+    const bool is_indexed = std::holds_alternative<TextReader>(format->reader);
+    EXPECT_EQ(format->index_number >= 0, is_indexed);
+    EXPECT_TRUE(!is_indexed || (format->has(Format::kText) && numbers.insert(format->index_number).second));
+    EXPECT_TRUE(format->has(Format::kFrames) || std::holds_alternative<PlainReader>(format->reader) ||
+                std::holds_alternative<ColumnReader>(format->reader));
+    EXPECT_TRUE(format->has(Format::kColumns) || !std::holds_alternative<ColumnReader>(format->reader));
+  }
+  for (const TrajectoryFormat* format : trajectory_formats()) {
+    EXPECT_TRUE(names.insert(format->name).second) << format->name;
+    EXPECT_EQ(format->alone.empty(), format->files.empty()) << format->name;
+  }
+  const std::vector<std::string> endings = all_endings();
+  EXPECT_THAT(std::set<std::string>(endings.begin(), endings.end()), SizeIs(endings.size())) << "an ending twice";
+}
+
+// An index that an older version kept is read by a newer one.
+TEST(Formats, KeepTheirNumbersInAnIndex) {
+  const std::pair<const char*, std::int64_t> numbers[] = {
+      {"PDB", 0}, {"PQR", 1}, {"XYZ", 3}, {"GRO", 4}, {"LAMMPS dump", 5}};
+  for (const auto& [name, number] : numbers) EXPECT_EQ(format_named(name).index_number, number) << name;
+}
+
+TEST(Formats, KnowEndingsOfPackedFiles) {
+  EXPECT_EQ(ending_of("a/b.PDB.gz"), ".pdb");
+  EXPECT_EQ(ending_of("b.xyz.zst"), ".xyz");
+  for (const char* name : {"", "pdb", "a.pdb/b"}) EXPECT_EQ(ending_of(name), "") << name;
+}
+
+TEST(FormatPages, AreOfTheseFormats) {
+  expect_block("docs/formats.md", "table of formats", table_of_formats());
+  expect_block("docs/formats.md", "what formats have",
+               "\n- Any number of frames: " + those(Format::kFrames) + ".\n- Columns to choose: " +
+                   those(Format::kColumns) + ".\n- Files of which each rank reads its own part (" +
+                   "[many_machines.md](many_machines.md)): " + those(Format::kParts) + ".\n");
+  expect_block("README.md", "formats", names_of_formats(FormatsThat::hold_spheres));
+  const std::string schema = text_of("docs/scene.schema.json"), page = text_of("docs/formats.md");
+  for (const TrajectoryFormat* format : trajectory_formats()) {
+    EXPECT_THAT(page, HasSubstr("\n| " + split(format->name)[0] + " ["));
+    EXPECT_THAT(schema, HasSubstr(split(format->name)[0]));
+  }
+}
+
+// The page sorts files before it has read any.
+TEST(FormatPages, TheBrowserKnowsTrajectories) {
+  std::string endings;
+  for (const TrajectoryFormat* format : trajectory_formats())
+    for (const std::string& ending : split(format->files)) endings += (endings.empty() ? "" : "|") + ending.substr(1);
+  EXPECT_THAT(text_of("web/src/sources.ts"), HasSubstr("/\\.(" + endings + ")$/i"));
+}
+
+TEST(FormatPages, DesktopsOpenTheseFiles) {
+  const std::vector<std::string> endings = all_endings();
+  const std::set<std::string> known(endings.begin(), endings.end());
+  for (const std::string& ending : matches(text_of("web/public/bihive.webmanifest"), "\"(\\.\\w+)\""))
+    EXPECT_EQ(known.count(ending), 1u) << ending;
+
+  // Other programs own these types: tables, and arrays of any meaning. Trajectories open with a second file.
+  std::set<std::string> globs = matches(text_of("data/desktop/bihive-types.xml"), "glob pattern=\"\\*(\\.\\w+)\"");
+  for (const char* ending :
+       {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".h5md", ".nc", ".ncdf", ".dcd", ".xtc", ".trr"})
+    EXPECT_TRUE(globs.insert(ending).second) << ending;
+  EXPECT_EQ(globs, known);
+  const std::string desktop = text_of("data/desktop/bihive.desktop");
+  for (const std::string& type : matches(text_of("data/desktop/bihive-types.xml"), "mime-type type=\"([^\"]+)\""))
+    EXPECT_THAT(desktop, HasSubstr(type + ";"));
+}
+
+}  // namespace
+}  // namespace bihive
