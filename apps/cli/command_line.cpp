@@ -356,6 +356,9 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       ->type_name("FILE");
   add_integer(command, "--picture", options.picture_of_film, 0, kUnlimited,
               "--film: which one of its pictures, from 0; or name its frame by --frame");
+  command.parse_complete_callback([&options, &command] {
+    for (const CLI::Option* option : command.parse_order()) options.given.push_back(option->get_name());
+  });
 }
 
 // An option as it stands on the command line, with its value: one word or two.

@@ -20,7 +20,7 @@
 #include "bihive/base/version.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
-#include "mpi_team.h"
+#include "mpi_communicator.h"
 #include "patience.h"
 #include "rank_watch.h"
 #include "support/failure.h"
@@ -55,10 +55,10 @@ constexpr const char* kHelp =
     "  mpirun -n 4 bihive-mpi film run.dump -o run.mp4\n";
 
 // The threads of each rank. default_concurrency() is what mpirun lets this rank run on: all cores, or its own.
-int threads_of_rank(const MpiTeam& team) {
+int threads_of_rank(const MpiCommunicator& ranks) {
   const int allowed = hardware_threads();
   const long all = sysconf(_SC_NPROCESSORS_ONLN);
-  return allowed < all ? allowed : std::max(1, allowed / team.size_on_machine());
+  return allowed < all ? allowed : std::max(1, allowed / ranks.size_on_machine());
 }
 
 void check_film(const FilmOptions& options) {
@@ -76,28 +76,28 @@ std::uint64_t hash_of(const std::vector<std::string>& texts) {
 }
 
 // All ranks must be the same program with the same arguments: also those that only ask for help.
-void agree_on_arguments(MpiTeam& team, const std::vector<const char*>& arguments) {
-  team.agree({{"the program", hash_of({std::string(version()), std::string(commit())})},
-              {"the command line", hash_of({arguments.begin() + 1, arguments.end()})}});
+void agree_on_arguments(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
+  ranks.agree({{"the program", hash_of({std::string(version()), std::string(commit())})},
+               {"the command line", hash_of({arguments.begin() + 1, arguments.end()})}});
 }
 
-void run_request(MpiTeam& team, cli::Request request) {
-  if (team.distributes() && std::holds_alternative<FilmOptions>(request))
+void run_request(MpiCommunicator& ranks, cli::Request request) {
+  if (ranks.distributes() && std::holds_alternative<FilmOptions>(request))
     cli::fail_usage("--distribute is for one picture", "draw a film with all spheres on each rank");
   if (RenderOptions* const render = std::get_if<RenderOptions>(&request)) {
-    if (render->threads == 0) render->threads = threads_of_rank(team);
+    if (render->threads == 0) render->threads = threads_of_rank(ranks);
     cli::run_render(*render);
   } else if (FilmOptions* const film = std::get_if<FilmOptions>(&request)) {
     check_film(*film);
     FilmOptions of_rank = *film;
-    if (of_rank.picture.threads == 0) of_rank.picture.threads = threads_of_rank(team);
-    of_rank.shard = cli::Shard{team.rank(), team.size()};
+    if (of_rank.picture.threads == 0) of_rank.picture.threads = threads_of_rank(ranks);
+    of_rank.shard = cli::Shard{ranks.rank(), ranks.size()};
     of_rank.silent = true;
     const Timer timer;
     Bytes done;
     ByteWriter(done).put(cli::run_film(of_rank));
-    const std::vector<Bytes> done_by_ranks = team.gather(done);
-    if (team.rank() != 0) return;
+    const std::vector<Bytes> done_by_ranks = ranks.all_gather(done);
+    if (ranks.rank() != 0) return;
     FilmOptions joined;
     joined.picture.output = film->picture.output;
     joined.picture.json = film->picture.json;
@@ -123,10 +123,10 @@ struct Said {
   std::string text, shown;
 };
 
-Said run(MpiTeam& team, const std::vector<const char*>& arguments) {
+Said run(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
   try {
     cli::handle_signals();
-    agree_on_arguments(team, arguments);
+    agree_on_arguments(ranks, arguments);
     if (const Status status = check_target_environment(); !status) throw cli::Failure{cli::kBadUsage, status.error()};
     // The program's own option is none of bihive's.
     std::vector<const char*> others = arguments;
@@ -136,7 +136,7 @@ Said run(MpiTeam& team, const std::vector<const char*>& arguments) {
     if (first == "--help" || first == "--help-all" || first == "-h") {
       cli::print(kHelp);
     } else {
-      run_request(team, cli::parse_command_line(static_cast<int>(others.size()), others.data()));
+      run_request(ranks, cli::parse_command_line(static_cast<int>(others.size()), others.data()));
     }
     cli::finish_output();
     return {};
@@ -156,24 +156,24 @@ Said run(MpiTeam& team, const std::vector<const char*>& arguments) {
 // All ranks end with the same code, and one of them says why.
 int run_ranks(const std::vector<const char*>& arguments) {
   const bool distributes = std::any_of(arguments.begin(), arguments.end(), is_distribute);
-  MpiTeam team(MPI_COMM_WORLD, distributes, MpiTeam::Counting::shared);
-  cli::set_team(&team);
+  MpiCommunicator ranks(MPI_COMM_WORLD, distributes, MpiCommunicator::Counting::shared);
+  cli::set_communicator(&ranks);
   std::vector<std::string> unsaid;
-  if (team.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;
-  if (team.rank() == 0) cli::show_progress_in_lines();
+  if (ranks.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;
+  if (ranks.rank() == 0) cli::show_progress_in_lines();
   Said said;
   {
     // Rank 0 warns for all.
     std::optional<cli::CollectedWarnings> collected;
-    if (team.rank() != 0) collected.emplace(unsaid);
-    said = run(team, arguments);
+    if (ranks.rank() != 0) collected.emplace(unsaid);
+    said = run(ranks, arguments);
   }
-  const int code = team.end_with(said.code);
-  if (team.speaks()) {
+  const int code = ranks.end_with(said.code);
+  if (ranks.speaks()) {
     if (!said.text.empty()) cli::say_error(said.text);
     cli::say_lines(said.shown);
   }
-  cli::set_team(nullptr);
+  cli::set_communicator(nullptr);
   return code;
 }
 

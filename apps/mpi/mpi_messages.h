@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "support/team.h"
+#include "support/communicator.h"
 
 namespace bihive::mpi {
 

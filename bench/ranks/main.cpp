@@ -45,9 +45,9 @@ struct RankTimes {
 };
 
 // Other ranks answer at once, and the clocks of all go on by what it would have taken.
-class SimulatedExchange final : public Exchange {
+class SimulatedChannel final : public Channel {
  public:
-  SimulatedExchange(int rank, RanksInProcess& all, const Network& network, std::vector<RankTimes>& times)
+  SimulatedChannel(int rank, RanksInProcess& all, const Network& network, std::vector<RankTimes>& times)
       : rank_(rank), all_(all), network_(network), times_(times) {}
   int rank() const override { return rank_; }
   int ranks() const override { return all_.size(); }
@@ -103,7 +103,7 @@ class SimulatedExchange final : public Exchange {
 
 // A rank that draws.
 struct Drawer {
-  std::unique_ptr<SimulatedExchange> exchange;
+  std::unique_ptr<SimulatedChannel> channel;
   std::unique_ptr<SpreadScene::Artist> artist;
 };
 
@@ -131,8 +131,8 @@ class SimulatedPicture {
     }
   }
 
-  ExchangeCounts counts() const {
-    ExchangeCounts sum;
+  ChannelCounts counts() const {
+    ChannelCounts sum;
     for (const Drawer& drawer : drawers_)
       if (drawer.artist != nullptr) sum.add(drawer.artist->counts());
     return sum;
@@ -144,17 +144,17 @@ class SimulatedPicture {
   void draw_tile(const Tile& pixels, std::size_t rank, int thread, Film& film) {
     Drawer& drawer = drawers_[rank];
     if (drawer.artist == nullptr) {
-      drawer.exchange = std::make_unique<SimulatedExchange>(static_cast<int>(rank), ranks_, network_, times_);
-      drawer.artist = ranks_.scene(static_cast<int>(rank)).artist(*drawer.exchange);
+      drawer.channel = std::make_unique<SimulatedChannel>(static_cast<int>(rank), ranks_, network_, times_);
+      drawer.artist = ranks_.scene(static_cast<int>(rank)).artist(*drawer.channel);
     }
     drawer.artist->rest();
     RankTimes& times = times_[rank];
-    drawer.exchange->begin(times.ready(thread));
+    drawer.channel->begin(times.ready(thread));
     RenderSettings of_tile = settings_;
     of_tile.crop = pixels;
     const Film drawn = cli::value_or_fail(render(drawer.artist->scene(), drawer.artist->tracer(), of_tile)).film;
-    times.core += drawer.exchange->own_ms();
-    times.threads[thread] = drawer.exchange->now_ms();
+    times.core += drawer.channel->own_ms();
+    times.threads[thread] = drawer.channel->now_ms();
     const Tile all = drawn_pixels(settings_);
     paste(drawn, pixels.x0 - all.x0, pixels.y0 - all.y0, film);
   }
@@ -204,7 +204,7 @@ ordered_json measure(const Scene& scene, const RenderSettings& settings, const T
     return each(count, [&](int rank) { return of(times[std::size_t(rank)]); });
   };
   const std::vector<double> ends = of_times([](const RankTimes& one) { return one.end(); });
-  const ExchangeCounts counts = picture.counts();
+  const ChannelCounts counts = picture.counts();
   ordered_json json = ordered_json::object();
   json["ranks"] = count;
   json["same_bits"] = same_bits(film, expected);

@@ -5,11 +5,13 @@
 import importlib.util
 import json
 import os
+import pathlib
 import random
+import re
 import subprocess
 import unittest
 
-from program import BIHIVE, PATIENCE_S, main
+from program import BIHIVE, PATIENCE_S, ProgramTest, main
 from ranks import BIHIVE_MPI, FRAMES, OnRanks, frame, gsd_file, is_open_mpi
 
 # Each rank draws the shard of its own number.
@@ -238,6 +240,17 @@ class Program(OnRanks):
             self.assertEqual(len(self.errors(done)), 1, done.stderr)
             self.assertIn("different files", self.errors(done)[0])
         self.assertFalse(os.path.exists(self.path("a.png")))
+
+
+class OptionsOfDistributedSpheres(ProgramTest):
+    def test_the_table_has_every_option_and_no_other(self):
+        """A new option is refused with --distribute until somebody says how it works there."""
+        shown = self.succeed("render", "--help")
+        options = set(re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", shown, re.MULTILINE)) - {"--help"}
+        source = pathlib.Path(os.environ["BIHIVE_SOURCE"]) / "apps/cli/commands/distributed_options.cpp"
+        table = re.findall(r'^ +{"(--[a-z-]+)", (?:chunks|whole)},$', source.read_text(), re.MULTILINE)
+        self.assertEqual(len(table), len(set(table)))
+        self.assertEqual(set(table), options)
 
 
 if __name__ == "__main__":

@@ -50,6 +50,18 @@ class CheckIncludes(unittest.TestCase):
         }
         self.assertEqual(len(self.offences(files)), 1)
 
+    def test_ranks_have_a_wing_of_their_own(self):
+        files = {
+            "cmake/public_headers.txt": "bihive/spread/communicator.h\n",
+            "src/bihive/spread/communicator.h": "#pragma once\n",
+            "apps/mpi/main.cpp": '#include "bihive/spread/communicator.h"\n',
+        }
+        self.assertEqual(self.offences(files), [])
+        for path in ("src/bihive/geometry/a.cpp", "src/bihive/io/a.cpp", "src/bihive/scene/a.cpp", "src/bihive/render/a.cpp",
+                     "apps/viewer/a.cpp", "bindings/c/a.cpp"):
+            found = self.offences({**files, path: '#include "bihive/spread/communicator.h"\n'})
+            self.assertEqual([line.split(":")[0] for line in found], [path], found)
+
     def test_floors_of_the_wide_engine(self):
         files = {
             "src/bihive/wide/tree/radii.h": "#pragma once\n",

@@ -13,9 +13,9 @@ bool parallel(Vec3d a, Vec3d b) {
 }
 
 // A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
-Camera placed(const Camera& before, const Input& input, const RenderOptions& options) {
+Camera placed(const Camera& before, const Input& input, const RenderOptions& options, const WholeSet* whole) {
   Camera camera = before;
-  const SphereSet::Bounds bounds = RemainingSpheres(input.scene).set().bounds();
+  const SphereSet::Bounds bounds = whole != nullptr ? whole->bounds : RemainingSpheres(input.scene).set().bounds();
   if (options.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
   camera.eye = options.eye.value_or(camera.eye);
   camera.look_at = options.look_at.value_or(camera.look_at);
@@ -46,7 +46,8 @@ double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& cam
 
 }  // namespace
 
-Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings) {
+Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings,
+                     const WholeSet* whole) {
   const bool user_places = options.eye || options.look_at || options.up;
   if (user_places && options.view_from) fail_usage("--view-from and --eye, --look-at or --up contradict each other");
 
@@ -60,11 +61,12 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
     if (options.turn && !user_places) side = turned(side, *options.turn);
     // From an eye of the user's own, the angle decides how much is seen.
     const Lens lens{camera.fov_deg, options.eye ? Projection::perspective : projection};
-    camera = frame_picture(input.scene, side, lens, settings, options.dots_per_inch);
+    camera = whole != nullptr ? whole->frame(input.scene, side, lens, settings)
+                              : frame_picture(input.scene, side, lens, settings, options.dots_per_inch);
   } else if (options.fov_deg) {
     camera.projection = Projection::perspective;
   }
-  if (user_places) camera = placed(camera, input, options);
+  if (user_places) camera = placed(camera, input, options, whole);
   refuse_bad(camera, options);
   camera = with_projection(camera, projection);
   if (options.turn && (user_places || !fitted)) camera = turned(camera, *options.turn);

@@ -80,6 +80,7 @@ struct RenderOptions {
   std::string film;  ///< the file that describes a film, of which this is a picture; empty: none
   std::optional<std::int64_t> picture_of_film;  ///< from 0; unset: input.frame says it
   std::optional<FixedByFilm> fixed;             ///< taken from the film
+  std::vector<std::string> given;               ///< the names of all options that were given: "--size"
 };
 void run_render(const RenderOptions& options);
 

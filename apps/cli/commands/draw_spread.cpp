@@ -31,8 +31,8 @@ void stop_if_asked() {
 class DrawingThreads {
  public:
   DrawingThreads(const SpreadScene& spread, const RenderSettings& settings, const PictureTiles& tiles,
-                 Conversation& conversation)
-      : spread_(spread), settings_(settings), tiles_(tiles), conversation_(conversation) {
+                 TileChannel& channel)
+      : spread_(spread), settings_(settings), tiles_(tiles), channel_(channel) {
     settings_.threads = 1;
   }
 
@@ -49,16 +49,16 @@ class DrawingThreads {
  private:
   void draw() {
     try {
-      const std::unique_ptr<SpreadScene::Artist> artist = spread_.artist(conversation_);
+      const std::unique_ptr<SpreadScene::Artist> artist = spread_.artist(channel_);
       std::int64_t number = 0;
       const auto next = [&]() -> std::optional<Tile> {
         artist->rest();
-        number = conversation_.next_number();
+        number = channel_.next_number();
         if (number >= tiles_.count()) return std::nullopt;
         return tiles_.pixels(number);
       };
       const auto give = [&](const Film& film, const Tile&) -> Status {
-        conversation_.give(number, film);
+        channel_.give(number, film);
         return Done{};
       };
       Result<RenderedBands> rendered =
@@ -68,7 +68,7 @@ class DrawingThreads {
       const std::lock_guard lock(mutex_);
       work_.add({rays, artist->counts()});
     } catch (...) {
-      conversation_.stop_counting();
+      channel_.stop_counting();
       const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
     }
@@ -77,7 +77,7 @@ class DrawingThreads {
   const SpreadScene& spread_;
   RenderSettings settings_;
   const PictureTiles& tiles_;
-  Conversation& conversation_;
+  TileChannel& channel_;
   std::vector<std::thread> threads_;
   std::mutex mutex_;
   WorkOfRank work_;
@@ -88,7 +88,7 @@ class DrawingThreads {
 void rethrow(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
-  } catch (const ExchangeStopped&) {
+  } catch (const ChannelClosed&) {
     stop_if_asked();
   }
 }
@@ -96,41 +96,41 @@ void rethrow(const std::exception_ptr& failure) {
 }  // namespace
 
 Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, PictureFile* file,
-                  const ProgressCallback& progress, Team& team, Conversation& conversation) {
+                  const ProgressCallback& progress, PictureCommunicator& ranks, TileChannel& channel) {
   const Timer timer;
-  const PictureTiles tiles(settings, team.size() * drawing_threads(settings));
-  DrawingThreads drawing(spread, settings, tiles, conversation);
+  const PictureTiles tiles(settings, ranks.size() * drawing_threads(settings));
+  DrawingThreads drawing(spread, settings, tiles, channel);
   drawing.run(drawing_threads(settings));
   Drawn drawn;
   Status written = Done{};
   std::exception_ptr failure;
   if (file == nullptr) {
     drawing.join();
-    conversation.end_giving(drawing.work(), drawing.failure() != nullptr);
+    channel.end_giving(drawing.work(), drawing.failure() != nullptr);
     drawn = drawn_with(drawing.work().rays);
   } else {
     // The own threads end while this one writes.
     std::thread end_of_own([&] {
       drawing.join();
-      conversation.end_own_giving();
+      channel.end_own_giving();
     });
     TilesInOrder in_order(tiles, *file, progress);
     try {
-      while (std::optional<GivenTile> given = conversation.take(/*wait=*/true)) {
+      while (std::optional<GivenTile> given = channel.take(/*wait=*/true)) {
         if (!failure) in_order.add(given->number, std::move(given->film));
-        if (!in_order.status() || conversation.somebody_failed()) conversation.stop_counting();
+        if (!in_order.status() || channel.somebody_failed()) channel.stop_counting();
       }
     } catch (...) {
       // A layer that asks other ranks: it ends as those do.
       failure = std::current_exception();
-      conversation.stop_counting();
-      while (conversation.take(/*wait=*/true)) {
+      channel.stop_counting();
+      while (channel.take(/*wait=*/true)) {
       }
     }
     end_of_own.join();
     written = in_order.status();
     WorkOfRank work = drawing.work();
-    work.add(conversation.work_of_others());
+    work.add(channel.work_of_others());
     drawn = drawn_with(work.rays);
     drawn.exchange = {{"rays", work.cost.rays},
                       {"asked", work.cost.asked},
@@ -138,7 +138,7 @@ Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, Pic
                       {"bytes", work.cost.bytes},
                       {"rounds", work.cost.rounds}};
   }
-  conversation.end();
+  channel.end();
   if (drawing.failure()) failure = drawing.failure();
   if (failure) rethrow(failure);
   stop_if_asked();
@@ -149,24 +149,24 @@ Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, Pic
 
 Drawn draw_spread_alone(const SpreadScene::Artist& artist, RenderEngine engine, const RenderSettings& settings,
                         const std::vector<Layer>& layers, PictureFile* file, const ProgressCallback& progress,
-                        Conversation& conversation) {
+                        TileChannel& channel) {
   Drawn drawn;
   std::exception_ptr failure;
   RenderSettings of_one_thread = settings;
   of_one_thread.threads = 1;
   if (file == nullptr) {
-    conversation.end_giving({}, false);
+    channel.end_giving({}, false);
   } else {
     try {
       drawn = draw_picture(artist.scene(), artist.tracer(), engine, of_one_thread, layers, *file, progress);
     } catch (...) {
       failure = std::current_exception();
     }
-    conversation.end_own_giving();
-    while (conversation.take(/*wait=*/true)) {
+    channel.end_own_giving();
+    while (channel.take(/*wait=*/true)) {
     }
   }
-  conversation.end();
+  channel.end();
   if (failure) rethrow(failure);
   stop_if_asked();
   return drawn;

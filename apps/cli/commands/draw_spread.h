@@ -3,19 +3,19 @@
 
 #include "bihive/spread/spread_scene.h"
 #include "commands/draw_picture.h"
-#include "support/team.h"
+#include "support/communicator.h"
 
 namespace bihive::cli {
 
 /// Draws the same bits as one process that has all spheres. `settings.threads`: those of this rank.
 /// `file`: that of rank 0, null on the others, whose answer counts their own rays. Fails and throws as draw_picture().
-/// The conversation has begun, and ends here.
+/// The channel has begun, and ends here.
 Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, PictureFile* file,
-                  const ProgressCallback& progress, Team& team, Conversation& conversation);
+                  const ProgressCallback& progress, PictureCommunicator& ranks, TileChannel& channel);
 
 /// Rank 0 alone draws what cannot be shared, and the others answer its rays.
 Drawn draw_spread_alone(const SpreadScene::Artist& artist, RenderEngine engine, const RenderSettings& settings,
                         const std::vector<Layer>& layers, PictureFile* file, const ProgressCallback& progress,
-                        Conversation& conversation);
+                        TileChannel& channel);
 
 }  // namespace bihive::cli

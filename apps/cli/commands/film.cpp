@@ -25,12 +25,12 @@
 #include "film/frame_source.h"
 #include "film/make_film.h"
 #include "film/picture_numbers.h"
+#include "support/communicator.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
 #include "support/peak_memory.h"
 #include "support/request_files.h"
-#include "support/team.h"
 
 namespace bihive::cli {
 namespace {
@@ -115,7 +115,7 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
 // is left if no picture is whole.
 FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
                        const PictureNumbers& wanted, const PictureNumbers& missing, FilmFolder& folder, FilmSink* sink,
-                       Team* team) {
+                       PictureCommunicator* ranks) {
   const auto nothing_is_whole = [&] {
     if (sink == nullptr) return false;
     for (const std::int64_t number : wanted)
@@ -123,7 +123,7 @@ FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const Fi
     return true;
   };
   try {
-    const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink, team);
+    const FilmTimes times = make_film(source, plan, options.picture, style, missing, sink, ranks);
     if (!options.shard) sink->finish();
     return times;
   } catch (const Interrupted&) {
@@ -211,33 +211,33 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
 
 // If there are more ranks than pictures, several ranks draw each picture together, and the first of them writes it.
 // Null: alone.
-std::unique_ptr<Team> team_of_picture(FilmOptions& options, std::int64_t pictures) {
-  if (team() == nullptr || team()->size() <= pictures) return nullptr;
-  const auto teams = static_cast<int>(pictures);
-  const int number = team()->rank() % teams;
-  options.shard = Shard{number, teams};
-  return team()->part(number);
+std::unique_ptr<PictureCommunicator> ranks_of_picture(FilmOptions& options, std::int64_t pictures) {
+  if (communicator() == nullptr || communicator()->size() <= pictures) return nullptr;
+  const auto groups = static_cast<int>(pictures);
+  const int number = communicator()->rank() % groups;
+  options.shard = Shard{number, groups};
+  return communicator()->split(number);
 }
 
-// A rank that fails says so to its team. The others leave without a word.
+// A rank that fails says so to the others of its picture, which leave without a word.
 template <class Run>
-void run_in_team(Team* team, const Run& run) {
-  if (team == nullptr) return run();
+void run_on_ranks(PictureCommunicator* ranks, const Run& run) {
+  if (ranks == nullptr) return run();
   try {
     run();
   } catch (const OtherRankFailed&) {
     throw OtherRankFailed{kSuccess};
   } catch (...) {
-    team->end_with(kBadInput);
+    ranks->end_with(kBadInput);
     throw;
   }
-  if (team->end_with(kSuccess) != kSuccess) throw OtherRankFailed{kSuccess};
+  if (ranks->end_with(kSuccess) != kSuccess) throw OtherRankFailed{kSuccess};
 }
 
-PictureNumbers from_first(const PictureNumbers& numbers, Team& team) {
+PictureNumbers of_rank_0(const PictureNumbers& numbers, PictureCommunicator& ranks) {
   Bytes bytes;
   ByteWriter(bytes).put_array(numbers.runs().data(), numbers.runs().size());
-  bytes = team.from_first(std::move(bytes));
+  bytes = ranks.broadcast(std::move(bytes));
   std::vector<PictureNumbers::Run> of_first(bytes.size() / sizeof(PictureNumbers::Run));
   ByteReader(bytes).take_array(of_first.data(), of_first.size());
   return PictureNumbers(numbers.step(), std::move(of_first));
@@ -245,12 +245,13 @@ PictureNumbers from_first(const PictureNumbers& numbers, Team& team) {
 
 // All that follows when it is known what the film shows.
 FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const Style& style,
-                        const FrameSource& source, FilmPlan plan, FilmFolder& folder, Team* team, const Timer& timer) {
+                        const FrameSource& source, FilmPlan plan, FilmFolder& folder, PictureCommunicator* ranks,
+                        const Timer& timer) {
   const CancellableSection section;
   if (!folder.kept()) plan.fixed = fixed_by_film(source, plan, options, style);
   CancellableSection::leave_if_cancelled();
   value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
-  const bool writes = team == nullptr || team->rank() == 0;
+  const bool writes = ranks == nullptr || ranks->rank() == 0;
   const PictureNumbers wanted = wanted_pictures(plan, options);
   std::unique_ptr<FilmSink> sink;
   if (writes) {
@@ -266,12 +267,12 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
   if (writes)
     for (const std::int64_t number : wanted)
       if (!sink->has(number)) missing.add(number);
-  if (team != nullptr) missing = from_first(missing, *team);
+  if (ranks != nullptr) missing = of_rank_0(missing, *ranks);
 
   // Make it.
   FilmReport report;
   report.kept = wanted.size() - missing.size();
-  report.times = make_missing(source, plan, options, style, wanted, missing, folder, sink.get(), team);
+  report.times = make_missing(source, plan, options, style, wanted, missing, folder, sink.get(), ranks);
   report.all_ms = timer.elapsed_ms();
   if (!options.silent) print_film_report(options, plan, report);
   // The rank that writes a picture counts it.
@@ -318,10 +319,10 @@ FilmTimes run_film(const FilmOptions& asked) {
     plan = *folder.kept();
   }
 
-  const std::unique_ptr<Team> team = team_of_picture(options, plan.asked.pictures);
+  const std::unique_ptr<PictureCommunicator> ranks = ranks_of_picture(options, plan.asked.pictures);
   FilmTimes times;
-  run_in_team(team.get(),
-              [&] { times = make_pictures(options, kind, ffmpeg, style, source, plan, folder, team.get(), timer); });
+  run_on_ranks(ranks.get(),
+               [&] { times = make_pictures(options, kind, ffmpeg, style, source, plan, folder, ranks.get(), timer); });
   return times;
 }
 

@@ -11,7 +11,6 @@
 #include "bihive/scene/clips.h"
 #include "bihive/scene/title_text.h"
 #include "bihive/settings/picture_report.h"
-#include "commands/choose_camera.h"
 #include "commands/choose_labels.h"
 #include "commands/choose_look.h"
 #include "commands/names.h"
@@ -29,12 +28,13 @@ bool shows_reference_tree(View view) {
 }
 
 // The title with the frame's values. A generated scene has no frame; its number is 0.
-std::string filled_title(const std::string& title, const RenderOptions& options, const Input& input) {
+std::string filled_title(const std::string& title, const RenderOptions& options, const Input& input,
+                         std::int64_t spheres) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   TitleValues values{{"frame", static_cast<double>(options.input.frame.value_or(0))},
                      {"time", input.time_ps.value_or(kUnknown)},
                      {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
-                     {"spheres", static_cast<double>(input.scene.spheres.whole_size())}};
+                     {"spheres", static_cast<double>(spheres)}};
   if (!options.labels.title_values.empty()) {
     const TitleValues more = values_of_frame(options.labels.title_values, options.input.frame.value_or(0));
     values.insert(values.begin(), more.begin(), more.end());
@@ -46,7 +46,7 @@ std::string filled_title(const std::string& title, const RenderOptions& options,
 
 // Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
 // user's options are the result.
-RenderSettings apply_options(const RenderOptions& options, Input& input) {
+RenderSettings apply_options(const RenderOptions& options, Input& input, const WholeSet* whole) {
   Scene& scene = input.scene;
   const Overrides& user = options.picture;
   PictureSettings picture = scene.picture;
@@ -77,8 +77,9 @@ RenderSettings apply_options(const RenderOptions& options, Input& input) {
   if (settings.transparent && shows_reference_tree(settings.view))
     fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
                "give a colour by --background, or choose another view");
-  settings.labels.title = filled_title(settings.labels.title, options, input);
-  scene.camera = options.fixed ? options.fixed->camera : choose_camera(input, options, settings);
+  settings.labels.title =
+      filled_title(settings.labels.title, options, input, whole != nullptr ? whole->count : scene.spheres.size());
+  scene.camera = options.fixed ? options.fixed->camera : choose_camera(input, options, settings, whole);
   if (settings.adaptive_samples && scene.camera.aperture > 0)
     fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
                "give a number: --samples 64");
@@ -141,12 +142,12 @@ RenderEngine choose_engine(const RenderOptions& options) {
   return engine;
 }
 
-RenderSettings prepare_picture(const RenderOptions& options, RenderEngine engine, Input& input) {
+RenderSettings prepare_picture(const RenderOptions& options, RenderEngine engine, Input& input, const WholeSet* whole) {
   PictureSettings& picture = input.scene.picture;
   if (const SettingValue* const transfer = options.picture.find("transfer"))
     parameter_named("transfer")->set(picture, *transfer);
   look(input, options.looks, options.fixed ? options.fixed->ranges_of_looks : std::vector<ColourRange>{});
-  RenderSettings settings = apply_options(options, input);
+  RenderSettings settings = apply_options(options, input, whole);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of whole spheres", "leave out --clip");
   if (shows_reference_tree(settings.view) && input.scene.spheres.has_images())
@@ -208,7 +209,7 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
     json["max_depth"] = limit(tree.max_depth);
   }
   const InputOptions& input = options.input;
-  json["spheres"] = scene.spheres.whole_size();
+  json["spheres"] = scene.spheres.size();
   if (input.radius) json["radius"] = *input.radius;
   if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
   if (input.frame) json["frame"] = *input.frame;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands/choose_camera.h"
 #include "commands/commands.h"
 #include "support/input.h"
 #include "support/report_text.h"
@@ -23,8 +24,9 @@ Engine structure_of(RenderEngine engine);
 /// Does the looks on an input that load_input() has loaded with LooksOfFile::keep, and applies the user's options to
 /// its scene: transfer curve, background, camera, light. The scene's own settings with the user's options are the
 /// result; options.fixed replaces the camera and the ranges of colours. Fails where options contradict each other or do
-/// not fit the input.
-RenderSettings prepare_picture(const RenderOptions& options, RenderEngine engine, Input& input);
+/// not fit the input. `whole`: null if the input has all spheres.
+RenderSettings prepare_picture(const RenderOptions& options, RenderEngine engine, Input& input,
+                               const WholeSet* whole = nullptr);
 
 /// Fails with kBadInput if the picture or its tree surely does not fit the memory.
 void check_memory_of(RenderEngine engine, const Input& input, const RenderOptions& options,

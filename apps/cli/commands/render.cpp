@@ -5,33 +5,33 @@
 #include "bihive/base/memory.h"
 #include "bihive/base/timer.h"
 #include "commands/commands.h"
+#include "commands/draw_on_ranks.h"
 #include "commands/draw_picture.h"
-#include "commands/draw_with_team.h"
 #include "commands/picture_file.h"
 #include "commands/picture_settings.h"
 #include "commands/render_steps.h"
 #include "commands/share_picture.h"
+#include "support/communicator.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
-#include "support/team.h"
 #include "support/thread_reserve.h"
 
 namespace bihive::cli {
 
 void run_render(const RenderOptions& asked) {
   const RenderOptions options = with_film(asked);
-  if (team() != nullptr && team()->distributes()) return run_render_spread(options);
+  if (communicator() != nullptr && communicator()->distributes()) return run_render_spread(options);
   PreparedPicture prepared{};
   if (leads()) {
     prepared = prepare_render(options);
-    if (team() == nullptr) turn_group_limit_into_failing_allocations();
+    if (communicator() == nullptr) turn_group_limit_into_failing_allocations();
     check_memory_of(prepared.engine, prepared.input, options, prepared.settings);
   }
   prepared.settings.threads = static_cast<int>(options.threads);
-  if (team() != nullptr) {
-    team()->agree({});
-    share_picture(prepared, /*with_spheres=*/true, *team());
+  if (communicator() != nullptr) {
+    communicator()->barrier();
+    share_picture(prepared, /*with_spheres=*/true, *communicator());
   }
   const Scene& scene = prepared.input.scene;
   const RenderSettings& settings = prepared.settings;
@@ -39,20 +39,20 @@ void run_render(const RenderOptions& asked) {
   // Build, render, write.
   const Tracer tracer =
       value_or_fail(Tracer::build(scene, structure_of(prepared.engine), options.tree, settings.threads));
-  if (team() == nullptr) renew_group_limit_for_threads(settings.threads);
+  if (communicator() == nullptr) renew_group_limit_for_threads(settings.threads);
   const Timer drawing;
   const std::unique_ptr<PictureFile> file =
       leads() ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})
               : nullptr;
   // Nothing may fail between this and the drawing, for the other ranks wait for rank 0 there.
-  if (team() != nullptr) team()->agree({});
+  if (communicator() != nullptr) communicator()->barrier();
   const Drawn drawn = [&] {
     const CancellableSection section;
     Progress progress("rendering");
     const auto update = [&](double done) { progress.update(done); };
     try {
-      if (team() != nullptr && prepared.can_share)
-        return draw_with_team(scene, tracer, settings, file.get(), update, *team());
+      if (communicator() != nullptr && prepared.can_share)
+        return draw_on_ranks(scene, tracer, settings, file.get(), update, *communicator());
       return file == nullptr ? Drawn{}
                              : draw_picture(scene, tracer, prepared.engine, settings, prepared.layers, *file, update);
     } catch (const Interrupted&) {
@@ -60,7 +60,7 @@ void run_render(const RenderOptions& asked) {
       throw;
     }
   }();
-  if (team() != nullptr) team()->agree({});
+  if (communicator() != nullptr) communicator()->barrier();
   if (file == nullptr) return;
   value_or_fail(file->finish());
   const double write_ms = drawing.elapsed_ms() - drawn.render_ms;

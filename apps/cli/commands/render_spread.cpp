@@ -1,47 +1,64 @@
-// bihive-mpi render --distribute: each rank gets some of the spheres. Rank 0 reads them, or each rank a part.
+// bihive-mpi render --distribute: each rank gets some of the spheres. Rank 0 reads them, or each rank reads a chunk.
 
 #include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "bihive/base/timer.h"
-#include "bihive/io/part_of_file.h"
-#include "bihive/spread/parts_of_ranks.h"
+#include "bihive/io/data_path.h"
+#include "bihive/render/frame_picture.h"
+#include "bihive/scene/load_scene.h"
+#include "bihive/spread/read_chunk.h"
 #include "bihive/spread/spread_scene.h"
 #include "commands/choose_look.h"
+#include "commands/distributed_options.h"
 #include "commands/draw_spread.h"
 #include "commands/picture_settings.h"
 #include "commands/render_steps.h"
 #include "commands/share_picture.h"
+#include "support/communicator.h"
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
-#include "support/team.h"
 
 namespace bihive::cli {
 namespace {
 
-// Parts of the file give the picture of the whole one only where nothing but places and radii matters.
-bool reads_parts(const RenderOptions& options) {
-  const InputOptions& input = options.input;
-  const bool plain_input = input.frame.value_or(0) == 0 && input.trajectory.empty() && input.assembly.empty() &&
-                           input.columns.empty() && !input.replicate && !input.cell_vectors && !input.cell_origin &&
-                           input.wrapping == Wrapping::none;
-  const bool plain_look = options.looks.words.empty() && options.looks.element_colours.empty() &&
-                          !options.picture.is_on("legend") && !options.fixed && !options.picture.is_on("cell") &&
-                          (!options.focus || std::holds_alternative<double>(*options.focus));
-  if (!plain_input || !plain_look || is_built_in_scene(input.input)) return false;
+// Chunks of the file give the picture of the whole one only where nothing but centres and radii matters.
+bool reads_chunks(const RenderOptions& options, ReadingByRanks reading) {
+  const std::string& input = options.input.input;
+  if (reading == ReadingByRanks::whole || is_built_in_scene(input) || !data_path(input).inside.empty()) return false;
   const Style style = choose_style(options.style);
   constexpr std::array kNumbersOfAll{"x", "y", "z", "r", "radius"};
   const auto& by = style.colour_by;
   const bool plain_colours =
       !by || (std::find(kNumbersOfAll.begin(), kNumbersOfAll.end(), by->attribute) != kNumbersOfAll.end() &&
               by->map != ColourMap::okabe_ito);
-  return plain_colours && !style.picture.labels.legend && can_read_part(file_of(input));
+  return plain_colours && !style.picture.labels.legend && can_read_chunks_of(file_of(options.input));
+}
+
+// The spheres of this rank, with what is true of all.
+LoadedPicture load_chunk(const RenderOptions& options, Style& style, Communicator& ranks) {
+  LoadedPicture loaded;
+  WholeSet& whole = loaded.whole.emplace();
+  loaded.input = load_file(options.input, [&](const ReadOptions& reading) -> Result<Input> {
+    Result<ReadChunk> chunk = read_chunk(options.input.input, reading, ranks);
+    if (!chunk) return chunk.error();
+    whole.count = chunk->whole_count;
+    whole.bounds = chunk->whole_bounds;
+    if (style.colour_by) take_whole_range(chunk->file.spheres, *style.colour_by, ranks);
+    return scene_of_spheres(std::move(chunk->file), options.input.input, &style);
+  });
+  whole.frame = [&options, &ranks, bounds = whole.bounds](const Scene& scene, const Side& side, const Lens& lens,
+                                                          const RenderSettings& settings) {
+    return settings.view == View::tree
+               ? frame_picture(scene, side, lens, settings)  // refuse() says so
+               : frame_whole_picture(scene, bounds, side, lens, settings, options.dots_per_inch, ranks);
+  };
+  return loaded;
 }
 
 void refuse(const PreparedPicture& prepared) {
@@ -53,20 +70,23 @@ void refuse(const PreparedPicture& prepared) {
 
 }  // namespace
 
-void run_render_spread(const RenderOptions& asked) {
-  Team& ranks = *team();
-  RenderOptions options = asked;
-  const Bytes decided = ranks.from_first(leads() && reads_parts(options) ? Bytes{1} : Bytes{});
-  const bool in_parts = !decided.empty();
-  if (in_parts) options.input.parts = std::make_shared<PartsOfRanks>(ranks);
+void run_render_spread(const RenderOptions& options) {
+  PictureCommunicator& ranks = *communicator();
+  const ReadingByRanks reading = [&] {
+    const Result<ReadingByRanks> known = reading_by_ranks(options);
+    if (!known) fail_usage(known.error().message, known.error().hint);
+    return *known;
+  }();
+  const bool in_chunks = ranks.broadcast_value(leads() && reads_chunks(options, reading));
   PreparedPicture prepared{};
-  if (leads() || in_parts) {
-    prepared = prepare_render(options);
+  if (leads() || in_chunks) {
+    prepared = in_chunks ? prepare_render(options, [&](Style& style) { return load_chunk(options, style, ranks); })
+                         : prepare_render(options);
     refuse(prepared);
   }
   prepared.settings.threads = static_cast<int>(options.threads);
-  ranks.agree({});
-  if (!in_parts) share_picture(prepared, /*with_spheres=*/false, ranks);
+  ranks.barrier();
+  if (!in_chunks) share_picture(prepared, /*with_spheres=*/false, ranks);
 
   // Each rank builds a tree of its spheres.
   const std::vector<std::pair<std::string, std::string>> text = text_of(prepared.input.scene, prepared.described);
@@ -75,29 +95,29 @@ void run_render_spread(const RenderOptions& asked) {
   const Timer drawing;
   RenderSettings of_file = prepared.settings;
   of_file.threads = 1;
-  const std::unique_ptr<Conversation> conversation =
-      ranks.converse([&](const Bytes& question) { return spread->answer(question); }, prepared.settings.threads);
-  const std::unique_ptr<SpreadScene::Artist> artist = spread->artist(*conversation);
+  const std::unique_ptr<TileChannel> channel =
+      ranks.open_channel([&](const Bytes& question) { return spread->answer(question); }, prepared.settings.threads);
+  const std::unique_ptr<SpreadScene::Artist> artist = spread->artist(*channel);
   prepared.input.scene = artist->scene();  // for the report
   const std::unique_ptr<PictureFile> file =
       leads() ? open_picture({options, artist->scene(), artist->tracer(), of_file, prepared.layers, text}) : nullptr;
   // Nothing may fail between this and the drawing.
-  ranks.agree({});
-  conversation->begin();
+  ranks.barrier();
+  channel->begin();
   const Drawn drawn = [&] {
     const CancellableSection section;
     Progress progress("rendering");
     const auto update = [&](double done) { progress.update(done); };
     try {
-      if (prepared.can_share) return draw_spread(*spread, prepared.settings, file.get(), update, ranks, *conversation);
+      if (prepared.can_share) return draw_spread(*spread, prepared.settings, file.get(), update, ranks, *channel);
       return draw_spread_alone(*artist, prepared.engine, prepared.settings, prepared.layers, file.get(), update,
-                               *conversation);
+                               *channel);
     } catch (const Interrupted&) {
       CancellableSection::leave_if_cancelled();
       throw;
     }
   }();
-  ranks.agree({});
+  ranks.barrier();
   if (file == nullptr) return;
   value_or_fail(file->finish());
   const double write_ms = drawing.elapsed_ms() - drawn.render_ms;

@@ -10,12 +10,12 @@
 #include "commands/names.h"
 #include "commands/picture_settings.h"
 #include "film/film_plan.h"
+#include "support/communicator.h"
 #include "support/failure.h"
 #include "support/messages.h"
 #include "support/outputs.h"
 #include "support/peak_memory.h"
 #include "support/request_files.h"
-#include "support/team.h"
 
 namespace bihive::cli {
 namespace {
@@ -54,7 +54,7 @@ RenderOptions with_film(const RenderOptions& asked) {
   return options;
 }
 
-PreparedPicture prepare_render(const RenderOptions& options) {
+PreparedPicture prepare_render(const RenderOptions& options, const LoadPicture& load) {
   const RenderEngine engine = choose_engine(options);
   if (leads()) check_output(options);
 
@@ -63,11 +63,15 @@ PreparedPicture prepare_render(const RenderOptions& options) {
   const Timer reading;
   Style style = choose_style(options.style);
   if (options.fixed) fix_range(style, options.fixed->range_of_style);
-  Input input = load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named);
+  LoadedPicture loaded =
+      load ? load(style) : LoadedPicture{load_input(options.input, LooksOfFile::keep, &style, /*asked_for=*/named)};
+  Input& input = loaded.input;
+  const WholeSet* const whole = loaded.whole ? &*loaded.whole : nullptr;
   if (leads()) check_outputs(outputs_of(options), input.files);
-  RenderSettings settings = prepare_picture(options, engine, input);
+  RenderSettings settings = prepare_picture(options, engine, input, whole);
   std::vector<Layer> layers = choose_layers(options, input.scene, settings);
   ordered_json described = settings_json(options, settings, input.scene, layers);
+  if (whole != nullptr) described["spheres"] = whole->count;
   const bool can_share = !is_gpu(engine) && !is_drawn_whole(settings.view) && (layers.empty() || has_radiance(layers));
   return {engine, std::move(input), settings, std::move(layers), std::move(described), can_share, reading.elapsed_ms()};
 }

@@ -1,12 +1,15 @@
 // The steps of bihive render that it shares with pictures of distributed spheres.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bihive/render/layers.h"
 #include "bihive/scene/render_settings.h"
+#include "commands/choose_camera.h"
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
 #include "commands/picture_file.h"
@@ -24,8 +27,15 @@ struct PreparedPicture {
   double read_ms;
 };
 
-/// The options of the film are taken already. Fails like the steps that it takes.
-PreparedPicture prepare_render(const RenderOptions& options);
+/// An input in this style, and what is true of all its spheres where it has a chunk of them.
+struct LoadedPicture {
+  Input input;
+  std::optional<WholeSet> whole = {};
+};
+using LoadPicture = std::function<LoadedPicture(Style& style)>;
+
+/// The options of the film are taken already. Fails like the steps that it takes. `load`: in place of load_input().
+PreparedPicture prepare_render(const RenderOptions& options, const LoadPicture& load = {});
 /// The film's share of a picture's options.
 RenderOptions with_film(const RenderOptions& asked);
 

@@ -9,7 +9,7 @@
 
 namespace bihive::cli {
 
-void share_picture(PreparedPicture& prepared, bool with_spheres, Team& team) {
+void share_picture(PreparedPicture& prepared, bool with_spheres, PictureCommunicator& ranks) {
   Bytes bytes;
   if (leads()) {
     ByteWriter out(bytes);
@@ -18,7 +18,7 @@ void share_picture(PreparedPicture& prepared, bool with_spheres, Team& team) {
     out.put_text(as_text(prepared.described, -1));
     put_scene(prepared.input.scene, prepared.settings, bytes);
   }
-  bytes = team.from_first(std::move(bytes));
+  bytes = ranks.broadcast(std::move(bytes));
   if (!leads()) {
     const int threads = prepared.settings.threads;
     ByteReader in(bytes);
@@ -28,7 +28,7 @@ void share_picture(PreparedPicture& prepared, bool with_spheres, Team& team) {
     take_scene(in, prepared.input.scene, prepared.settings);
     prepared.settings.threads = threads;
   }
-  if (with_spheres) give_all_spheres(prepared.input.scene, team);
+  if (with_spheres) give_all_spheres(prepared.input.scene, ranks);
 }
 
 }  // namespace bihive::cli

@@ -10,8 +10,8 @@
 
 #include "bihive/base/timer.h"
 #include "bihive/render/draw_labels.h"
+#include "commands/draw_on_ranks.h"
 #include "commands/draw_picture.h"
-#include "commands/draw_with_team.h"
 #include "commands/picture_settings.h"
 #include "film/picture_queue.h"
 #include "support/failure.h"
@@ -70,8 +70,14 @@ class PixelsInMemory final : public PictureFile {
 class FilmSteps {
  public:
   FilmSteps(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-            const PictureNumbers& pictures, FilmSink* sink, Team* team)
-      : source_(source), plan_(plan), options_(options), style_(style), pictures_(pictures), sink_(sink), team_(team) {}
+            const PictureNumbers& pictures, FilmSink* sink, PictureCommunicator* ranks)
+      : source_(source),
+        plan_(plan),
+        options_(options),
+        style_(style),
+        pictures_(pictures),
+        sink_(sink),
+        ranks_(ranks) {}
 
   FilmTimes run() {
     std::vector<std::thread> threads;
@@ -188,20 +194,20 @@ class FilmSteps {
   }
 
   // Whether allocations fail where a control group has no more memory: see main.cpp.
-  bool is_limited() const { return team() == nullptr && film_kind(options_.output) != FilmKind::encoded; }
+  bool is_limited() const { return communicator() == nullptr && film_kind(options_.output) != FilmKind::encoded; }
 
-  // With a team the picture is whole when all have done their share.
+  // With a ranks the picture is whole when all have done their share.
   void draw(const BuiltPicture& picture, PngPixels& drawn, const ProgressCallback& update) {
     PixelsInMemory pixels(picture, drawn);
     const RenderEngine engine = choose_engine(options_);
-    const bool is_shared = team_ != nullptr && !is_gpu(engine) && !is_drawn_whole(picture.settings.view);
-    if (team_ != nullptr) team_->agree({});
+    const bool is_shared = ranks_ != nullptr && !is_gpu(engine) && !is_drawn_whole(picture.settings.view);
+    if (ranks_ != nullptr) ranks_->barrier();
     if (is_shared)
-      draw_with_team(picture.input.scene, *picture.tracer, picture.settings, sink_ != nullptr ? &pixels : nullptr,
-                     update, *team_);
+      draw_on_ranks(picture.input.scene, *picture.tracer, picture.settings, sink_ != nullptr ? &pixels : nullptr,
+                    update, *ranks_);
     else if (sink_ != nullptr)
       draw_picture(picture.input.scene, *picture.tracer, engine, picture.settings, {}, pixels, update);
-    if (team_ != nullptr) team_->agree({});
+    if (ranks_ != nullptr) ranks_->barrier();
   }
 
   void write_all() {
@@ -218,7 +224,7 @@ class FilmSteps {
   const Style& style_;
   const PictureNumbers& pictures_;
   FilmSink* sink_;
-  Team* team_;
+  PictureCommunicator* ranks_;
   PictureQueue<ReadPicture> read_{1, CancellableSection::token()};
   PictureQueue<std::unique_ptr<BuiltPicture>> built_{1, CancellableSection::token()};
   PictureQueue<FilmPicture> drawn_{1, CancellableSection::token()};
@@ -230,8 +236,8 @@ class FilmSteps {
 }  // namespace
 
 FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
-                    const PictureNumbers& pictures, FilmSink* sink, Team* team) {
-  return FilmSteps(source, plan, options, style, pictures, sink, team).run();
+                    const PictureNumbers& pictures, FilmSink* sink, PictureCommunicator* ranks) {
+  return FilmSteps(source, plan, options, style, pictures, sink, ranks).run();
 }
 
 }  // namespace bihive::cli

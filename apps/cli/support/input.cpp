@@ -97,7 +97,6 @@ ReadOptions read_options(const InputOptions& options) {
   reading.cell_vectors = options.cell_vectors;
   reading.cell_origin = options.cell_origin;
   reading.wrapping = options.wrapping;
-  reading.parts = options.parts;
   return reading;
 }
 
@@ -148,21 +147,27 @@ std::optional<Input> generated_input(const InputOptions& options) {
   return input;
 }
 
+Input load_file(const InputOptions& options, const std::function<Result<Input>(const ReadOptions&)>& read) {
+  check_input_options(options);
+  const FileSize size(data_path(options.input).file);
+  Input input = value_or_fail(read(read_options(options)));
+  if (size.grew()) warn_of_growth(options.input);
+  if (!options.trajectory.empty()) input.files.push_back(data_path(options.trajectory).file);
+  warn(input.warnings);
+  return input;
+}
+
 Input load_input(const InputOptions& options, LooksOfFile looks, const Style* style, bool asked_for) {
   if (std::optional<Input> generated = generated_input(options)) {
     only_for(asked_for, "--style", "files", options.input);
     return std::move(*generated);
   }
+  if (options.input != "demo" && !must_be_read_whole(options.input))
+    return load_file(options, [&](const ReadOptions& reading) { return load_spheres(options.input, reading, style); });
   check_input_options(options);
   const ReadOptions reading = read_options(options);
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
-    if (!must_be_read_whole(options.input)) {
-      const FileSize size(data_path(options.input).file);
-      Result<Input> loaded = load_spheres(options.input, reading, style);
-      if (size.grew()) warn_of_growth(options.input);
-      return loaded;
-    }
     const std::string name = input_name(options.input);
     const std::string bytes = value_or_fail(unpack_if_packed(read_input(options.input), name));
     return load_scene(bytes, name, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -29,7 +29,6 @@ struct InputOptions {
   std::optional<std::array<Vec3d, 3>> cell_vectors;
   std::optional<Vec3d> cell_origin;
   Wrapping wrapping = Wrapping::none;
-  std::shared_ptr<const SetParts> parts = nullptr;  ///< each rank reads a part; null: the whole set
 };
 
 /// The bytes of a file, or of the standard input for "-". Warns if the file grew meanwhile. Fails with kBadInput.
@@ -57,6 +56,9 @@ void check_input_options(const InputOptions& options);
 /// too, and the thesis's scenes, which leave nothing open, refuse it.
 Input load_input(const InputOptions& options, LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr,
                  bool asked_for = false);
+
+/// The same of a file on the disk that `read` reads. It must not be read whole.
+Input load_file(const InputOptions& options, const std::function<Result<Input>(const ReadOptions&)>& read);
 
 /// The readers' options; the frame is 0 if none is named.
 ReadOptions read_options(const InputOptions& options);

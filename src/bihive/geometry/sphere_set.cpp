@@ -55,24 +55,11 @@ class TypedView {
 
 }  // namespace
 
+// Checks every number, and finds the farthest bound from 0.
 template <class Coordinates, class Radii>
-Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                                  std::shared_ptr<const SetParts> parts) {
-  BIHIVE_CHECK_EQ(x.size(), y.size());
-  BIHIVE_CHECK_EQ(x.size(), z.size());
-  BIHIVE_CHECK_EQ(x.size(), r.size());
-
-  // The tree of a small set decides whether it fits.
-  constexpr std::size_t kSmallSet = 1 << 16;
-  if (x.size() > kSmallSet)
-    if (Status status = check_memory(static_cast<double>(x.size()) * 4 * sizeof(float),
-                                     "a set of " + grouped(static_cast<std::int64_t>(x.size())) + " spheres");
-        !status)
-      return status.error();
-
-  // Check every number, and find the farthest bound from 0.
-  const CountOfParts spheres = count_of_all(parts.get(), static_cast<std::int64_t>(x.size()));
-  const auto first = static_cast<std::size_t>(spheres.before);
+Result<double> SphereSet::extent(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                 std::int64_t first_id) {
+  const auto first = static_cast<std::size_t>(first_id);
   constexpr double kLargest = std::numeric_limits<float>::max();
   double extent = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -87,13 +74,31 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
     }
     if (values[3] < 0) return bad_sphere(first + i, "the radius must not be negative but", values[3]);
   }
+  return extent;
+}
 
-  // Choose the power of two that brings that bound into [1/2, 1], and round once.
-  extent = greatest_of_all(parts.get(), extent);
+template <class Coordinates, class Radii>
+Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                  std::int64_t first_id, double extent_of_others) {
+  BIHIVE_CHECK_EQ(x.size(), y.size());
+  BIHIVE_CHECK_EQ(x.size(), z.size());
+  BIHIVE_CHECK_EQ(x.size(), r.size());
+
+  // The tree of a small set decides whether it fits.
+  constexpr std::size_t kSmallSet = 1 << 16;
+  if (x.size() > kSmallSet)
+    if (Status status = check_memory(static_cast<double>(x.size()) * 4 * sizeof(float),
+                                     "a set of " + grouped(static_cast<std::int64_t>(x.size())) + " spheres");
+        !status)
+      return status.error();
+
+  const Result<double> own = extent(x, y, z, r, first_id);
+  if (!own) return own.error();
+
+  // Choose the power of two that brings the farthest bound into [1/2, 1], and round once.
+  const double farthest = std::max(*own, extent_of_others);
   SphereSet set;
-  set.whole_size_ = spheres.all;
-  set.parts_ = std::move(parts);
-  if (extent > 0) std::frexp(extent, &set.scale_exponent_);
+  if (farthest > 0) std::frexp(farthest, &set.scale_exponent_);
   set.scale_exponent_ = std::min(-set.scale_exponent_, kLargestScaleExponent);
   const double scale = set.scale();
   bool as_before = true;
@@ -124,10 +129,16 @@ Result<SphereSet> SphereSet::from_world(const std::vector<double>& x, const std:
   return make(x, y, z, r);
 }
 
-Result<SphereSet> SphereSet::part_from_world(const std::vector<double>& x, const std::vector<double>& y,
-                                             const std::vector<double>& z, const std::vector<double>& r,
-                                             std::shared_ptr<const SetParts> parts) {
-  return make(x, y, z, r, std::move(parts));
+Result<SphereSet> SphereSet::chunk_from_world(const std::vector<double>& x, const std::vector<double>& y,
+                                              const std::vector<double>& z, const std::vector<double>& r,
+                                              std::int64_t first_id, double extent) {
+  return make(x, y, z, r, first_id, extent);
+}
+
+Result<double> SphereSet::extent_of_world(const std::vector<double>& x, const std::vector<double>& y,
+                                          const std::vector<double>& z, const std::vector<double>& r,
+                                          std::int64_t first_id) {
+  return extent(x, y, z, r, first_id);
 }
 
 Result<SphereSet> SphereSet::from_world(const std::vector<float>& x, const std::vector<float>& y,
@@ -200,11 +211,6 @@ SphereSet::Bounds SphereSet::bounds() const {
       box.lo[axis] = std::min(box.lo[axis], lo - radius);
       box.hi[axis] = std::max(box.hi[axis], hi + radius);
     }
-  }
-  if (parts_ != nullptr) {
-    std::vector<double> ends{-box.lo.x, -box.lo.y, -box.lo.z, box.hi.x, box.hi.y, box.hi.z};
-    parts_->take_greatest(ends);
-    box = {{-ends[0], -ends[1], -ends[2]}, {ends[3], ends[4], ends[5]}};
   }
   return {box.lo * inverse_scale(), box.hi * inverse_scale()};
 }

@@ -13,13 +13,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/cell.h"
-#include "bihive/geometry/set_parts.h"
 #include "bihive/geometry/sphere_attributes.h"
 #include "bihive/math/aabb.h"
 #include "bihive/math/vec3.h"
@@ -63,11 +61,15 @@ class SphereSet {
                                       const std::vector<double>& z, const std::vector<double>& r);
   static Result<SphereSet> from_world(const std::vector<float>& x, const std::vector<float>& y,
                                       const std::vector<float>& z, const std::vector<float>& r);
-  /// A part of a set: its units are those of the whole set. For all processes that have parts, at the same time. Errors
-  /// of another part are not told here.
-  static Result<SphereSet> part_from_world(const std::vector<double>& x, const std::vector<double>& y,
-                                           const std::vector<double>& z, const std::vector<double>& r,
-                                           std::shared_ptr<const SetParts> parts);
+  /// A chunk of a larger set, in the units of the whole set. `first_id`: of the chunk's first sphere in the whole set,
+  /// for messages. `extent`: the greatest extent_of_world() of all chunks.
+  static Result<SphereSet> chunk_from_world(const std::vector<double>& x, const std::vector<double>& y,
+                                            const std::vector<double>& z, const std::vector<double>& r,
+                                            std::int64_t first_id, double extent);
+  /// The farthest bound of these spheres from 0 along an axis, which decides the units. Errors as from_world().
+  static Result<double> extent_of_world(const std::vector<double>& x, const std::vector<double>& y,
+                                        const std::vector<double>& z, const std::vector<double>& r,
+                                        std::int64_t first_id);
   /// The same from numbers where they lie. x, y and z must have the same precision.
   static Result<SphereSet> from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
                                       const NumbersView& r);
@@ -75,11 +77,6 @@ class SphereSet {
   /// The spheres that are stored.
   std::int64_t size() const { return static_cast<std::int64_t>(x_.size()); }
   bool empty() const { return x_.empty(); }
-  /// Null unless the set is a part of one that several processes have. Then bounds() and cameras are those of the whole
-  /// set, and all processes ask for them at the same time.
-  const SetParts* parts() const { return parts_.get(); }
-  /// With the spheres of the other parts.
-  std::int64_t whole_size() const { return parts_ != nullptr ? whole_size_ : size(); }
 
   /// The spheres with all their images. Every id below is one.
   std::int64_t total_size() const { return size() * images_.count(); }
@@ -127,7 +124,8 @@ class SphereSet {
   Vec3d centre(std::int64_t id) const { return stored_centre(id) * inverse_scale(); }
   double radius(std::int64_t id) const { return stored_radius(id) * inverse_scale(); }
   double inverse_scale() const { return std::ldexp(1.0, -scale_exponent_); }
-  /// The smallest box around all spheres and images (radius 0 too), in world units as binary64: lo and hi.
+  /// The smallest box around all spheres and images (radius 0 too), in world units as binary64: lo and hi. An empty set
+  /// has lo = inf and hi = -inf.
   struct Bounds {
     Vec3d lo, hi;
   };
@@ -154,15 +152,16 @@ class SphereSet {
   SphereAttributes attributes_;
   std::optional<Cell> cell_;
   Images images_;
-  std::shared_ptr<const SetParts> parts_;  // null: the set is whole
-  std::int64_t whole_size_ = 0;            // of a part
 
   Vec3d stored_image_centre(std::int64_t id) const;
   void count_vanishing_radii();
 
   template <class Coordinates, class Radii>
+  static Result<double> extent(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                               std::int64_t first_id);
+  template <class Coordinates, class Radii>
   static Result<SphereSet> make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                                std::shared_ptr<const SetParts> parts = nullptr);
+                                std::int64_t first_id = 0, double extent_of_others = 0);
 };
 
 }  // namespace bihive

@@ -6,7 +6,6 @@
 #include "bihive/io/frames/sphere_frames.h"
 #include "bihive/io/packed.h"
 #include "bihive/io/packed/unpack.h"
-#include "bihive/io/part_of_file.h"
 #include "bihive/io/raw_spheres.h"
 #include "bihive/io/without_throwing.h"
 
@@ -28,11 +27,6 @@ Result<std::string> unpack_if_packed(std::string bytes, const std::string& name)
 }
 
 Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options) {
-  if (options.parts != nullptr) {
-    Result<RawSpheres> part = read_part(path, *options.parts);
-    if (!part) return part.error();
-    return finish_spheres(std::move(*part), path, options);
-  }
   return without_throwing(path, [&] { return SphereFrames(path, options).open(options.frame); });
 }
 

@@ -6,14 +6,12 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bihive/base/result.h"
-#include "bihive/geometry/set_parts.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/io/column_choice.h"
 
@@ -38,9 +36,6 @@ struct ReadOptions {
   std::optional<Vec3d> cell_origin;
   Wrapping wrapping = Wrapping::none;              ///< needs a cell
   std::array<std::int32_t, 3> replicate{1, 1, 1};  ///< copies along the cell's vectors (SphereSet::replicate)
-  /// Each process reads a part of the set (io/part_of_file.h says of which files), all at the same time, with no other
-  /// options than those of radii and `recenter`. Null: the whole set.
-  std::shared_ptr<const SetParts> parts;
 };
 
 struct SphereFile {

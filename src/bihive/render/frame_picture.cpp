@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "bihive/geometry/each_sphere.h"
-#include "bihive/geometry/set_parts.h"
 #include "bihive/math/elementary.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/tree_picture.h"
@@ -62,6 +61,8 @@ class AreaInView {
   Edge edges_[4];
 };
 
+}  // namespace
+
 bool covers_spheres(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings,
                     const CanvasArea& area) {
   // Edges of a cell go through the picture from corner to corner, so that they may be anywhere.
@@ -71,8 +72,10 @@ bool covers_spheres(const SphereSet& spheres, const Camera& camera, const Render
   for_each_sphere(spheres, [&](std::int64_t, Vec3d centre, double radius) {
     if (!meets) meets = in_view.meets(centre, radius);
   });
-  return greatest_of_all(spheres.parts(), meets ? 1 : 0) > 0;
+  return meets;
 }
+
+namespace {
 
 // The labels that `covers(area)` names get a side each: title above, legend right, scale bar below, and the axes, which
 // stand in a corner, the side of which they take the smaller share.
@@ -110,15 +113,21 @@ Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, con
     return settings.cell_lines ? frame_with_cell(spheres, side, lens, settings.width_px, settings.height_px, insets)
                                : frame_spheres(spheres, side, lens, settings.width_px, settings.height_px, insets);
   };
+  const auto covers = [&](const Camera& camera, const CanvasArea& area) {
+    return covers_spheres(spheres, camera, settings, area);
+  };
+  return frame_beside_labels(scene, settings, dots_per_inch, framed, covers);
+}
 
+Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings, double dots_per_inch,
+                           const std::function<Camera(const Insets&)>& framed,
+                           const std::function<bool(const Camera&, const CanvasArea&)>& covers) {
   // Fill the picture; then make room for those labels alone that cover spheres.
   Insets insets;
   Camera camera = framed(insets);
   for (int attempt = 0; settings.labels.any() && attempt < kMostMoves; ++attempt) {
     const LabelAreas areas = label_areas(scene, camera, settings, dots_per_inch);
-    const Insets next = widened(insets, areas, settings, [&](const CanvasArea& area) {
-      return covers_spheres(spheres, camera, settings, area);
-    });
+    const Insets next = widened(insets, areas, settings, [&](const CanvasArea& area) { return covers(camera, area); });
     if (same(next, insets)) break;
     insets = next;
     camera = framed(insets);

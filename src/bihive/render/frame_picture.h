@@ -1,6 +1,9 @@
 // The camera of a picture whose scene has none.
 #pragma once
 
+#include <functional>
+
+#include "bihive/image/canvas.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
@@ -12,6 +15,14 @@ namespace bihive {
 /// a side of the picture for themselves. `dots_per_inch`: as for draw_labels().
 Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings,
                      double dots_per_inch = 0);
+
+/// The camera of frame_picture(), where somebody else knows all spheres: `framed` is the camera with room for these
+/// insets, `covers` tells whether an area of its picture may cover a sphere.
+Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings, double dots_per_inch,
+                           const std::function<Camera(const Insets&)>& framed,
+                           const std::function<bool(const Camera&, const CanvasArea&)>& covers);
+bool covers_spheres(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings,
+                    const CanvasArea& area);
 
 /// The sides that the labels of such a picture need if all of it is full of spheres.
 Insets insets_of_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings,

@@ -12,11 +12,11 @@
 #include "bihive/bih/traversal.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/brute_force.h"
-#include "bihive/render/elsewhere.h"
 #include "bihive/render/image_tracer.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/part_tracer.h"
 #include "bihive/render/pixel_order.h"
+#include "bihive/render/remote_engine.h"
 #include "bihive/render/wide_brute_force.h"
 #include "bihive/scene/clips.h"
 
@@ -112,17 +112,17 @@ Tracer::Tracer(const SphereSet& spheres, std::shared_ptr<const Tree> tree) : Tra
   tree_ = std::move(tree);
 }
 
-Tracer::Tracer(const SphereSet& seen, std::shared_ptr<Elsewhere> elsewhere, bool has_clips)
+Tracer::Tracer(const SphereSet& seen, std::shared_ptr<RemoteEngine> remote, bool has_clips)
     : Tracer(seen, Engine::wide) {
-  BIHIVE_CHECK(elsewhere != nullptr);
-  elsewhere_ = std::move(elsewhere);
-  has_clips_elsewhere_ = has_clips;
+  BIHIVE_CHECK(remote != nullptr);
+  remote_ = std::move(remote);
+  has_remote_clips_ = has_clips;
 }
 
 Hit Tracer::closest_hit(const Ray& ray) const {
-  if (elsewhere_) {
+  if (remote_) {
     Hit hit;
-    elsewhere_->closest_hits(WhichSpheres::all, one_ray(ray).span(), RayOrder::any, {&hit.t, &hit.sphere_id});
+    remote_->closest_hits(WhichSpheres::all, one_ray(ray).span(), RayOrder::any, {&hit.t, &hit.sphere_id});
     return hit;
   }
   if (images_) return images_->closest_hit(ray);
@@ -132,9 +132,9 @@ Hit Tracer::closest_hit(const Ray& ray) const {
 }
 
 bool Tracer::occluded(const Ray& ray) const {
-  if (elsewhere_) {
+  if (remote_) {
     std::uint8_t hidden = 0;
-    elsewhere_->occluded(WhichSpheres::all, one_ray(ray).span(), RayOrder::any, &hidden);
+    remote_->occluded(WhichSpheres::all, one_ray(ray).span(), RayOrder::any, &hidden);
     return hidden != 0;
   }
   if (images_) return images_->occluded(ray);
@@ -144,7 +144,7 @@ bool Tracer::occluded(const Ray& ray) const {
 }
 
 void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
-  if (elsewhere_) return elsewhere_->closest_hits(WhichSpheres::all, rays, order, hits);
+  if (remote_) return remote_->closest_hits(WhichSpheres::all, rays, order, hits);
   if (images_) return images_->closest_hits(rays, order, hits);
   if (parts_) return parts_->closest_hits(rays, order, hits);
   if (wide_tree_) return bihive::closest_hits(*wide_tree_, rays, order, hits);
@@ -157,7 +157,7 @@ void Tracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hi
 }
 
 void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
-  if (elsewhere_) return elsewhere_->occluded(WhichSpheres::all, rays, order, hidden);
+  if (remote_) return remote_->occluded(WhichSpheres::all, rays, order, hidden);
   if (images_) return images_->occluded(rays, order, hidden);
   if (parts_) return parts_->occluded(rays, order, hidden);
   if (wide_tree_) return bihive::occluded(*wide_tree_, rays, order, hidden);

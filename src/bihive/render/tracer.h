@@ -19,7 +19,7 @@
 
 namespace bihive {
 
-class Elsewhere;
+class RemoteEngine;
 class ImageTracer;
 class PartTracer;
 struct Scene;
@@ -75,7 +75,7 @@ class Tracer {
 
   /// A tracer that asks other processes. `seen`: the set to which they add the spheres that they tell of. One thread at
   /// a time may use it. `has_clips`: whether clips cut spheres of the whole set.
-  Tracer(const SphereSet& seen, std::shared_ptr<Elsewhere> elsewhere, bool has_clips);
+  Tracer(const SphereSet& seen, std::shared_ptr<RemoteEngine> remote, bool has_clips);
 
   /// One ray: the nearest hit, and whether there is any hit.
   Hit closest_hit(const Ray& ray) const;
@@ -92,12 +92,12 @@ class Tracer {
   Engine engine() const { return engine_; }  ///< never `automatic`
   const SphereSet& spheres() const { return *spheres_; }
   /// Whether clips cut the spheres. Then there is no tree of all spheres.
-  bool has_clips() const { return parts_ != nullptr || has_clips_elsewhere_; }
+  bool has_clips() const { return parts_ != nullptr || has_remote_clips_; }
   /// Whether the spheres have images. Then a tree is that of the stored spheres alone.
   bool has_images() const { return images_ != nullptr; }
   const Tree* tree() const { return tree_.get(); }                ///< null unless the engine is `reference`
   const WideTree* wide_tree() const { return wide_tree_.get(); }  ///< null unless the engine is `wide`
-  Elsewhere* elsewhere() const { return elsewhere_.get(); }       ///< null: this process has all spheres
+  RemoteEngine* remote() const { return remote_.get(); }          ///< null: this process has all spheres
   double build_ms() const { return build_ms_; }                   ///< 0 for a tree from elsewhere
 
  private:
@@ -109,8 +109,8 @@ class Tracer {
   std::shared_ptr<const WideTree> wide_tree_;
   std::shared_ptr<const PartTracer> parts_;    // null: all spheres are whole
   std::shared_ptr<const ImageTracer> images_;  // null: the set has no images
-  std::shared_ptr<Elsewhere> elsewhere_;       // null: the spheres are here
-  bool has_clips_elsewhere_ = false;
+  std::shared_ptr<RemoteEngine> remote_;       // null: the spheres are here
+  bool has_remote_clips_ = false;
   double build_ms_ = 0;
 };
 

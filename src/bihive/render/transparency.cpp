@@ -6,8 +6,8 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/geometry/cut_sphere.h"
-#include "bihive/render/elsewhere.h"
 #include "bihive/render/part_tracer.h"
+#include "bihive/render/remote_engine.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/image_colours.h"
 
@@ -63,11 +63,11 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
   }
 }
 
-std::shared_ptr<const TransparentSpheres> TransparentSpheres::elsewhere(const Scene& scene, Elsewhere& elsewhere,
-                                                                        bool to_eye, bool has_tints) {
+std::shared_ptr<const TransparentSpheres> TransparentSpheres::remote(const Scene& scene, RemoteEngine& remote,
+                                                                     bool to_eye, bool has_tints) {
   auto made = std::make_shared<TransparentSpheres>();
   made->of_images_ = &scene;
-  made->elsewhere_ = &elsewhere;
+  made->remote_ = &remote;
   made->to_eye_ = to_eye;
   made->has_tints_ = has_tints;
   return made;
@@ -79,7 +79,7 @@ double TransparentSpheres::passing_of_seen(std::int64_t id) const {
 }
 
 Hit TransparentSpheres::closest_opaque(const Ray& ray) const {
-  if (elsewhere_ != nullptr) {
+  if (remote_ != nullptr) {
     RayBatch one;
     one.push_back(ray);
     Hit hit;
@@ -90,7 +90,7 @@ Hit TransparentSpheres::closest_opaque(const Ray& ray) const {
 }
 
 void TransparentSpheres::find_crossings(const Ray& ray, std::vector<Crossing>& found) const {
-  if (elsewhere_ != nullptr) {
+  if (remote_ != nullptr) {
     RayBatch one;
     one.push_back(ray);
     std::vector<RayHit> hits;
@@ -107,7 +107,7 @@ Vec3d TransparentSpheres::tint_of_image(std::int64_t id) const {
 }
 
 Vec3d TransparentSpheres::share(const Ray& ray) const {
-  if (elsewhere_ != nullptr) {
+  if (remote_ != nullptr) {
     RayBatch one;
     one.push_back(ray);
     std::uint8_t hidden = 0;
@@ -128,28 +128,27 @@ Vec3d TransparentSpheres::share(const Ray& ray) const {
 }
 
 void TransparentSpheres::closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
-  if (elsewhere_ != nullptr)
-    return elsewhere_->closest_hits(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
-                                    hits);
+  if (remote_ != nullptr)
+    return remote_->closest_hits(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
+                                 hits);
   opaque_->closest_hits(rays, order, hits);
 }
 
 void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
-  if (elsewhere_ != nullptr)
-    return elsewhere_->occluded(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
-                                hidden);
+  if (remote_ != nullptr)
+    return remote_->occluded(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
+                             hidden);
   opaque_->occluded(rays, order, hidden);
 }
 
 void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
-  if (elsewhere_ != nullptr)
-    return elsewhere_->all_hits(to_eye_ ? WhichSpheres::clear_to_eye : WhichSpheres::clear_to_light, rays, order,
-                                found);
+  if (remote_ != nullptr)
+    return remote_->all_hits(to_eye_ ? WhichSpheres::clear_to_eye : WhichSpheres::clear_to_light, rays, order, found);
   transparent_->all_hits(rays, order, found);
 }
 
 Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, const Tracer& tracer, int threads) {
-  if (tracer.elsewhere() == nullptr) return of(scene, rule, tracer.engine(), threads);
+  if (tracer.remote() == nullptr) return of(scene, rule, tracer.engine(), threads);
   Transparency parts;
   if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
 
@@ -163,11 +162,11 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, cons
     alike = alike && passing.to_eye == passing.to_light;
     has_tints = has_tints || (passing.to_light > 0 && passing_tint(material) != Vec3d{1, 1, 1});
   }
-  if (to_light) parts.to_light = TransparentSpheres::elsewhere(scene, *tracer.elsewhere(), alike, has_tints);
+  if (to_light) parts.to_light = TransparentSpheres::remote(scene, *tracer.remote(), alike, has_tints);
   if (alike)
     parts.to_eye = parts.to_light;
   else if (to_eye)
-    parts.to_eye = TransparentSpheres::elsewhere(scene, *tracer.elsewhere(), true, has_tints);
+    parts.to_eye = TransparentSpheres::remote(scene, *tracer.remote(), true, has_tints);
   return parts;
 }
 

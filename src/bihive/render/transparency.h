@@ -18,7 +18,7 @@
 namespace bihive {
 
 class CutSet;
-class Elsewhere;
+class RemoteEngine;
 class PartTracer;
 
 /// The colour that the light gets which goes straight through: white if all of it does, and the nearer to the hue of
@@ -55,14 +55,14 @@ class TransparentSpheres {
 
   /// The same where other processes hold the spheres: `scene` knows those that were seen so far. `to_eye`: for rays
   /// that see, else for rays that ask for light. Both must outlive it.
-  static std::shared_ptr<const TransparentSpheres> elsewhere(const Scene& scene, Elsewhere& elsewhere, bool to_eye,
-                                                             bool has_tints);
+  static std::shared_ptr<const TransparentSpheres> remote(const Scene& scene, RemoteEngine& remote, bool to_eye,
+                                                          bool has_tints);
 
-  double passing(std::int64_t id) const { return elsewhere_ != nullptr ? passing_of_seen(id) : passing_[stored(id)]; }
+  double passing(std::int64_t id) const { return remote_ != nullptr ? passing_of_seen(id) : passing_[stored(id)]; }
   bool has_tints() const { return has_tints_; }
   Vec3d tint(std::int64_t id) const {
     if (!has_tints()) return {1, 1, 1};
-    if (elsewhere_ != nullptr) return tint_of_image(id);
+    if (remote_ != nullptr) return tint_of_image(id);
     if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size()) return tint_of_image(id);
     return tints_[stored(id)];
   }
@@ -97,7 +97,7 @@ class TransparentSpheres {
   std::vector<Vec3d> tints_;          // empty: all are white
   const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
   std::shared_ptr<const PartTracer> opaque_, transparent_;
-  Elsewhere* elsewhere_ = nullptr;  // null: the spheres are here
+  RemoteEngine* remote_ = nullptr;  // null: the spheres are here
   bool to_eye_ = false;             // where they are elsewhere
 };
 

@@ -92,14 +92,6 @@ std::optional<std::pair<double, double>> range_of(const SphereSet& spheres, cons
   } else {
     for (std::int64_t id = 0; id < spheres.size(); ++id) add(id, attribute.number_of(spheres, id));
   }
-  if (spheres.parts() != nullptr) {
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    std::vector<double> ends{-kInfinite, -kInfinite};
-    if (range) ends = {-range->first, range->second};
-    spheres.parts()->take_greatest(ends);
-    range.reset();
-    if (ends[1] > -kInfinite) range.emplace(-ends[0], ends[1]);
-  }
   return range;
 }
 
@@ -196,6 +188,13 @@ Result<ColourBy> colour_by_from_text(const std::string& text) {
   if (how.logarithmic && how.range && !(how.range->first > 0))
     return colour_by_error("a logarithmic range begins above 0, found \"" + text + "\"");
   return how;
+}
+
+std::optional<std::pair<double, double>> number_range(const SphereSet& spheres, const ColourBy& how) {
+  const FoundAttribute attribute = find_attribute(spheres, how.attribute);
+  if (!attribute.found() || attribute.texts != nullptr) return std::nullopt;
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(spheres.size()), 1);
+  return range_of(spheres, attribute, all, how.logarithmic);
 }
 
 Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,

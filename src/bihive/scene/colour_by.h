@@ -39,6 +39,10 @@ Result<ColourBy> colour_by_from_text(const std::string& text);
 Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
                            Transfer transfer, std::vector<Vec3f>& colours);
 
+/// The smallest and the greatest number of the attribute that colour_by() would take for an open range, above 0 if the
+/// map is logarithmic. Nothing: the set has no such numbers.
+std::optional<std::pair<double, double>> number_range(const SphereSet& spheres, const ColourBy& how);
+
 /// The place of a number in a range, 0 to 1 inside of it; 0.5 if the range has no extent. NaN: unknown, or not above 0
 /// on a logarithmic scale.
 double place_in_range(std::pair<double, double> range, bool logarithmic, double number);

@@ -42,13 +42,12 @@ class Span {
     low_ = std::max(low_, radius * low_slope_ - place + low_tangent_ * depth);
     high_ = std::max(high_, radius * high_slope_ + place + high_tangent_ * depth);
   }
-  /// With what the others have, of which each has a part of the spheres.
-  void add_others(const SetParts* parts) {
-    std::vector<double> numbers{low_, high_};
-    greatest_of_all(parts, numbers);
-    low_ = numbers[0];
-    high_ = numbers[1];
+  void take(double low, double high) {
+    low_ = low;
+    high_ = high;
   }
+  double low() const { return low_; }
+  double high() const { return high_; }
   /// The smallest distance at which both planes hold.
   double distance() const { return empty() ? 0 : (low_ + high_) / (low_tangent_ + high_tangent_); }
   /// The shift with as much room at both planes, from that distance on.
@@ -73,12 +72,6 @@ struct Extent {
     low = std::min(low, place - radius);
     high = std::max(high, place + radius);
   }
-  void add_others(const SetParts* parts) {
-    std::vector<double> numbers{-low, high};
-    greatest_of_all(parts, numbers);
-    low = -numbers[0];
-    high = numbers[1];
-  }
   double size() const { return high > low ? high - low : 0; }
   double middle() const { return high >= low ? low + 0.5 * (high - low) : 0; }
 };
@@ -90,39 +83,47 @@ void for_each_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points
   for (const Vec3d point : points) use(point, 0.0);
 }
 
-// Turns a camera that frames the set in perspective, whose `distance` from the spheres' `middle` is known, into one
-// with parallel rays.
-void frame_parallel(const SphereSet& spheres, const std::vector<Vec3d>& points, const Side& side, Vec3d middle,
-                    double distance, int width_px, int height_px, const FreePart& across_part,
-                    const FreePart& along_part, Camera& camera) {
+// Turns a camera that frames the set in perspective, at `distance` from the spheres' middle, into one with parallel
+// rays.
+void frame_parallel(const Framing& framing, const ViewReach& reach, double distance, Camera& camera) {
+  const Side& side = framing.side;
   const Vec3d right = normalized(cross(side.up, side.back));
   const Vec3d up = cross(side.back, right);
-  Extent across, along;
-  double front = 0;
-  for_each_in_view(spheres, points, [&](Vec3d place, double radius) {
-    const Vec3d centre = place - middle;
-    across.add(dot(centre, right), radius);
-    along.add(dot(centre, up), radius);
-    front = std::max(front, dot(centre, side.back) + radius);
-  });
-  for (Extent* extent : {&across, &along}) extent->add_others(spheres.parts());
-  front = greatest_of_all(spheres.parts(), front);
-  const double shorter = std::min(width_px, height_px);
-  const double side_length = std::max(across.size() * shorter / width_px / across_part.size(),
-                                      along.size() * shorter / height_px / along_part.size());
+  const Extent across{-reach.left, reach.right}, along{-reach.below, reach.above};
+  const FreePart across_part = free_part(framing.insets.left, framing.insets.right);
+  const FreePart along_part = free_part(framing.insets.bottom, framing.insets.top);
+  const double shorter = std::min(framing.width_px, framing.height_px);
+  const double side_length = std::max(across.size() * shorter / framing.width_px / across_part.size(),
+                                      along.size() * shorter / framing.height_px / along_part.size());
   camera.projection = Projection::orthographic;
   camera.shorter_side = side_length > 0 ? side_length : 1;
 
   // Origins are rounded to binary32, and must not come to lie in a sphere.
-  distance = std::max(distance, front + 0.5 * camera.shorter_side);
+  distance = std::max(distance, reach.front + 0.5 * camera.shorter_side);
   const double half_px = 0.5 * camera.shorter_side / shorter;
-  const Vec3d shift = (across.middle() - across_part.middle() * half_px * width_px) * right +
-                      (along.middle() - along_part.middle() * half_px * height_px) * up;
-  camera.look_at = middle + shift;
+  const Vec3d shift = (across.middle() - across_part.middle() * half_px * framing.width_px) * right +
+                      (along.middle() - along_part.middle() * half_px * framing.height_px) * up;
+  camera.look_at = framing.middle + shift;
   camera.eye = camera.look_at + distance * side.back;
   const double largest = std::max({std::abs(camera.eye.x), std::abs(camera.eye.y), std::abs(camera.eye.z)});
   camera.eye = camera.eye + 0x1p-20 * largest * side.back;
 }
+
+// The planes to the left and right, and below and above.
+struct Spans {
+  Span across, along;
+
+  explicit Spans(const Framing& framing)
+      : across(tangent(framing), framing.width_px, shorter(framing),
+               free_part(framing.insets.left, framing.insets.right)),
+        along(tangent(framing), framing.height_px, shorter(framing),
+              free_part(framing.insets.bottom, framing.insets.top)) {}
+
+ private:
+  // The tangents of the angles that the free part of the picture spans to either side.
+  static double tangent(const Framing& framing) { return tan_deg(framing.lens.fov_deg / 2); }
+  static double shorter(const Framing& framing) { return std::min(framing.width_px, framing.height_px); }
+};
 
 }  // namespace
 
@@ -146,45 +147,65 @@ Side side_of(ViewFrom from) {
   return {normalized(Vec3d{1, 1, 1}), {0, 1, 0}};
 }
 
+ViewReach reach_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points, const Framing& framing) {
+  const Side& side = framing.side;
+  const Vec3d right = normalized(cross(side.up, side.back));
+  const Vec3d up = cross(side.back, right);
+  Spans spans(framing);
+  Extent across, along;
+  ViewReach reach;
+  for_each_in_view(spheres, points, [&](Vec3d place, double radius) {
+    const Vec3d centre = place - framing.middle;
+    const double depth = dot(centre, side.back);
+    const double rightwards = dot(centre, right), upwards = dot(centre, up);
+    spans.across.add(rightwards, depth, radius);
+    spans.along.add(upwards, depth, radius);
+    reach.front = std::max(reach.front, depth + radius);
+    across.add(rightwards, radius);
+    along.add(upwards, radius);
+  });
+  reach.across_low = spans.across.low();
+  reach.across_high = spans.across.high();
+  reach.along_low = spans.along.low();
+  reach.along_high = spans.along.high();
+  reach.left = -across.low;
+  reach.right = across.high;
+  reach.below = -along.low;
+  reach.above = along.high;
+  return reach;
+}
+
+Camera camera_for(const Framing& framing, const ViewReach& reach) {
+  const Side& side = framing.side;
+  const Vec3d right = normalized(cross(side.up, side.back));
+  const Vec3d up = cross(side.back, right);
+  Spans spans(framing);
+  spans.across.take(reach.across_low, reach.across_high);
+  spans.along.take(reach.along_low, reach.along_high);
+  double distance = std::max({reach.front, spans.across.distance(), spans.along.distance()});
+  if (!(distance > 0)) distance = 1;
+  const Vec3d shift = spans.across.shift(distance) * right + spans.along.shift(distance) * up;
+
+  Camera camera;
+  camera.look_at = framing.middle + shift;
+  camera.eye = camera.look_at + distance * side.back;
+  camera.up = up;
+  camera.fov_deg = framing.lens.fov_deg;
+  if (framing.lens.projection == Projection::orthographic) frame_parallel(framing, reach, distance, camera);
+  return camera;
+}
+
+Vec3d middle_of(const SphereSet::Bounds& bounds) {
+  return bounds.lo.x <= bounds.hi.x ? bounds.lo + 0.5 * (bounds.hi - bounds.lo) : Vec3d{};
+}
+
 namespace {
 
 // The camera of frame_spheres(), with these points inside of the picture too.
 Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const Side& side, const Lens& lens,
              int width_px, int height_px, const Insets& insets) {
-  const Vec3d right = normalized(cross(side.up, side.back));
-  const Vec3d up = cross(side.back, right);
-  const SphereSet::Bounds bounds = spheres.bounds();
-  const Vec3d middle = spheres.whole_size() == 0 ? Vec3d{} : bounds.lo + 0.5 * (bounds.hi - bounds.lo);
-
-  // The tangents of the angles that the free part of the picture spans to either side.
-  const double shorter = std::min(width_px, height_px);
-  const double tangent = tan_deg(lens.fov_deg / 2);
-  const FreePart across_part = free_part(insets.left, insets.right);
-  const FreePart along_part = free_part(insets.bottom, insets.top);
-  Span across(tangent, width_px, shorter, across_part);
-  Span along(tangent, height_px, shorter, along_part);
-  double distance = 0;
-  for_each_in_view(spheres, points, [&](Vec3d place, double radius) {
-    const Vec3d centre = place - middle;
-    const double depth = dot(centre, side.back);
-    across.add(dot(centre, right), depth, radius);
-    along.add(dot(centre, up), depth, radius);
-    distance = std::max(distance, depth + radius);
-  });
-  for (Span* span : {&across, &along}) span->add_others(spheres.parts());
-  distance = greatest_of_all(spheres.parts(), distance);
-  distance = std::max({distance, across.distance(), along.distance()});
-  if (!(distance > 0)) distance = 1;
-  const Vec3d shift = across.shift(distance) * right + along.shift(distance) * up;
-
-  Camera camera;
-  camera.look_at = middle + shift;
-  camera.eye = camera.look_at + distance * side.back;
-  camera.up = up;
-  camera.fov_deg = lens.fov_deg;
-  if (lens.projection == Projection::orthographic)
-    frame_parallel(spheres, points, side, middle, distance, width_px, height_px, across_part, along_part, camera);
-  return camera;
+  const Framing framing{side, lens, width_px, height_px, insets, middle_of(spheres.bounds())};
+  return camera_for(framing, reach_in_view(spheres, points, framing));
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // A camera and a light for a set without its own: the whole set in view, as large as it fits.
 #pragma once
 
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/scene/camera.h"
@@ -45,6 +47,30 @@ constexpr double kMostInset = 0.4;
 Camera frame_spheres(const SphereSet& spheres, const Side& side, const Lens& lens, int width_px, int height_px,
                      const Insets& insets = {});
 Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, int width_px, int height_px);
+
+/// The picture that a camera shall fill, and the middle of all spheres.
+struct Framing {
+  Side side;
+  Lens lens;
+  int width_px, height_px;
+  Insets insets;
+  Vec3d middle;
+};
+/// The middle of a box; 0 for the bounds of an empty set.
+Vec3d middle_of(const SphereSet::Bounds& bounds);
+
+/// The reach of spheres towards the planes that bound a picture, and towards the eye: all that a camera must know of
+/// them. Where spheres lie in several sets, each number is the greatest of all.
+struct ViewReach {
+  static constexpr double kNone = -std::numeric_limits<double>::infinity();
+  double across_low = kNone, across_high = kNone, along_low = kNone, along_high = kNone;  ///< planes through the eye
+  double left = kNone, right = kNone, below = kNone, above = kNone;                       ///< from the middle
+  double front = 0;
+};
+/// `points`: to be in view besides the spheres.
+ViewReach reach_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points, const Framing& framing);
+/// The camera of frame_spheres() for spheres of this reach.
+Camera camera_for(const Framing& framing, const ViewReach& reach);
 
 /// One white light above, left of and behind the camera, at least as far from look_at as the camera is.
 PointLight light_behind(const Camera& camera);

@@ -20,6 +20,10 @@ enum class ParameterKind { flag, whole, number, choice, text, colour };
 /// The heading below which help and controls show a parameter.
 enum class ParameterGroup { picture, light, lines, tone, labels, cell };
 
+/// How ranks on which spheres are distributed read the input under a setting: each its chunk of the file; one rank the
+/// whole file; or the setting does not work there.
+enum class ParameterRanks { refused, whole, chunks };
+
 /// What a scene must have for a parameter to matter.
 enum class ParameterNeeds { nothing, soft_light, see_through };
 
@@ -37,6 +41,8 @@ struct Parameter {
   std::string_view report = "";  ///< key in reports and in the text of PNG files; "": none
   int version = 2;               ///< of the scene format that brought the key
   ParameterNeeds needs = ParameterNeeds::nothing;
+
+  ParameterRanks ranks = ParameterRanks::refused;
 
   bool has_option = true;         ///< "--" and the id with hyphens; false: another option of the command line sets it
   bool has_no_option = false;     ///< a flag: "--no-..." too
@@ -71,7 +77,9 @@ std::string expected_by(const Parameter& parameter);
 /// Whether the value is of the parameter's kind and in its range. A colour may be text.
 bool fits(const Parameter& parameter, const SettingValue& value);
 
-/// "--light-points", "--[no-]shadows".
+/// "--light-points".
 std::string option_of(const Parameter& parameter);
+/// The row of "--light-points" or "--no-shadows"; null: none.
+const Parameter* parameter_of_option(std::string_view option);
 
 }  // namespace bihive

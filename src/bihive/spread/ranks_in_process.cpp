@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "bihive/base/check.h"
-#include "bihive/spread/ranks.h"
+#include "bihive/spread/communicator.h"
 #include "bihive/spread/sphere_columns.h"
 
 namespace bihive {
@@ -54,14 +54,14 @@ class Meeting {
   std::int64_t number_ = 0;
 };
 
-class RankThread final : public Ranks {
+class ThreadCommunicator final : public Communicator {
  public:
-  RankThread(int rank, Meeting& meeting) : rank_(rank), meeting_(meeting) {}
+  ThreadCommunicator(int rank, Meeting& meeting) : rank_(rank), meeting_(meeting) {}
   int rank() const override { return rank_; }
   int size() const override { return meeting_.size(); }
   std::int64_t sent_bytes() const { return sent_bytes_; }
 
-  std::vector<Bytes> gather(const Bytes& own) override {
+  std::vector<Bytes> all_gather(const Bytes& own) override {
     sent_bytes_ += static_cast<std::int64_t>(own.size()) * (size() - 1);
     const std::shared_ptr<const Given> given = meeting_.meet(rank_, {own});
     std::vector<Bytes> all;
@@ -70,12 +70,12 @@ class RankThread final : public Ranks {
     return all;
   }
 
-  Bytes from_first(Bytes of_first) override {
+  Bytes broadcast(Bytes of_first) override {
     if (rank_ != 0) of_first.clear();
     return meeting_.meet(rank_, {std::move(of_first)})->front().front();
   }
 
-  void take_greatest(std::vector<double>& numbers) override {
+  void all_reduce_max(std::vector<double>& numbers) override {
     Bytes own;
     ByteWriter(own).put_array(numbers.data(), numbers.size());
     const std::shared_ptr<const Given> given = meeting_.meet(rank_, {own});
@@ -86,7 +86,7 @@ class RankThread final : public Ranks {
     }
   }
 
-  std::vector<Bytes> scatter(const std::vector<Bytes>& for_each) override {
+  std::vector<Bytes> all_to_all(const std::vector<Bytes>& for_each) override {
     for (std::size_t rank = 0; rank < for_each.size(); ++rank)
       if (static_cast<int>(rank) != rank_) sent_bytes_ += static_cast<std::int64_t>(for_each[rank].size());
     const std::shared_ptr<const Given> given = meeting_.meet(rank_, for_each);
@@ -101,6 +101,18 @@ class RankThread final : public Ranks {
   Meeting& meeting_;
   std::int64_t sent_bytes_ = 0;
 };
+
+void on_threads(int ranks, const std::function<void(ThreadCommunicator&)>& work) {
+  Meeting meeting(ranks);
+  std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(ranks));
+  for (int rank = 0; rank < ranks; ++rank)
+    threads.emplace_back([&, rank] {
+      ThreadCommunicator here(rank, meeting);
+      work(here);
+    });
+  for (std::thread& thread : threads) thread.join();
+}
 
 // The scene with the spheres from `first` to before `end`.
 Scene with_spheres(const Scene& whole, std::int64_t first, std::int64_t end) {
@@ -120,9 +132,9 @@ struct Rank {
   std::int64_t sent_bytes = 0;
 };
 
-class ExchangeInProcess final : public Exchange {
+class ChannelInProcess final : public Channel {
  public:
-  ExchangeInProcess(int rank, const std::vector<Rank>& ranks) : rank_(rank), all_(ranks) {}
+  ChannelInProcess(int rank, const std::vector<Rank>& ranks) : rank_(rank), all_(ranks) {}
   int rank() const override { return rank_; }
   int ranks() const override { return static_cast<int>(all_.size()); }
 
@@ -145,27 +157,21 @@ class Implementation final : public RanksInProcess {
 
   Status distribute(const Scene& whole, const RenderSettings& settings, const TreeParameters& parameters,
                     FirstSpheres first) {
-    Meeting meeting(size());
     std::vector<Status> failed(ranks_.size(), Done{});
-    std::vector<std::thread> threads;
-    threads.reserve(ranks_.size());
-    for (int rank = 0; rank < size(); ++rank)
-      threads.emplace_back([&, rank] {
-        RankThread here(rank, meeting);
-        const std::int64_t count = whole.spheres.size();
-        Scene scene = first == FirstSpheres::in_order
-                          ? with_spheres(whole, count * rank / size(), count * (rank + 1) / size())
-                          : with_spheres(whole, 0, rank == 0 ? count : 0);
-        Result<std::shared_ptr<const SpreadScene>> made =
-            SpreadScene::make(std::move(scene), settings, parameters, here);
-        Rank& of_rank = ranks_[static_cast<std::size_t>(rank)];
-        of_rank.sent_bytes = here.sent_bytes();
-        if (made)
-          of_rank.scene = std::move(*made);
-        else
-          failed[static_cast<std::size_t>(rank)] = made.error();
-      });
-    for (std::thread& thread : threads) thread.join();
+    on_threads(size(), [&](ThreadCommunicator& here) {
+      const int rank = here.rank();
+      const std::int64_t count = whole.spheres.size();
+      Scene scene = first == FirstSpheres::in_order
+                        ? with_spheres(whole, count * rank / size(), count * (rank + 1) / size())
+                        : with_spheres(whole, 0, rank == 0 ? count : 0);
+      Result<std::shared_ptr<const SpreadScene>> made = SpreadScene::make(std::move(scene), settings, parameters, here);
+      Rank& of_rank = ranks_[static_cast<std::size_t>(rank)];
+      of_rank.sent_bytes = here.sent_bytes();
+      if (made)
+        of_rank.scene = std::move(*made);
+      else
+        failed[static_cast<std::size_t>(rank)] = made.error();
+    });
     for (const Status& status : failed)
       if (!status) return status;
     return Done{};
@@ -174,7 +180,7 @@ class Implementation final : public RanksInProcess {
   int size() const override { return static_cast<int>(ranks_.size()); }
   const SpreadScene& scene(int rank) const override { return *of(rank).scene; }
   std::int64_t sent_bytes(int rank) const override { return of(rank).sent_bytes; }
-  std::unique_ptr<Exchange> exchange(int rank) override { return std::make_unique<ExchangeInProcess>(rank, ranks_); }
+  std::unique_ptr<Channel> channel(int rank) override { return std::make_unique<ChannelInProcess>(rank, ranks_); }
 
  private:
   const Rank& of(int rank) const { return ranks_[static_cast<std::size_t>(rank)]; }
@@ -183,6 +189,11 @@ class Implementation final : public RanksInProcess {
 };
 
 }  // namespace
+
+void on_ranks_in_process(int ranks, const std::function<void(Communicator&)>& work) {
+  BIHIVE_CHECK_GE(ranks, 1);
+  on_threads(ranks, work);
+}
 
 Result<std::unique_ptr<RanksInProcess>> RanksInProcess::make(const Scene& whole, const RenderSettings& settings,
                                                              const TreeParameters& parameters, int ranks,

@@ -3,13 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
-#include "bihive/spread/exchange.h"
+#include "bihive/spread/channel.h"
+#include "bihive/spread/communicator.h"
 #include "bihive/spread/spread_scene.h"
 
 namespace bihive {
@@ -19,6 +21,10 @@ enum class FirstSpheres {
   all_on_rank_0,
   in_order,  ///< each rank has some that follow each other
 };
+
+/// Calls `work` on a thread for each rank, and waits for their end. A rank that leaves out a collective call of the
+/// others keeps them waiting for ever.
+void on_ranks_in_process(int ranks, const std::function<void(Communicator&)>& work);
 
 class RanksInProcess {
  public:
@@ -34,7 +40,7 @@ class RanksInProcess {
 
   /// What `rank` asks is answered on the thread that asks, at once. Threads may ask at the same time. Must not outlive
   /// this object.
-  virtual std::unique_ptr<Exchange> exchange(int rank) = 0;
+  virtual std::unique_ptr<Channel> channel(int rank) = 0;
 };
 
 }  // namespace bihive

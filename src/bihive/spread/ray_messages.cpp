@@ -61,7 +61,7 @@ Bytes rays_question(QuestionKind kind, WhichSpheres which, RayOrder order, const
   put_chosen_rays<double>(
       chosen, [&](std::int64_t i) { return (*rays.ends)[static_cast<std::size_t>(i)]; }, out);
   put_column(*rays.places, out);
-  put_column(*rays.guests, out);
+  put_column(*rays.ghosts, out);
   put_chosen_rays<std::uint8_t>(
       chosen, [&](std::int64_t i) { return span.inside != nullptr ? span.inside[i] : std::uint8_t{0}; }, out);
   return bytes;
@@ -78,7 +78,7 @@ void take_rays(ByteReader& in, RaysAsked& asked) {
   take_column(in, count, rays.t_max);
   static thread_local std::vector<Place> places;
   take_column(in, count, places);
-  take_column(in, count, asked.guests);
+  take_column(in, count, asked.ghosts);
   rays.leaves.resize(count);
   for (std::size_t i = 0; i < count; ++i)
     rays.leaves[i] = places[i] == kNoPlace ? kNothing : static_cast<std::int64_t>(places[i]);
@@ -104,16 +104,16 @@ std::vector<FoundSphere> take_found(const Bytes& answer) {
   return found;
 }
 
-void put_hidden(const std::vector<std::uint8_t>& hidden, Bytes& answer) {
-  Bytes bits((hidden.size() + 7) / 8, 0);
-  for (std::size_t i = 0; i < hidden.size(); ++i)
-    if (hidden[i] != 0) bits[i / 8] = static_cast<char>(bits[i / 8] | (1 << (i % 8)));
+void put_occluded(const std::vector<std::uint8_t>& is_occluded, Bytes& answer) {
+  Bytes bits((is_occluded.size() + 7) / 8, 0);
+  for (std::size_t i = 0; i < is_occluded.size(); ++i)
+    if (is_occluded[i] != 0) bits[i / 8] = static_cast<char>(bits[i / 8] | (1 << (i % 8)));
   ByteWriter(answer).put_array(bits.data(), bits.size());
 }
 
-void take_hidden(const Bytes& answer, std::vector<std::uint8_t>& hidden) {
-  for (std::size_t i = 0; i < hidden.size(); ++i)
-    hidden[i] = static_cast<std::uint8_t>(static_cast<unsigned char>(answer[i / 8]) >> (i % 8) & 1);
+void take_occluded(const Bytes& answer, std::vector<std::uint8_t>& is_occluded) {
+  for (std::size_t i = 0; i < is_occluded.size(); ++i)
+    is_occluded[i] = static_cast<std::uint8_t>(static_cast<unsigned char>(answer[i / 8]) >> (i % 8) & 1);
 }
 
 }  // namespace bihive

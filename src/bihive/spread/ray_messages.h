@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bihive/render/elsewhere.h"
+#include "bihive/render/remote_engine.h"
 #include "bihive/spread/bytes.h"
 
 namespace bihive {
@@ -18,13 +18,13 @@ using Place = std::uint32_t;
 constexpr Place kNoPlace = ~Place{0};
 
 /// Some rays of a span: those of the numbers `chosen`. `places`: of the sphere that each chosen ray leaves, as the rank
-/// that is asked knows it. `guests`: if it is another rank's sphere, and clips may let it matter, its id in the whole
+/// that is asked knows it. `ghosts`: if it is another rank's sphere, and clips may let it matter, its id in the whole
 /// set; else kNothing. `ends`: of all rays of the span; they replace t_max.
 struct ChosenRays {
   const RaySpan* rays;
   const std::vector<std::int64_t>* chosen;
   const std::vector<Place>* places;
-  const std::vector<std::int64_t>* guests;
+  const std::vector<std::int64_t>* ghosts;
   const std::vector<double>* ends;
 };
 
@@ -35,7 +35,7 @@ struct RaysAsked {
   WhichSpheres which;
   RayOrder order;
   RayBatch rays;
-  std::vector<std::int64_t> guests;
+  std::vector<std::int64_t> ghosts;
 };
 /// The kind was taken.
 void take_rays(ByteReader& question, RaysAsked& asked);
@@ -51,7 +51,7 @@ void put_found(const std::vector<FoundSphere>& found, Bytes& answer);
 std::vector<FoundSphere> take_found(const Bytes& answer);
 
 /// A bit for each ray.
-void put_hidden(const std::vector<std::uint8_t>& hidden, Bytes& answer);
-void take_hidden(const Bytes& answer, std::vector<std::uint8_t>& hidden);
+void put_occluded(const std::vector<std::uint8_t>& is_occluded, Bytes& answer);
+void take_occluded(const Bytes& answer, std::vector<std::uint8_t>& is_occluded);
 
 }  // namespace bihive

@@ -12,11 +12,11 @@ constexpr std::size_t kFirstSlots = 1024;
 
 }  // namespace
 
-SeenSpheres::SeenSpheres(Scene shell, const SphereColumns& has, const Bytes& stand_ins)
+SeenSpheres::SeenSpheres(Scene shell, const SphereColumns& has, const Bytes& proxies)
     : scene_(std::move(shell)), has_(has), slots_(kFirstSlots, {0, kNothing}) {
-  ByteReader packed(stand_ins);
+  ByteReader packed(proxies);
   while (!packed.at_end()) append(packed);
-  stand_ins_ = scene_.spheres.size();
+  proxies_ = scene_.spheres.size();
 }
 
 // People know a sphere by its number in the whole set.
@@ -43,7 +43,7 @@ std::int64_t SeenSpheres::id_of(Address address) const {
 }
 
 Address SeenSpheres::address_of(std::int64_t id) const {
-  const std::int64_t number = id - stand_ins_;
+  const std::int64_t number = id - proxies_;
   if (id < 0 || number < 0 || number >= static_cast<std::int64_t>(addresses_.size())) return {-1, kNoPlace};
   return addresses_[static_cast<std::size_t>(number)];
 }
@@ -64,7 +64,7 @@ void SeenSpheres::add(const std::vector<Address>& addresses, ByteReader& packed)
 }
 
 void SeenSpheres::forget() {
-  keep_first_spheres(stand_ins_, has_, scene_, whole_ids_);
+  keep_first_spheres(proxies_, has_, scene_, whole_ids_);
   if (!has_.input_id) scene_.id_in_input = whole_ids_;
   addresses_.clear();
   slots_.assign(kFirstSlots, {0, kNothing});

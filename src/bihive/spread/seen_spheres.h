@@ -16,12 +16,12 @@ struct Address {
   Place place;
 };
 
-/// The scene has as its spheres those that stand for the whole set (spread/stand_ins.h), then those that were seen, in
+/// The scene has as its spheres those that stand for the whole set (spread/proxies.h), then those that were seen, in
 /// the order in which they came. Their ids here mean nothing elsewhere.
 class SeenSpheres {
  public:
   /// `shell`: the scene without spheres.
-  SeenSpheres(Scene shell, const SphereColumns& has, const Bytes& stand_ins);
+  SeenSpheres(Scene shell, const SphereColumns& has, const Bytes& proxies);
   SeenSpheres(const SeenSpheres&) = delete;
   SeenSpheres& operator=(const SeenSpheres&) = delete;
 
@@ -36,7 +36,7 @@ class SeenSpheres {
   void add(const std::vector<Address>& addresses, ByteReader& packed);
   /// Forgets all that was seen.
   void forget();
-  std::int64_t count() const { return scene_.spheres.size() - stand_ins_; }
+  std::int64_t count() const { return scene_.spheres.size() - proxies_; }
 
  private:
   static std::uint64_t key_of(Address address) {
@@ -49,7 +49,7 @@ class SeenSpheres {
   Scene scene_;
   SphereColumns has_;
   std::vector<std::int64_t> whole_ids_;
-  std::int64_t stand_ins_ = 0;
+  std::int64_t proxies_ = 0;
   std::vector<Address> addresses_;  // of each sphere that was seen
   // A table with open addresses: ids by key.
   struct Slot {

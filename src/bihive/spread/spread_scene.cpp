@@ -9,13 +9,13 @@
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/geometry/stored_clip.h"
 #include "bihive/scene/clips.h"
-#include "bihive/spread/part_of_set.h"
+#include "bihive/spread/local_spheres.h"
+#include "bihive/spread/proxies.h"
 #include "bihive/spread/rank_boxes.h"
+#include "bihive/spread/remote_spheres.h"
 #include "bihive/spread/seen_spheres.h"
 #include "bihive/spread/sphere_columns.h"
 #include "bihive/spread/sphere_keys.h"
-#include "bihive/spread/spheres_elsewhere.h"
-#include "bihive/spread/stand_ins.h"
 
 namespace bihive {
 namespace {
@@ -31,25 +31,10 @@ constexpr std::int64_t kSpheresAtOnce = 1 << 18;
 // A thread forgets what it saw when it was so much.
 constexpr std::int64_t kMostSeen = 1 << 22;
 
-template <class T>
-Bytes bytes_of(const T& value) {
-  Bytes bytes;
-  ByteWriter(bytes).put(value);
-  return bytes;
-}
-
-// Of all ranks, in their order.
-template <class T>
-std::vector<T> gather(Ranks& ranks, const T& value) {
-  std::vector<T> values;
-  for (const Bytes& bytes : ranks.gather(bytes_of(value))) values.push_back(ByteReader(bytes).take<T>());
-  return values;
-}
-
 // The columns that some rank's spheres have.
-SphereColumns columns_of_all(const Scene& scene, Ranks& ranks) {
+SphereColumns columns_of_all(const Scene& scene, Communicator& ranks) {
   SphereColumns has;
-  for (const SphereColumns& one : gather(ranks, SphereColumns::of(scene))) {
+  for (const SphereColumns& one : ranks.all_gather_value(SphereColumns::of(scene))) {
     for (bool SphereColumns::*const column :
          {&SphereColumns::element, &SphereColumns::type, &SphereColumns::colour, &SphereColumns::opacity,
           &SphereColumns::outline, &SphereColumns::crease, &SphereColumns::clips, &SphereColumns::material,
@@ -61,14 +46,14 @@ SphereColumns columns_of_all(const Scene& scene, Ranks& ranks) {
 
 // The first key of each rank, from samples of all spheres at even distances. Rank 0 alone looks at them: there may be
 // more than another rank has spheres.
-std::vector<SphereKey> common_starts(const SphereSet& spheres, std::int64_t whole_size, Ranks& ranks) {
+std::vector<SphereKey> common_starts(const SphereSet& spheres, std::int64_t whole_size, Communicator& ranks) {
   const std::int64_t samples_of_all = std::max(kSamplesOfAll, kFewestSamples * ranks.size());
   const std::int64_t step = std::max<std::int64_t>(1, whole_size / samples_of_all);
   std::vector<Bytes> for_each(static_cast<std::size_t>(ranks.size()));
   ByteWriter out(for_each.front());
   for (std::int64_t id = 0; id < spheres.size(); id += step) out.put(key_of(spheres, id));
   std::vector<SphereKey> samples;
-  for (const Bytes& bytes : ranks.scatter(for_each)) {
+  for (const Bytes& bytes : ranks.all_to_all(for_each)) {
     const std::size_t before = samples.size();
     samples.resize(before + bytes.size() / sizeof(SphereKey));
     ByteReader(bytes).take_array(samples.data() + before, samples.size() - before);
@@ -76,7 +61,7 @@ std::vector<SphereKey> common_starts(const SphereSet& spheres, std::int64_t whol
   std::vector<SphereKey> starts = starts_of_ranks(std::move(samples), ranks.size());
   Bytes decided;
   ByteWriter(decided).put_array(starts.data(), starts.size());
-  ByteReader(ranks.from_first(std::move(decided))).take_array(starts.data(), starts.size());
+  ByteReader(ranks.broadcast(std::move(decided))).take_array(starts.data(), starts.size());
   return starts;
 }
 
@@ -99,10 +84,10 @@ void sort_by_whole_id(SomeSpheres& spheres, const SphereColumns& has) {
 
 // Sends all spheres to their ranks.
 SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const SphereColumns& has, const Scene& shell,
-                 Ranks& ranks) {
+                 Communicator& ranks) {
   SomeSpheres got{shell, {}};
   const SphereSet& spheres = had.scene.spheres;
-  const std::vector<std::int64_t> sizes = gather(ranks, spheres.size());
+  const std::vector<std::int64_t> sizes = ranks.all_gather_value(spheres.size());
   const std::int64_t largest = *std::max_element(sizes.begin(), sizes.end());
   for (std::int64_t first = 0; first < largest; first += kSpheresAtOnce) {
     std::vector<std::vector<std::int64_t>> ids(static_cast<std::size_t>(ranks.size()));
@@ -111,7 +96,7 @@ SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const Sp
     std::vector<Bytes> packed(ids.size());
     for (std::size_t rank = 0; rank < ids.size(); ++rank)
       if (!ids[rank].empty()) pack_spheres(had.scene, has, had.whole_ids, ids[rank], packed[rank]);
-    for (const Bytes& bytes : ranks.scatter(packed)) {
+    for (const Bytes& bytes : ranks.all_to_all(packed)) {
       ByteReader reader(bytes);
       while (!reader.at_end()) append_spheres(reader, has, got.scene, got.whole_ids);
     }
@@ -121,9 +106,9 @@ SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const Sp
   return got;
 }
 
-// Where clips cut spheres, the surface that a ray leaves may also be a cap of a sphere elsewhere, which lies in the
-// same plane or on the same ball as one here: each rank knows all cut spheres, and those that equal a clip.
-std::vector<std::int64_t> possible_guests(const Scene& scene) {
+// Ghost spheres. Where clips cut spheres, the surface that a ray leaves may also be a cap of a remote sphere, which
+// lies in the same plane or on the same ball as one here: each rank knows all cut spheres, and those that equal a clip.
+std::vector<std::int64_t> possible_ghosts(const Scene& scene) {
   std::vector<std::int64_t> ids;
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
@@ -139,66 +124,66 @@ std::vector<std::int64_t> possible_guests(const Scene& scene) {
 }
 
 // Adds the spheres of other ranks that matter here. Returns how many spheres were there before.
-std::int64_t add_guests(SomeSpheres& own, const SphereColumns& has, const Scene& shell, Ranks& ranks) {
+std::int64_t add_ghosts(SomeSpheres& own, const SphereColumns& has, const Scene& shell, Communicator& ranks) {
   const std::int64_t count = own.scene.spheres.size();
   if (!has.clips || shell.clips.empty()) return count;
   Bytes packed;
-  pack_spheres(own.scene, has, own.whole_ids, possible_guests(own.scene), packed);
-  const std::vector<Bytes> all = ranks.gather(packed);
-  SomeSpheres guests{shell, {}};
+  pack_spheres(own.scene, has, own.whole_ids, possible_ghosts(own.scene), packed);
+  const std::vector<Bytes> all = ranks.all_gather(packed);
+  SomeSpheres ghosts{shell, {}};
   for (int rank = 0; rank < ranks.size(); ++rank) {
     if (rank == ranks.rank()) continue;
     ByteReader reader(all[static_cast<std::size_t>(rank)]);
-    append_spheres(reader, has, guests.scene, guests.whole_ids);
+    append_spheres(reader, has, ghosts.scene, ghosts.whole_ids);
   }
-  sort_by_whole_id(guests, has);
+  sort_by_whole_id(ghosts, has);
   // Without a cut sphere anywhere all spheres are whole or gone.
   const bool here = cut_set_of(own.scene) != nullptr;
-  if (!here && cut_set_of(guests.scene) == nullptr) return count;
+  if (!here && cut_set_of(ghosts.scene) == nullptr) return count;
   packed.clear();
-  std::vector<std::int64_t> ids(guests.whole_ids.size());
+  std::vector<std::int64_t> ids(ghosts.whole_ids.size());
   std::iota(ids.begin(), ids.end(), std::int64_t{0});
-  pack_spheres(guests.scene, has, guests.whole_ids, ids, packed);
+  pack_spheres(ghosts.scene, has, ghosts.whole_ids, ids, packed);
   ByteReader reader(packed);
   append_spheres(reader, has, own.scene, own.whole_ids);
   return count;
 }
 
 // Those of all ranks together, in the order of the whole set.
-Bytes common_stand_ins(const SomeSpheres& own, const RenderSettings& settings, const SphereColumns& has,
-                       const Scene& shell, Ranks& ranks) {
+Bytes common_proxies(const SomeSpheres& own, const RenderSettings& settings, const SphereColumns& has,
+                     const Scene& shell, Communicator& ranks) {
   Bytes packed;
-  pack_spheres(own.scene, has, own.whole_ids, stand_ins(own.scene, settings), packed);
+  pack_spheres(own.scene, has, own.whole_ids, proxies_of(own.scene, settings), packed);
   SomeSpheres all{shell, {}};
-  for (const Bytes& bytes : ranks.gather(packed)) {
+  for (const Bytes& bytes : ranks.all_gather(packed)) {
     ByteReader reader(bytes);
     append_spheres(reader, has, all.scene, all.whole_ids);
   }
   sort_by_whole_id(all, has);
   // Many ranks have many; those that stand for them stand for all.
   Bytes together;
-  pack_spheres(all.scene, has, all.whole_ids, stand_ins(all.scene, settings), together);
+  pack_spheres(all.scene, has, all.whole_ids, proxies_of(all.scene, settings), together);
   return together;
 }
 
 class ArtistOfScene final : public SpreadScene::Artist {
  public:
-  ArtistOfScene(const Scene& shell, const SphereColumns& has, const Bytes& stand_ins, const RankBoxes& boxes,
-                const PartOfSet& here, Exchange& exchange)
-      : seen_(shell, has, stand_ins),
-        elsewhere_(std::make_shared<SpheresElsewhere>(seen_, boxes, here, exchange)),
-        tracer_(seen_.scene().spheres, elsewhere_, cut_set_of(seen_.scene()) != nullptr) {}
+  ArtistOfScene(const Scene& shell, const SphereColumns& has, const Bytes& proxies, const RankBoxes& boxes,
+                const LocalSpheres& here, Channel& channel)
+      : seen_(shell, has, proxies),
+        remote_(std::make_shared<RemoteSpheres>(seen_, boxes, here, channel)),
+        tracer_(seen_.scene().spheres, remote_, cut_set_of(seen_.scene()) != nullptr) {}
 
   const Scene& scene() const override { return seen_.scene(); }
   const Tracer& tracer() const override { return tracer_; }
   void rest() override {
     if (seen_.count() > kMostSeen) seen_.forget();
   }
-  ExchangeCounts counts() const override { return elsewhere_->counts(); }
+  ChannelCounts counts() const override { return remote_->counts(); }
 
  private:
   SeenSpheres seen_;
-  std::shared_ptr<SpheresElsewhere> elsewhere_;
+  std::shared_ptr<RemoteSpheres> remote_;
   Tracer tracer_;
 };
 
@@ -209,15 +194,15 @@ struct SpreadScene::Implementation {
   SphereColumns has;
   std::int64_t whole_size = 0;
   std::unique_ptr<RankBoxes> boxes;
-  Bytes stand_ins;
-  std::shared_ptr<const PartOfSet> part;
+  Bytes proxies;
+  std::shared_ptr<const LocalSpheres> local;
 };
 
-void give_all_spheres(Scene& scene, Ranks& ranks) {
+void give_all_spheres(Scene& scene, Communicator& ranks) {
   const bool gives = ranks.rank() == 0;
-  const Images images = ByteReader(ranks.from_first(bytes_of(scene.spheres.images()))).take<Images>();
-  const auto has = ByteReader(ranks.from_first(bytes_of(SphereColumns::of(scene)))).take<SphereColumns>();
-  const auto count = ByteReader(ranks.from_first(bytes_of(scene.spheres.size()))).take<std::int64_t>();
+  const Images images = ranks.broadcast_value(scene.spheres.images());
+  const auto has = ranks.broadcast_value(SphereColumns::of(scene));
+  const auto count = ranks.broadcast_value(scene.spheres.size());
   std::vector<std::int64_t> whole_ids;
   for (std::int64_t first = 0; first < count; first += kSpheresAtOnce) {
     Bytes packed;
@@ -226,7 +211,7 @@ void give_all_spheres(Scene& scene, Ranks& ranks) {
       std::iota(ids.begin(), ids.end(), first);
       pack_spheres(scene, has, {}, ids, packed);
     }
-    packed = ranks.from_first(std::move(packed));
+    packed = ranks.broadcast(std::move(packed));
     if (gives) continue;
     ByteReader reader(packed);
     append_spheres(reader, has, scene, whole_ids);
@@ -250,7 +235,7 @@ Status SpreadScene::refusal(const Scene& scene, const RenderSettings& settings) 
 }
 
 Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const RenderSettings& settings,
-                                                             const TreeParameters& parameters, Ranks& ranks) {
+                                                             const TreeParameters& parameters, Communicator& ranks) {
   BIHIVE_CHECK(!scene.spheres.has_images());
   std::shared_ptr<SpreadScene> made(new SpreadScene);
   Implementation& all = *made->implementation_;
@@ -258,7 +243,7 @@ Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const 
   all.has = columns_of_all(scene, ranks);
 
   // Number all spheres, and send each to its rank.
-  const std::vector<std::int64_t> sizes = gather(ranks, scene.spheres.size());
+  const std::vector<std::int64_t> sizes = ranks.all_gather_value(scene.spheres.size());
   all.whole_size = std::accumulate(sizes.begin(), sizes.end(), std::int64_t{0});
   std::vector<std::int64_t> whole_ids(static_cast<std::size_t>(scene.spheres.size()));
   std::iota(whole_ids.begin(), whole_ids.end(),
@@ -267,34 +252,34 @@ Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const 
   SomeSpheres own = sent({std::move(scene), std::move(whole_ids)}, starts, all.has, all.shell, ranks);
 
   // Tell all of what is here, and build.
-  all.stand_ins = common_stand_ins(own, settings, all.has, all.shell, ranks);
-  all.boxes = std::make_unique<RankBoxes>(gather(ranks, box_of(own.scene.spheres)), all.shell.spheres.scale());
-  const std::int64_t count = add_guests(own, all.has, all.shell, ranks);
-  Result<std::shared_ptr<const PartOfSet>> part =
-      PartOfSet::make(std::move(own.scene), std::move(own.whole_ids), count, all.has, settings.opacity_rule, parameters,
-                      settings.threads);
+  all.proxies = common_proxies(own, settings, all.has, all.shell, ranks);
+  all.boxes = std::make_unique<RankBoxes>(ranks.all_gather_value(box_of(own.scene.spheres)), all.shell.spheres.scale());
+  const std::int64_t count = add_ghosts(own, all.has, all.shell, ranks);
+  Result<std::shared_ptr<const LocalSpheres>> part =
+      LocalSpheres::make(std::move(own.scene), std::move(own.whole_ids), count, all.has, settings.opacity_rule,
+                         parameters, settings.threads);
   if (!part) return part.error();
-  all.part = std::move(*part);
+  all.local = std::move(*part);
   return std::shared_ptr<const SpreadScene>(std::move(made));
 }
 
 std::int64_t SpreadScene::size() const {
-  return implementation_->part->size();
+  return implementation_->local->size();
 }
 std::int64_t SpreadScene::whole_size() const {
   return implementation_->whole_size;
 }
 double SpreadScene::build_ms() const {
-  return implementation_->part->build_ms();
+  return implementation_->local->build_ms();
 }
 
 Bytes SpreadScene::answer(const Bytes& question) const {
-  return implementation_->part->answer(question);
+  return implementation_->local->answer(question);
 }
 
-std::unique_ptr<SpreadScene::Artist> SpreadScene::artist(Exchange& exchange) const {
+std::unique_ptr<SpreadScene::Artist> SpreadScene::artist(Channel& channel) const {
   const Implementation& all = *implementation_;
-  return std::make_unique<ArtistOfScene>(all.shell, all.has, all.stand_ins, *all.boxes, *all.part, exchange);
+  return std::make_unique<ArtistOfScene>(all.shell, all.has, all.proxies, *all.boxes, *all.local, channel);
 }
 
 }  // namespace bihive

@@ -1,7 +1,7 @@
 // A scene whose spheres lie on several ranks, each on one: for sets beyond the memory of one machine.
 //
 // Each rank keeps its spheres, their tree, and a scene without the others. Threads that draw have an Artist each, and
-// ask other ranks through an Exchange; their questions are answered by SpreadScene::answer(). Pictures have the bits of
+// ask other ranks through a Channel; their questions are answered by SpreadScene::answer(). Pictures have the bits of
 // one process that has all spheres, for any number of ranks.
 #pragma once
 
@@ -14,20 +14,20 @@
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
 #include "bihive/spread/bytes.h"
-#include "bihive/spread/exchange.h"
-#include "bihive/spread/ranks.h"
+#include "bihive/spread/channel.h"
+#include "bihive/spread/communicator.h"
 
 namespace bihive {
 
 /// The cost of the rays of a thread.
-struct ExchangeCounts {
+struct ChannelCounts {
   std::int64_t rays = 0;      ///< of queries
   std::int64_t asked = 0;     ///< rays times the ranks that they were asked on, this one too
   std::int64_t messages = 0;  ///< to other ranks and back
   std::int64_t bytes = 0;     ///< in these
   std::int64_t rounds = 0;    ///< times that a query waited for other ranks
 
-  void add(const ExchangeCounts& more) {
+  void add(const ChannelCounts& more) {
     rays += more.rays;
     asked += more.asked;
     messages += more.messages;
@@ -38,7 +38,7 @@ struct ExchangeCounts {
 
 /// For all ranks at the same time: on rank 0 a scene with its spheres, which the others get too. These have the same
 /// scene without spheres and copies (spread/scene_bytes.h).
-void give_all_spheres(Scene& scene, Ranks& ranks);
+void give_all_spheres(Scene& scene, Communicator& ranks);
 
 /// One rank's share of a scene. Const after make(); any number of threads may use it at a time.
 class SpreadScene {
@@ -53,7 +53,7 @@ class SpreadScene {
   /// together: more spheres than a rank can number, or not enough memory for their tree. Copies of a replicated set
   /// are a programmer's error (refusal()).
   static Result<std::shared_ptr<const SpreadScene>> make(Scene scene, const RenderSettings& settings,
-                                                         const TreeParameters& parameters, Ranks& ranks);
+                                                         const TreeParameters& parameters, Communicator& ranks);
   /// Why spheres of this scene cannot be spread, with these settings.
   static Status refusal(const Scene& scene, const RenderSettings& settings);
 
@@ -61,7 +61,7 @@ class SpreadScene {
   std::int64_t whole_size() const;  ///< of all
   double build_ms() const;
 
-  /// The answer to any question that an Exchange brings.
+  /// The answer to any question that a Channel brings.
   Bytes answer(const Bytes& question) const;
 
   /// For one thread.
@@ -72,10 +72,10 @@ class SpreadScene {
     virtual const Tracer& tracer() const = 0;
     /// Gives memory back, between two pictures or parts of one.
     virtual void rest() = 0;
-    virtual ExchangeCounts counts() const = 0;
+    virtual ChannelCounts counts() const = 0;
   };
-  /// The scene and the exchange must outlive it.
-  std::unique_ptr<Artist> artist(Exchange& exchange) const;
+  /// The scene and the channel must outlive it.
+  std::unique_ptr<Artist> artist(Channel& channel) const;
 
  private:
   SpreadScene();

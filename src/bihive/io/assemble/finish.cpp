@@ -31,9 +31,6 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
           0, 0, "give --radius a number from 0"};
     raw.r.assign(raw.size(), *options.radius);
     raw.rules.push_back("radii: all " + readable_number(*options.radius) + ", as asked for");
-  } else if (greatest_of_all(options.parts.get(), raw.r.empty() ? 0 : 1) == 0) {
-    // No part has radii; one without spheres cannot tell.
-    fill_radii(raw, options.parts.get());
   }
   if (options.radius_scale != 1) {
     if (const char* fault = radius_fault(options.radius_scale))
@@ -43,27 +40,6 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
     raw.rules.push_back("radii: multiplied by " + readable_number(options.radius_scale));
   }
   return Done{};
-}
-
-// Moves the middle of the centres' bounding box to the origin, in binary64; copies count. Returns the vector that was
-// subtracted.
-Vec3d recenter(RawSpheres& raw, const Images& images, const SetParts* parts) {
-  const Images::Shifts shifts = images.shifts();
-  const auto middle_of = [&](const std::vector<double>& values, int axis) {
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    std::vector<double> ends{-kInfinite, -kInfinite};
-    for (const double value : values) ends = {std::max(ends[0], -value), std::max(ends[1], value)};
-    greatest_of_all(parts, ends);
-    return 0.5 * (-ends[0] + shifts.lo[axis]) + 0.5 * (ends[1] + shifts.hi[axis]);
-  };
-  const Vec3d middle{middle_of(raw.x, 0), middle_of(raw.y, 1), middle_of(raw.z, 2)};
-  if (raw.cell) raw.cell->origin = raw.cell->origin - middle;
-  for (double& x : raw.x) x -= middle.x;
-  for (double& y : raw.y) y -= middle.y;
-  for (double& z : raw.z) z -= middle.z;
-  raw.rules.push_back("recentred: (" + readable_number(middle.x) + ", " + readable_number(middle.y) + ", " +
-                      readable_number(middle.z) + ") subtracted from every centre");
-  return middle;
 }
 
 // The cell as the user wants it, the centres moved by it, and the copies that are wanted along it.
@@ -89,94 +65,146 @@ Result<Images> apply_cell_options(RawSpheres& raw, const std::string& name, cons
   return images;
 }
 
-// Warns of centres that single precision moves too far.
-void warn_of_rounding(const RawSpheres& raw, const SphereSet& set, bool recentred, std::vector<std::string>& warnings) {
-  std::int64_t moved = 0, worst = -1;
-  double worst_share = kHarmlessShift;
-  for (std::int64_t id = 0; id < set.size(); ++id) {
-    const auto i = static_cast<std::size_t>(id);
-    if (!(raw.r[i] > 0)) continue;
-    const double share = length(set.centre(id) - Vec3d{raw.x[i], raw.y[i], raw.z[i]}) / raw.r[i];
-    if (!(share > kHarmlessShift)) continue;
-    ++moved;
-    if (share > worst_share) {
-      worst_share = share;
-      worst = id;
-    }
-  }
-  // The worst of all parts, the first of equal ones.
-  if (set.parts() != nullptr) {
-    const std::int64_t first = count_of_all(set.parts(), set.size()).before;
-    moved = count_of_all(set.parts(), moved).all;
-    const std::vector<double> own{worst_share, static_cast<double>(first + worst)};
-    worst_share = kHarmlessShift;
-    for (const std::vector<double>& one : set.parts()->gather(own)) {
-      if (!(one[0] > worst_share)) continue;
-      worst_share = one[0];
-      worst = static_cast<std::int64_t>(one[1]);
-    }
-  }
-  if (moved == 0) return;
-  std::string text = "rounding to single precision moves " + std::to_string(moved) + " of " +
-                     std::to_string(set.whole_size()) + " centres by more than 1 % of the radius (sphere " +
-                     std::to_string(worst) + " by " + readable_number(100 * worst_share) + " %)";
-  text += recentred ? "; the radii are too small for the extent" : "; --recenter makes it finer";
-  warnings.push_back(text);
-}
-
 }  // namespace
 
-Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options) {
-  const SetParts* const parts = options.parts.get();
-  if (count_of_all(parts, static_cast<std::int64_t>(raw.size())).all == 0)
-    return Error{"there are no spheres in it (read as " + raw.format + ")", name, 0, 0, ""};
-  const auto count = static_cast<std::int64_t>(raw.size());
+SphereFinisher::SphereFinisher(RawSpheres raw, std::string name, const ReadOptions& options)
+    : raw_(std::move(raw)), name_(std::move(name)), options_(options) {}
+
+Error SphereFinisher::named(Error error) const {
+  error.file = name_;
+  return error;
+}
+
+Status SphereFinisher::begin(std::int64_t first, std::int64_t all) {
+  first_ = first;
+  all_ = all;
+  if (all == 0) return Error{"there are no spheres in it (read as " + raw_.format + ")", name_, 0, 0, ""};
+  const auto count = static_cast<std::int64_t>(raw_.size());
   if (count > kSmallSet)
     if (Status status =
-            check_memory(static_cast<double>(count) * (raw.r.empty() ? kRadiusBytes + kSetBytes : kSetBytes),
+            check_memory(static_cast<double>(count) * (raw_.r.empty() ? kRadiusBytes + kSetBytes : kSetBytes),
                          "a set of " + grouped(count) + " spheres",
-                         static_cast<double>(count) * (raw.r.empty() ? kReadBytes - kRadiusBytes : kReadBytes));
+                         static_cast<double>(count) * (raw_.r.empty() ? kReadBytes - kRadiusBytes : kReadBytes));
         !status)
-      return Error{status.error().message, name, 0, 0, ""};
-  if (Status applied = apply_radius_options(raw, name, options); !applied) return applied.error();
-  const Result<Images> images = apply_cell_options(raw, name, options);
-  if (!images) return images.error();
-  const Vec3d recentred_by = options.recenter ? recenter(raw, *images, parts) : Vec3d{};
+      return Error{status.error().message, name_, 0, 0, ""};
+  return Done{};
+}
 
-  // Round once.
-  Result<SphereSet> set = parts == nullptr ? SphereSet::from_world(raw.x, raw.y, raw.z, raw.r)
-                                           : SphereSet::part_from_world(raw.x, raw.y, raw.z, raw.r, options.parts);
-  if (!set) {
-    Error error = set.error();
-    error.file = name;
-    return error;
+Status SphereFinisher::apply_options() {
+  if (Status applied = apply_radius_options(raw_, name_, options_); !applied) return applied;
+  const Result<Images> images = apply_cell_options(raw_, name_, options_);
+  if (!images) return images.error();
+  images_ = *images;
+  return Done{};
+}
+
+std::array<double, 6> SphereFinisher::centre_ends() const {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  std::array<double, 6> ends{};
+  std::size_t at = 0;
+  for (const std::vector<double>* const values : {&raw_.x, &raw_.y, &raw_.z}) {
+    double low = -kInfinite, high = -kInfinite;
+    for (const double value : *values) {
+      low = std::max(low, -value);
+      high = std::max(high, value);
+    }
+    ends[at++] = low;
+    ends[at++] = high;
+  }
+  return ends;
+}
+
+// Moves the middle of the centres' bounding box to the origin, in binary64; copies count.
+void SphereFinisher::recenter(const std::array<double, 6>& ends) {
+  const Images::Shifts shifts = images_.shifts();
+  const auto middle_of = [&](std::size_t axis) {
+    return 0.5 * (-ends[2 * axis] + shifts.lo[static_cast<int>(axis)]) +
+           0.5 * (ends[2 * axis + 1] + shifts.hi[static_cast<int>(axis)]);
+  };
+  const Vec3d middle{middle_of(0), middle_of(1), middle_of(2)};
+  if (raw_.cell) raw_.cell->origin = raw_.cell->origin - middle;
+  for (double& x : raw_.x) x -= middle.x;
+  for (double& y : raw_.y) y -= middle.y;
+  for (double& z : raw_.z) z -= middle.z;
+  raw_.rules.push_back("recentred: (" + readable_number(middle.x) + ", " + readable_number(middle.y) + ", " +
+                       readable_number(middle.z) + ") subtracted from every centre");
+  recentred_by_ = middle;
+}
+
+Result<double> SphereFinisher::extent() const {
+  Result<double> extent = SphereSet::extent_of_world(raw_.x, raw_.y, raw_.z, raw_.r, first_);
+  if (!extent) return named(extent.error());
+  return extent;
+}
+
+Result<RoundingLoss> SphereFinisher::round(double extent_of_whole) {
+  Result<SphereSet> set = SphereSet::chunk_from_world(raw_.x, raw_.y, raw_.z, raw_.r, first_, extent_of_whole);
+  if (!set) return named(set.error());
+  set_ = std::move(*set);
+
+  // Compare with what was read.
+  RoundingLoss loss;
+  loss.worst_share = kHarmlessShift;
+  for (std::int64_t id = 0; id < set_.size(); ++id) {
+    const auto i = static_cast<std::size_t>(id);
+    if (!(raw_.r[i] > 0)) continue;
+    const double share = length(set_.centre(id) - Vec3d{raw_.x[i], raw_.y[i], raw_.z[i]}) / raw_.r[i];
+    if (!(share > kHarmlessShift)) continue;
+    ++loss.moved;
+    if (share > loss.worst_share) {
+      loss.worst_share = share;
+      loss.worst_id = first_ + id;
+    }
   }
 
-  // Report the effects of rounding.
-  warn_of_rounding(raw, *set, options.recenter, raw.warnings);
-  set->cell() = raw.cell;
-  if (Status status = set->replicate(images->vectors, images->counts); !status) {
-    Error error = status.error();
-    error.file = name;
+  set_.cell() = raw_.cell;
+  if (Status status = set_.replicate(images_.vectors, images_.counts); !status) {
+    Error error = named(status.error());
     error.hint = "see --replicate and --cell-vectors";
     return error;
   }
-  if (const std::int64_t vanishing = count_of_all(parts, set->vanishing_radii()).all)
-    raw.warnings.push_back(spheres_have(vanishing) +
-                           " a radius below 2^-60 of the whole extent and cannot be told from a point");
+  loss.vanishing = set_.vanishing_radii();
+  return loss;
+}
 
+SphereFile SphereFinisher::finish(const RoundingLoss& of_whole) {
+  if (of_whole.moved > 0)
+    raw_.warnings.push_back(
+        "rounding to single precision moves " + std::to_string(of_whole.moved) + " of " + std::to_string(all_) +
+        " centres by more than 1 % of the radius (sphere " + std::to_string(of_whole.worst_id) + " by " +
+        readable_number(100 * of_whole.worst_share) + " %)" +
+        (options_.recenter ? "; the radii are too small for the extent" : "; --recenter makes it finer"));
+  if (of_whole.vanishing > 0)
+    raw_.warnings.push_back(spheres_have(of_whole.vanishing) +
+                            " a radius below 2^-60 of the whole extent and cannot be told from a point");
   SphereFile file;
-  file.spheres = std::move(*set);
-  file.spheres.attributes() = std::move(raw.attributes);
-  file.format = std::move(raw.format);
-  file.frames = raw.frames;
-  file.time_ps = raw.time_ps;
-  file.step = raw.step;
-  file.assemblies = raw.assemblies.ids();
-  file.rules = std::move(raw.rules);
-  file.warnings = std::move(raw.warnings);
-  file.recentred_by = recentred_by;
+  file.spheres = std::move(set_);
+  file.spheres.attributes() = std::move(raw_.attributes);
+  file.format = std::move(raw_.format);
+  file.frames = raw_.frames;
+  file.time_ps = raw_.time_ps;
+  file.step = raw_.step;
+  file.assemblies = raw_.assemblies.ids();
+  file.rules = std::move(raw_.rules);
+  file.warnings = std::move(raw_.warnings);
+  file.recentred_by = recentred_by_;
   return file;
+}
+
+Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options) {
+  SphereFinisher steps(std::move(raw), name, options);
+  const auto count = static_cast<std::int64_t>(steps.raw().size());
+  if (Status status = steps.begin(0, count); !status) return status.error();
+  if (!steps.has_radii()) {
+    const std::int64_t unknown = count_unknown_radii(steps.raw());
+    const bool guesses = unknown > 0 && !steps.raw().unknown_radius;
+    steps.fill_radii({unknown, count, guesses ? radius_from_neighbours(steps.raw()) : std::nullopt});
+  }
+  if (Status status = steps.apply_options(); !status) return status.error();
+  if (options.recenter) steps.recenter(steps.centre_ends());
+  const Result<RoundingLoss> loss = steps.round(0);
+  if (!loss) return loss.error();
+  return steps.finish(*loss);
 }
 
 }  // namespace bihive

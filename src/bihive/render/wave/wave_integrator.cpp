@@ -415,7 +415,7 @@ void WaveIntegrator::trace_places_of_all(std::size_t count, int depth, double li
   ahead.next = ahead.rays.size();
   const auto at_once = static_cast<std::size_t>(std::max<std::int64_t>(1, kMostRaysAskedAhead / wave.places));
   for (std::size_t i = 0; i < count && !cancelled(); ++i) {
-    if (tracer_.elsewhere() != nullptr && !ahead.any()) {
+    if (tracer_.remote() != nullptr && !ahead.any()) {
       ahead.rays.clear();
       ahead.next = 0;
       // Making rays adds to this sum, and these are made again.

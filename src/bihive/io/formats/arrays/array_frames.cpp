@@ -230,7 +230,7 @@ Result<std::shared_ptr<const RawFrames>> open_array_frames(RandomFile file, cons
   return frames;
 }
 
-std::optional<std::int64_t> particles_in_parts(RandomFile file) {
+std::optional<std::int64_t> particles_in_chunks(RandomFile file) {
   const Result<std::string> head = file.read(0, std::min<std::int64_t>(8, file.size()));
   if (!head || !looks_like_hdf5(*head)) return std::nullopt;
   const Result<std::shared_ptr<const ArrayFile>> arrays = open_arrays(std::move(file), "");
@@ -242,12 +242,12 @@ std::optional<std::int64_t> particles_in_parts(RandomFile file) {
   return particle_count(*layout);
 }
 
-Result<RawSpheres> part_of_arrays(RandomFile file, const SetParts& parts) {
+Result<RawSpheres> chunk_of_arrays(RandomFile file, RowChunk chunk) {
   const Result<std::shared_ptr<const ArrayFile>> arrays = open_arrays(std::move(file), "");
   if (!arrays) return arrays.error();
   const Result<ParticleLayout> layout = h5md_layout(**arrays, "");
   if (!layout) return layout.error();
-  return read_particles(**arrays, *layout, 0, ColumnChoice{}, &parts);
+  return read_particles(**arrays, *layout, 0, ColumnChoice{}, chunk);
 }
 
 Result<std::shared_ptr<const Trajectory>> open_array_trajectory(RandomFile file, const std::string& inside) {

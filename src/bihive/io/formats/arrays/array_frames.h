@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bihive/base/result.h"
-#include "bihive/geometry/set_parts.h"
+#include "bihive/io/chunk.h"
 #include "bihive/io/column_choice.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/packed/random_file.h"
@@ -20,11 +20,11 @@ namespace bihive {
 Result<std::shared_ptr<const RawFrames>> open_array_frames(RandomFile file, const std::string& inside,
                                                            const ColumnChoice& choice);
 
-/// Whether parts of its particles can be read: H5MD, with no column that needs all rows (io/text/sphere_table.h).
-/// Returns how many particles there are; nothing: they cannot.
-std::optional<std::int64_t> particles_in_parts(RandomFile file);
-/// The particles of this process in frame 0 of such a file.
-Result<RawSpheres> part_of_arrays(RandomFile file, const SetParts& parts);
+/// The number of particles of a file of which chunks can be read: H5MD, with no column that needs all rows
+/// (io/text/sphere_table.h). Nothing: they cannot.
+std::optional<std::int64_t> particles_in_chunks(RandomFile file);
+/// The particles of a chunk in frame 0 of such a file.
+Result<RawSpheres> chunk_of_arrays(RandomFile file, RowChunk chunk);
 
 /// Its places as a trajectory: H5MD, AMBER's NetCDF.
 Result<std::shared_ptr<const Trajectory>> open_array_trajectory(RandomFile file, const std::string& inside);

@@ -27,8 +27,7 @@ constexpr KeptArray kKeptArrays[] = {{"particles/mass", {"mass"}},
 
 class GsdFrame {
  public:
-  GsdFrame(const GsdFile& file, std::int64_t frame, const SetParts* parts)
-      : file_(file), frame_(frame), parts_(parts) {}
+  GsdFrame(const GsdFile& file, std::int64_t frame, RowChunk chunk) : file_(file), frame_(frame), chunk_(chunk) {}
 
   Result<RawSpheres> read() {
     if (frame_ < 0 || frame_ >= file_.frame_count()) return no_such_frame(file_.path(), frame_, file_.frame_count());
@@ -50,7 +49,7 @@ class GsdFrame {
 
   // An array with one row for each particle.
   Status take(const std::string& name, std::int64_t columns, std::optional<GsdArray>& array) const {
-    Result<std::optional<GsdArray>> found = file_.array(frame_, name, parts_);
+    Result<std::optional<GsdArray>> found = file_.array(frame_, name, chunk_);
     if (!found) return found.error();
     array = std::move(*found);
     if (!array || !rows_) return Done{};
@@ -67,7 +66,7 @@ class GsdFrame {
     if (!array) return wrong("particles/position", "is missing");
     if (array->columns != 3) return wrong("particles/position", "has not three columns");
     rows_ = array->rows;
-    count_ = rows_of_part(parts_, array->rows).count();
+    count_ = chunk_.of(array->rows).count();
     for (std::size_t i = 0; i < array->values.size(); ++i) {
       if (coordinate_fault(array->values[i])) return wrong("particles/position", "has a number that is not finite");
       (i % 3 == 0 ? spheres_.x : i % 3 == 1 ? spheres_.y : spheres_.z).push_back(array->values[i]);
@@ -157,9 +156,9 @@ class GsdFrame {
 
   const GsdFile& file_;
   std::int64_t frame_;
-  const SetParts* parts_;
+  RowChunk chunk_;
   std::optional<std::int64_t> rows_;  // particles of the frame
-  std::int64_t count_ = 0;            // of this process
+  std::int64_t count_ = 0;            // of the chunk
   RawSpheres spheres_;
 };
 
@@ -180,8 +179,8 @@ Result<std::shared_ptr<const RawFrames>> open_gsd(RandomFile file, const std::st
 
 }  // namespace
 
-Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, const SetParts* parts) {
-  return GsdFrame(file, frame, parts).read();
+Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, RowChunk chunk) {
+  return GsdFrame(file, frame, chunk).read();
 }
 
 extern const Format kGsd(

@@ -11,7 +11,7 @@ namespace bihive {
 
 /// The particles of a frame. Lengths in the file's own unit. Radii are half of `particles/diameter` where the file has
 /// it. Errors: no such frame; another schema; arrays that do not fit each other.
-/// `parts`: the particles of this process alone; null: all.
-Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, const SetParts* parts = nullptr);
+/// The particles of `chunk` alone.
+Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, RowChunk chunk = {});
 
 }  // namespace bihive

@@ -156,13 +156,12 @@ std::optional<std::int64_t> GsdFile::rows(std::int64_t frame, const std::string&
   return chunk->rows;
 }
 
-Result<std::optional<GsdArray>> GsdFile::array(std::int64_t frame, const std::string& name,
-                                               const SetParts* parts) const {
+Result<std::optional<GsdArray>> GsdFile::array(std::int64_t frame, const std::string& name, RowChunk some) const {
   const Chunk* const found = find(frame, name);
   if (found == nullptr) return std::optional<GsdArray>();
   const Chunk& chunk = *found;
   GsdArray made{chunk.rows, chunk.columns, {}};
-  const RowRange rows = rows_of_part(parts, chunk.rows);
+  const RowRange rows = some.of(chunk.rows);
   const std::int64_t row_bytes = std::int64_t{chunk.columns} * kTypeBytes[chunk.type];
   const std::int64_t count = rows.count() * chunk.columns;
   const Result<std::string> bytes = file_.read(chunk.place + rows.first * row_bytes, rows.count() * row_bytes);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
-#include "bihive/geometry/set_parts.h"
+#include "bihive/io/chunk.h"
 #include "bihive/io/packed/random_file.h"
 
 namespace bihive {
@@ -18,7 +18,7 @@ namespace bihive {
 /// One array: rows x columns numbers, as binary64.
 struct GsdArray {
   std::int64_t rows = 0, columns = 0;
-  std::vector<double> values;  ///< row after row: all, or those of a part
+  std::vector<double> values;  ///< row after row: all, or those of a chunk
 };
 
 /// Any number of threads may read at a time.
@@ -36,10 +36,8 @@ class GsdFile {
   const std::string& path() const { return file_.path(); }
 
   /// The array of that name in that frame; if the frame has none, that of frame 0, as the schema of HOOMD-blue says.
-  /// Nothing: neither has one. `parts`: with the values of this process' rows alone; null: of all. Errors: damaged
-  /// bytes.
-  Result<std::optional<GsdArray>> array(std::int64_t frame, const std::string& name,
-                                        const SetParts* parts = nullptr) const;
+  /// Nothing: neither has one. With the values of the rows of `chunk` alone. Errors: damaged bytes.
+  Result<std::optional<GsdArray>> array(std::int64_t frame, const std::string& name, RowChunk chunk = {}) const;
   /// Its rows, without reading it; nothing as above.
   std::optional<std::int64_t> rows(std::int64_t frame, const std::string& name) const;
 

@@ -125,8 +125,8 @@ std::int64_t particle_count(const ParticleLayout& layout) {
 }
 
 Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame,
-                                  const ColumnChoice& choice, const SetParts* parts) {
-  const RowRange rows = rows_of_part(parts, particle_count(layout));
+                                  const ColumnChoice& choice, RowChunk chunk) {
+  const RowRange rows = chunk.of(particle_count(layout));
   const std::int64_t count = rows.count();
   const std::int64_t axes = layout.places.lengths()[1];
   const Result<std::vector<double>> places = numbers_at(file, layout.places, frame, rows);

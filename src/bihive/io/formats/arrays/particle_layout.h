@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
-#include "bihive/geometry/set_parts.h"
+#include "bihive/io/chunk.h"
 #include "bihive/io/column_choice.h"
 #include "bihive/io/formats/arrays/array_file.h"
 #include "bihive/io/raw_spheres.h"
@@ -55,10 +55,9 @@ Result<ParticleLayout> amber_layout(const ArrayFile& file);
 std::int64_t frame_count(const ParticleLayout& layout);
 std::int64_t particle_count(const ParticleLayout& layout);
 
-/// One frame, which exists. `parts`: the particles of this process alone; null: all. Errors: numbers that cannot be
-/// places; the file cannot be read.
+/// The particles of a chunk of one frame, which exists. Errors: numbers that cannot be places; the file cannot be read.
 Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame,
-                                  const ColumnChoice& choice, const SetParts* parts = nullptr);
+                                  const ColumnChoice& choice, RowChunk chunk = {});
 Result<TrajectoryFrame> read_places(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame);
 
 /// 1 for Angstrom and what is not known, 10 for nanometres and so on; picoseconds in the same way, nothing if it is not

@@ -1,4 +1,4 @@
-#include "bihive/io/part_of_dump.h"
+#include "bihive/io/chunk_of_dump.h"
 
 #include <algorithm>
 #include <optional>
@@ -20,15 +20,6 @@ constexpr std::int64_t kDumpHeadBytes = 1 << 16;
 
 // Lines differ in length, but not by so much that two frames are taken for one.
 constexpr double kMostOfLines = 1.5;
-
-// The lines before the atoms, around the one that says how many there are.
-struct DumpHead {
-  std::string before_count, after_count;
-  std::int64_t atoms = 0;
-  std::int64_t lines = 0, count_line = 0;
-  std::int64_t end = 0;   // where the first atom begins
-  double line_bytes = 0;  // of the first atoms, in the mean
-};
 
 bool can_be_divided(std::string_view columns) {
   TextScanner scanner(columns, "");
@@ -92,7 +83,7 @@ std::int64_t lines_in(std::string_view text) {
 
 }  // namespace
 
-std::optional<std::int64_t> atoms_in_parts(const RandomFile& file) {
+std::optional<std::int64_t> atoms_in_chunks(const RandomFile& file) {
   const std::optional<DumpHead> head = head_of(file);
   if (!head) return std::nullopt;
   const double expected = static_cast<double>(head->atoms) * head->line_bytes;
@@ -100,17 +91,19 @@ std::optional<std::int64_t> atoms_in_parts(const RandomFile& file) {
   return head->atoms;
 }
 
-Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts) {
-  const std::optional<DumpHead> head = head_of(file);
+Result<DumpChunk> DumpChunk::read(const RandomFile& file, RowChunk chunk) {
+  DumpChunk made;
+  made.path_ = file.path();
+  std::optional<DumpHead> head = head_of(file);
   if (!head) return Error{"parts of this file cannot be read", file.path(), 0, 0, ""};
 
-  // The lines of this process, behind a head that counts them.
-  const RowRange share = rows_of_part(&parts, file.size() - head->end);
+  // The lines that begin in this chunk of the bytes.
+  const RowRange share = chunk.of(file.size() - head->end);
   const Result<std::int64_t> first = next_line(file, head->end, head->end + share.first);
   if (!first) return first.error();
   const Result<std::int64_t> end = next_line(file, head->end, head->end + share.end);
   if (!end) return end.error();
-  if (Status status = check_memory(static_cast<double>(*end - *first), "a part of the text"); !status)
+  if (Status status = check_memory(static_cast<double>(*end - *first), "a chunk of the text"); !status)
     return Error{status.error().message, file.path(), 0, 0, ""};
   Result<std::string> lines = file.read(*first, *end - *first);
   if (!lines) return lines.error();
@@ -118,21 +111,26 @@ Result<RawSpheres> part_of_dump(const RandomFile& file, const SetParts& parts) {
   if (*end == file.size())
     while (!lines->empty() && std::string_view(" \t\r\n").find(lines->back()) != std::string_view::npos)
       lines->pop_back();
-  const std::int64_t rows = lines_in(*lines);
-  const CountOfParts all = count_of_all(&parts, rows);
-  if (all.all != head->atoms)
-    return Error{
-        "the dump promises " + std::to_string(head->atoms) + " atoms, but " + std::to_string(all.all) + " lines follow",
-        file.path(), head->count_line, 0,
-        "is the file whole? With several frames leave out --distribute, or give the first a file of its own"};
-  std::string text = head->before_count + std::to_string(rows) + "\n" + head->after_count;
-  text += *lines;
-  lines = std::string();
+  made.rows_ = lines_in(*lines);
+  made.head_ = std::move(*head);
+  made.lines_ = std::move(*lines);
+  return made;
+}
 
-  Result<RawSpheres> spheres = read_bytes(format_named("LAMMPS dump"), text, file.path(), 0);
+Result<RawSpheres> DumpChunk::spheres(std::int64_t first, std::int64_t all) {
+  if (all != head_.atoms)
+    return Error{
+        "the dump promises " + std::to_string(head_.atoms) + " atoms, but " + std::to_string(all) + " lines follow",
+        path_, head_.count_line, 0,
+        "is the file whole? With several frames leave out --distribute, or give the first a file of its own"};
+  // A head that counts the lines of this chunk.
+  std::string text = head_.before_count + std::to_string(rows_) + "\n" + head_.after_count;
+  text += lines_;
+  lines_ = std::string();
+  Result<RawSpheres> spheres = read_bytes(format_named("LAMMPS dump"), text, path_, 0);
   if (spheres) return spheres;
   Error error = spheres.error();
-  if (error.line > head->lines) error.line += all.before;
+  if (error.line > head_.lines) error.line += first;
   return error;
 }
 

@@ -17,9 +17,9 @@ enum class WhichSpheres : std::uint8_t { all, opaque_to_eye, opaque_to_light, cl
 /// the rest (spread/seen_spheres.h). A query may add spheres to it, which get the next ids. So one thread at a time
 /// works with the scene, its tracer and this object. Answers as those of Tracer; of equal t the sphere wins that has
 /// the smaller id in the whole set.
-class Elsewhere {
+class RemoteEngine {
  public:
-  virtual ~Elsewhere() = default;
+  virtual ~RemoteEngine() = default;
   virtual void closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, const HitSpan& hits) = 0;
   virtual void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) = 0;
   /// By ray, then by t, then by the id in the whole set.

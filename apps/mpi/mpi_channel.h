@@ -1,4 +1,4 @@
-// A conversation between the ranks of MPI (support/team.h).
+// A channel between the ranks of MPI (support/communicator.h).
 //
 // One thread of each rank does all that has to do with MPI meanwhile: it sends what other threads have left in a list,
 // and hands what arrives to those who wait for it. So nobody who computes keeps messages waiting, and no rank waits for
@@ -19,17 +19,17 @@
 #include <thread>
 #include <vector>
 
-#include "support/team.h"
+#include "support/communicator.h"
 
 namespace bihive::mpi {
 
-class MpiConversation final : public cli::Conversation {
+class MpiChannel final : public cli::TileChannel {
  public:
   /// For all ranks at the same time.
-  MpiConversation(MPI_Comm comm, std::function<Bytes(const Bytes&)> answer, int threads);
-  ~MpiConversation() override;
-  MpiConversation(const MpiConversation&) = delete;
-  MpiConversation& operator=(const MpiConversation&) = delete;
+  MpiChannel(MPI_Comm comm, std::function<Bytes(const Bytes&)> answer, int threads);
+  ~MpiChannel() override;
+  MpiChannel(const MpiChannel&) = delete;
+  MpiChannel& operator=(const MpiChannel&) = delete;
 
   void begin() override;
   void end_own_giving() override;

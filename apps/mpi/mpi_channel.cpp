@@ -1,4 +1,4 @@
-#include "mpi_conversation.h"
+#include "mpi_channel.h"
 
 #include <chrono>
 #include <exception>
@@ -23,23 +23,23 @@ constexpr int kTilesOfThread = 4;
 
 }  // namespace
 
-MpiConversation::MpiConversation(MPI_Comm comm, std::function<Bytes(const Bytes&)> answer, int threads)
+MpiChannel::MpiChannel(MPI_Comm comm, std::function<Bytes(const Bytes&)> answer, int threads)
     : answer_(std::move(answer)), answering_(threads) {
   MPI_Comm_dup(comm, &comm_);
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
 }
 
-MpiConversation::~MpiConversation() {
+MpiChannel::~MpiChannel() {
   MPI_Comm_free(&comm_);
 }
 
-void MpiConversation::begin() {
+void MpiChannel::begin() {
   for (int i = 0; i < answering_; ++i) threads_.emplace_back([this] { answer_questions(); });
   messenger_ = std::thread([this] { run(); });
 }
 
-void MpiConversation::send(Message message) {
+void MpiChannel::send(Message message) {
   {
     const std::lock_guard lock(mutex_);
     outgoing_.push_back(std::move(message));
@@ -48,7 +48,7 @@ void MpiConversation::send(Message message) {
 }
 
 // Gives each message a number, and waits for the answers to all.
-std::vector<Bytes> MpiConversation::send_and_wait(std::vector<Message> messages) {
+std::vector<Bytes> MpiChannel::send_and_wait(std::vector<Message> messages) {
   Waiter waiter{std::vector<Bytes>(messages.size()), messages.size(), {}};
   std::unique_lock lock(mutex_);
   const std::int64_t first = last_question_ + 1;
@@ -61,19 +61,19 @@ std::vector<Bytes> MpiConversation::send_and_wait(std::vector<Message> messages)
   while (!waiter.arrived.wait_for(lock, kPatience, [&] { return waiter.missing == 0; })) {
     if (!cli::CancellableSection::token().cancelled()) continue;
     for (std::size_t i = 0; i < waiter.answers.size(); ++i) waiting_.erase(first + static_cast<std::int64_t>(i));
-    throw ExchangeStopped{};
+    throw ChannelClosed{};
   }
   return std::move(waiter.answers);
 }
 
-std::vector<Bytes> MpiConversation::ask(std::vector<Question> questions) {
+std::vector<Bytes> MpiChannel::ask(std::vector<Question> questions) {
   std::vector<Message> messages;
   messages.reserve(questions.size());
   for (Question& question : questions) messages.push_back({question.rank, kQuestion, 0, std::move(question.bytes)});
   return send_and_wait(std::move(messages));
 }
 
-std::int64_t MpiConversation::next_number() {
+std::int64_t MpiChannel::next_number() {
   if (rank_ == 0) {
     const std::lock_guard lock(mutex_);
     return counter_++;
@@ -82,13 +82,13 @@ std::int64_t MpiConversation::next_number() {
   return ByteReader(answers.front()).take<std::int64_t>();
 }
 
-void MpiConversation::stop_counting() {
+void MpiChannel::stop_counting() {
   if (rank_ != 0) return send({0, kStopCounting, 0, {}});
   const std::lock_guard lock(mutex_);
   counter_ = std::int64_t{1} << 40;
 }
 
-void MpiConversation::give(std::int64_t number, const Film& film) {
+void MpiChannel::give(std::int64_t number, const Film& film) {
   if (rank_ == 0) {
     const std::lock_guard lock(mutex_);
     tiles_.push_back({number, film});
@@ -103,17 +103,17 @@ void MpiConversation::give(std::int64_t number, const Film& film) {
   left_something_.notify_one();
 }
 
-void MpiConversation::end_giving(const cli::WorkOfRank& work, bool failed) {
+void MpiChannel::end_giving(const cli::WorkOfRank& work, bool failed) {
   send({0, kEnd, 0, packed(EndOfRank{work, failed})});
 }
 
-void MpiConversation::end_own_giving() {
+void MpiChannel::end_own_giving() {
   const std::lock_guard lock(mutex_);
   own_ended_ = true;
   has_tiles_.notify_all();
 }
 
-std::optional<cli::GivenTile> MpiConversation::take(bool wait) {
+std::optional<cli::GivenTile> MpiChannel::take(bool wait) {
   std::unique_lock lock(mutex_);
   if (wait) has_tiles_.wait(lock, [this] { return !tiles_.empty() || (own_ended_ && ended_ == size_ - 1); });
   if (tiles_.empty()) return std::nullopt;
@@ -122,18 +122,18 @@ std::optional<cli::GivenTile> MpiConversation::take(bool wait) {
   return first;
 }
 
-bool MpiConversation::somebody_failed() const {
+bool MpiChannel::somebody_failed() const {
   const std::lock_guard lock(mutex_);
   return somebody_failed_;
 }
 
-cli::WorkOfRank MpiConversation::work_of_others() const {
+cli::WorkOfRank MpiChannel::work_of_others() const {
   const std::lock_guard lock(mutex_);
   return work_of_others_;
 }
 
 // Rank 0 knows when all threads that draw have ended, on all ranks: then nobody asks any more.
-void MpiConversation::end() {
+void MpiChannel::end() {
   if (rank_ == 0) {
     // All at once: the messenger leaves after its own.
     const std::lock_guard lock(mutex_);
@@ -142,7 +142,7 @@ void MpiConversation::end() {
   messenger_.join();
 }
 
-void MpiConversation::run() {
+void MpiChannel::run() {
   bool is_open = true;
   while (is_open) {
     bool busy = send_all();
@@ -155,7 +155,7 @@ void MpiConversation::run() {
 }
 
 // Whether there was something to do.
-bool MpiConversation::send_all() {
+bool MpiChannel::send_all() {
   std::deque<Message> messages;
   {
     const std::lock_guard lock(mutex_);
@@ -193,7 +193,7 @@ bool MpiConversation::send_all() {
 }
 
 // Whether there was one.
-bool MpiConversation::receive_one() {
+bool MpiChannel::receive_one() {
   int there = 0;
   MPI_Status status;
   MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, comm_, &there, &status);
@@ -209,7 +209,7 @@ bool MpiConversation::receive_one() {
   return true;
 }
 
-void MpiConversation::take_message(Message message) {
+void MpiChannel::take_message(Message message) {
   const std::lock_guard lock(mutex_);
   switch (message.tag) {
     case kQuestion:
@@ -252,7 +252,7 @@ void MpiConversation::take_message(Message message) {
   }
 }
 
-void MpiConversation::answer_questions() {
+void MpiChannel::answer_questions() {
   for (;;) {
     std::unique_lock lock(mutex_);
     has_question_.wait(lock, [this] { return !questions_.empty() || no_more_questions_; });
@@ -271,7 +271,7 @@ void MpiConversation::answer_questions() {
 }
 
 // Answers what is left, and goes on receiving until all ranks have sent what they had to send.
-void MpiConversation::leave() {
+void MpiChannel::leave() {
   {
     const std::lock_guard lock(mutex_);
     no_more_questions_ = true;

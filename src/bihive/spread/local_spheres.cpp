@@ -1,4 +1,4 @@
-#include "bihive/spread/part_of_set.h"
+#include "bihive/spread/local_spheres.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,13 +14,14 @@ bool is_to_eye(WhichSpheres which) {
 
 }  // namespace
 
-Result<std::shared_ptr<const PartOfSet>> PartOfSet::make(Scene spheres, std::vector<std::int64_t> whole_ids,
-                                                         std::int64_t count, const SphereColumns& has, OpacityRule rule,
-                                                         const TreeParameters& parameters, int threads) {
+Result<std::shared_ptr<const LocalSpheres>> LocalSpheres::make(Scene spheres, std::vector<std::int64_t> whole_ids,
+                                                               std::int64_t count, const SphereColumns& has,
+                                                               OpacityRule rule, const TreeParameters& parameters,
+                                                               int threads) {
   if (spheres.spheres.size() >= static_cast<std::int64_t>(kNoPlace))
     return Error{"a rank cannot hold " + std::to_string(spheres.spheres.size()) + " spheres", "", 0, 0,
                  "take more ranks: each holds up to 2^32"};
-  auto made = std::make_shared<PartOfSet>();
+  auto made = std::make_shared<LocalSpheres>();
   made->count_ = count;
   made->scene_ = std::move(spheres);
   made->whole_ids_ = std::move(whole_ids);
@@ -31,12 +32,12 @@ Result<std::shared_ptr<const PartOfSet>> PartOfSet::make(Scene spheres, std::vec
   Result<Transparency> transparency = Transparency::of(made->scene_, rule, Engine::wide, threads, count);
   if (!transparency) return transparency.error();
   made->transparency_ = std::move(*transparency);
-  return std::shared_ptr<const PartOfSet>(std::move(made));
+  return std::shared_ptr<const LocalSpheres>(std::move(made));
 }
 
-// A part without clear spheres has no division: all its spheres are opaque.
-void PartOfSet::closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order,
-                             std::vector<FoundSphere>& found) const {
+// A rank without clear spheres has no division: all its spheres are opaque.
+void LocalSpheres::closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order,
+                                std::vector<FoundSphere>& found) const {
   found.clear();
   static thread_local HitBatch hits;
   hits.resize(rays.count);
@@ -49,16 +50,16 @@ void PartOfSet::closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder o
     if (const Hit hit = hits.at(i); hit.found()) found.push_back(found_sphere(i, hit.t, hit.sphere_id));
 }
 
-void PartOfSet::occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
+void LocalSpheres::occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const {
   const auto& divided = is_to_eye(which) ? transparency_.to_eye : transparency_.to_light;
   if (which == WhichSpheres::all || divided == nullptr)
-    tracer_->occluded(rays, order, hidden);
+    tracer_->occluded(rays, order, is_occluded);
   else
-    divided->hides(rays, order, hidden);
+    divided->hides(rays, order, is_occluded);
 }
 
-void PartOfSet::all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order,
-                         std::vector<FoundSphere>& found) const {
+void LocalSpheres::all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order,
+                            std::vector<FoundSphere>& found) const {
   found.clear();
   const auto& divided = is_to_eye(which) ? transparency_.to_eye : transparency_.to_light;
   if (divided == nullptr) return;
@@ -67,17 +68,17 @@ void PartOfSet::all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order
   for (const RayHit& hit : hits) found.push_back(found_sphere(hit.ray, hit.t, hit.sphere_id));
 }
 
-void PartOfSet::pack(const std::vector<std::int64_t>& places, Bytes& bytes) const {
+void LocalSpheres::pack(const std::vector<std::int64_t>& places, Bytes& bytes) const {
   pack_spheres(scene_, has_, whole_ids_, places, bytes);
 }
 
-std::int64_t PartOfSet::place_of_guest(std::int64_t whole_id) const {
+std::int64_t LocalSpheres::place_of_ghost(std::int64_t whole_id) const {
   const auto first = whole_ids_.begin() + static_cast<std::ptrdiff_t>(count_);
   const auto found = std::lower_bound(first, whole_ids_.end(), whole_id);
   return found != whole_ids_.end() && *found == whole_id ? found - whole_ids_.begin() : kNothing;
 }
 
-Bytes PartOfSet::answer(const Bytes& question) const {
+Bytes LocalSpheres::answer(const Bytes& question) const {
   ByteReader in(question);
   Bytes bytes;
   const auto kind = in.take<QuestionKind>();
@@ -89,14 +90,14 @@ Bytes PartOfSet::answer(const Bytes& question) const {
   }
   static thread_local RaysAsked asked;
   take_rays(in, asked);
-  for (std::size_t i = 0; i < asked.guests.size(); ++i)
-    if (asked.guests[i] != kNothing) asked.rays.leaves[i] = place_of_guest(asked.guests[i]);
+  for (std::size_t i = 0; i < asked.ghosts.size(); ++i)
+    if (asked.ghosts[i] != kNothing) asked.rays.leaves[i] = place_of_ghost(asked.ghosts[i]);
   const RaySpan rays = asked.rays.span();
   if (kind == QuestionKind::occluded) {
-    static thread_local std::vector<std::uint8_t> hidden;
-    hidden.resize(static_cast<std::size_t>(rays.count));
-    occluded(asked.which, rays, asked.order, hidden.data());
-    put_hidden(hidden, bytes);
+    static thread_local std::vector<std::uint8_t> is_occluded;
+    is_occluded.resize(static_cast<std::size_t>(rays.count));
+    occluded(asked.which, rays, asked.order, is_occluded.data());
+    put_occluded(is_occluded, bytes);
     return bytes;
   }
   static thread_local std::vector<FoundSphere> found;

@@ -1,4 +1,4 @@
-// The spheres that stand for a whole set where only some of it is known.
+// Proxies: the spheres that stand for a whole set where only some of it is known.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace bihive {
 
 /// The renderer asks whether some sphere is clear, cut, or has lines of its own, which depths a set has, and what its
 /// colours mean. A scene with these spheres alone gives the answers of the whole one: some twenty, and one for each
-/// entry of the legend. So do those of all parts of a set together. They ascend.
-std::vector<std::int64_t> stand_ins(const Scene& scene, const RenderSettings& settings);
+/// entry of the legend. So do the proxies of all chunks of a set together. Their ids ascend.
+std::vector<std::int64_t> proxies_of(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace bihive

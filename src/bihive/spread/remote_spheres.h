@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "bihive/render/elsewhere.h"
-#include "bihive/spread/exchange.h"
-#include "bihive/spread/part_of_set.h"
+#include "bihive/render/remote_engine.h"
+#include "bihive/spread/channel.h"
+#include "bihive/spread/local_spheres.h"
 #include "bihive/spread/rank_boxes.h"
 #include "bihive/spread/seen_spheres.h"
 #include "bihive/spread/spread_scene.h"
@@ -16,17 +16,17 @@ namespace bihive {
 
 /// A ray goes to the ranks whose boxes it meets, the nearest first, and ends where its nearest hit so far is. Of all
 /// hits at one t the smallest id in the whole set wins; so the answer is that of one process that has all spheres.
-class SpheresElsewhere final : public Elsewhere {
+class RemoteSpheres final : public RemoteEngine {
  public:
   /// `here`: this rank's spheres. All must outlive it.
-  SpheresElsewhere(SeenSpheres& seen, const RankBoxes& boxes, const PartOfSet& here, Exchange& exchange)
-      : seen_(seen), boxes_(boxes), here_(here), exchange_(exchange) {}
+  RemoteSpheres(SeenSpheres& seen, const RankBoxes& boxes, const LocalSpheres& here, Channel& channel)
+      : seen_(seen), boxes_(boxes), here_(here), channel_(channel) {}
 
   void closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, const HitSpan& hits) override;
-  void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) override;
+  void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) override;
   void all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) override;
 
-  const ExchangeCounts& counts() const { return counts_; }
+  const ChannelCounts& counts() const { return counts_; }
 
  private:
   struct Nearest {
@@ -39,7 +39,7 @@ class SpheresElsewhere final : public Elsewhere {
     int rank;
     std::vector<std::int64_t> chosen;
     std::vector<Place> places;         // of the spheres that they leave
-    std::vector<std::int64_t> guests;  // as in ChosenRays
+    std::vector<std::int64_t> ghosts;  // as in ChosenRays
   };
 
   void find_ways(const RaySpan& rays);
@@ -53,11 +53,11 @@ class SpheresElsewhere final : public Elsewhere {
 
   SeenSpheres& seen_;
   const RankBoxes& boxes_;
-  const PartOfSet& here_;
-  Exchange& exchange_;
-  ExchangeCounts counts_;
+  const LocalSpheres& here_;
+  Channel& channel_;
+  ChannelCounts counts_;
 
-  // Of the query at work.
+  // State of the current query.
   std::vector<RankOnWay> ways_;    // ray after ray
   std::vector<std::size_t> next_;  // of each ray: the next rank in ways_, and where its ranks end
   std::vector<std::size_t> end_;

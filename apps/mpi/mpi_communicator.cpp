@@ -1,11 +1,11 @@
-#include "mpi_team.h"
+#include "mpi_communicator.h"
 
 #include <algorithm>
 #include <climits>
 #include <numeric>
 #include <utility>
 
-#include "mpi_conversation.h"
+#include "mpi_channel.h"
 #include "mpi_messages.h"
 
 namespace bihive::mpi {
@@ -25,7 +25,7 @@ void for_each_message(char* bytes, std::size_t count, const Use& use) {
 
 }  // namespace
 
-MpiTeam::MpiTeam(MPI_Comm comm, bool distributes, Counting counting) : distributes_(distributes) {
+MpiCommunicator::MpiCommunicator(MPI_Comm comm, bool distributes, Counting counting) : distributes_(distributes) {
   MPI_Comm_dup(comm, &comm_);
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
@@ -36,23 +36,23 @@ MpiTeam::MpiTeam(MPI_Comm comm, bool distributes, Counting counting) : distribut
   counter_ = std::make_unique<SharedCounter>(comm_, counting == Counting::shared);
 }
 
-MpiTeam::~MpiTeam() {
+MpiCommunicator::~MpiCommunicator() {
   counter_.reset();
   MPI_Comm_free(&comm_);
 }
 
-std::unique_ptr<cli::Team> MpiTeam::part(int number) {
+std::unique_ptr<cli::PictureCommunicator> MpiCommunicator::split(int colour) {
   go_on_if_all_do();
   MPI_Comm part = MPI_COMM_NULL;
-  MPI_Comm_split(comm_, number, rank_, &part);
+  MPI_Comm_split(comm_, colour, rank_, &part);
   // Open MPI 4.1.4 gives the windows of several such parts of one machine the same file in shared memory.
-  auto team = std::make_unique<MpiTeam>(part, distributes_, Counting::by_messages);
+  auto ranks = std::make_unique<MpiCommunicator>(part, distributes_, Counting::by_messages);
   MPI_Comm_free(&part);
-  return team;
+  return ranks;
 }
 
 // The lowest rank that failed, and its code.
-int MpiTeam::share(int code) {
+int MpiCommunicator::share(int code) {
   const std::lock_guard lock(mutex_);
   const int mine = code == 0 ? INT_MAX : rank_;
   int lowest = INT_MAX;
@@ -64,17 +64,17 @@ int MpiTeam::share(int code) {
   return code;
 }
 
-int MpiTeam::end_with(int code) {
+int MpiCommunicator::end_with(int code) {
   // After a failure everybody knows already.
   return code_ != 0 ? code_ : share(code);
 }
 
 // A rank that has failed says so in place of what all do together.
-void MpiTeam::go_on_if_all_do() {
+void MpiCommunicator::go_on_if_all_do() {
   if (const int code = share(0); code != 0) throw cli::OtherRankFailed{code};
 }
 
-void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
+void MpiCommunicator::agree(const std::vector<cli::Fingerprint>& seen) {
   go_on_if_all_do();
   if (seen.empty()) return;
 
@@ -96,7 +96,7 @@ void MpiTeam::agree(const std::vector<cli::Fingerprint>& seen) {
              "give all ranks the same program and the same words"});
 }
 
-void MpiTeam::begin_picture() {
+void MpiCommunicator::begin_picture() {
   go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   if (rank_ == 0) counter_->set(0);
@@ -106,19 +106,19 @@ void MpiTeam::begin_picture() {
   MPI_Barrier(comm_);
 }
 
-std::int64_t MpiTeam::next_number() {
+std::int64_t MpiCommunicator::next_number() {
   const std::lock_guard lock(mutex_);
   return counter_->is_shared() || rank_ == 0 ? counter_->add(1) : asked_number();
 }
 
 // Rank 0 answers when it looks for messages, so ranks ask for a number while they work on the one before.
-void MpiTeam::ask_for_number() {
+void MpiCommunicator::ask_for_number() {
   MPI_Irecv(&number_, 1, MPI_INT64_T, 0, kNumber, comm_, &number_request_);
   MPI_Send(nullptr, 0, MPI_BYTE, 0, kAskNumber, comm_);
   awaits_number_ = true;
 }
 
-std::int64_t MpiTeam::asked_number() {
+std::int64_t MpiCommunicator::asked_number() {
   if (!awaits_number_) ask_for_number();
   MPI_Wait(&number_request_, MPI_STATUS_IGNORE);
   awaits_number_ = false;
@@ -127,12 +127,12 @@ std::int64_t MpiTeam::asked_number() {
   return number;
 }
 
-void MpiTeam::stop_counting() {
+void MpiCommunicator::stop_counting() {
   const std::lock_guard lock(mutex_);
   counter_->add(std::int64_t{1} << 40);
 }
 
-void MpiTeam::give(std::int64_t number, const Film& film) {
+void MpiCommunicator::give(std::int64_t number, const Film& film) {
   std::vector<char> bytes = packed(number, film);
   const std::lock_guard lock(mutex_);
   Sending& sending = sending_[next_sending_];
@@ -142,7 +142,7 @@ void MpiTeam::give(std::int64_t number, const Film& film) {
   MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, 0, kTile, comm_, &sending.request);
 }
 
-void MpiTeam::end_giving(const cli::WorkOfRank& work, bool failed) {
+void MpiCommunicator::end_giving(const cli::WorkOfRank& work, bool failed) {
   const std::vector<char> end = packed(EndOfRank{work, failed});
   const std::lock_guard lock(mutex_);
   for (Sending& sending : sending_) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
@@ -152,7 +152,7 @@ void MpiTeam::end_giving(const cli::WorkOfRank& work, bool failed) {
 }
 
 // Begins to receive a message, and takes what is here. Returns whether one had come. `wait`: for something.
-bool MpiTeam::receive_one(bool wait) {
+bool MpiCommunicator::receive_one(bool wait) {
   int there = 1;
   MPI_Status status;
   if (wait && receiving_.empty())
@@ -180,12 +180,12 @@ bool MpiTeam::receive_one(bool wait) {
 }
 
 // Of many ranks many messages come while this one draws a tile.
-void MpiTeam::receive_all() {
+void MpiCommunicator::receive_all() {
   while (receive_one(/*wait=*/false)) {
   }
 }
 
-void MpiTeam::take_message(int source, int tag, const std::vector<char>& bytes) {
+void MpiCommunicator::take_message(int source, int tag, const std::vector<char>& bytes) {
   if (tag == kTile) {
     received_.push_back(unpacked_tile(bytes));
   } else if (tag == kAskNumber) {
@@ -199,7 +199,7 @@ void MpiTeam::take_message(int source, int tag, const std::vector<char>& bytes) 
   }
 }
 
-void MpiTeam::move_on() {
+void MpiCommunicator::move_on() {
   const std::lock_guard lock(mutex_);
   if (rank_ == 0) return receive_all();
   for (Sending& sending : sending_) {
@@ -208,7 +208,7 @@ void MpiTeam::move_on() {
   }
 }
 
-std::optional<cli::GivenTile> MpiTeam::take(bool wait) {
+std::optional<cli::GivenTile> MpiCommunicator::take(bool wait) {
   const std::lock_guard lock(mutex_);
   receive_all();
   while (wait && received_.empty() && (ended_ < size_ - 1 || !receiving_.empty())) receive_one(/*wait=*/true);
@@ -218,7 +218,7 @@ std::optional<cli::GivenTile> MpiTeam::take(bool wait) {
   return first;
 }
 
-std::vector<Bytes> MpiTeam::gather(const Bytes& of_this_rank) {
+std::vector<Bytes> MpiCommunicator::all_gather(const Bytes& of_this_rank) {
   go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   const auto own = static_cast<std::int64_t>(of_this_rank.size());
@@ -246,7 +246,7 @@ std::vector<Bytes> MpiTeam::gather(const Bytes& of_this_rank) {
   return all;
 }
 
-Bytes MpiTeam::from_first(Bytes of_first) {
+Bytes MpiCommunicator::broadcast(Bytes of_first) {
   go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   auto size = static_cast<std::int64_t>(of_first.size());
@@ -257,13 +257,13 @@ Bytes MpiTeam::from_first(Bytes of_first) {
   return of_first;
 }
 
-void MpiTeam::take_greatest(std::vector<double>& numbers) {
+void MpiCommunicator::all_reduce_max(std::vector<double>& numbers) {
   go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_MAX, comm_);
 }
 
-std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
+std::vector<Bytes> MpiCommunicator::all_to_all(const std::vector<Bytes>& for_each_rank) {
   go_on_if_all_do();
   const std::lock_guard lock(mutex_);
   std::vector<std::int64_t> sizes, coming(for_each_rank.size());
@@ -290,8 +290,9 @@ std::vector<Bytes> MpiTeam::scatter(const std::vector<Bytes>& for_each_rank) {
   return got;
 }
 
-std::unique_ptr<cli::Conversation> MpiTeam::converse(std::function<Bytes(const Bytes&)> answer, int threads) {
-  return std::make_unique<MpiConversation>(comm_, std::move(answer), threads);
+std::unique_ptr<cli::TileChannel> MpiCommunicator::open_channel(std::function<Bytes(const Bytes&)> answer,
+                                                                int threads) {
+  return std::make_unique<MpiChannel>(comm_, std::move(answer), threads);
 }
 
 }  // namespace bihive::mpi

@@ -1,21 +1,21 @@
-#include "bihive/io/part_of_file.h"
+#include "bihive/io/chunk_of_file.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bihive/base/memory.h"
+#include "bihive/io/chunk_of_dump.h"
 #include "bihive/io/formats/arrays/array_frames.h"
 #include "bihive/io/formats/arrays/gsd.h"
 #include "bihive/io/formats/points/npy_layout.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/packed/random_file.h"
-#include "bihive/io/part_of_dump.h"
 #include "bihive/io/raw_spheres.h"
 #include "bihive/io/without_throwing.h"
 
@@ -50,26 +50,11 @@ Result<std::uint64_t> fingerprint(const RandomFile& file) {
   return std::uint64_t{std::hash<std::string>()(samples)};
 }
 
-// Parts of different files would make a set that nobody has. `facts`: besides size and fingerprint.
-Status see_alike(const RandomFile& file, const SetParts& parts, std::vector<double> facts) {
-  const Result<std::uint64_t> number = fingerprint(file);
-  if (!number) return number.error();
-  facts.insert(facts.end(), {double(file.size()), double(*number >> 32), double(*number & 0xFFFFFFFF)});
-  std::vector<double> greatest = facts;
-  for (const double fact : facts) greatest.push_back(-fact);
-  parts.take_greatest(greatest);
-  for (std::size_t i = 0; i < facts.size(); ++i)
-    if (greatest[i] != -greatest[facts.size() + i])
-      return Error{"the ranks see different files of this name", file.path(), 0, 0,
-                   "let all ranks see the same folder"};
-  return Done{};
-}
-
 Result<RawSpheres> rows_of(const RandomFile& file, const NpyLayout& layout, std::int64_t first, std::int64_t end) {
   const auto columns = static_cast<std::size_t>(layout.shape[1]);
   const std::size_t row_bytes = columns * layout.type.size;
   const double wanted = static_cast<double>(end - first) * static_cast<double>(columns * sizeof(double));
-  if (Status status = check_memory(wanted, "a part of the NPY array"); !status)
+  if (Status status = check_memory(wanted, "a chunk of the NPY array"); !status)
     return Error{status.error().message, file.path(), 0, 0, ""};
   RawSpheres spheres;
   spheres.format = "NPY";
@@ -101,15 +86,28 @@ Result<RawSpheres> rows_of(const RandomFile& file, const NpyLayout& layout, std:
   return spheres;
 }
 
-Result<RawSpheres> part_of_npy(const RandomFile& file, const SetParts& parts) {
-  const Result<NpyLayout> layout = layout_of(file);
+Status open_npy(const std::shared_ptr<const RandomFile>& file, RowChunk chunk, FileChunk& opened) {
+  const Result<NpyLayout> layout = layout_of(*file);
   if (!layout) return layout.error();
-  if (!has_rows_of_spheres(*layout)) return Error{"parts of this file cannot be read", file.path(), 0, 0, ""};
+  if (!has_rows_of_spheres(*layout)) return Error{"parts of this file cannot be read", file->path(), 0, 0, ""};
   const std::int64_t rows = layout->shape[0];
-  const Status alike = see_alike(file, parts, {double(rows), double(layout->shape[1]), double(layout->type.size)});
-  if (!alike) return alike.error();
-  const RowRange own = rows_of_part(&parts, rows);
-  return rows_of(file, *layout, own.first, own.end);
+  opened.facts.insert(opened.facts.end(), {double(rows), double(layout->shape[1]), double(layout->type.size)});
+  const RowRange own = chunk.of(rows);
+  opened.rows = own.count();
+  opened.read = [file, layout = *layout, own](std::int64_t, std::int64_t) {
+    return rows_of(*file, layout, own.first, own.end);
+  };
+  return Done{};
+}
+
+Status open_dump(const RandomFile& file, RowChunk chunk, FileChunk& opened) {
+  Result<DumpChunk> lines = DumpChunk::read(file, chunk);
+  if (!lines) return lines.error();
+  const auto dump = std::make_shared<DumpChunk>(std::move(*lines));
+  opened.rows = dump->rows();
+  opened.columns_may_differ = true;
+  opened.read = [dump](std::int64_t first, std::int64_t all) { return dump->spheres(first, all); };
+  return Done{};
 }
 
 // Fewer are not worth it, and with many ranks some would have none.
@@ -119,36 +117,21 @@ bool has_many_particles(const GsdFile& file) {
   return file.schema() == "hoomd" && file.rows(0, "particles/position").value_or(0) >= kFewestParticles;
 }
 
-// The rows of a part may decide whether a column is a text, numbers, or nothing.
-Status have_equal_columns(const RawSpheres& spheres, const std::string& path, const SetParts& parts) {
-  const SphereAttributes& attributes = spheres.attributes;
-  std::string columns = spheres.r.empty() ? "" : "r ";
-  if (!attributes.type.empty()) columns += "type ";
-  if (!attributes.opacity.empty()) columns += "opacity ";
-  for (const NamedNumbers& column : attributes.numbers) columns += "/" + column.name;
-  const double number = static_cast<double>(std::hash<std::string>()(columns) >> 12);
-  std::vector<double> greatest{number, -number, attributes.texts.empty() ? 0.0 : 1.0};
-  parts.take_greatest(greatest);
-  if (greatest[0] == -greatest[1] && greatest[2] == 0) return Done{};
-  return Error{"parts of this file can be read only if all columns are numbers, and types whole ones", path, 0, 0,
-               "leave out --distribute, or convert the file: bihive convert FILE -o set.npy"};
-}
-
 enum class Kind { none, npy, gsd, dump, arrays };
 
 Kind kind_of(const RandomFile& file) {
   const Result<std::string> head = file.read(0, std::min<std::int64_t>(8, file.size()));
   if (head && GsdFile::looks_like(*head)) return Kind::gsd;
   if (layout_of(file)) return Kind::npy;
-  if (atoms_in_parts(file).value_or(0) >= kFewestParticles) return Kind::dump;
+  if (atoms_in_chunks(file).value_or(0) >= kFewestParticles) return Kind::dump;
   Result<RandomFile> again = RandomFile::open(file.path());
-  if (again && particles_in_parts(std::move(*again)).value_or(0) >= kFewestParticles) return Kind::arrays;
+  if (again && particles_in_chunks(std::move(*again)).value_or(0) >= kFewestParticles) return Kind::arrays;
   return Kind::none;
 }
 
 }  // namespace
 
-bool can_read_part(const std::string& path) {
+bool can_read_chunks(const std::string& path) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return false;
   Result<RandomFile> file = RandomFile::open(path);
@@ -169,32 +152,55 @@ bool can_read_part(const std::string& path) {
   return false;
 }
 
-Result<RawSpheres> read_part(const std::string& path, const SetParts& parts) {
-  return without_throwing(path, [&]() -> Result<RawSpheres> {
-    Result<RandomFile> file = RandomFile::open(path);
-    if (!file) return file.error();
+Result<FileChunk> open_chunk(const std::string& path, RowChunk chunk) {
+  return without_throwing(path, [&]() -> Result<FileChunk> {
+    Result<RandomFile> opened = RandomFile::open(path);
+    if (!opened) return opened.error();
+    const auto file = std::make_shared<RandomFile>(std::move(*opened));
     const Kind kind = kind_of(*file);
-    if (const Status alike = see_alike(*file, parts, {double(static_cast<int>(kind))}); !alike) return alike.error();
+    const Result<std::uint64_t> samples = fingerprint(*file);
+    if (!samples) return samples.error();
+    FileChunk made;
+    made.facts = {double(static_cast<int>(kind)), double(file->size()), double(*samples >> 32),
+                  double(*samples & 0xFFFFFFFF)};
+    Status status = Done{};
     switch (kind) {
-      case Kind::gsd: {
-        const Result<GsdFile> opened = GsdFile::open(std::move(*file));
-        if (!opened) return opened.error();
-        return read_gsd_frame(*opened, 0, &parts);
-      }
+      case Kind::gsd:
+        made.read = [file, chunk](std::int64_t, std::int64_t) -> Result<RawSpheres> {
+          const Result<GsdFile> gsd = GsdFile::open(std::move(*file));
+          if (!gsd) return gsd.error();
+          return read_gsd_frame(*gsd, 0, chunk);
+        };
+        break;
+      case Kind::arrays:
+        made.columns_may_differ = true;
+        made.read = [file, chunk](std::int64_t, std::int64_t) { return chunk_of_arrays(std::move(*file), chunk); };
+        break;
       case Kind::dump:
-      case Kind::arrays: {
-        Result<RawSpheres> part =
-            kind == Kind::dump ? part_of_dump(*file, parts) : part_of_arrays(std::move(*file), parts);
-        if (!part) return part;
-        if (const Status equal = have_equal_columns(*part, path, parts); !equal) return equal.error();
-        return part;
-      }
+        status = open_dump(*file, chunk, made);
+        break;
       case Kind::npy:
       case Kind::none:
+        status = open_npy(file, chunk, made);
         break;
     }
-    return part_of_npy(*file, parts);
+    // Facts that differ say more than this.
+    if (!status) made.read = [error = status.error()](std::int64_t, std::int64_t) { return error; };
+    made.read = [path, read = std::move(made.read)](std::int64_t first, std::int64_t all) {
+      return without_throwing(path, [&] { return read(first, all); });
+    };
+    return made;
   });
+}
+
+std::optional<double> columns_of(const RawSpheres& spheres) {
+  const SphereAttributes& attributes = spheres.attributes;
+  if (!attributes.texts.empty()) return std::nullopt;
+  std::string columns = spheres.r.empty() ? "" : "r ";
+  if (!attributes.type.empty()) columns += "type ";
+  if (!attributes.opacity.empty()) columns += "opacity ";
+  for (const NamedNumbers& column : attributes.numbers) columns += "/" + column.name;
+  return static_cast<double>(std::hash<std::string>()(columns) >> 12);
 }
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// The ranks of an MPI program as a team. Only this folder knows MPI.
+// The communicator of an MPI program. Only this folder knows MPI.
 #pragma once
 
 #include <mpi.h>
@@ -11,22 +11,22 @@
 #include <vector>
 
 #include "shared_counter.h"
+#include "support/communicator.h"
 #include "support/failure.h"
-#include "support/team.h"
 
 namespace bihive::mpi {
 
 /// All ranks of the communicator make one at the same time, after MPI_Init_thread with MPI_THREAD_SERIALIZED or more,
 /// and destroy it before MPI_Finalize.
-class MpiTeam final : public cli::Team {
+class MpiCommunicator final : public cli::PictureCommunicator {
  public:
   enum class Counting { shared, by_messages };
   /// Has a copy of the communicator. `distributes`: the spheres are distributed over the ranks. `counting`: numbers go
   /// by messages also where no counter can be shared.
-  MpiTeam(MPI_Comm comm, bool distributes, Counting counting);
-  ~MpiTeam() override;
-  MpiTeam(const MpiTeam&) = delete;
-  MpiTeam& operator=(const MpiTeam&) = delete;
+  MpiCommunicator(MPI_Comm comm, bool distributes, Counting counting);
+  ~MpiCommunicator() override;
+  MpiCommunicator(const MpiCommunicator&) = delete;
+  MpiCommunicator& operator=(const MpiCommunicator&) = delete;
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
@@ -34,14 +34,15 @@ class MpiTeam final : public cli::Team {
   int size_on_machine() const { return size_on_machine_; }
 
   bool distributes() const override { return distributes_; }
-  std::unique_ptr<cli::Conversation> converse(std::function<Bytes(const Bytes&)> answer, int threads) override;
-  std::vector<Bytes> gather(const Bytes& of_this_rank) override;
-  Bytes from_first(Bytes of_first) override;
-  void take_greatest(std::vector<double>& numbers) override;
-  std::vector<Bytes> scatter(const std::vector<Bytes>& for_each_rank) override;
+  std::unique_ptr<cli::TileChannel> open_channel(std::function<Bytes(const Bytes&)> answer, int threads) override;
+  std::vector<Bytes> all_gather(const Bytes& of_this_rank) override;
+  Bytes broadcast(Bytes of_first) override;
+  void all_reduce_max(std::vector<double>& numbers) override;
+  std::vector<Bytes> all_to_all(const std::vector<Bytes>& for_each_rank) override;
 
+  void barrier() override { go_on_if_all_do(); }
   void agree(const std::vector<cli::Fingerprint>& seen) override;
-  std::unique_ptr<cli::Team> part(int number) override;
+  std::unique_ptr<cli::PictureCommunicator> split(int colour) override;
   void begin_picture() override;
   std::int64_t next_number() override;
   void stop_counting() override;

@@ -1,4 +1,4 @@
-#include "bihive/spread/stand_ins.h"
+#include "bihive/spread/proxies.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -72,7 +72,7 @@ void add_depths_and_cuts(const Scene& scene, const RenderSettings& settings, std
 
 }  // namespace
 
-std::vector<std::int64_t> stand_ins(const Scene& scene, const RenderSettings& settings) {
+std::vector<std::int64_t> proxies_of(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::int64_t> ids{scene.spheres.empty() ? kNothing : 0};
   add_clear(scene, ids);
   add_lines(scene, ids);

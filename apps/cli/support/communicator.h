@@ -11,8 +11,8 @@
 #include "bihive/image/film.h"
 #include "bihive/render/renderer.h"
 #include "bihive/spread/bytes.h"
-#include "bihive/spread/exchange.h"
-#include "bihive/spread/ranks.h"
+#include "bihive/spread/channel.h"
+#include "bihive/spread/communicator.h"
 #include "bihive/spread/spread_scene.h"
 
 namespace bihive::cli {
@@ -37,7 +37,7 @@ struct OtherRankFailed {
 /// The work of a rank for a picture.
 struct WorkOfRank {
   RenderCounts rays;
-  ExchangeCounts cost;  ///< where spheres are distributed
+  ChannelCounts cost;  ///< where spheres are distributed
 
   void add(const WorkOfRank& other) {
     rays.primary += other.rays.primary;
@@ -70,9 +70,9 @@ class TileTraffic {
   virtual WorkOfRank work_of_others() const = 0;
 };
 
-/// Ranks talk like this while they draw spheres that are distributed over them. Any number of threads may use
-/// it at a time, from begin() to end().
-class Conversation : public Exchange, public TileTraffic {
+/// The channel of ranks that draw spheres which are distributed over them. Any number of threads may use it at a time,
+/// from begin() to end().
+class TileChannel : public Channel, public TileTraffic {
  public:
   virtual void begin() = 0;
   /// Rank 0, whose own threads give tiles too, says by it that none will come.
@@ -81,12 +81,13 @@ class Conversation : public Exchange, public TileTraffic {
   virtual void end() = 0;
 };
 
-class Team : public Ranks, public TileTraffic {
+/// The ranks of bihive-mpi, or some of them, which draw a picture together.
+class PictureCommunicator : public Communicator, public TileTraffic {
  public:
   /// Whether the spheres are distributed over the ranks.
   virtual bool distributes() const = 0;
   /// `answer` answers the questions of other ranks, on `threads` threads. All ranks make one at the same time.
-  virtual std::unique_ptr<Conversation> converse(std::function<Bytes(const Bytes&)> answer, int threads) = 0;
+  virtual std::unique_ptr<TileChannel> open_channel(std::function<Bytes(const Bytes&)> answer, int threads) = 0;
 
   /// All ranks come here. Fails on a rank that sees something else than rank 0; throws OtherRankFailed on the others,
   /// and on all that are well if a rank has failed before.
@@ -95,8 +96,10 @@ class Team : public Ranks, public TileTraffic {
   /// this rank fails. Returns 0, or the code of the lowest rank that failed.
   virtual int end_with(int code) = 0;
 
-  /// All ranks come here. The team of those that give the same number, with ranks in the order of this team.
-  virtual std::unique_ptr<Team> part(int number) = 0;
+  /// All ranks come here. Throws OtherRankFailed if one has failed.
+  virtual void barrier() = 0;
+  /// All ranks come here. The communicator of those that give the same colour, in the order of these ranks.
+  virtual std::unique_ptr<PictureCommunicator> split(int colour) = 0;
   /// All ranks come here before each picture that they share: numbers begin at 0.
   virtual void begin_picture() = 0;
 
@@ -105,12 +108,12 @@ class Team : public Ranks, public TileTraffic {
 };
 
 /// Null: alone.
-Team* team();
-void set_team(Team* team);
+PictureCommunicator* communicator();
+void set_communicator(PictureCommunicator* ranks);
 
 /// Whether this process writes and speaks.
 inline bool leads() {
-  return team() == nullptr || team()->rank() == 0;
+  return communicator() == nullptr || communicator()->rank() == 0;
 }
 
 }  // namespace bihive::cli

@@ -17,32 +17,33 @@
 namespace bihive {
 
 /// Const after make(); any number of threads may ask at a time.
-class PartOfSet {
+class LocalSpheres {
  public:
-  PartOfSet() = default;
-  PartOfSet(const PartOfSet&) = delete;
-  PartOfSet& operator=(const PartOfSet&) = delete;
+  LocalSpheres() = default;
+  LocalSpheres(const LocalSpheres&) = delete;
+  LocalSpheres& operator=(const LocalSpheres&) = delete;
 
   /// `spheres`: a scene with this rank's spheres, `count` of them, which ascend by `whole_ids`; then, where clips cut
   /// some sphere of the whole set, those of other ranks that rays may leave and that matter here, ascending too.
   /// Errors: as Tracer::build().
-  static Result<std::shared_ptr<const PartOfSet>> make(Scene spheres, std::vector<std::int64_t> whole_ids,
-                                                       std::int64_t count, const SphereColumns& has, OpacityRule rule,
-                                                       const TreeParameters& parameters, int threads);
+  static Result<std::shared_ptr<const LocalSpheres>> make(Scene spheres, std::vector<std::int64_t> whole_ids,
+                                                          std::int64_t count, const SphereColumns& has,
+                                                          OpacityRule rule, const TreeParameters& parameters,
+                                                          int threads);
 
   std::int64_t size() const { return count_; }
   double build_ms() const { return tracer_->build_ms(); }
 
-  /// The answer to any question of Exchange.
+  /// The answer to any question of Channel.
   Bytes answer(const Bytes& question) const;
 
   /// The same where question and answer stay on this rank. `rays.leaves`: places.
   void closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<FoundSphere>& found) const;
-  void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
+  void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
   void all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<FoundSphere>& found) const;
   void pack(const std::vector<std::int64_t>& places, Bytes& bytes) const;
   /// The place of another rank's sphere, or kNothing if it does not matter here.
-  std::int64_t place_of_guest(std::int64_t whole_id) const;
+  std::int64_t place_of_ghost(std::int64_t whole_id) const;
 
  private:
   FoundSphere found_sphere(std::int64_t ray, double t, std::int64_t place) const {

@@ -1,4 +1,4 @@
-#include "bihive/spread/spheres_elsewhere.h"
+#include "bihive/spread/remote_spheres.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,7 @@ constexpr double kFarthest = std::numeric_limits<double>::infinity();
 }  // namespace
 
 // The ranks on the way of each ray.
-void SpheresElsewhere::find_ways(const RaySpan& rays) {
+void RemoteSpheres::find_ways(const RaySpan& rays) {
   ways_.clear();
   const auto count = static_cast<std::size_t>(rays.count);
   next_.resize(count);
@@ -31,7 +31,7 @@ void SpheresElsewhere::find_ways(const RaySpan& rays) {
   counts_.rays += rays.count;
 }
 
-SpheresElsewhere::RaysOfRank& SpheresElsewhere::rays_of(int rank) {
+RemoteSpheres::RaysOfRank& RemoteSpheres::rays_of(int rank) {
   std::int32_t& number = number_of_rank_[static_cast<std::size_t>(rank)];
   if (number < 0) {
     number = static_cast<std::int32_t>(asked_.size());
@@ -41,17 +41,17 @@ SpheresElsewhere::RaysOfRank& SpheresElsewhere::rays_of(int rank) {
 }
 
 // A sphere that the ray leaves lies on one rank, with all that coincide with it.
-void SpheresElsewhere::choose(const RaySpan& rays, std::int64_t ray, int rank) {
+void RemoteSpheres::choose(const RaySpan& rays, std::int64_t ray, int rank) {
   RaysOfRank& asked = rays_of(rank);
   asked.chosen.push_back(ray);
   const Address left = rays.leaves != nullptr ? seen_.address_of(rays.leaves[ray]) : Address{-1, kNoPlace};
   asked.places.push_back(left.rank == rank ? left.place : kNoPlace);
-  const bool is_guest = left.rank >= 0 && left.rank != rank && !seen_.scene().clips.empty();
-  asked.guests.push_back(is_guest ? seen_.whole_id_of(rays.leaves[ray]) : kNothing);
+  const bool is_ghost = left.rank >= 0 && left.rank != rank && !seen_.scene().clips.empty();
+  asked.ghosts.push_back(is_ghost ? seen_.whole_id_of(rays.leaves[ray]) : kNothing);
 }
 
 // Each ray that may still find something nearer goes to its next rank. False: none does.
-bool SpheresElsewhere::choose_next(const RaySpan& rays) {
+bool RemoteSpheres::choose_next(const RaySpan& rays) {
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (next_[k] == end_[k] || ways_[next_[k]].t > ends_[k]) continue;
@@ -61,7 +61,7 @@ bool SpheresElsewhere::choose_next(const RaySpan& rays) {
 }
 
 // The rays for this rank's own spheres.
-RaySpan SpheresElsewhere::rays_here(const RaySpan& rays, const RaysOfRank& asked) {
+RaySpan RemoteSpheres::rays_here(const RaySpan& rays, const RaysOfRank& asked) {
   const std::size_t count = asked.chosen.size();
   const auto gather = [&](auto& to, const auto& of) {
     to.resize(count);
@@ -76,7 +76,7 @@ RaySpan SpheresElsewhere::rays_here(const RaySpan& rays, const RaysOfRank& asked
   gather(batch_.inside, [&](std::int64_t i) { return rays.inside != nullptr ? rays.inside[i] : std::uint8_t{0}; });
   batch_.leaves.resize(count);
   for (std::size_t k = 0; k < count; ++k)
-    batch_.leaves[k] = asked.guests[k] != kNothing   ? here_.place_of_guest(asked.guests[k])
+    batch_.leaves[k] = asked.ghosts[k] != kNothing   ? here_.place_of_ghost(asked.ghosts[k])
                        : asked.places[k] == kNoPlace ? kNothing
                                                      : static_cast<std::int64_t>(asked.places[k]);
   return batch_.span();
@@ -84,26 +84,26 @@ RaySpan SpheresElsewhere::rays_here(const RaySpan& rays, const RaysOfRank& asked
 
 // Asks what was chosen, and calls use(rays of a rank, span of them here or null, answer or null) for each rank.
 template <class Use>
-void SpheresElsewhere::ask(QuestionKind kind, WhichSpheres which, RayOrder order, const RaySpan& rays, const Use& use) {
-  std::vector<Exchange::Question> questions;
+void RemoteSpheres::ask(QuestionKind kind, WhichSpheres which, RayOrder order, const RaySpan& rays, const Use& use) {
+  std::vector<Channel::Question> questions;
   for (const RaysOfRank& asked : asked_) {
     counts_.asked += static_cast<std::int64_t>(asked.chosen.size());
-    if (asked.rank == exchange_.rank()) continue;
+    if (asked.rank == channel_.rank()) continue;
     questions.push_back(
-        {asked.rank, rays_question(kind, which, order, {&rays, &asked.chosen, &asked.places, &asked.guests, &ends_})});
+        {asked.rank, rays_question(kind, which, order, {&rays, &asked.chosen, &asked.places, &asked.ghosts, &ends_})});
     counts_.bytes += static_cast<std::int64_t>(questions.back().bytes.size());
   }
   std::vector<Bytes> answers;
   if (!questions.empty()) {
     counts_.messages += 2 * static_cast<std::int64_t>(questions.size());
     ++counts_.rounds;
-    answers = exchange_.ask(std::move(questions));
+    answers = channel_.ask(std::move(questions));
     for (const Bytes& answer : answers) counts_.bytes += static_cast<std::int64_t>(answer.size());
   }
   std::size_t number = 0;
   for (const RaysOfRank& asked : asked_) {
     number_of_rank_[static_cast<std::size_t>(asked.rank)] = -1;
-    if (asked.rank == exchange_.rank()) {
+    if (asked.rank == channel_.rank()) {
       const RaySpan here = rays_here(rays, asked);
       use(asked, &here, nullptr);
     } else {
@@ -114,7 +114,7 @@ void SpheresElsewhere::ask(QuestionKind kind, WhichSpheres which, RayOrder order
 }
 
 // Fetches the spheres of these addresses that were not seen yet.
-void SpheresElsewhere::know(const std::vector<Address>& addresses) {
+void RemoteSpheres::know(const std::vector<Address>& addresses) {
   std::vector<std::vector<Address>> unknown;
   std::vector<Address> ordered;
   for (const Address& address : addresses)
@@ -131,9 +131,9 @@ void SpheresElsewhere::know(const std::vector<Address>& addresses) {
     unknown.back().push_back(address);
   }
 
-  std::vector<Exchange::Question> questions;
+  std::vector<Channel::Question> questions;
   for (const std::vector<Address>& of_rank : unknown) {
-    if (of_rank.front().rank == exchange_.rank()) continue;
+    if (of_rank.front().rank == channel_.rank()) continue;
     Bytes question;
     ByteWriter out(question);
     out.put(QuestionKind::spheres);
@@ -146,12 +146,12 @@ void SpheresElsewhere::know(const std::vector<Address>& addresses) {
   if (!questions.empty()) {
     counts_.messages += 2 * static_cast<std::int64_t>(questions.size());
     ++counts_.rounds;
-    answers = exchange_.ask(std::move(questions));
+    answers = channel_.ask(std::move(questions));
   }
   std::size_t number = 0;
   for (const std::vector<Address>& of_rank : unknown) {
     Bytes own;
-    if (of_rank.front().rank == exchange_.rank()) {
+    if (of_rank.front().rank == channel_.rank()) {
       std::vector<std::int64_t> places;
       places.reserve(of_rank.size());
       for (const Address& address : of_rank) places.push_back(address.place);
@@ -165,7 +165,7 @@ void SpheresElsewhere::know(const std::vector<Address>& addresses) {
   }
 }
 
-void SpheresElsewhere::closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
+void RemoteSpheres::closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
   find_ways(rays);
   std::vector<Nearest> nearest(static_cast<std::size_t>(rays.count), {kFarthest, kNothing, {-1, kNoPlace}});
   std::vector<FoundSphere> found;
@@ -196,9 +196,9 @@ void SpheresElsewhere::closest_hits(WhichSpheres which, const RaySpan& rays, Ray
   }
 }
 
-void SpheresElsewhere::occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) {
+void RemoteSpheres::occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) {
   find_ways(rays);
-  std::fill_n(hidden, rays.count, std::uint8_t{0});
+  std::fill_n(is_occluded, rays.count, std::uint8_t{0});
   std::vector<std::uint8_t> of_rank;
   while (choose_next(rays)) {
     ask(QuestionKind::occluded, which, order, rays,
@@ -207,18 +207,18 @@ void SpheresElsewhere::occluded(WhichSpheres which, const RaySpan& rays, RayOrde
           if (here != nullptr)
             here_.occluded(which, *here, order, of_rank.data());
           else
-            take_hidden(*answer, of_rank);
+            take_occluded(*answer, of_rank);
           for (std::size_t k = 0; k < of_rank.size(); ++k) {
             if (of_rank[k] == 0) continue;
             const auto i = static_cast<std::size_t>(asked.chosen[k]);
-            hidden[i] = 1;
+            is_occluded[i] = 1;
             next_[i] = end_[i];
           }
         });
   }
 }
 
-void SpheresElsewhere::all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) {
+void RemoteSpheres::all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) {
   find_ways(rays);
   for (std::int64_t i = 0; i < rays.count; ++i)
     for (std::size_t way = next_[static_cast<std::size_t>(i)]; way < end_[static_cast<std::size_t>(i)]; ++way)

@@ -9,11 +9,12 @@
 namespace bihive {
 
 /// Thrown by ask() when there will be no answer: the program stops.
-struct ExchangeStopped {};
+struct ChannelClosed {};
 
-class Exchange {
+/// Asynchronous messages, while ranks draw: what all do together is spread/communicator.h.
+class Channel {
  public:
-  virtual ~Exchange() = default;
+  virtual ~Channel() = default;
   virtual int rank() const = 0;  ///< this one
   virtual int ranks() const = 0;
 

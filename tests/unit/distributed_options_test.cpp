@@ -1,0 +1,49 @@
+// Which options of `bihive render` work with distributed spheres.
+// ctest: needs bihive_commands
+#include "commands/distributed_options.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bihive::cli {
+namespace {
+
+RenderOptions given(std::vector<std::string> names) {
+  RenderOptions options;
+  options.given = std::move(names);
+  return options;
+}
+
+TEST(DistributedOptions, OneThatNobodyAddedToTheTableIsRefusedByName) {
+  const Result<ReadingByRanks> reading = reading_by_ranks(given({"--size", "--brand-new", "--fog"}));
+  ASSERT_FALSE(reading);
+  EXPECT_NE(reading.error().message.find("--brand-new"), std::string::npos) << reading.error().message;
+}
+
+TEST(DistributedOptions, ThoseThatLookAtCentresAndRadiiTakeChunks) {
+  EXPECT_EQ(reading_by_ranks(given({})).value(), ReadingByRanks::chunks);
+  EXPECT_EQ(reading_by_ranks(given({"INPUT", "--output", "--fog", "--radius"})).value(), ReadingByRanks::chunks);
+}
+
+TEST(DistributedOptions, OneThatLooksAtMoreNeedsTheWholeSet) {
+  for (const char* const name : {"--select", "--columns", "--legend", "--replicate", "--cell", "--film"})
+    EXPECT_EQ(reading_by_ranks(given({"--fog", name, "--radius"})).value(), ReadingByRanks::whole) << name;
+}
+
+TEST(DistributedOptions, SomeDependOnTheirValue) {
+  RenderOptions options = given({"--frame", "--focus"});
+  options.input.frame = 0;
+  options.focus = 2.5;
+  EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::chunks);
+  options.focus = "chain A";
+  EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
+  options.focus.reset();
+  options.input.frame = 1;
+  EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
+}
+
+}  // namespace
+}  // namespace bihive::cli
