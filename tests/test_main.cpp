@@ -2,7 +2,8 @@
 //
 //   unit_tests                      every test of the program
 //   unit_tests --file unit/tree     the tests of tests/unit/tree_test.cpp alone, which is how ctest calls it
-// and GoogleTest's own options. Beside --file a filter may only leave tests out (--gtest_filter=-PATTERN).
+// and GoogleTest's own options: --gtest_filter=-PATTERN leaves some of the file's tests out, and a filter that names
+// tests chooses by itself, as GoogleTest does when it starts a program again for a test that ends it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,9 +37,8 @@ std::string tests_of_file(const std::string& file) {
 int main(int argc, char** argv) {
   testing::InitGoogleMock(&argc, argv);
   if (argc == 1) return RUN_ALL_TESTS();
-  const std::string left_out = GTEST_FLAG_GET(filter);
-  if (argc != 3 || std::string_view(argv[1]) != "--file" || (left_out != "*" && left_out[0] != '-')) {
-    std::fprintf(stderr, "usage: %s [--file KIND/SUBJECT [--gtest_filter=-PATTERN]]\n", argv[0]);
+  if (argc != 3 || std::string_view(argv[1]) != "--file") {
+    std::fprintf(stderr, "usage: %s [--file KIND/SUBJECT]\n", argv[0]);
     return 2;
   }
   const std::string names = tests_of_file(argv[2]);
@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s: no test is in tests/%s_test.cpp\n", argv[0], argv[2]);
     return 2;
   }
-  GTEST_FLAG_SET(filter, left_out == "*" ? names : names + left_out);
+  const std::string filter = GTEST_FLAG_GET(filter);
+  if (filter == "*") GTEST_FLAG_SET(filter, names);
+  if (filter[0] == '-') GTEST_FLAG_SET(filter, names + filter);
   return RUN_ALL_TESTS();
 }
