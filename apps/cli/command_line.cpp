@@ -17,6 +17,7 @@
 #include "parameter_options.h"
 #include "server/addresses.h"
 #include "support/failure.h"
+#include "words/given_options.h"
 #include "words/short_help.h"
 
 namespace bihive::cli {
@@ -359,57 +360,6 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   command.parse_complete_callback([&options, &command] {
     for (const CLI::Option* option : command.parse_order()) options.given.push_back(option->get_name());
   });
-}
-
-// An option as it stands on the command line, with its value: one word or two.
-struct GivenOption {
-  const CLI::Option* option = nullptr;
-  std::string name, value;
-  std::vector<std::string> words;
-};
-
-// The options among these words of a command. A word that is neither an option nor its value has no option.
-std::vector<GivenOption> given_options(const CLI::App& command, const std::vector<std::string>& words) {
-  std::vector<GivenOption> given;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    GivenOption& one = given.emplace_back();
-    one.words = {word};
-    if (word.size() < 2 || word.front() != '-') continue;
-    one.name = word[1] == '-' ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    one.option = command.get_option_no_throw(one.name);
-    if (one.option == nullptr) continue;
-    if (one.name.size() < word.size()) one.value = word.substr(one.name.size() + (word[1] == '-' ? 1 : 0));
-    if (one.option->get_items_expected_max() == 0 || one.name.size() < word.size() || i + 1 == words.size()) continue;
-    one.value = words[++i];
-    one.words.push_back(one.value);
-  }
-  return given;
-}
-
-// Whether an option of `bihive film` belongs to each picture: all do but those that decide how the film is made.
-bool is_of_picture(const GivenOption& given) {
-  static const std::vector<std::string> of_film{
-      "-o",          "--output",      "--frames",       "--pictures",   "--fps",
-      "--turntable", "--camera-keys", "--colour-range", "--codec",      "--shard",
-      "--join",      "--json",        "--threads",      "--trajectory", "-h",
-      "--help",      "--help-all"};
-  return given.option != nullptr && std::find(of_film.begin(), of_film.end(), given.name) == of_film.end();
-}
-
-std::vector<std::string> picture_words(const CLI::App& command, int argc, const char* const* argv) {
-  std::vector<std::string> words;
-  for (const GivenOption& given : given_options(command, {argv + 2, argv + argc}))
-    if (is_of_picture(given)) words.insert(words.end(), given.words.begin(), given.words.end());
-  return words;
-}
-
-// Whether the value is a path, where the option takes one.
-bool names_file(const GivenOption& given) {
-  if (given.option->get_type_name().find("FILE") == std::string::npos) return false;
-  if (given.name == "--style") return !style_named(given.value);
-  if (given.name == "--element-colours") return !element_colours_called(given.value);
-  return true;
 }
 
 void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {
