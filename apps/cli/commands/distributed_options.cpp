@@ -8,97 +8,28 @@
 namespace bihive::cli {
 namespace {
 
-constexpr ReadingByRanks chunks = ReadingByRanks::chunks, whole = ReadingByRanks::whole;
+// Options that look at no sphere but by its centre and radius.
+constexpr std::string_view kWithChunks[] = {
+    "--ao",           "--ao-directions", "--ao-distance",  "--aperture",     "--axes",      "--background",
+    "--bits",         "--crop",          "--dpi",          "--engine",       "--exposure",  "--eye",
+    "--focus",        "--fog",           "--fov",          "--frame",        "--json",      "--layers",
+    "--length-unit",  "--light",         "--light-points", "--look-at",      "--max-depth", "--max-prims",
+    "--no-ao",        "--no-labels",     "--no-shadows",   "--opacity-rule", "--outline",   "--output",
+    "--projection",   "--radius",        "--radius-scale", "--recenter",     "--recursion", "--samples",
+    "--scale-bar",    "--shadows",       "--size",         "--style",        "--threads",   "--title",
+    "--title-values", "--tone",          "--transfer",     "--turn",         "--up",        "--view",
+    "--view-from",    "--zoom",          "INPUT"};
 
-struct DistributedOption {
-  std::string_view name;
-  ReadingByRanks reading;
-};
+// Options for which rank 0 reads all spheres.
+constexpr std::string_view kWithWholeSet[] = {
+    "--assembly", "--cell",       "--cell-origin",  "--cell-vectors",    "--clip",    "--colour",  "--colour-by",
+    "--columns",  "--count",      "--crease",       "--element-colours", "--film",    "--hide",    "--legend",
+    "--material", "--nan-colour", "--no-hydrogens", "--no-water",        "--opacity", "--picture", "--replicate",
+    "--seed",     "--select",     "--show",         "--trajectory",      "--unwrap",  "--wrap"};
 
-// An option that is not here does not work with --distribute.
-constexpr DistributedOption kDistributedOptions[] = {
-    // The picture.
-    {"--ao", chunks},
-    {"--ao-directions", chunks},
-    {"--ao-distance", chunks},
-    {"--aperture", chunks},
-    {"--axes", chunks},
-    {"--background", chunks},
-    {"--bits", chunks},
-    {"--cell", whole},
-    {"--crop", chunks},
-    {"--dpi", chunks},
-    {"--engine", chunks},
-    {"--exposure", chunks},
-    {"--eye", chunks},
-    {"--film", whole},
-    {"--focus", chunks},
-    {"--fog", chunks},
-    {"--fov", chunks},
-    {"--json", chunks},
-    {"--layers", chunks},
-    {"--legend", whole},
-    {"--length-unit", chunks},
-    {"--light", chunks},
-    {"--light-points", chunks},
-    {"--look-at", chunks},
-    {"--max-depth", chunks},
-    {"--max-prims", chunks},
-    {"--no-ao", chunks},
-    {"--no-labels", chunks},
-    {"--no-shadows", chunks},
-    {"--opacity-rule", chunks},
-    {"--outline", chunks},
-    {"--output", chunks},
-    {"--picture", whole},
-    {"--projection", chunks},
-    {"--recursion", chunks},
-    {"--samples", chunks},
-    {"--scale-bar", chunks},
-    {"--shadows", chunks},
-    {"--size", chunks},
-    {"--style", chunks},
-    {"--threads", chunks},
-    {"--title", chunks},
-    {"--title-values", chunks},
-    {"--tone", chunks},
-    {"--transfer", chunks},
-    {"--turn", chunks},
-    {"--up", chunks},
-    {"--view", chunks},
-    {"--view-from", chunks},
-    {"--zoom", chunks},
-    // The input.
-    {"INPUT", chunks},
-    {"--assembly", whole},
-    {"--cell-origin", whole},
-    {"--cell-vectors", whole},
-    {"--columns", whole},
-    {"--count", whole},
-    {"--frame", chunks},
-    {"--radius", chunks},
-    {"--radius-scale", chunks},
-    {"--recenter", chunks},
-    {"--replicate", whole},
-    {"--seed", whole},
-    {"--trajectory", whole},
-    {"--unwrap", whole},
-    {"--wrap", whole},
-    // The appearance of selections.
-    {"--clip", whole},
-    {"--colour", whole},
-    {"--colour-by", whole},
-    {"--crease", whole},
-    {"--element-colours", whole},
-    {"--hide", whole},
-    {"--material", whole},
-    {"--nan-colour", whole},
-    {"--no-hydrogens", whole},
-    {"--no-water", whole},
-    {"--opacity", whole},
-    {"--select", whole},
-    {"--show", whole},
-};
+bool contains(const auto& names, std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
 
 }  // namespace
 
@@ -106,13 +37,12 @@ Result<ReadingByRanks> reading_by_ranks(const RenderOptions& options) {
   // Chunks have one frame, and a focus on a selection looks for its spheres.
   const bool by_value =
       options.input.frame.value_or(0) == 0 && (!options.focus || std::holds_alternative<double>(*options.focus));
-  ReadingByRanks reading = by_value ? chunks : whole;
+  ReadingByRanks reading = by_value ? ReadingByRanks::chunks : ReadingByRanks::whole;
   for (const std::string& name : options.given) {
-    const auto* const found = std::find_if(std::begin(kDistributedOptions), std::end(kDistributedOptions),
-                                           [&](const DistributedOption& one) { return one.name == name; });
-    if (found == std::end(kDistributedOptions))
+    if (contains(kWithChunks, name)) continue;
+    if (!contains(kWithWholeSet, name))
       return Error{"--distribute does not work with " + name, "", 0, 0, "leave one of them out"};
-    if (found->reading == whole) reading = whole;
+    reading = ReadingByRanks::whole;
   }
   return reading;
 }
