@@ -45,7 +45,7 @@ struct RankTimes {
 };
 
 // Other ranks answer at once, and the clocks of all go on by what it would have taken.
-class SimulatedChannel final : public Channel {
+class SimulatedChannel final : public RankChannel {
  public:
   SimulatedChannel(int rank, RanksInProcess& all, const Network& network, std::vector<RankTimes>& times)
       : rank_(rank), all_(all), network_(network), times_(times) {}

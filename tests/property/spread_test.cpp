@@ -23,7 +23,7 @@ std::unique_ptr<RanksInProcess> spread(const Scene& whole, const RenderSettings&
 }
 
 Rendered draw(RanksInProcess& ranks, int rank, RenderSettings settings) {
-  const std::unique_ptr<Channel> channel = ranks.channel(rank);
+  const std::unique_ptr<RankChannel> channel = ranks.channel(rank);
   const std::unique_ptr<SpreadScene::Artist> artist = ranks.scene(rank).artist(*channel);
   settings.threads = 1;
   return render(artist->scene(), artist->tracer(), settings).value();

@@ -72,7 +72,7 @@ class TileTraffic {
 
 /// The channel of ranks that draw spheres which are distributed over them. Any number of threads may use it at a time,
 /// from begin() to end().
-class TileChannel : public Channel, public TileTraffic {
+class TileChannel : public RankChannel, public TileTraffic {
  public:
   virtual void begin() = 0;
   /// Rank 0, whose own threads give tiles too, says by it that none will come.

@@ -12,9 +12,9 @@ namespace bihive {
 struct ChannelClosed {};
 
 /// Asynchronous messages, while ranks draw: what all do together is spread/communicator.h.
-class Channel {
+class RankChannel {
  public:
-  virtual ~Channel() = default;
+  virtual ~RankChannel() = default;
   virtual int rank() const = 0;  ///< this one
   virtual int ranks() const = 0;
 

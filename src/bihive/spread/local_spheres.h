@@ -34,7 +34,7 @@ class LocalSpheres {
   std::int64_t size() const { return count_; }
   double build_ms() const { return tracer_->build_ms(); }
 
-  /// The answer to any question of Channel.
+  /// The answer to any question of RankChannel.
   Bytes answer(const Bytes& question) const;
 
   /// The same where question and answer stay on this rank. `rays.leaves`: places.

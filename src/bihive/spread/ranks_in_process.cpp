@@ -132,7 +132,7 @@ struct Rank {
   std::int64_t sent_bytes = 0;
 };
 
-class ChannelInProcess final : public Channel {
+class ChannelInProcess final : public RankChannel {
  public:
   ChannelInProcess(int rank, const std::vector<Rank>& ranks) : rank_(rank), all_(ranks) {}
   int rank() const override { return rank_; }
@@ -180,7 +180,7 @@ class Implementation final : public RanksInProcess {
   int size() const override { return static_cast<int>(ranks_.size()); }
   const SpreadScene& scene(int rank) const override { return *of(rank).scene; }
   std::int64_t sent_bytes(int rank) const override { return of(rank).sent_bytes; }
-  std::unique_ptr<Channel> channel(int rank) override { return std::make_unique<ChannelInProcess>(rank, ranks_); }
+  std::unique_ptr<RankChannel> channel(int rank) override { return std::make_unique<ChannelInProcess>(rank, ranks_); }
 
  private:
   const Rank& of(int rank) const { return ranks_[static_cast<std::size_t>(rank)]; }

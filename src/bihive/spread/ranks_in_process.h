@@ -40,7 +40,7 @@ class RanksInProcess {
 
   /// What `rank` asks is answered on the thread that asks, at once. Threads may ask at the same time. Must not outlive
   /// this object.
-  virtual std::unique_ptr<Channel> channel(int rank) = 0;
+  virtual std::unique_ptr<RankChannel> channel(int rank) = 0;
 };
 
 }  // namespace bihive

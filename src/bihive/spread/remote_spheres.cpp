@@ -85,7 +85,7 @@ RaySpan RemoteSpheres::rays_here(const RaySpan& rays, const RaysOfRank& asked) {
 // Asks what was chosen, and calls use(rays of a rank, span of them here or null, answer or null) for each rank.
 template <class Use>
 void RemoteSpheres::ask(QuestionKind kind, WhichSpheres which, RayOrder order, const RaySpan& rays, const Use& use) {
-  std::vector<Channel::Question> questions;
+  std::vector<RankChannel::Question> questions;
   for (const RaysOfRank& asked : asked_) {
     counts_.asked += static_cast<std::int64_t>(asked.chosen.size());
     if (asked.rank == channel_.rank()) continue;
@@ -131,7 +131,7 @@ void RemoteSpheres::know(const std::vector<Address>& addresses) {
     unknown.back().push_back(address);
   }
 
-  std::vector<Channel::Question> questions;
+  std::vector<RankChannel::Question> questions;
   for (const std::vector<Address>& of_rank : unknown) {
     if (of_rank.front().rank == channel_.rank()) continue;
     Bytes question;

@@ -19,7 +19,7 @@ namespace bihive {
 class RemoteSpheres final : public RemoteEngine {
  public:
   /// `here`: this rank's spheres. All must outlive it.
-  RemoteSpheres(SeenSpheres& seen, const RankBoxes& boxes, const LocalSpheres& here, Channel& channel)
+  RemoteSpheres(SeenSpheres& seen, const RankBoxes& boxes, const LocalSpheres& here, RankChannel& channel)
       : seen_(seen), boxes_(boxes), here_(here), channel_(channel) {}
 
   void closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, const HitSpan& hits) override;
@@ -54,7 +54,7 @@ class RemoteSpheres final : public RemoteEngine {
   SeenSpheres& seen_;
   const RankBoxes& boxes_;
   const LocalSpheres& here_;
-  Channel& channel_;
+  RankChannel& channel_;
   ChannelCounts counts_;
 
   // State of the current query.

@@ -169,7 +169,7 @@ Bytes common_proxies(const SomeSpheres& own, const RenderSettings& settings, con
 class ArtistOfScene final : public SpreadScene::Artist {
  public:
   ArtistOfScene(const Scene& shell, const SphereColumns& has, const Bytes& proxies, const RankBoxes& boxes,
-                const LocalSpheres& here, Channel& channel)
+                const LocalSpheres& here, RankChannel& channel)
       : seen_(shell, has, proxies),
         remote_(std::make_shared<RemoteSpheres>(seen_, boxes, here, channel)),
         tracer_(seen_.scene().spheres, remote_, cut_set_of(seen_.scene()) != nullptr) {}
@@ -277,7 +277,7 @@ Bytes SpreadScene::answer(const Bytes& question) const {
   return implementation_->local->answer(question);
 }
 
-std::unique_ptr<SpreadScene::Artist> SpreadScene::artist(Channel& channel) const {
+std::unique_ptr<SpreadScene::Artist> SpreadScene::artist(RankChannel& channel) const {
   const Implementation& all = *implementation_;
   return std::make_unique<ArtistOfScene>(all.shell, all.has, all.proxies, *all.boxes, *all.local, channel);
 }

@@ -1,8 +1,8 @@
 // A scene whose spheres lie on several ranks, each on one: for sets beyond the memory of one machine.
 //
 // Each rank keeps its spheres, their tree, and a scene without the others. Threads that draw have an Artist each, and
-// ask other ranks through a Channel; their questions are answered by SpreadScene::answer(). Pictures have the bits of
-// one process that has all spheres, for any number of ranks.
+// ask other ranks through a RankChannel; their questions are answered by SpreadScene::answer(). Pictures have the bits
+// of one process that has all spheres, for any number of ranks.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,7 @@ class SpreadScene {
   std::int64_t whole_size() const;  ///< of all
   double build_ms() const;
 
-  /// The answer to any question that a Channel brings.
+  /// The answer to any question that a RankChannel brings.
   Bytes answer(const Bytes& question) const;
 
   /// For one thread.
@@ -75,7 +75,7 @@ class SpreadScene {
     virtual ChannelCounts counts() const = 0;
   };
   /// The scene and the channel must outlive it.
-  std::unique_ptr<Artist> artist(Channel& channel) const;
+  std::unique_ptr<Artist> artist(RankChannel& channel) const;
 
  private:
   SpreadScene();
