@@ -87,7 +87,6 @@ void add_generator_options(CLI::App& app, InputOptions& input) {
   add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", seed_from);
 }
 
-// `alone`: no other word without an option follows INPUT.
 // A text of --help in lines of at most this many characters.
 std::string in_lines(std::string text) {
   constexpr std::size_t kWidth = 84;
@@ -99,6 +98,7 @@ std::string in_lines(std::string text) {
   return text;
 }
 
+// `alone`: no other word without an option follows INPUT.
 void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
   app.add_option("INPUT", input.input,
                  in_lines("A file (" + names_of_formats(FormatsThat::hold_spheres) +

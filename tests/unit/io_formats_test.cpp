@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -43,15 +42,6 @@ std::vector<std::string> all_endings() {
   for (const Format* format : formats()) take(format->files);
   for (const TrajectoryFormat* format : trajectory_formats()) take(format->files);
   return all;
-}
-
-// What matches the first group of an expression.
-std::set<std::string> matches(const std::string& text, const std::string& expression) {
-  const std::regex regex(expression);
-  std::set<std::string> found;
-  for (std::sregex_iterator at(text.begin(), text.end(), regex); at != std::sregex_iterator(); ++at)
-    found.insert((*at)[1]);
-  return found;
 }
 
 // The text between "<!-- NAME -->" and "<!-- /NAME -->" of a page is `wanted`.
@@ -150,23 +140,6 @@ TEST(FormatPages, TheBrowserKnowsTrajectories) {
   for (const TrajectoryFormat* format : trajectory_formats())
     for (const std::string& ending : split(format->files)) endings += (endings.empty() ? "" : "|") + ending.substr(1);
   EXPECT_THAT(text_of("web/src/sources.ts"), HasSubstr("/\\.(" + endings + ")$/i"));
-}
-
-TEST(FormatPages, DesktopsOpenTheseFiles) {
-  const std::vector<std::string> endings = all_endings();
-  const std::set<std::string> known(endings.begin(), endings.end());
-  for (const std::string& ending : matches(text_of("web/public/bihive.webmanifest"), "\"(\\.\\w+)\""))
-    EXPECT_EQ(known.count(ending), 1u) << ending;
-
-  // Other programs own these types: tables, and arrays of any meaning. Trajectories open with a second file.
-  std::set<std::string> globs = matches(text_of("data/desktop/bihive-types.xml"), "glob pattern=\"\\*(\\.\\w+)\"");
-  for (const char* ending :
-       {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".h5md", ".nc", ".ncdf", ".dcd", ".xtc", ".trr"})
-    EXPECT_TRUE(globs.insert(ending).second) << ending;
-  EXPECT_EQ(globs, known);
-  const std::string desktop = text_of("data/desktop/bihive.desktop");
-  for (const std::string& type : matches(text_of("data/desktop/bihive-types.xml"), "mime-type type=\"([^\"]+)\""))
-    EXPECT_THAT(desktop, HasSubstr(type + ";"));
 }
 
 }  // namespace

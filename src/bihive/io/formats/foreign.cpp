@@ -20,8 +20,10 @@ constexpr std::string_view kPoints = "write the points as CSV with a header, for
 constexpr ForeignFormat kKnown[] = {
     {"tng", "a TNG trajectory of GROMACS", ".tng", kTrajectory},
     {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
-    {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'"},
-    {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'"},
+    {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'", "BZh"},
+    {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'",
+     "\xfd"
+     "7zXZ"},
     {"bcif", "a BinaryCIF file", ".bcif", "take the entry's mmCIF file"},
     {"mmtf", "an MMTF file", ".mmtf", "take the entry's mmCIF file"},
     {"pdbml", "a PDBML file (XML)", "", "take the entry's mmCIF file"},
@@ -29,10 +31,10 @@ constexpr ForeignFormat kKnown[] = {
     {"ase-json", "a database of ASE in JSON", "", kAse},
     {"json", "JSON, but no scene of bihive", "", "scene files have the key \"bihive_scene\": docs/scene_format.md"},
     {"vtk", "a VTK file without points of its own", ".vti .vtr .pvtp .pvtu .vtm .pvd", kPoints},
-    {"stl", "a mesh (STL)", ".stl", kPoints},
-    {"psf", "a topology of CHARMM or NAMD (PSF), without coordinates", ".psf", kMdanalysis},
+    {"stl", "a mesh (STL)", ".stl", kPoints, "solid "},
+    {"psf", "a topology of CHARMM or NAMD (PSF), without coordinates", ".psf", kMdanalysis, "PSF |PSF\n"},
     {"prmtop", "a topology of Amber (PRMTOP), without coordinates", ".prmtop .parm7",
-     "convert it with 'cpptraj' or 'ambpdb'"},
+     "convert it with 'cpptraj' or 'ambpdb'", "%VERSION"},
     {"inpcrd", "a file of coordinates of Amber", ".inpcrd .rst7 .restrt",
      "convert it with 'ambpdb -p TOPOLOGY -c FILE > OUT.pdb'"},
     {"top", "a topology of GROMACS, without coordinates", ".top .itp", "take its structure: a GRO or PDB file"},
@@ -42,10 +44,10 @@ constexpr ForeignFormat kKnown[] = {
     {"xsf", "a structure of XCrySDen (XSF)", ".xsf .axsf", kAse},
     {"tinker", "a structure of Tinker", ".txyz .arc", kBabel},
     {"dms", "a structure of Desmond (SQLite)", ".dms", kMdanalysis},
-    {"ase-db", "an SQLite database", ".db", kAse},
+    {"ase-db", "an SQLite database", ".db", kAse, "SQLite format 3"},
     {"picture", "a picture", ".png .jpg .jpeg .exr .gif .tif .tiff",
-     "bihive draws files of spheres; it reads no pictures"},
-    {"pdf", "a PDF document", ".pdf", ""},
+     "bihive draws files of spheres; it reads no pictures", "\x89PNG\r\n\x1a\n|\xff\xd8\xff|\x76\x2f\x31\x01|GIF8"},
+    {"pdf", "a PDF document", ".pdf", "", "%PDF-"},
     {"html", "a web page (HTML)", ".html .htm", "download the file itself, not the page that links to it"},
 };
 
@@ -62,24 +64,12 @@ bool begins(std::string_view text, std::string_view mark) {
 // Formats with a mark at their begin, which nothing else has.
 std::string_view by_mark(std::string_view bytes) {
   using namespace std::string_view_literals;
-  static constexpr std::pair<std::string_view, std::string_view> marks[] = {
-      {"BZh"sv, "bzip2"},
-      {"\xfd"
-       "7zXZ\0"sv,
-       "xz"},
-      {"\x89PNG\r\n\x1a\n"sv, "picture"},
-      {"\xff\xd8\xff"sv, "picture"},
-      {"\x76\x2f\x31\x01"sv, "picture"},
-      {"GIF8"sv, "picture"},
-      {"SQLite format 3\0"sv, "ase-db"},
-      {"%PDF-"sv, "pdf"},
-      {"%VERSION"sv, "prmtop"},
-      {"solid "sv, "stl"},
-      {"PSF "sv, "psf"},
-      {"PSF\n"sv, "psf"},
-  };
-  for (const auto& [mark, key] : marks)
-    if (begins(bytes, mark)) return key;
+  for (const ForeignFormat& known : kKnown)
+    for (std::string_view marks = known.marks; !marks.empty();) {
+      const std::size_t end = std::min(marks.find('|'), marks.size());
+      if (begins(bytes, marks.substr(0, end))) return known.key;
+      marks.remove_prefix(std::min(end + 1, marks.size()));
+    }
   if (bytes.size() < 16) return "";
   if (bytes.substr(4, 4) == "\0\0\0\x0d"sv && bytes.substr(8, 8).find("VERSION") != std::string_view::npos)
     return "tpr";

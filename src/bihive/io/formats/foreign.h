@@ -8,9 +8,10 @@ namespace bihive {
 
 struct ForeignFormat {
   std::string_view key;
-  std::string_view name;     ///< "a run input file of GROMACS (TPR)"
-  std::string_view endings;  ///< ".tpr"
-  std::string_view advice;   ///< "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"
+  std::string_view name;        ///< "a run input file of GROMACS (TPR)"
+  std::string_view endings;     ///< ".tpr"
+  std::string_view advice;      ///< "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"
+  std::string_view marks = "";  ///< first bytes, which no other format has: "PSF |PSF\n"
 };
 
 /// The format of unpacked bytes, by their content alone, or by the ending of the name (before .gz or .zst); null if it

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/check.h"
@@ -26,22 +27,11 @@ constexpr const Format* kFormats[] = {
     &kPqr, &kPdb, &kGro, &kXyz, &kCsv, &kCrystalCif, &kMmcif};
 constexpr const TrajectoryFormat* kTrajectories[] = {&kH5mdTrajectory, &kAmberTrajectory, &kDcd, &kXtc, &kTrr};
 
-template <class Row>
-std::vector<const Row*> sorted(std::span<const Row* const> rows) {
-  std::vector<const Row*> all(rows.begin(), rows.end());
-  std::sort(all.begin(), all.end(),
-            [](const Row* a, const Row* b) { return lower_case(a->name) < lower_case(b->name); });
-  return all;
-}
-
-template <class Row, class IsIn>
-std::string names_of(std::span<const Row* const> rows, const IsIn& is_in) {
-  std::vector<std::string_view> names;
-  for (const Row* row : sorted(rows))
-    if (is_in(*row)) names.push_back(row->name);
+// "CSV, GRO and XYZ": in alphabetical order.
+std::string listed(std::vector<std::string> all) {
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return lower_case(a) < lower_case(b); });
   std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + std::string(names[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) list += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
   return list;
 }
 
@@ -112,18 +102,20 @@ Result<RawSpheres> read_bytes(const Format& format, std::string_view bytes, cons
 }
 
 std::string known_formats() {
-  std::string list;
-  for (const Format* format : sorted(formats()))
-    list += std::string(format->name) + (format->files.empty() ? "" : " (" + std::string(format->files) + ")") + ", ";
-  return list + "each also as .gz or .zst";
+  std::vector<std::string> all;
+  for (const Format* format : kFormats)
+    all.push_back(std::string(format->name) + (format->files.empty() ? "" : " (" + std::string(format->files) + ")"));
+  return listed(std::move(all)) + ", each also as .gz or .zst";
 }
 
 std::string names_of_formats(FormatsThat which) {
+  std::vector<std::string> names;
   if (which == FormatsThat::are_trajectories)
-    return names_of(trajectory_formats(), [](const TrajectoryFormat&) { return true; });
-  return names_of(formats(), [which](const Format& format) {
-    return which == FormatsThat::hold_spheres || format.has(Format::kColumns);
-  });
+    for (const TrajectoryFormat* format : kTrajectories) names.emplace_back(format->name);
+  else
+    for (const Format* format : kFormats)
+      if (which == FormatsThat::hold_spheres || format->has(Format::kColumns)) names.emplace_back(format->name);
+  return listed(std::move(names));
 }
 
 }  // namespace bihive

@@ -259,20 +259,20 @@ Result<std::shared_ptr<const Trajectory>> open_array_trajectory(RandomFile file,
   return std::shared_ptr<const Trajectory>(std::make_shared<ArrayTrajectory>(*arrays, std::move(*layout)));
 }
 
-extern const Format kHdf5(
+extern constexpr Format kHdf5(
     "HDF5", ".h5 .hdf5 .h5md", Format::kFrames | Format::kColumns | Format::kParts | Format::kDataSets,
     [](const FileHead& head) { return looks_like_hdf5(head.bytes); }, open_array_frames,
     "its mark | data sets by name; H5MD: one frame of its particles | r, radius or diameter, else by element, else "
     "from distances");
 
-extern const Format kNetcdf(
+extern constexpr Format kNetcdf(
     "NetCDF", ".nc .ncdf", Format::kFrames | Format::kColumns | Format::kDataSets,
     [](const FileHead& head) { return looks_like_netcdf(head.bytes); }, open_array_frames,
     "its mark | one frame of LAMMPS, or of AMBER beside its atoms | radius, else from distances");
 
-extern const TrajectoryFormat kH5mdTrajectory = {
+extern constexpr TrajectoryFormat kH5mdTrajectory = {
     .name = "H5MD", .recognise = looks_like_hdf5, .open = open_array_trajectory};
-extern const TrajectoryFormat kAmberTrajectory = {
+extern constexpr TrajectoryFormat kAmberTrajectory = {
     .name = "NetCDF of AMBER", .recognise = looks_like_netcdf, .open = open_array_trajectory};
 
 }  // namespace bihive

@@ -183,7 +183,7 @@ Result<RawSpheres> read_gsd_frame(const GsdFile& file, std::int64_t frame, RowCh
   return GsdFrame(file, frame, chunk).read();
 }
 
-extern const Format kGsd(
+extern constexpr Format kGsd(
     "GSD", ".gsd", Format::kFrames | Format::kParts,
     [](const FileHead& head) { return GsdFile::looks_like(head.bytes); }, open_gsd,
     "its mark | one frame of the particles of HOOMD-blue | half of the file's diameter, else from distances");

@@ -200,7 +200,7 @@ Result<RawSpheres> read_gro(const TextScanner& scanner, const FramePass& pass) {
 
 }  // namespace
 
-extern const Format kGro(
+extern constexpr Format kGro(
     "GRO", ".gro", Format::kText | Format::kFrames, is_gro, read_gro,
     "a count alone on the second line, then an atom | one frame, nanometres as Ångström | van der Waals, by element",
     4);

@@ -329,8 +329,9 @@ Result<RawSpheres> read_lammps_data(std::string_view text, const std::string& fi
 
 }  // namespace
 
-extern const Format kLammpsData("LAMMPS data", ".lmp .lammps", Format::kText, is_lammps_data, read_lammps_data,
-                                "`N atoms` on a line of the head | atoms of every style, the box, image flags | the "
-                                "file's diameters, else by element where masses tell it, else from distances");
+extern constexpr Format kLammpsData(
+    "LAMMPS data", ".lmp .lammps", Format::kText, is_lammps_data, read_lammps_data,
+    "`N atoms` on a line of the head | atoms of every style, the box, image flags | the "
+    "file's diameters, else by element where masses tell it, else from distances");
 
 }  // namespace bihive

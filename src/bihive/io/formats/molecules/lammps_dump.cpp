@@ -243,7 +243,7 @@ Result<RawSpheres> read_lammps_dump(const TextScanner& scanner, const FramePass&
 
 }  // namespace
 
-extern const Format kLammpsDump(
+extern constexpr Format kLammpsDump(
     "LAMMPS dump", ".dump .lammpstrj", Format::kText | Format::kFrames | Format::kColumns | Format::kParts,
     [](const FileHead& head) { return trim(head.text.line()).substr(0, 5) == "ITEM:"; }, read_lammps_dump,
     "`ITEM:` | one frame; columns by name; scaled, unwrapped and triclinic coordinates | column, else by element, else "

@@ -453,7 +453,7 @@ Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, st
 
 }  // namespace
 
-extern const Format kMmcif(
+extern constexpr Format kMmcif(
     "mmCIF", ".cif .mmcif .pdbx", Format::kText | Format::kFrames, is_cif, read_mmcif,
     "`data_` | ATOM and HETATM of one model; the likeliest of alternate locations | van der Waals, by element");
 

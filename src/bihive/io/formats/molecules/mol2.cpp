@@ -200,7 +200,7 @@ Result<RawSpheres> read_mol2(std::string_view text, const std::string& file, std
 
 }  // namespace
 
-extern const Format kMol2("MOL2", ".mol2", Format::kText | Format::kFrames, is_mol2, read_mol2,
-                          "`@<TRIPOS>` | one molecule | van der Waals, by element");
+extern constexpr Format kMol2("MOL2", ".mol2", Format::kText | Format::kFrames, is_mol2, read_mol2,
+                              "`@<TRIPOS>` | one molecule | van der Waals, by element");
 
 }  // namespace bihive

@@ -203,7 +203,7 @@ Result<RawSpheres> read_pdb(const TextScanner& scanner, const FramePass& pass) {
 
 }  // namespace
 
-extern const Format kPdb(
+extern constexpr Format kPdb(
     "PDB", ".pdb .ent", Format::kText | Format::kFrames,
     [](const FileHead& head) { return is_pdb_record(head.text.line()); }, read_pdb,
     "the name of a record | ATOM and HETATM of one model; the likeliest of alternate locations | van der Waals, by "

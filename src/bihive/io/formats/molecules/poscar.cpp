@@ -307,11 +307,11 @@ Result<RawSpheres> read_xdatcar(std::string_view text, const std::string& file, 
 
 }  // namespace
 
-extern const Format kPoscar(
+extern constexpr Format kPoscar(
     "POSCAR", ".poscar .vasp poscar* contcar*", Format::kText, is_poscar, read_poscar,
     "three vectors, counts, then the kind of the coordinates | one structure | van der Waals, by element");
 
-extern const Format kXdatcar(
+extern constexpr Format kXdatcar(
     "XDATCAR", "xdatcar*", Format::kText | Format::kFrames, is_xdatcar, read_xdatcar,
     "three vectors, counts, then `Direct configuration=` | one frame | van der Waals, by element");
 

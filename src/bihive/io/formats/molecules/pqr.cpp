@@ -130,9 +130,10 @@ Result<RawSpheres> read_pqr(const TextScanner& scanner, const FramePass& pass) {
 
 }  // namespace
 
-extern const Format kPqr("PQR", ".pqr", Format::kText | Format::kFrames, is_pqr, read_pqr,
-                         "records of PDB with fields that do not fit its columns, or that the ending names | ATOM and "
-                         "HETATM lines of one model, with charges | the file's",
-                         1);
+extern constexpr Format kPqr(
+    "PQR", ".pqr", Format::kText | Format::kFrames, is_pqr, read_pqr,
+    "records of PDB with fields that do not fit its columns, or that the ending names | ATOM and "
+    "HETATM lines of one model, with charges | the file's",
+    1);
 
 }  // namespace bihive

@@ -252,7 +252,7 @@ Result<RawSpheres> read_sdf(std::string_view text, const std::string& file, std:
 
 }  // namespace
 
-extern const Format kSdf("SDF", ".sdf .sd .mol", Format::kText | Format::kFrames, is_sdf, read_sdf,
-                         "`V2000` or `V3000` on the fourth line | one molecule | van der Waals, by element");
+extern constexpr Format kSdf("SDF", ".sdf .sd .mol", Format::kText | Format::kFrames, is_sdf, read_sdf,
+                             "`V2000` or `V3000` on the fourth line | one molecule | van der Waals, by element");
 
 }  // namespace bihive

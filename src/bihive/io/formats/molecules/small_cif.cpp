@@ -334,7 +334,7 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
   }
 }
 
-extern const Format kCrystalCif(
+extern constexpr Format kCrystalCif(
     "CIF of crystals", "", Format::kText | Format::kFrames,
     [](const FileHead& head) { return is_cif(head) && is_small_cif(head.bytes); }, read_small_cif,
     "`data_` and `_atom_site_fract_` | the whole cell, by its symmetry | van der Waals, by element");

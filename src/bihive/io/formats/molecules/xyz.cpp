@@ -212,9 +212,10 @@ bool is_xyz(const FileHead& head) {
 
 }  // namespace
 
-extern const Format kXyz("XYZ", ".xyz .extxyz", Format::kText | Format::kFrames | Format::kColumns, is_xyz, read_xyz,
-                         "a count alone on the first line | one frame; extended XYZ: any columns named by `Properties` "
-                         "| column, else by element",
-                         3);
+extern constexpr Format kXyz(
+    "XYZ", ".xyz .extxyz", Format::kText | Format::kFrames | Format::kColumns, is_xyz, read_xyz,
+    "a count alone on the first line | one frame; extended XYZ: any columns named by `Properties` "
+    "| column, else by element",
+    3);
 
 }  // namespace bihive

@@ -116,8 +116,9 @@ bool is_table(const FileHead& head) {
 
 }  // namespace
 
-extern const Format kCsv("CSV", ".csv .tsv .txt .dat", Format::kText | Format::kColumns, is_table, read_csv,
-                         "three numbers, or a header with x, y and z | columns by name or place; plain `x y z [r]` | "
-                         "column, else by element, else from distances");
+extern constexpr Format kCsv(
+    "CSV", ".csv .tsv .txt .dat", Format::kText | Format::kColumns, is_table, read_csv,
+    "three numbers, or a header with x, y and z | columns by name or place; plain `x y z [r]` | "
+    "column, else by element, else from distances");
 
 }  // namespace bihive

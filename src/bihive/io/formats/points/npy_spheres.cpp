@@ -72,7 +72,7 @@ Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std
 
 }  // namespace
 
-extern const Format kNpy(
+extern constexpr Format kNpy(
     "NPY", ".npy", Format::kColumns | Format::kParts,
     [](const FileHead& head) { return head.bytes.substr(0, 6) == "\x93NUMPY"; }, read_npy,
     "its mark | n x 3 or n x 4, float32 or float64, either byte order, C or Fortran order | fourth column, else from "

@@ -47,7 +47,7 @@ Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std
 
 }  // namespace
 
-extern const Format kNpz(
+extern constexpr Format kNpz(
     "NPZ", ".npz", Format::kColumns, [](const FileHead& head) { return head.bytes.substr(0, 4) == "PK\x03\x04"; },
     read_npz,
     "the mark of zip | columns x, y, z, or one array of places; stored or packed | r, radius or diameter, else from "

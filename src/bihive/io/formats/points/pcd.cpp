@@ -264,8 +264,9 @@ Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std
 
 }  // namespace
 
-extern const Format kPcd("PCD", ".pcd", Format::kColumns, is_pcd, read_pcd,
-                         "`# .PCD`, or `VERSION` and `FIELDS` | points and their numbers, in text, binary and packed | "
-                         "the file's, else from distances");
+extern constexpr Format kPcd(
+    "PCD", ".pcd", Format::kColumns, is_pcd, read_pcd,
+    "`# .PCD`, or `VERSION` and `FIELDS` | points and their numbers, in text, binary and packed | "
+    "the file's, else from distances");
 
 }  // namespace bihive

@@ -276,7 +276,7 @@ Result<RawSpheres> read_ply(std::string_view bytes, const std::string& file, std
 
 }  // namespace
 
-extern const Format kPly(
+extern constexpr Format kPly(
     "PLY", ".ply", Format::kColumns,
     [](const FileHead& head) { return head.bytes.rfind("ply\n", 0) == 0 || head.bytes.rfind("ply\r\n", 0) == 0; },
     read_ply, "`ply` | points and their numbers, in text and binary | the file's, else from distances");

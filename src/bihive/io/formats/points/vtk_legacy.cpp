@@ -291,7 +291,7 @@ Result<RawSpheres> read_vtk_legacy(std::string_view bytes, const std::string& fi
 
 }  // namespace
 
-extern const Format kVtk(
+extern constexpr Format kVtk(
     "VTK", ".vtk", Format::kColumns, [](const FileHead& head) { return head.bytes.substr(0, 15) == "# vtk DataFile "; },
     read_vtk_legacy,
     "`# vtk DataFile` | points and their numbers, in text and binary | the file's, else from distances");

@@ -399,7 +399,7 @@ Result<RawSpheres> read_vtk_xml(std::string_view bytes, const std::string& file,
 
 }  // namespace
 
-extern const Format kVtkXml(
+extern constexpr Format kVtkXml(
     "VTK XML", ".vtp .vtu .vts", Format::kColumns, is_vtk_xml, read_vtk_xml,
     "`<VTKFile` | points and their numbers, in text, binary and packed | the file's, else from distances");
 

@@ -227,10 +227,10 @@ Result<std::shared_ptr<const Trajectory>> open_dcd(RandomFile file, const std::s
 
 }  // namespace
 
-extern const TrajectoryFormat kDcd = {.name = "DCD",
-                                      .files = ".dcd",
-                                      .alone = "a DCD trajectory of CHARMM, NAMD or LAMMPS",
-                                      .recognise = looks_like_dcd,
-                                      .open = open_dcd};
+extern constexpr TrajectoryFormat kDcd = {.name = "DCD",
+                                          .files = ".dcd",
+                                          .alone = "a DCD trajectory of CHARMM, NAMD or LAMMPS",
+                                          .recognise = looks_like_dcd,
+                                          .open = open_dcd};
 
 }  // namespace bihive

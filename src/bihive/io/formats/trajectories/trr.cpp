@@ -176,11 +176,11 @@ Result<std::shared_ptr<const Trajectory>> open_trr(RandomFile file, const std::s
 
 }  // namespace
 
-extern const TrajectoryFormat kTrr = {.name = "TRR",
-                                      .files = ".trr",
-                                      .alone = "a TRR trajectory of GROMACS",
-                                      .mark = std::string_view("\0\0\x07\xc9", 4),
-                                      .recognise = looks_like_trr,
-                                      .open = open_trr};
+extern constexpr TrajectoryFormat kTrr = {.name = "TRR",
+                                          .files = ".trr",
+                                          .alone = "a TRR trajectory of GROMACS",
+                                          .mark = std::string_view("\0\0\x07\xc9", 4),
+                                          .recognise = looks_like_trr,
+                                          .open = open_trr};
 
 }  // namespace bihive

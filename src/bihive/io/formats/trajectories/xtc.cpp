@@ -157,11 +157,11 @@ Result<std::shared_ptr<const Trajectory>> open_xtc(RandomFile file, const std::s
 
 }  // namespace
 
-extern const TrajectoryFormat kXtc = {.name = "XTC",
-                                      .files = ".xtc",
-                                      .alone = "an XTC trajectory of GROMACS",
-                                      .mark = std::string_view("\0\0\x07\xcb", 4),
-                                      .recognise = looks_like_xtc,
-                                      .open = open_xtc};
+extern constexpr TrajectoryFormat kXtc = {.name = "XTC",
+                                          .files = ".xtc",
+                                          .alone = "an XTC trajectory of GROMACS",
+                                          .mark = std::string_view("\0\0\x07\xcb", 4),
+                                          .recognise = looks_like_xtc,
+                                          .open = open_xtc};
 
 }  // namespace bihive
