@@ -25,7 +25,7 @@ interface Pass {
   round_ms: number;
 }
 
-const names: Record<string, string> = { cpu: 'the processor, one thread', gpu: 'the graphics processor' };
+const names: Record<string, string> = { cpu: 'one thread of the processor', gpu: 'the graphics processor' };
 const whole = { width_px: 1136, height_px: 640 }; // the picture of the phone that the thesis measured
 const asked_minutes = Number(new URLSearchParams(location.search).get('minutes') ?? '10');
 const minutes = asked_minutes > 0 ? Math.min(asked_minutes, 60) : 10;
@@ -105,7 +105,7 @@ function paragraph(words: string): HTMLParagraphElement {
 
 function verdict({ engine, costs }: Result, software: boolean): string {
   if (engine === 'gpu' && software) return 'WebGL2 is drawn by software here: no verdict on a graphics processor.';
-  return `By ${names[engine]} ${costs ? costs_in_words(costs) : 'the times fit no costs of the steps.'}`;
+  return `By ${names[engine]}, ${costs ? costs_in_words(costs) : 'the times fit no costs of the steps.'}`;
 }
 
 // The first minute beside the last one.
@@ -113,10 +113,10 @@ function heat_in_words(engine: string, passes: Pass[]): string {
   const own = passes.filter((pass) => pass.engine === engine);
   const last_minute = own[own.length - 1]?.minute ?? 1;
   const of = (minute: number) => median(own.filter((pass) => pass.minute === minute).map(({ round_ms }) => round_ms));
-  if (last_minute === 1) return `By ${names[engine]}: too short a run for the heat to show.`;
+  if (last_minute === 1) return `By ${names[engine]}, the run was too short for the heat to show.`;
   const percent = 100 * (of(last_minute) / of(1) - 1);
   return (
-    `By ${names[engine]} a frame of each of the 54 configurations took ${of(1).toFixed(0)} ms together in minute 1 and ` +
+    `By ${names[engine]}, a frame of each of the 54 configurations took ${of(1).toFixed(0)} ms together in minute 1 and ` +
     `${of(last_minute).toFixed(0)} ms in minute ${last_minute}: ${percent < 0 ? '−' : '+'}${Math.abs(percent).toFixed(0)} %.`
   );
 }
@@ -130,6 +130,9 @@ function engines_in_words(results: Result[]): string {
   const ratios = cpu.configurations.map((rate, i) => (gpu.configurations[i]!.fps * scale_of(gpu)) / (rate.fps * scale_of(cpu)));
   return `In pictures of the same size the graphics processor draws ${median(ratios).toPrecision(2)} times the frames of one thread of the processor (median of all configurations).`;
 }
+
+// Two digits, and all before the point.
+const readable = (fps: number) => (fps < 10 ? fps.toPrecision(2) : fps.toFixed(0));
 
 function rates_table(result: Result): HTMLElement[] {
   const scale = scale_of(result);
@@ -146,7 +149,7 @@ function rates_table(result: Result): HTMLElement[] {
   row(['Scenario, spheres', 'BF', ...trees.map((prims) => `BIH ${prims}`)], 'th');
   for (let first = 0; first < result.configurations.length; first += 1 + trees.length) {
     const group = result.configurations.slice(first, first + 1 + trees.length);
-    row([`${group[0]!.scenario}, ${group[0]!.spheres}`, ...group.map(({ fps }) => (fps * scale).toPrecision(3))], 'td');
+    row([`${group[0]!.scenario}, ${group[0]!.spheres}`, ...group.map(({ fps }) => readable(fps * scale))], 'td');
   }
   const label = scale === 1
     ? `By ${names[result.engine]}, in pictures of ${whole.width_px} × ${whole.height_px}:`

@@ -151,12 +151,13 @@ class Diagram {
                          x, y, kMarker, escape_html(point.name), numbers);
     const std::string name = outside ? point.name + " (" + numbers + ")" : point.name;
     const bool to_the_left = x + 8 + kCharacter * static_cast<double>(name.size()) > kWidth - kRight;
-    // Below other names that stand there already.
+    // Below other names that stand there already, and near the axis above them.
     const double width = kCharacter * static_cast<double>(name.size()), left = to_the_left ? x - 8 - width : x + 8;
     double base = std::max(y - 6, kTop + 12);
+    const double step = base + kLine > kTop + kPlotHeight ? -kLine : kLine;
     for (const Name& other : names_)
       if (left < other.right && other.left < left + width && std::abs(base - other.base) < kLine)
-        base = other.base + kLine;
+        base = other.base + step;
     names_.push_back({left, left + width, base});
     text(to_the_left ? x - 8 : x + 8, base, name, to_the_left ? "end" : "start", " class=\"halo\"");
   }

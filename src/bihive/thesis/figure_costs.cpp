@@ -88,7 +88,7 @@ CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, cons
   diagram.title = fmt::format("Configurations won by {}", winner);
   diagram.wins_label = "won:";
   diagram.pattern_label =
-      fmt::format("the text's pattern: {} wins {}, {} Scenario {} with {} spheres", winner, pattern.wins,
+      fmt::format("the text: {} wins {}, {} Scenario {} with {} spheres", winner, pattern.wins,
                   tree_name(pattern.exception_max_prims), pattern.exception.first, pattern.exception.second);
   diagram.share_label = fmt::format("the same with at least half of {} seeds", seeds.size());
   diagram.most_wins = static_cast<int>(work.size());
