@@ -15,20 +15,18 @@ namespace {
 
 // Options that look at no sphere but by its centre and radius.
 constexpr std::string_view kWithChunks[] = {
-    "--aperture",     "--background",
-    "--bits",         "--crop",          "--dpi",          "--engine",       "--eye",
-    "--focus",        "--fov",          "--frame",        "--json",      "--layers",
-    "--light",         "--look-at",      "--max-depth", "--max-prims",
-    "--no-labels",     "--outline",   "--output",
-    "--projection",   "--radius",        "--radius-scale", "--recenter",     "--samples",
-    "--size",         "--style",        "--threads",   "--title-values", "--turn",         "--up",        "--view",
-    "--view-from",    "--zoom",          "INPUT"};
+    "--aperture",     "--background", "--bits",      "--crop",      "--dpi",    "--engine",     "--eye",
+    "--focus",        "--fov",        "--frame",     "--json",      "--layers", "--light",      "--look-at",
+    "--max-depth",    "--max-prims",  "--no-labels", "--outline",   "--output", "--projection", "--radius",
+    "--radius-scale", "--recenter",   "--samples",   "--size",      "--style",  "--threads",    "--title-values",
+    "--turn",         "--up",         "--view",      "--view-from", "--zoom",   "INPUT"};
 
 // Options for which rank 0 reads all spheres.
 constexpr std::string_view kWithWholeSet[] = {
-    "--assembly", "--cell-origin",  "--cell-vectors",    "--clip",    "--colour",  "--colour-by",
-    "--columns",  "--count",      "--crease",       "--element-colours", "--film",    "--hide",    "--material", "--nan-colour", "--no-hydrogens", "--no-water",        "--opacity", "--picture", "--replicate",
-    "--seed",     "--select",     "--show",         "--trajectory",      "--unwrap",  "--wrap"};
+    "--assembly",     "--cell-origin", "--cell-vectors",    "--clip",    "--colour",    "--colour-by", "--columns",
+    "--count",        "--crease",      "--element-colours", "--film",    "--hide",      "--material",  "--nan-colour",
+    "--no-hydrogens", "--no-water",    "--opacity",         "--picture", "--replicate", "--seed",      "--select",
+    "--show",         "--trajectory",  "--unwrap",          "--wrap"};
 
 bool contains(const auto& names, std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
