@@ -2,18 +2,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 
 #include "bihive/base/version.h"
 #include "bihive/io/cell_options.h"
 #include "bihive/scene/element_colours.h"
-#include "bihive/scene/light_points.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/style.h"
+#include "bihive/settings/parameter_text.h"
 #include "commands/names.h"
 #include "film/film_plan.h"
+#include "parameter_options.h"
 #include "server/addresses.h"
 #include "support/failure.h"
+#include "words/short_help.h"
 
 namespace bihive::cli {
 namespace {
@@ -137,26 +140,6 @@ void add_thread_options(CLI::App& app, TreeParameters& tree, std::int64_t& threa
   add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
 }
 
-void add_shadows(CLI::App& app, std::optional<bool>& shadows) {
-  const auto set = [&shadows](bool on) { return [&shadows, on] { shadows = on; }; };
-  CLI::Option* on = app.add_flag_callback("--shadows", set(true), "Spheres cast shadows (files)");
-  app.add_flag_callback("--no-shadows", set(false), "They do not (thesis's scenes)")->excludes(on);
-}
-
-void add_ambient_occlusion(CLI::App& app, AmbientOptions& ambient) {
-  const auto set = [&ambient](bool on) { return [&ambient, on] { ambient.on = on; }; };
-  CLI::Option* on = app.add_flag_callback("--ao", set(true), "Ambient occlusion: places that see little are darker");
-  CLI::Option* distance = add_value(app, "--ao-distance", ambient.distance, "D",
-                                    "It reaches so far, in world units (no limit); implies --ao",
-                                    [](const std::string& text) { return number_from(text, 0, kLargestFloat, true); });
-  CLI::Option* directions = add_integer(app, "--ao-directions", ambient.directions, 1, kMostAmbientDirections,
-                                        "Directions of each sample (64); implies --ao");
-  app.add_flag_callback("--no-ao", set(false), "No ambient occlusion (files without their own setting)")
-      ->excludes(on)
-      ->excludes(distance)
-      ->excludes(directions);
-}
-
 void add_style_options(CLI::App& app, StyleOptions& look) {
   add_value(app, "--style", look.name, "NAME|FILE", "The look: see bihive styles (files: default)",
             [](const std::string& text) -> Result<std::string> { return text; });
@@ -168,37 +151,18 @@ void add_style_options(CLI::App& app, StyleOptions& look) {
                    look.light_words.push_back(text);
                    return add_light(text, look.lights);
                  });
-  add_ambient_occlusion(app, look.ambient);
-  add_integer(app, "--light-points", look.light_points, 1, kMostLightPoints,
-              "Soft shadows: points of each light, a sample (the style's)");
-  add_choice(app, "--opacity-rule", look.opacity_rule, kOpacityRules,
-             "Light straight through a sphere counts its opacity (the style's)");
-  add_number(app, "--fog", look.fog, 1, "F", "Share of the background where the set is deepest; 0: none (the style's)");
-  add_value(app, "--exposure", look.exposure_stops, "EV", "Stops: all light times 2^EV (the style's)",
-            [](const std::string& text) { return number_from(text, -kMostExposureStops, kMostExposureStops); });
-  add_choice(app, "--tone", look.tone, kToneCurves, "Curve for light that is too bright for the picture (the style's)");
 }
 
-void add_labels(CLI::App& app, LabelOptions& labels) {
-  app.add_flag("--legend", labels.legend, "Say what the colours mean: a colour bar, or names");
-  app.add_flag("--scale-bar", labels.scale_bar, "Show a round length; for --projection orthographic");
-  app.add_flag("--axes", labels.axes, "Show the directions of x, y and z");
-  app.add_option(
-         "--title", labels.title,
-         "Write this at the top; {time}, {step}, {frame}, {spheres} are values of the\nframe, {time:.2f} has two "
-         "digits behind the point")
-      ->type_name("TEXT");
+void add_labels(CLI::App& app, Overrides& chosen, LabelOptions& labels, bool of_window) {
+  add_parameters(app, ParameterGroup::labels, chosen, of_window);
   app.add_option("--title-values", labels.title_values,
                  "CSV: a row for each frame, from 0; the first line names the columns: {NAME}")
       ->type_name("FILE");
-  app.add_option("--length-unit", labels.length_unit,
-                 "Unit behind the scale bar's number (PDB, mmCIF: \u00C5; else none)")
-      ->type_name("TEXT");
   app.add_flag("--no-labels", labels.none, "None of the labels that the scene file or the style asks for");
 }
 
 // Options whose order matters: each is taken when the command line reaches it, and may occur again.
-void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input, StyleOptions& style) {
+void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input, Overrides& chosen) {
   const auto add = [&app](const std::string& name, const std::string& type, const std::string& help, auto take) {
     add_repeatable(app, name, type, help, take);
   };
@@ -231,12 +195,12 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input, StyleOpti
         return Done{};
       });
   add("--outline", "PX", "Behind a --select: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)",
-      [&looks, &look = style](const std::string& text) -> Status {
+      [&looks, &chosen](const std::string& text) -> Status {
         const Result<LookAction> action = look_action_from_text("outline", text);
         if (!action) return action.error();
         if (looks.selected) return looks.act("outline", text);
-        if (look.outline_px) return Error{"is given more than once before a --select", "", 0, 0, ""};
-        look.outline_px = std::get<SetOutline>(*action).width_px;
+        if (chosen.has("outline_px")) return Error{"is given more than once before a --select", "", 0, 0, ""};
+        chosen.set("outline_px", std::get<SetOutline>(*action).width_px);
         return Done{};
       });
   add("--crease", "ATTR", "Lines between those that touch and differ in it: --crease chain",
@@ -278,6 +242,20 @@ void add_lens(CLI::App& app, std::optional<double>& aperture, std::optional<Focu
             focus_from);
 }
 
+void add_samples(CLI::App& app, Overrides& chosen, std::int64_t most) {
+  const auto take = [&chosen, most](const std::string& text) {
+    const Result<std::int64_t> samples = samples_from(text, most);
+    if (!samples) throw CLI::ValidationError("--samples", samples.error().message);
+    chosen.set("samples_auto", *samples == kAutomaticSamples);
+    if (*samples != kAutomaticSamples) chosen.set("samples_per_pixel", *samples);
+  };
+  app.add_option_function<std::string>("--samples", take,
+                                       "Samples per pixel, 1 to " + std::to_string(most) +
+                                           " (files: 4, thesis scenes: 1, with --aperture 64);\n"
+                                           "auto: 4, and 16 on edges")
+      ->type_name("N|auto");
+}
+
 void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object instead of text");
 }
@@ -292,24 +270,36 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
   return *command;
 }
 
+// The heading of the options that are added from here on.
+void begin_theme(CLI::App& command, const std::string& heading) {
+  command.option_defaults()->group(heading);
+}
+
 // The options that decide how a picture looks, for commands that draw one or many.
 void add_picture_options(CLI::App& command, RenderOptions& options) {
-  add_value(command, "--size", options.size, "WxH", "Pixels (1280x720)", size_from);
+  begin_theme(command, "Picture");
+  const auto take_size = [&chosen = options.picture](const std::string& text) {
+    const Result<PictureSize> size = size_from(text);
+    if (!size) throw CLI::ValidationError("--size", size.error().message);
+    chosen.set("width_px", size->width_px);
+    chosen.set("height_px", size->height_px);
+  };
+  command.add_option_function<std::string>("--size", take_size, "Pixels (1280x720)")->type_name("WxH");
   add_value(command, "--crop", options.crop, "X0,Y0,X1,Y1",
             "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",
             crop_from);
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
-  add_value(command, "--samples", options.samples, "N|auto",
-            "Samples a pixel (files: 4, thesis's scenes: 1, with --aperture 64);\nauto: 4, and 16 on edges",
-            samples_from);
-  add_integer(command, "--recursion", options.recursion, 1, 16, "Generations of rays (5)");
-  add_shadows(command, options.shadows);
-  add_style_options(command, options.style);
-  add_choice(command, "--transfer", options.transfer, kTransfers, "Curve to the screen (files: srgb, thesis's: none)");
+  add_samples(command, options.picture, kMostSamplesPerPixel);
+  add_parameters(command, ParameterGroup::picture, options.picture, /*of_window=*/false);
   add_background(command, options.background);
   add_value(command, "--bits", options.bits, "8|16", "Bits of each number in the picture (8)", bits_from);
   add_value(command, "--dpi", options.dots_per_inch, "N", "Pixels an inch in print, as a note in the picture",
             [](const std::string& text) { return number_from(text, 0, kMostDotsPerInch, /*open=*/true); });
+  begin_theme(command, "Style and light");
+  add_style_options(command, options.style);
+  for (const ParameterGroup group : {ParameterGroup::light, ParameterGroup::lines, ParameterGroup::tone})
+    add_parameters(command, group, options.picture, /*of_window=*/false);
+  begin_theme(command, "Camera");
   add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
   add_value(command, "--eye", options.eye, "X,Y,Z", "Where the camera is", vector_from);
   add_value(command, "--look-at", options.look_at, "X,Y,Z", "The middle of the picture", vector_from);
@@ -322,14 +312,19 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   add_value(command, "--zoom", options.zoom, "F", "Draw everything F times as large (1)",
             [](const std::string& text) { return number_from(text, 0, kMostZoom, /*open=*/true); });
   add_lens(command, options.aperture, options.focus);
+  begin_theme(command, "Engine");
   add_choice(command, "--engine", options.engine, kRenderEngines,
              "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
   add_thread_options(command, options.tree, options.threads);
-  add_input_options(command, options.input, /*with_radius_scale=*/false);
-  add_looks(command, options.looks, options.input, options.style);
-  command.add_flag("--cell", options.cell, "Draw the edges of the periodic cell, and of its copies");
-  add_labels(command, options.labels);
   add_json_flag(command, options.json);
+  begin_theme(command, "Reading");
+  add_input_options(command, options.input, /*with_radius_scale=*/false);
+  begin_theme(command, "Spheres");
+  add_looks(command, options.looks, options.input, options.picture);
+  begin_theme(command, "Labels and cell");
+  add_parameters(command, ParameterGroup::cell, options.picture, /*of_window=*/false);
+  add_labels(command, options.picture, options.labels, /*of_window=*/false);
+  begin_theme(command, "Other options");
 }
 
 void add_render(CLI::App& app, RenderOptions& options, Request& request) {
@@ -346,7 +341,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       .add_option("--film", options.film,
                   "Draw a picture of this film (bihive film), with its options and camera:\nFILE.json")
       ->type_name("FILE");
-  add_integer(command, "--picture", options.picture, 0, kUnlimited,
+  add_integer(command, "--picture", options.picture_of_film, 0, kUnlimited,
               "--film: which one of its pictures, from 0; or name its frame by --frame");
 }
 
@@ -382,7 +377,7 @@ bool is_of_picture(const GivenOption& given) {
       "-o",          "--output",      "--frames",       "--pictures",   "--fps",
       "--turntable", "--camera-keys", "--colour-range", "--codec",      "--shard",
       "--join",      "--json",        "--threads",      "--trajectory", "-h",
-      "--help"};
+      "--help",      "--help-all"};
   return given.option != nullptr && std::find(of_film.begin(), of_film.end(), given.name) == of_film.end();
 }
 
@@ -447,24 +442,20 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
   add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (cpu)");
   add_style_options(command, options.style);
+  for (const ParameterGroup group : {ParameterGroup::light, ParameterGroup::lines, ParameterGroup::tone})
+    add_parameters(command, group, options.picture, /*of_window=*/true);
   add_background(command, options.background);
   add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
-  add_value(command, "--samples", options.samples, "N|auto",
-            "Samples a pixel, 1 to 64 (files: 4, thesis's scenes: 1, with --aperture 64);\nauto: 4, and 16 on edges",
-            [](const std::string& text) -> Result<std::int64_t> {
-              const Result<std::int64_t> samples = samples_from(text);
-              return samples && *samples == kAutomaticSamples ? samples : integer_from(text, 1, kMostSamples);
-            });
-  add_integer(command, "--recursion", options.recursion, 1, kMostRecursion, "Generations of rays (5)");
-  add_shadows(command, options.shadows);
+  add_samples(command, options.picture, kMostSamples);
+  add_parameters(command, ParameterGroup::picture, options.picture, /*of_window=*/true);
   add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
   add_projection(command, options.fov_deg, options.projection);
   add_lens(command, options.aperture, options.focus);
   add_tree_options(command, options.tree);
   add_input_options(command, options.input, /*with_radius_scale=*/false);
-  add_looks(command, options.looks, options.input, options.style);
-  command.add_flag("--cell", options.cell, "Draw the edges of the periodic cell, and of its copies");
-  add_labels(command, options.labels);
+  add_looks(command, options.looks, options.input, options.picture);
+  add_parameters(command, ParameterGroup::cell, options.picture, /*of_window=*/true);
+  add_labels(command, options.picture, options.labels, /*of_window=*/true);
   command.add_option("--screenshot", options.screenshot, "Write the settled window into a PNG, and end")
       ->type_name("FILE");
 }
@@ -656,6 +647,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   app.get_formatter()->column_width(34);
   app.footer("bihive COMMAND --help shows a command's options and two examples.");
   app.require_subcommand(0, 1);
+  app.set_help_all_flag("--help-all", "Print this help message with all options and exit");
 
   RenderOptions render;
   FilmOptions film;
@@ -689,9 +681,13 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
     app.parse(words_for_parser(argc, argv));
   } catch (const CLI::CallForVersion&) {
     return HelpText{version_text() + "\n", true};
-  } catch (const CLI::Success&) {
+  } catch (const CLI::Success& asked) {
     // The help of the sub-command for which help was asked, if any.
-    for (const CLI::App* command : app.get_subcommands()) return HelpText{command->help("bihive"), true};
+    const bool all = dynamic_cast<const CLI::CallForAllHelp*>(&asked) != nullptr;
+    for (CLI::App* command : app.get_subcommands()) {
+      if (!all) shorten_help(*command);
+      return HelpText{command->help("bihive"), true};
+    }
     return HelpText{app.help(), true};
   } catch (const CLI::ParseError& error) {
     const std::string first = argc > 1 ? argv[1] : "";
@@ -705,7 +701,9 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
     if (repeated != std::string::npos) what = what.substr(0, repeated) + " is given more than once";
     if (with_film && repeated != std::string::npos)
       fail_usage(what + ": here, and in the film's options", "leave it out here");
-    fail_usage(what, "see " + command + " --help");
+    const CLI::App* const called = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
+    const std::vector<std::string> unknown = called != nullptr ? called->remaining() : std::vector<std::string>();
+    fail_usage(what, advice_on(called, unknown, "see " + command + " --help"));
   }
   if (std::holds_alternative<HelpText>(request)) return HelpText{app.help(), false};
   return request;
@@ -760,7 +758,7 @@ Request parse_command_line(int argc, const char* const* argv, const Describe& de
   const RenderOptions* const render = std::get_if<RenderOptions>(&request);
   if (render == nullptr) return request;
   if (render->film.empty()) {
-    if (render->picture) fail_usage("--picture is for --film", "leave it out, or name the film's FILE.json");
+    if (render->picture_of_film) fail_usage("--picture is for --film", "leave it out, or name the film's FILE.json");
     return request;
   }
   // A picture of a film has the film's options, and those that are given here after them.
@@ -770,6 +768,19 @@ Request parse_command_line(int argc, const char* const* argv, const Describe& de
   for (const std::string& word : of_film) words.push_back(word.c_str());
   words.insert(words.end(), argv + 2, argv + argc);
   return parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/true, {});
+}
+
+std::vector<OptionForm> options_of_command(const std::string& command) {
+  std::vector<OptionForm> forms;
+  const auto read = [&forms, &command](const CLI::App& app, const std::vector<std::string>&) {
+    for (const CLI::Option* option : app.get_subcommand(command)->get_options())
+      for (const std::string& name : option->get_lnames())
+        forms.push_back({name, option->get_items_expected_max() > 0 ? option->get_type_name() : ""});
+    return std::string();
+  };
+  const std::array words{"bihive", "describe"};
+  parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/false, read);
+  return forms;
 }
 
 }  // namespace bihive::cli

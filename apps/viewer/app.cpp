@@ -366,7 +366,7 @@ Result<PngPixels> App::picture_to_save() {
   const PictureSizePx wanted = panel_.save_size;
   const int width = wanted.width > 0 ? wanted.width : static_cast<int>(shown.x);
   const int height = wanted.height > 0 ? wanted.height : static_cast<int>(shown.y);
-  return viewer_.picture(width, height, viewer_.settings().samples_per_pixel);
+  return viewer_.picture(width, height, samples_at_rest(viewer_.settings()));
 }
 
 void App::save() {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <sstream>
 
 #include "bihive/io/cell_options.h"
@@ -18,9 +17,6 @@
 
 namespace bihive::window {
 namespace {
-
-constexpr int kMostSliderPoints = 64, kMostSliderDirections = 256;  // more needs the command line
-constexpr int kSamplesOfLens = 64;  // with fewer, the places on the lens show one by one
 
 bool group(const char* name) {
   return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_None);
@@ -46,23 +42,13 @@ bool choice(const char* name, const char* otherwise, const std::vector<std::stri
   return changed;
 }
 
-template <class T>
-void choice(const char* name, const Names<T>& names, T& value) {
-  label(name);
-  const std::string id = std::string("##") + name;
-  if (!ImGui::BeginCombo(id.c_str(), name_of(names, value).c_str())) return;
-  for (const auto& [text, named] : names)
-    if (ImGui::Selectable(text.c_str(), named == value)) value = named;
-  ImGui::EndCombo();
-}
-
 void check(const char* name, bool& value) {
   label(name);
   ImGui::Checkbox((std::string("##") + name).c_str(), &value);
 }
 
 // Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
-void effect_slider(const char* name, double& value, double min, double max, const char* format) {
+void angle_slider(const char* name, double& value, double min, double max, const char* format) {
   label(name);
   auto shown = static_cast<float>(value);
   const std::string id = std::string("##") + name;
@@ -71,9 +57,54 @@ void effect_slider(const char* name, double& value, double min, double max, cons
     value = std::round(100 * static_cast<double>(shown)) / 100;
 }
 
-void effect_slider(const char* name, int& value, int max) {
-  label(name);
-  ImGui::SliderInt((std::string("##") + name).c_str(), &value, 1, max, "%d", ImGuiSliderFlags_AlwaysClamp);
+// A control's name, which the screen does not show.
+std::string hidden_name(const Parameter& parameter) {
+  return "##" + std::string(parameter.id);
+}
+
+bool has_slider(const Parameter& parameter) {
+  return parameter.slider_least != parameter.slider_most;
+}
+
+bool flag(const Parameter& parameter, SettingValue& value) {
+  return ImGui::Checkbox(hidden_name(parameter).c_str(), &std::get<bool>(value));
+}
+
+bool name(const Parameter& parameter, SettingValue& value) {
+  const std::vector<std::string> names = names_of(parameter);
+  auto& position = std::get<std::int64_t>(value);
+  bool changed = false;
+  if (!ImGui::BeginCombo(hidden_name(parameter).c_str(), names[static_cast<std::size_t>(position)].c_str()))
+    return false;
+  for (std::int64_t i = 0; i < std::ssize(names); ++i)
+    if (ImGui::Selectable(names[static_cast<std::size_t>(i)].c_str(), i == position)) {
+      changed = i != position;
+      position = i;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool whole_slider(const Parameter& parameter, SettingValue& value) {
+  auto shown = static_cast<int>(std::get<std::int64_t>(value));
+  if (!ImGui::SliderInt(hidden_name(parameter).c_str(), &shown, static_cast<int>(parameter.slider_least),
+                        static_cast<int>(parameter.slider_most), "%d", ImGuiSliderFlags_AlwaysClamp))
+    return false;
+  value = std::int64_t{shown};
+  return true;
+}
+
+// Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
+bool number_slider(const Parameter& parameter, SettingValue& value) {
+  auto shown = static_cast<float>(std::get<double>(value));
+  const std::string format(parameter.or_zero && shown == 0 ? "none" : parameter.slider_format);
+  if (!ImGui::SliderFloat(hidden_name(parameter).c_str(), &shown, static_cast<float>(parameter.slider_least),
+                          static_cast<float>(parameter.slider_most), format.c_str(), ImGuiSliderFlags_AlwaysClamp))
+    return false;
+  double number = std::round(100 * static_cast<double>(shown)) / 100;
+  if (parameter.or_zero) number = number < 0.5 ? 0 : std::max(parameter.least, number);
+  value = number;
+  return true;
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -133,6 +164,67 @@ bool EffectsPanel::number(const char* name, const char* hint, double otherwise, 
   return true;
 }
 
+void EffectsPanel::parameter(const Parameter& parameter, LayeredSettings& picture) {
+  SettingValue value = picture.value(parameter);
+  const std::string title(parameter.label);
+  bool changed = false;
+  switch (parameter.kind) {
+    case ParameterKind::flag:
+      label(title.c_str());
+      changed = flag(parameter, value);
+      break;
+    case ParameterKind::whole:
+      label(title.c_str());
+      changed = whole_slider(parameter, value);
+      break;
+    case ParameterKind::number:
+      if (has_slider(parameter)) {
+        label(title.c_str());
+        changed = number_slider(parameter, value);
+      } else {
+        constexpr double kNone = -1;
+        const double* const before = std::get_if<double>(&value);
+        double shown = before != nullptr ? *before : kNone;
+        changed = number(title.c_str(), parameter.nullable ? "no limit" : "", kNone, shown);
+        if (shown != kNone) value = shown;
+        if (shown == kNone || (shown == 0 && parameter.nullable)) value = {};
+      }
+      break;
+    case ParameterKind::choice:
+      label(title.c_str());
+      changed = name(parameter, value);
+      break;
+    case ParameterKind::text:
+    case ParameterKind::colour: {
+      const auto* const before = std::get_if<std::string>(&value);
+      std::string shown = before != nullptr ? *before : "";
+      changed = text(title.c_str(), parameter.nullable ? "the file's" : "none", shown);
+      value = shown;
+      if (parameter.nullable && shown.empty()) value = {};
+    }
+  }
+  if (changed && fits(parameter, value)) picture.user.set(parameter.id, value);
+}
+
+void EffectsPanel::parameters(ParameterGroup group, ViewerSettings& settings) {
+  const PictureSettings now = settings.picture.result();
+  const bool gpu = settings.engine == ViewerEngine::gpu;
+  for (const Parameter& row : picture_parameters()) {
+    if (row.group != group || row.label.empty()) continue;
+    // A part of what is switched off, or a number that another choice replaces.
+    const Parameter* const whole = row.implies.empty() ? nullptr : parameter_named(row.implies);
+    const bool off = (whole != nullptr && whole->get(now) == whole->get(PictureSettings())) ||
+                     (row.needs == ParameterNeeds::soft_light && !now.shadows) ||
+                     (row.id == "samples_per_pixel" && draws_adaptive_samples(settings)) || (gpu && row.cpu_only);
+    ImGui::BeginDisabled(off);
+    parameter(row, settings.picture);
+    ImGui::EndDisabled();
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) continue;
+    const std::string help = gpu && row.cpu_only ? "the CPU engine alone draws this" : std::string(row.help);
+    ImGui::SetTooltip("%s", help.c_str());
+  }
+}
+
 bool EffectsPanel::draw_colours(const SceneFacts& facts, ViewerLook& look) {
   ColourByParts parts(look.colour_by);
   bool changed = choice("colour by", facts.is_file_of_spheres ? "the style's colours" : "the file's colours",
@@ -150,7 +242,7 @@ bool EffectsPanel::draw_colours(const SceneFacts& facts, ViewerLook& look) {
   return text("unknown", "grey", look.nan_colour) || changed;
 }
 
-bool EffectsPanel::draw_light(ViewerEffects& effects, bool& shadows, ViewerLook& look) {
+bool EffectsPanel::draw_light(ViewerSettings& settings, ViewerLook& look) {
   constexpr const char* kOwn = "my own";
   std::vector<std::string> names;
   for (const auto& preset : light_presets()) names.push_back(preset.first);
@@ -178,30 +270,12 @@ bool EffectsPanel::draw_light(ViewerEffects& effects, bool& shadows, ViewerLook&
           "at:X,Y,Z:COLOUR:STRENGTH:RADIUS in the world; more with spaces.\n"
           "Degrees and radius make shadows soft.");
   }
-  check("shadows", shadows);
-  ImGui::BeginDisabled(!shadows);
-  effect_slider("soft rays", effects.light_points, kMostSliderPoints);
-  ImGui::EndDisabled();
-  check("occlusion", effects.ambient_occlusion);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("ambient occlusion: places that see little are darker");
-  ImGui::BeginDisabled(!effects.ambient_occlusion);
-  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-  if (number("reach", "no limit", kNoLimit, effects.ambient_distance) && effects.ambient_distance == 0)
-    effects.ambient_distance = kNoLimit;
-  effect_slider("directions", effects.ambient_directions, kMostSliderDirections);
-  ImGui::EndDisabled();
-  effect_slider("fog", effects.fog, 0, 1, "%.2f");
-  choice("opacity", kOpacityRules, effects.opacity_rule);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how often a sphere's opacity counts for a ray that goes through it");
+  parameters(ParameterGroup::light, settings);
   return changed;
 }
 
-bool EffectsPanel::draw_lines(const SceneFacts& facts, ViewerEffects& effects, ViewerLook& look) {
-  label("outlines");
-  auto width = static_cast<int>(std::lround(effects.outline_px));
-  if (ImGui::SliderInt("##outlines", &width, 0, static_cast<int>(kWidestOutlinePx), width == 0 ? "none" : "%d px",
-                       ImGuiSliderFlags_AlwaysClamp))
-    effects.outline_px = width;
+bool EffectsPanel::draw_lines(const SceneFacts& facts, ViewerSettings& settings, ViewerLook& look) {
+  parameters(ParameterGroup::lines, settings);
   return choice("between", facts.is_file_of_spheres ? "the style's lines" : "the file's lines", facts.attributes,
                 look.crease);
 }
@@ -210,12 +284,10 @@ void EffectsPanel::draw_lens(ViewerSettings& settings) {
   Camera& camera = settings.camera;
   const bool parallel = camera.projection == Projection::orthographic;
   ImGui::BeginDisabled(parallel);
-  effect_slider("angle", camera.fov_deg, 1, 120, "%.0f deg");
+  angle_slider("angle", camera.fov_deg, 1, 120, "%.0f deg");
   const bool was_open = camera.aperture > 0;
-  if (number("aperture", "0: all is sharp", 0, camera.aperture) && camera.aperture > 0 && !was_open) {
-    settings.effects.adaptive_samples = false;
-    settings.samples_per_pixel = std::max(settings.samples_per_pixel, kSamplesOfLens);
-  }
+  if (number("aperture", "0: all is sharp", 0, camera.aperture) && camera.aperture > 0 && !was_open)
+    settings.picture.user.reset("samples_auto");  // a lens needs many samples everywhere
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the lens's radius, in the file's units");
   ImGui::EndDisabled();
 
@@ -238,25 +310,7 @@ void EffectsPanel::draw_lens(ViewerSettings& settings) {
   }
   if (kind == 2 && text("spheres", "resname LIG", settings.focus_on)) focus_kind_ = -1;
   ImGui::EndDisabled();
-  effect_slider("exposure", settings.effects.tone.exposure_stops, -4, 4, "%+.2f stops");
-  choice("tone", kToneCurves, settings.effects.tone.curve);
-}
-
-void EffectsPanel::draw_labels(ViewerSettings& settings) {
-  Labels& labels = settings.effects.labels;
-  text("title", "none", labels.title);
-  check("legend", labels.legend);
-  check("axes", labels.axes);
-  const bool parallel = settings.camera.projection == Projection::orthographic;
-  ImGui::BeginDisabled(!parallel && !labels.scale_bar);
-  check("scale bar", labels.scale_bar);
-  ImGui::EndDisabled();
-  if (!parallel && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("needs the projection orthographic");
-  ImGui::BeginDisabled(!labels.scale_bar);
-  std::string unit = labels.length_unit.value_or("");
-  if (text("unit", "the file's", unit)) labels.length_unit = unit.empty() ? std::nullopt : std::optional(unit);
-  ImGui::EndDisabled();
+  parameters(ParameterGroup::tone, settings);
 }
 
 void EffectsPanel::draw_cell(const SceneFacts& facts, ViewerSettings& settings) {
@@ -265,7 +319,7 @@ void EffectsPanel::draw_cell(const SceneFacts& facts, ViewerSettings& settings) 
     return fmt::format("{}x{}x{}", counts[0], counts[1], counts[2]);
   };
   ImGui::BeginDisabled(gpu);
-  check("edges", settings.cell);
+  parameters(ParameterGroup::cell, settings);
   const std::string own = words(facts.copies);
   std::string copies = settings.replicate ? words(*settings.replicate) : "";
   if (text("copies", own.c_str(), copies)) {
@@ -291,10 +345,10 @@ void EffectsPanel::draw(const Viewer& viewer, ViewerSettings& settings, ViewerLo
   ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y * 0.4F});
   look_changed = false;
   if (group("colours")) look_changed = draw_colours(facts, look) || look_changed;
-  if (group("light")) look_changed = draw_light(settings.effects, settings.shadows, look) || look_changed;
-  if (group("lines")) look_changed = draw_lines(facts, settings.effects, look) || look_changed;
+  if (group("light")) look_changed = draw_light(settings, look) || look_changed;
+  if (group("lines")) look_changed = draw_lines(facts, settings, look) || look_changed;
   if (group("lens")) draw_lens(settings);
-  if (group("labels")) draw_labels(settings);
+  if (group("labels")) parameters(ParameterGroup::labels, settings);
   if (facts.has_cell && group("cell")) draw_cell(facts, settings);
 }
 

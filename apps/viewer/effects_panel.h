@@ -23,12 +23,15 @@ class EffectsPanel {
   /// The same for a number; an empty text, or one that is no number from 0, gives `otherwise`, which is shown as empty.
   bool number(const char* name, const char* hint, double otherwise, double& value);
 
+  /// The controls of a group, one for each row of settings/parameter.h with a label.
+  void parameters(ParameterGroup group, ViewerSettings& settings);
+
  private:
+  void parameter(const Parameter& parameter, LayeredSettings& picture);
   bool draw_colours(const SceneFacts& facts, ViewerLook& look);
-  bool draw_light(ViewerEffects& effects, bool& shadows, ViewerLook& look);
-  bool draw_lines(const SceneFacts& facts, ViewerEffects& effects, ViewerLook& look);
+  bool draw_light(ViewerSettings& settings, ViewerLook& look);
+  bool draw_lines(const SceneFacts& facts, ViewerSettings& settings, ViewerLook& look);
   void draw_lens(ViewerSettings& settings);
-  void draw_labels(ViewerSettings& settings);
   void draw_cell(const SceneFacts& facts, ViewerSettings& settings);
 
   std::string edited_field_, edited_text_;  // what is being written, and where

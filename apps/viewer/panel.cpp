@@ -19,12 +19,6 @@ namespace {
 constexpr int kMostPrims = 64, kMostDepth = 64;
 constexpr int kLargestSavedPx = 65535;
 
-void slider(const char* name, int& value, int max, ImGuiSliderFlags flags = 0) {
-  label(name);
-  const std::string id = std::string("##") + name;
-  ImGui::SliderInt(id.c_str(), &value, 1, max, "%d", flags | ImGuiSliderFlags_AlwaysClamp);
-}
-
 // A limit of the tree: the engine's choice, or a number. At the slider's left end the engine chooses.
 void limit_slider(const char* name, std::optional<std::int64_t>& value, int max) {
   label(name);
@@ -105,7 +99,7 @@ void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) {
   ImGui::PopTextWrapPos();
 }
 
-void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
+void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) {
   heading("picture");
   label("engine");
   if (ImGui::RadioButton("CPU", settings.engine == ViewerEngine::cpu)) settings.engine = ViewerEngine::cpu;
@@ -125,18 +119,7 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) const {
     }
     ImGui::EndCombo();
   }
-  slider("recursion", settings.recursion, kMostRecursion);
-  ImGui::BeginDisabled(draws_adaptive_samples(settings));
-  slider("samples", settings.samples_per_pixel, kMostSamples, ImGuiSliderFlags_Logarithmic);
-  ImGui::EndDisabled();
-  label("more on edges");
-  const bool gpu = settings.engine == ViewerEngine::gpu;
-  ImGui::BeginDisabled(gpu);
-  ImGui::Checkbox("##adaptive", &settings.effects.adaptive_samples);
-  ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("%s",
-                      gpu ? "the CPU engine alone draws more samples on edges" : "4 samples a pixel, and 16 on edges");
+  effects.parameters(ParameterGroup::picture, settings);
 }
 
 void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {

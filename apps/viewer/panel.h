@@ -44,7 +44,7 @@ class Panel {
 
  private:
   void draw_scene(const Viewer& viewer, PanelWishes& wishes);
-  void draw_picture(const Viewer& viewer, ViewerSettings& settings) const;
+  void draw_picture(const Viewer& viewer, ViewerSettings& settings);
   void draw_tree(ViewerSettings& settings) const;
   void draw_camera(ViewerSettings& settings, PanelWishes& wishes) const;
   void draw_speed(const Viewer& viewer, const FrameReport& report) const;

@@ -112,6 +112,11 @@ BIHIVE_API void bihive_scene_free(bihive_scene* scene);
  * this call it is the scene file's own, or "front". */
 BIHIVE_API int bihive_scene_view_from(bihive_scene* scene, const char* side);
 
+/* Sets a parameter of the pictures by the name that Python gives it, to a value as text: "ao_distance" to "2.5",
+ * "shadows" to "false", "tone" to "filmic", "outline_colour" to "#404040". docs/settings.md lists all. `value` NULL:
+ * the scene's own again. Failures: an unknown name, a value out of range; the message says what was expected. */
+BIHIVE_API int bihive_scene_set(bihive_scene* scene, const char* name, const char* value);
+
 /* Draws the picture of `bihive render`: width * height * 4 bytes to `rgba`, row by row from the top; red, green and
  * blue are not multiplied by the opacity, which is 255 unless the scene has a transparent background. Width and height:
  * 1 to 65535. `samples` a pixel: 1 to 4096, 0: the scene's. */

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bihive.h"
+#include "bihive/base/near_name.h"
 #include "bihive/image/png_pixels.h"
 #include "bihive/image/transfer.h"
 #include "bihive/render/draw_labels.h"
@@ -22,6 +23,8 @@
 #include "bihive/scene/names.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/title_text.h"
+#include "bihive/settings/overrides.h"
+#include "bihive/settings/parameter_text.h"
 #include "c_errors.h"
 #include "c_spheres.h"
 
@@ -30,6 +33,7 @@ struct bihive_scene {
   bihive::LoadedScene loaded;
   std::optional<bihive::Tracer> tracer;
   std::optional<bihive::ViewFrom> side;
+  bihive::Overrides user;
   std::mutex in_use;  // each picture places the camera and the lights anew
 };
 
@@ -51,21 +55,21 @@ int take_scene(LoadedScene loaded, bihive_scene** scene) {
 }
 
 // The camera that shows everything.
-Camera fitted_camera(const Scene& scene, const Side& side, int width, int height) {
+Camera fitted_camera(const Scene& scene, const PictureSettings& picture, const Side& side, int width, int height) {
   const Lens lens{scene.camera.fov_deg, scene.camera.projection};
   const RemainingSpheres remaining(scene);
-  Camera camera = scene.picture.cell_lines ? frame_with_cell(remaining.set(), side, lens, width, height)
-                                           : frame_spheres(remaining.set(), side, lens, width, height);
+  Camera camera = picture.cell_lines ? frame_with_cell(remaining.set(), side, lens, width, height)
+                                     : frame_spheres(remaining.set(), side, lens, width, height);
   camera.aperture = scene.camera.aperture;
   camera.focus = scene.camera.focus;
   return camera;
 }
 
 // As the user placed them, else around everything.
-void place_camera_and_lights(bihive_scene& of, int width, int height) {
+void place_camera_and_lights(bihive_scene& of, const PictureSettings& picture, int width, int height) {
   Scene& scene = of.loaded.scene;
   if (of.side || !of.loaded.has_camera)
-    scene.camera = fitted_camera(scene, side_of(of.side.value_or(ViewFrom::front)), width, height);
+    scene.camera = fitted_camera(scene, picture, side_of(of.side.value_or(ViewFrom::front)), width, height);
   if (!of.loaded.has_lights) scene.lights = lights_around(of.loaded.rig, scene.camera);
 }
 
@@ -151,13 +155,39 @@ int bihive_scene_view_from(bihive_scene* scene, const char* side) {
   });
 }
 
+int bihive_scene_set(bihive_scene* scene, const char* name, const char* value) {
+  return guarded([&] {
+    if (scene == nullptr || name == nullptr) return fail("the scene or the name is NULL");
+    const Parameter* const parameter = parameter_named(name);
+    if (parameter == nullptr) {
+      std::vector<std::string> ids;
+      for (const Parameter& row : picture_parameters()) ids.emplace_back(row.id);
+      const std::string near = near_name(name, ids);
+      return fail(Error{"there is no parameter \"" + std::string(name) + "\"", "", 0, 0,
+                        near.empty() ? "docs/settings.md lists them" : "did you mean " + near + "?"});
+    }
+    const std::lock_guard<std::mutex> lock(scene->in_use);
+    if (value == nullptr) {
+      scene->user.reset(parameter->id);
+      return kDone;
+    }
+    const Result<SettingValue> parsed = value_from_text(*parameter, value);
+    if (!parsed) return fail(Error{std::string(name) + ": " + parsed.error().message, "", 0, 0, ""});
+    scene->user.set(parameter->id, *parsed);
+    return kDone;
+  });
+}
+
 int bihive_render(bihive_scene* scene, int width, int height, int samples, int threads, uint8_t* rgba) {
   return guarded([&] {
     if (check_picture(scene, width, height, samples, threads, rgba) != kDone) return kFailed;
     const std::lock_guard<std::mutex> lock(scene->in_use);
-    place_camera_and_lights(*scene, width, height);
+    PictureSettings picture = scene->loaded.scene.picture;
+    scene->user.apply_to(picture);
+    if (picture.fog && !(picture.fog->start < picture.fog->end)) return fail("fog_start must be below fog_end");
+    place_camera_and_lights(*scene, picture, width, height);
     const Scene& drawn = scene->loaded.scene;
-    RenderSettings settings = settings_from(drawn.picture);
+    RenderSettings settings = settings_from(picture);
     settings.width_px = width;
     settings.height_px = height;
     settings.threads = threads;
@@ -172,7 +202,7 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     if (Status status = check_labels(drawn, settings); !status) return fail(status.error());
     const auto rendered = render(drawn, *scene->tracer, settings);
     if (!rendered) return fail(rendered.error());
-    PngPixels pixels = png_pixels_from_film(rendered->film, drawn.picture.transfer, 8, threads);
+    PngPixels pixels = png_pixels_from_film(rendered->film, settings.transfer, 8, threads);
     draw_labels(pixels, drawn, settings);
     write_rgba(pixels, rgba);
     return kDone;

@@ -255,7 +255,8 @@ std::string Page::choices() const {
   json["maps"] = kColourMapNames;
   json["materials"] = names_json(named_materials());
   json["lights"] = names_json(light_presets());
-  json["tones"] = names_json(kToneCurves);
+  json["settings"] = *json_from_text<ordered_json>(parameters_to_json());
+  json["tones"] = names_of(*parameter_named("tone"));
   return text_of(json);
 }
 

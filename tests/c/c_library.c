@@ -199,6 +199,19 @@ static void test_pictures(void) {
   EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
   EXPECT(pixel(other, 24, 32)[2] > pixel(other, 24, 32)[0] + 50);
   EXPECT_ERROR(bihive_scene_view_from(scene, "below"), "iso");
+
+  /* Parameters by name: a picture with outlines is another one, and the scene's own comes back. */
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, one) == 0);
+  EXPECT(bihive_scene_set(scene, "outline", "3") == 0);
+  EXPECT(bihive_scene_set(scene, "outline_colour", "#00ff00") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) != 0);
+  EXPECT(bihive_scene_set(scene, "outline_px", NULL) == 0 && bihive_scene_set(scene, "outline_colour", NULL) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) == 0);
+  EXPECT_ERROR(bihive_scene_set(scene, "ligth_points", "3"), "did you mean light_points");
+  EXPECT_ERROR(bihive_scene_set(scene, "light_points", "0"), "a whole number from 1 to 1024");
+  EXPECT_ERROR(bihive_scene_set(scene, "fog", NULL) || bihive_scene_set(NULL, "fog", "1"), "NULL");
   EXPECT_ERROR(bihive_render(scene, 0, 10, 1, 0, other), "65535");
   EXPECT_ERROR(bihive_render(scene, 10, 10, 5000, 0, other), "4096");
   EXPECT_ERROR(bihive_render(scene, 10, 10, 1, 0, NULL), "no place");

@@ -56,9 +56,24 @@ class Help(ProgramTest):
             "info": "--json",
         }
         for command, options in contract.items():
-            text = self.succeed(command, "--help")
+            text = self.succeed(command, "--help-all")
             for option in options.split():
                 self.assertRegex(text, r"(?<![\w-])" + re.escape(option) + r"(?![\w-])", command)
+
+
+    def test_the_short_help_shows_what_people_use(self):
+        short, long = self.succeed("render", "--help"), self.succeed("render", "--help-all")
+        self.assertLess(len(short.splitlines()), 75)
+        self.assertIn("--help-all shows all", short)
+        for text in (short, long):
+            self.assertIn("--style", text)
+        self.assertNotIn("--ao-directions", short)
+        self.assertIn("--ao-directions", long)
+
+    def test_a_near_name_is_said(self):
+        for word, near in [("--color", "--colour"), ("--colour_by=chain", "--colour-by"), ("--light-point", "--light-points")]:
+            self.assertIn(f"did you mean {near}?", self.fail_usage("render", "demo", "-o", "a.png", word))
+        self.assertNotIn("did you mean", self.fail_usage("render", "demo", "-o", "a.png", "--zzzzzzzz"))
 
 
 class WrongUsage(ProgramTest):

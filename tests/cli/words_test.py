@@ -29,7 +29,7 @@ class Words(ProgramTest):
 
     def options(self, *command):
         """The names of the options that --help lists."""
-        names = ",".join(OPTION.findall(self.succeed(*command, "--help"))).split(",")
+        names = ",".join(OPTION.findall(self.succeed(*command, "--help-all"))).split(",")
         self.assertIn("--help", names)
         return names
 
@@ -41,7 +41,7 @@ class ManualPages(Words):
         return re.sub(r"\\f[BIR]", "", page).replace("\\-", "-")
 
     def test_every_command_of_help_has_one(self):
-        listed = re.findall(r"^  ([a-z]+) ", self.succeed("--help").split("Subcommands:")[1], re.MULTILINE)
+        listed = re.findall(r"^  ([a-z]+) ", self.succeed("--help-all").split("Subcommands:")[1], re.MULTILINE)
         self.assertEqual(self.commands(), listed)
         page = self.shown()
         for command in listed:
@@ -72,7 +72,7 @@ class ManualPages(Words):
         for words in ([], ["man", "nothing"], ["man", "render", "film"], ["tcsh"], ["bash", "zsh"], ["commands", "all"]):
             done = self.run_bihive("describe", *words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
-            self.assertIn("bihive describe knows: commands, options, man [COMMAND], bash, zsh, fish", done.stderr)
+            self.assertIn("bihive describe knows: commands, options, settings, man [COMMAND], bash, zsh, fish", done.stderr)
 
 
 class Bash(Words):

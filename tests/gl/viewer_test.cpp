@@ -151,7 +151,7 @@ TEST(GpuViewer, a_picture_to_be_saved_does_not_disturb) {
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   const Image before = shown(viewer);
-  const Result<PngPixels> same = viewer.picture(kWidth, kHeight, viewer.settings().samples_per_pixel);
+  const Result<PngPixels> same = viewer.picture(kWidth, kHeight, viewer.settings().picture.result().samples_per_pixel);
   ASSERT_TRUE(same);
   EXPECT_LE(share_off({same->width, same->height, same->bytes}, before), 0.001);
   const Result<PngPixels> larger = viewer.picture(2 * kWidth, 2 * kHeight, 1);
@@ -250,7 +250,7 @@ TEST(GpuViewer, draws_styles_and_looks) {
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerSettings settings = viewer.settings();
-  settings.samples_per_pixel = 2;
+  settings.picture.user.set("samples_per_pixel", 2);
   ASSERT_TRUE(viewer.set(settings));
   expect_same_pictures(viewer, "the style default");
 
@@ -283,12 +283,13 @@ TEST(GpuViewer, draws_lens_tone_and_labels) {
   expect_same_pictures(viewer, "plain");
   const Image plain = shown(viewer);
   ViewerSettings settings = viewer.settings();
-  settings.effects.tone = Tone{1, ToneCurve::soft};
-  settings.effects.labels.title = "A title";
-  settings.effects.labels.axes = true;
-  settings.effects.labels.legend = true;
+  settings.picture.user.set("exposure", 1);
+  settings.picture.user.set("tone", 1);
+  settings.picture.user.set("title", std::string("A title"));
+  settings.picture.user.set("axes", true);
+  settings.picture.user.set("legend", true);
   settings.camera.aperture = 3;
-  settings.samples_per_pixel = 4;
+  settings.picture.user.set("samples_per_pixel", 4);
   ASSERT_TRUE(viewer.set(settings));
   expect_same_pictures(viewer, "with effects");
   EXPECT_GT(share_off(shown(viewer), plain), 0.05);
@@ -304,7 +305,7 @@ TEST(GpuViewer, labels_are_sharp_in_coarse_pictures) {
   choose_plain(viewer);
   choose(viewer, ViewerEngine::gpu);
   ViewerSettings settings = viewer.settings();
-  settings.effects.labels.title = "a title";
+  settings.picture.user.set("title", std::string("a title"));
   ASSERT_TRUE(viewer.set(settings));
   settle(viewer);
   const auto top = [&] {
@@ -322,7 +323,7 @@ TEST(GpuViewer, labels_are_sharp_in_coarse_pictures) {
   settle(viewer);
   EXPECT_EQ(share_off(top(), coarse), 0) << "above the molecule there is the title alone";
   settings = viewer.settings();
-  settings.effects.labels = {};
+  settings.picture.user.reset("title");
   ASSERT_TRUE(viewer.set(settings));
   settle(viewer);
   EXPECT_GT(share_off(top(), coarse), 0.001) << "the title was there";

@@ -60,11 +60,11 @@ class Documentation(ProgramTest):
                 exec(compile(block, PAGE, "exec"), names)
 
     def test_every_option_of_the_command_line_is_known(self):
-        help_text = self.succeed("render", "--help")
+        help_text = self.succeed("render", "--help-all")
         options = set(re.findall(r"^\s+(?:-\w,)?(?:TRAJECTORY,)?(--[a-z-]+)", help_text, re.M))
         self.assertGreater(len(options), 50)
         # The input, the output, and what has another form here.
-        elsewhere = {"--help", "--output", "--layers", "--film", "--picture", "--json", "--select", "--hide", "--show"}
+        elsewhere = {"--help", "--help-all", "--output", "--layers", "--film", "--picture", "--json", "--select", "--hide", "--show"}
         from bihive import _options
 
         known = set(_options.ONE_VALUE + _options.FLAGS + _options.SWITCHES + _options.SIZES + _options.ACTIONS + ["light"])

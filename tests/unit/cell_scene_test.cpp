@@ -76,12 +76,12 @@ TEST(CellOfScene, TheCameraShowsIt) {
 
 TEST(ViewerCopies, AreSettings) {
   ViewerSettings settings;
-  settings.cell = true;
+  settings.picture.user.set("cell", true);
   settings.replicate = {2, 3, 1};
   const std::string json = settings_to_json(settings);
-  EXPECT_NE(json.find(R"("cell":true,"replicate":[2,3,1])"), std::string::npos) << json;
+  EXPECT_NE(json.find(R"("cell":true)"), std::string::npos) << json;
   EXPECT_EQ(settings_from_json(json).value().replicate, settings.replicate);
-  EXPECT_TRUE(settings_from_json(json).value().cell);
+  EXPECT_TRUE(settings_from_json(json).value().picture.result().cell_lines.has_value());
   EXPECT_FALSE(settings_from_json(R"({"replicate": null})", settings).value().replicate.has_value());
   for (const char* bad : {R"({"replicate": [1, 2]})", R"({"replicate": [1, 2, 0]})", R"({"replicate": 3})"})
     EXPECT_NE(settings_from_json(bad).error().to_string().find("/replicate"), std::string::npos) << bad;
@@ -94,18 +94,17 @@ TEST(ViewerCell, IsTheScenesUntilTheUserChanges) {
   EXPECT_TRUE(viewer.facts().has_cell);
   EXPECT_EQ(viewer.facts().copies, (std::array<std::int32_t, 3>{3, 1, 2}));
   ViewerSettings settings = viewer.settings();
-  EXPECT_TRUE(settings.cell);
-  const PictureDefaults& own = viewer.scene().picture;
-  EXPECT_EQ(render_settings(settings, own, 90, 60, 1).cell_lines->width_px, 3.5);
+  EXPECT_TRUE(settings.picture.result().cell_lines.has_value());
+  EXPECT_EQ(render_settings(settings, 90, 60, 1).cell_lines->width_px, 3.5);
   const std::uint64_t with = picture_hash(viewer.picture(90, 60, 1).value());
-  settings.cell = false;
+  settings.picture.user.set("cell", false);
   ASSERT_TRUE(viewer.set(settings).ok());
-  EXPECT_FALSE(render_settings(viewer.settings(), own, 90, 60, 1).cell_lines.has_value());
+  EXPECT_FALSE(render_settings(viewer.settings(), 90, 60, 1).cell_lines.has_value());
   EXPECT_NE(picture_hash(viewer.picture(90, 60, 1).value()), with);
 
   // The next scene brings its own.
   ASSERT_TRUE(viewer.load("x,y,z,r\n0,0,0,1\n", "a.csv").ok());
-  EXPECT_FALSE(viewer.settings().cell);
+  EXPECT_FALSE(viewer.settings().picture.result().cell_lines.has_value());
   EXPECT_FALSE(viewer.facts().has_cell);
 }
 
@@ -116,7 +115,7 @@ TEST(ViewerCell, StaysInThePictureWhileItTurns) {
   options.cell_vectors = {Vec3d{9, 0, 0}, Vec3d{0, 9, 0}, Vec3d{0, 0, 30}};
   ASSERT_TRUE(viewer.load("x,y,z,r\n0,0,0,1\n", "a.csv", options).ok());
   ViewerSettings settings = viewer.settings();
-  settings.cell = true;
+  settings.picture.user.set("cell", true);
   ASSERT_TRUE(viewer.set(settings).ok());
   for (int i = 0; i < 8; ++i) {
     const PixelPlaces places(viewer.settings().camera, 160, 90);
@@ -139,7 +138,7 @@ TEST(ViewerCopies, AreDrawnAndTakenBack) {
   EXPECT_EQ(own, 12);
   ViewerSettings settings = viewer.settings();
   settings.replicate = {1, 2, 1};
-  settings.cell = true;
+  settings.picture.user.set("cell", true);
   ASSERT_TRUE(viewer.set(settings).ok());
   EXPECT_EQ(viewer.scene().spheres.total_size(), 4);
   const Result<PngPixels> two = viewer.picture(32, 24, 1);

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "bihive/scene/colour_text.h"
+#include "bihive/image/colour_text.h"
 #include "bihive/scene/palette.h"
 #include "support/read_text.h"
 

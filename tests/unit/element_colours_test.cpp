@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bihive/scene/colour_text.h"
+#include "bihive/image/colour_text.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/palette.h"
 

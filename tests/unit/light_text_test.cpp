@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/image/transfer.h"
-#include "bihive/scene/colour_text.h"
 
 namespace bihive {
 namespace {

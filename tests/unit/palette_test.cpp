@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/image/transfer.h"
-#include "bihive/scene/colour_text.h"
 
 namespace bihive {
 namespace {

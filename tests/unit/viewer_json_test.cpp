@@ -22,9 +22,9 @@ TEST(ViewerJson, comes_back_exactly) {
   ViewerSettings settings;
   settings.engine = ViewerEngine::gpu;
   settings.view = View::distance;
-  settings.recursion = 16;
-  settings.samples_per_pixel = 64;
-  settings.shadows = false;
+  settings.picture.user.set("recursion", 16);
+  settings.picture.user.set("samples_per_pixel", 64);
+  settings.picture.user.set("shadows", false);
   settings.max_prims = 3;
   settings.max_depth = kUnlimited;
   constexpr double kTiny = std::numeric_limits<double>::denorm_min();
@@ -35,9 +35,10 @@ TEST(ViewerJson, comes_back_exactly) {
   ASSERT_TRUE(back) << back.error().to_string();
   EXPECT_EQ(back->engine, settings.engine);
   EXPECT_EQ(back->view, settings.view);
-  EXPECT_EQ(back->recursion, 16);
-  EXPECT_EQ(back->samples_per_pixel, 64);
-  EXPECT_FALSE(back->shadows);
+  const PictureSettings picture = back->picture.result();
+  EXPECT_EQ(picture.recursion, 16);
+  EXPECT_EQ(picture.samples_per_pixel, 64);
+  EXPECT_FALSE(picture.shadows);
   EXPECT_EQ(back->max_prims, settings.max_prims);
   EXPECT_EQ(back->max_depth, settings.max_depth);
   EXPECT_EQ(back->camera.eye, settings.camera.eye);
@@ -51,53 +52,56 @@ TEST(ViewerJson, comes_back_exactly) {
 
 TEST(ViewerJson, effects_and_lens_come_back_exactly) {
   ViewerSettings settings;
-  settings.effects.adaptive_samples = true;
-  settings.effects.ambient_occlusion = true;
-  settings.effects.ambient_distance = 1.0 / 3;
-  settings.effects.ambient_directions = 4096;
-  settings.effects.light_points = 1024;
-  settings.effects.opacity_rule = OpacityRule::once;
-  settings.effects.fog = 0.1;
-  settings.effects.outline_px = 1.5;
-  settings.effects.tone = {-32, ToneCurve::filmic};
-  settings.effects.labels = {true, true, true, "a \"title\" of \u00C5", "nm"};
+  settings.picture.user.set("samples_auto", true);
+  settings.picture.user.set("ao", true);
+  settings.picture.user.set("ao_distance", 1.0 / 3);
+  settings.picture.user.set("ao_directions", 4096);
+  settings.picture.user.set("light_points", 1024);
+  settings.picture.user.set("opacity_rule", 1);
+  settings.picture.user.set("fog", 0.1);
+  settings.picture.user.set("outline_px", 1.5);
+  settings.picture.user.set("exposure", -32);
+  settings.picture.user.set("tone", 2);
+  for (const char* label : {"legend", "scale_bar", "axes"}) settings.picture.user.set(label, true);
+  settings.picture.user.set("title", std::string("a \"title\" of \u00C5"));
+  settings.picture.user.set("length_unit", std::string("nm"));
   settings.focus_on = "resname LIG";
   settings.camera.aperture = 0.7;
   settings.camera.focus = 12.3;
   const Result<ViewerSettings> back = settings_from_json(settings_to_json(settings));
   ASSERT_TRUE(back) << back.error().to_string();
-  const ViewerEffects& effects = back->effects;
-  EXPECT_TRUE(effects.adaptive_samples);
-  EXPECT_TRUE(effects.ambient_occlusion);
-  EXPECT_EQ(effects.ambient_distance, 1.0 / 3);
-  EXPECT_EQ(effects.ambient_directions, 4096);
-  EXPECT_EQ(effects.light_points, 1024);
-  EXPECT_EQ(effects.opacity_rule, OpacityRule::once);
-  EXPECT_EQ(effects.fog, 0.1);
-  EXPECT_EQ(effects.outline_px, 1.5);
-  EXPECT_EQ(effects.tone.exposure_stops, -32);
-  EXPECT_EQ(effects.tone.curve, ToneCurve::filmic);
-  EXPECT_TRUE(effects.labels.legend && effects.labels.scale_bar && effects.labels.axes);
-  EXPECT_EQ(effects.labels.title, "a \"title\" of \u00C5");
-  EXPECT_EQ(effects.labels.length_unit, "nm");
+  const PictureSettings picture = back->picture.result();
+  EXPECT_TRUE(picture.adaptive_samples);
+  ASSERT_TRUE(picture.ambient_occlusion && picture.fog && picture.outline);
+  EXPECT_EQ(picture.ambient_occlusion->distance, 1.0 / 3);
+  EXPECT_EQ(picture.ambient_occlusion->directions, 4096);
+  EXPECT_EQ(picture.light_points, 1024);
+  EXPECT_EQ(picture.opacity_rule, OpacityRule::once);
+  EXPECT_EQ(picture.fog->strength, 0.1);
+  EXPECT_EQ(picture.outline->width_px, 1.5);
+  EXPECT_EQ(picture.tone.exposure_stops, -32);
+  EXPECT_EQ(picture.tone.curve, ToneCurve::filmic);
+  EXPECT_TRUE(picture.labels.legend && picture.labels.scale_bar && picture.labels.axes);
+  EXPECT_EQ(picture.labels.title, "a \"title\" of \u00C5");
+  EXPECT_EQ(picture.labels.length_unit, "nm");
   EXPECT_EQ(back->focus_on, "resname LIG");
   EXPECT_EQ(back->camera, settings.camera);
 
   // No limit of distance, and the input's own unit, are null.
   const Result<ViewerSettings> none = settings_from_json(R"({"ao_distance": null, "length_unit": null})", settings);
   ASSERT_TRUE(none);
-  EXPECT_EQ(none->effects.ambient_distance, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(none->effects.labels.length_unit, std::nullopt);
+  EXPECT_EQ(none->picture.result().ambient_occlusion->distance, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(none->picture.result().labels.length_unit, std::nullopt);
   EXPECT_THAT(settings_to_json(*none), HasSubstr("\"ao_distance\":null"));
   EXPECT_THAT(settings_to_json(*none), HasSubstr("\"length_unit\":null"));
-  EXPECT_EQ(none->effects.fog, 0.1) << "what is left out stays";
+  EXPECT_EQ(none->picture.result().fog->strength, 0.1) << "what is left out stays";
 
-  EXPECT_THAT(error_of(R"({"fog": 1.5})"), HasSubstr("/fog: expected a number from 0.0 to 1.0, found 1.5"));
+  EXPECT_THAT(error_of(R"({"fog": 1.5})"), HasSubstr("/fog: expected a number from 0 to 1, found 1.5"));
   EXPECT_THAT(error_of(R"({"ao_distance": 0})"), HasSubstr("/ao_distance: expected a number above 0, or null"));
   EXPECT_THAT(error_of(R"({"ao_directions": 0})"), HasSubstr("/ao_directions: expected a whole number from 1 to 4096"));
   EXPECT_THAT(error_of(R"({"light_points": 1025})"), HasSubstr("/light_points"));
   EXPECT_THAT(error_of(R"({"outline_px": 17})"), HasSubstr("/outline_px"));
-  EXPECT_THAT(error_of(R"({"exposure": "bright"})"), HasSubstr("/exposure: expected a number from -32.0 to 32.0"));
+  EXPECT_THAT(error_of(R"({"exposure": "bright"})"), HasSubstr("/exposure: expected a number from -32 to 32"));
   EXPECT_THAT(error_of(R"({"tone": "loud"})"), HasSubstr("/tone: expected one of none, soft, filmic"));
   EXPECT_THAT(error_of(R"({"opacity_rule": 1})"), HasSubstr("/opacity_rule: expected one of each_surface, once"));
   EXPECT_THAT(error_of(R"({"legend": "on"})"), HasSubstr("/legend: expected true or false"));
@@ -105,16 +109,33 @@ TEST(ViewerJson, effects_and_lens_come_back_exactly) {
   EXPECT_THAT(error_of(R"({"camera": {"aperture": "wide"}})"), HasSubstr("/camera/aperture: expected a number"));
 }
 
+// A state names what its user has set; the rest of it is the scene's, which may be another one now.
+TEST(ViewerJson, values_of_the_scene_are_not_the_users) {
+  ViewerSettings settings;
+  settings.picture.below.fog = Fog{};
+  settings.picture.user.set("light_points", 8);
+  const std::string json = settings_to_json(settings);
+  EXPECT_THAT(json, HasSubstr("\"set\":[\"light_points\"]"));
+  EXPECT_THAT(json, HasSubstr("\"fog\":0.5"));
+  const Result<ViewerSettings> back = settings_from_json(json);
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(back->picture.user.has("light_points")) << "also where it is as the scene has it";
+  EXPECT_FALSE(back->picture.user.has("fog"));
+  EXPECT_FALSE(back->picture.result().fog.has_value());
+  // A change without the list is the user's.
+  EXPECT_TRUE(settings_from_json(R"({"fog": 0.5})", settings)->picture.user.has("fog"));
+}
+
 TEST(ViewerJson, what_is_left_out_stays) {
   ViewerSettings base;
-  base.recursion = 7;
+  base.picture.user.set("recursion", 7);
   base.max_prims = 2;
   base.max_depth = 9;
   const Result<ViewerSettings> some =
       settings_from_json(R"({"view": "id", "max_prims": null, "camera": {"fov_deg": 12}})", base);
   ASSERT_TRUE(some);
   EXPECT_EQ(some->view, View::id);
-  EXPECT_EQ(some->recursion, 7);
+  EXPECT_EQ(some->picture.result().recursion, 7);
   EXPECT_EQ(some->max_prims, std::nullopt);
   EXPECT_EQ(some->max_depth, 9);
   EXPECT_EQ(some->camera.fov_deg, 12);

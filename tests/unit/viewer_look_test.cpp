@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/camera_lights.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/focus.h"
 #include "bihive/scene/light_text.h"
@@ -77,8 +77,8 @@ TEST(ViewerLook, every_style_is_the_programs) {
     ViewerLook look;
     look.style = style;
     ASSERT_TRUE(viewer.set_look(look)) << style;
-    EXPECT_EQ(viewer.settings().recursion, style_named(style)->picture.recursion) << style;
-    EXPECT_EQ(viewer.settings().shadows, style_named(style)->picture.shadows) << style;
+    EXPECT_EQ(viewer.settings().picture.result().recursion, style_named(style)->picture.recursion) << style;
+    EXPECT_EQ(viewer.settings().picture.result().shadows, style_named(style)->picture.shadows) << style;
     EXPECT_EQ(shown(viewer), rendered(demo_in(style), viewer.settings().camera)) << style;
   }
 
@@ -96,13 +96,13 @@ TEST(ViewerLook, what_the_user_changed_stays_when_the_style_changes) {
   viewer.resize(kWidth, kHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerSettings settings = viewer.settings();
-  settings.recursion = 2;
+  settings.picture.user.set("recursion", 2);
   ASSERT_TRUE(viewer.set(settings));
   ViewerLook look;
   look.style = "xray";
   ASSERT_TRUE(viewer.set_look(look));
-  EXPECT_EQ(viewer.settings().recursion, 2);
-  EXPECT_FALSE(viewer.settings().shadows) << "not touched: the style's";
+  EXPECT_EQ(viewer.settings().picture.result().recursion, 2);
+  EXPECT_FALSE(viewer.settings().picture.result().shadows) << "not touched: the style's";
 }
 
 TEST(ViewerLook, rows_are_done_in_order_and_counted) {
@@ -222,7 +222,7 @@ TEST(ViewerLook, element_colours_and_background) {
   // Transparent: the saved picture has opacity, the screen shows checks.
   look.background = "none";
   ASSERT_TRUE(viewer.set_look(look));
-  const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, 4);
+  const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, samples_at_rest(viewer.settings()));
   ASSERT_TRUE(saved);
   ASSERT_EQ(saved->channels, 4);
   EXPECT_EQ(saved->bytes[3], 0) << "the corner is clear";
@@ -245,7 +245,7 @@ TEST(ViewerLook, a_moving_picture_with_one_sample_is_still_the_programs_at_rest)
   viewer.resize(kWidth, kHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerSettings settings = viewer.settings();
-  settings.samples_per_pixel = 1;
+  settings.picture.user.set("samples_per_pixel", 1);
   ASSERT_TRUE(viewer.set(settings));
   double done = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -293,33 +293,34 @@ struct EffectCase {
 
 TEST(ViewerLook, every_effect_is_the_programs) {
   const std::vector<EffectCase> cases{
-      {"no ao", [](ViewerSettings& s) { s.effects.ambient_occlusion = false; },
+      {"no ao", [](ViewerSettings& s) { s.picture.user.set("ao", false); },
        [](Scene&, RenderSettings& r) { r.ambient_occlusion.reset(); }},
       {"ao",
        [](ViewerSettings& s) {
-         s.effects.ambient_distance = 3;
-         s.effects.ambient_directions = 20;
+         s.picture.user.set("ao_distance", 3);
+         s.picture.user.set("ao_directions", 20);
        },
        [](Scene&, RenderSettings& r) {
          r.ambient_occlusion = AmbientOcclusion{3, 20};
        }},
-      {"light points", [](ViewerSettings& s) { s.effects.light_points = 3; },
+      {"light points", [](ViewerSettings& s) { s.picture.user.set("light_points", 3); },
        [](Scene&, RenderSettings& r) { r.light_points = 3; }},
-      {"samples", [](ViewerSettings& s) { s.effects.adaptive_samples = true; },
+      {"samples", [](ViewerSettings& s) { s.picture.user.set("samples_auto", true); },
        [](Scene&, RenderSettings& r) { r.adaptive_samples = true; }},
-      {"fog", [](ViewerSettings& s) { s.effects.fog = 0.8; },
+      {"fog", [](ViewerSettings& s) { s.picture.user.set("fog", 0.8); },
        [](Scene&, RenderSettings& r) {
          r.fog = r.fog.value_or(Fog{});
          r.fog->strength = 0.8;
        }},
-      {"outline", [](ViewerSettings& s) { s.effects.outline_px = 2; },
+      {"outline", [](ViewerSettings& s) { s.picture.user.set("outline_px", 2); },
        [](Scene&, RenderSettings& r) {
          r.outline = r.outline.value_or(Outline{});
          r.outline->width_px = 2;
        }},
       {"tone",
        [](ViewerSettings& s) {
-         s.effects.tone = {0.5, ToneCurve::filmic};
+         s.picture.user.set("exposure", 0.5);
+         s.picture.user.set("tone", 2);
        },
        [](Scene&, RenderSettings& r) {
          r.tone = {0.5, ToneCurve::filmic};
@@ -329,7 +330,8 @@ TEST(ViewerLook, every_effect_is_the_programs) {
          s.camera.aperture = 3;
          s.camera.focus = 60;
        },
-       [](Scene& scene, RenderSettings&) {
+       [](Scene& scene, RenderSettings& r) {
+         use_lens_samples(r);
          scene.camera.aperture = 3;
          scene.camera.focus = 60;
        }},
@@ -338,13 +340,15 @@ TEST(ViewerLook, every_effect_is_the_programs) {
          s.camera.aperture = 3;
          s.focus_on = "resname 478";
        },
-       [](Scene& scene, RenderSettings&) {
+       [](Scene& scene, RenderSettings& r) {
+         use_lens_samples(r);
          scene.camera.aperture = 3;
          scene.camera.focus = *focus_on(scene.spheres, scene.camera, "resname 478");
        }},
       {"labels",
        [](ViewerSettings& s) {
-         s.effects.labels = {true, false, true, "HIV-1", std::nullopt};
+         for (const char* label : {"legend", "axes"}) s.picture.user.set(label, true);
+         s.picture.user.set("title", std::string("HIV-1"));
        },
        [](Scene&, RenderSettings& r) {
          r.labels = {true, false, true, "HIV-1", std::nullopt};
@@ -352,8 +356,8 @@ TEST(ViewerLook, every_effect_is_the_programs) {
       {"scale bar",
        [](ViewerSettings& s) {
          s.camera = with_projection(s.camera, Projection::orthographic);
-         s.effects.labels.scale_bar = true;
-         s.effects.labels.length_unit = "nm";
+         s.picture.user.set("scale_bar", true);
+         s.picture.user.set("length_unit", std::string("nm"));
        },
        [](Scene&, RenderSettings& r) {
          r.labels.scale_bar = true;
@@ -376,7 +380,7 @@ TEST(ViewerLook, every_effect_is_the_programs) {
     EXPECT_EQ(hash, demo_with(camera, one.as_rendered)) << one.name;
     EXPECT_NE(hash, plain) << one.name;
     // As a file too.
-    const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, 4);
+    const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, samples_at_rest(viewer.settings()));
     ASSERT_TRUE(saved);
     EXPECT_EQ(picture_hash(Image{saved->width, saved->height, saved->bytes}), hash) << one.name;
     viewer.look_from(ViewFrom::front);
@@ -457,17 +461,17 @@ TEST(ViewerLook, effects_follow_the_style_unless_they_were_changed) {
   Viewer viewer;
   viewer.resize(kWidth, kHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
-  EXPECT_TRUE(viewer.settings().effects.ambient_occlusion) << "of the style default";
+  EXPECT_TRUE(viewer.settings().picture.result().ambient_occlusion.has_value()) << "of the style default";
   ViewerSettings settings = viewer.settings();
-  settings.effects.fog = 0.25;
+  settings.picture.user.set("fog", 0.25);
   ASSERT_TRUE(viewer.set(settings));
   ViewerLook look;
   look.style = "illustrative";
   ASSERT_TRUE(viewer.set_look(look));
-  const PictureDefaults style = style_named("illustrative")->picture;
-  EXPECT_EQ(viewer.settings().effects.ambient_occlusion, style.ambient_occlusion.has_value());
-  EXPECT_EQ(viewer.settings().effects.outline_px, style.outline->width_px);
-  EXPECT_EQ(viewer.settings().effects.fog, 0.25) << "the user's";
+  const PictureSettings style = style_named("illustrative")->picture;
+  EXPECT_EQ(viewer.settings().picture.result().ambient_occlusion.has_value(), style.ambient_occlusion.has_value());
+  EXPECT_EQ(viewer.settings().picture.result().outline->width_px, style.outline->width_px);
+  EXPECT_EQ(viewer.settings().picture.result().fog->strength, 0.25) << "the user's";
 
   // Those of a scene file are shown, and kept by a change of something else.
   const std::string document = R"({"bihive_scene": 2, "camera": {"eye": [0, 0, 9], "look_at": [0, 0, 0]},
@@ -475,11 +479,11 @@ TEST(ViewerLook, effects_follow_the_style_unless_they_were_changed) {
                   "outline": {"width_px": 3}}, "spheres": [[0, 0, 0, 1], [1, 0, -3, 1]]})";
   ASSERT_TRUE(viewer.load(document, "a.json"));
   settings = viewer.settings();
-  EXPECT_EQ(settings.effects.ambient_distance, 2);
-  EXPECT_EQ(settings.effects.ambient_directions, 12);
-  EXPECT_EQ(settings.effects.fog, 0.75);
-  EXPECT_EQ(settings.effects.outline_px, 3);
-  settings.effects.outline_px = 2;
+  EXPECT_EQ(settings.picture.result().ambient_occlusion->distance, 2);
+  EXPECT_EQ(settings.picture.result().ambient_occlusion->directions, 12);
+  EXPECT_EQ(settings.picture.result().fog->strength, 0.75);
+  EXPECT_EQ(settings.picture.result().outline->width_px, 3);
+  settings.picture.user.set("outline_px", 2);
   ASSERT_TRUE(viewer.set(settings));
   LoadedScene file = *load_scene(document, "a.json", {}, LooksOfFile::keep);
   file.scene.picture.outline->width_px = 2;
@@ -492,33 +496,34 @@ TEST(ViewerLook, labels_that_a_picture_cannot_have) {
   ASSERT_TRUE(viewer.load_built_in("four-spheres"));
   const std::uint64_t without = shown(viewer);
   ViewerSettings settings = viewer.settings();
-  settings.effects.labels.scale_bar = true;
+  settings.picture.user.set("scale_bar", true);
   Status refused = viewer.set(settings);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().to_string(), HasSubstr("orthographic"));
-  settings.effects.labels = {true};
+  settings = viewer.settings();
+  settings.picture.user.set("legend", true);
   refused = viewer.set(settings);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().to_string(), HasSubstr("legend"));
-  EXPECT_FALSE(viewer.settings().effects.labels.legend);
+  EXPECT_FALSE(viewer.settings().picture.result().labels.legend);
 
   // A scale bar in parallel rays; it is left out in perspective, and comes back.
   settings = viewer.settings();
-  settings.effects.labels.scale_bar = true;
+  settings.picture.user.set("scale_bar", true);
   settings.camera = with_projection(settings.camera, Projection::orthographic);
   ASSERT_TRUE(viewer.set(settings));
   settings = viewer.settings();
   settings.camera = with_projection(settings.camera, Projection::perspective);
   ASSERT_TRUE(viewer.set(settings));
-  EXPECT_TRUE(viewer.settings().effects.labels.scale_bar);
+  EXPECT_TRUE(viewer.settings().picture.result().labels.scale_bar);
   EXPECT_EQ(shown(viewer), without);
 
   settings.camera.aperture = 1;
-  settings.effects.adaptive_samples = true;
+  settings.picture.user.set("samples_auto", true);
   refused = viewer.set(settings);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().to_string(), HasSubstr("choose a number of samples"));
-  settings.effects.adaptive_samples = false;
+  settings.picture.user.set("samples_auto", false);
   settings.focus_on = "chain Q";
   EXPECT_FALSE(viewer.set(settings));
 }
@@ -529,7 +534,7 @@ TEST(ViewerLook, labels_are_sharp_in_coarse_pictures) {
   viewer.resize(400, 800);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerSettings settings = viewer.settings();
-  settings.effects.labels.title = "a title";
+  settings.picture.user.set("title", std::string("a title"));
   ASSERT_TRUE(viewer.set(settings));
   FrameReport report;
   for (int i = 0; i < 1000 && !report.drawn; ++i) report = *viewer.frame(1e-3);
@@ -542,7 +547,7 @@ TEST(ViewerLook, labels_are_sharp_in_coarse_pictures) {
   const std::vector<std::uint8_t> coarse = top();
   settle(viewer);
   EXPECT_TRUE(top() == coarse) << "above the molecule there is the title alone";
-  settings.effects.labels = {};
+  settings.picture.user.reset("title");
   ASSERT_TRUE(viewer.set(settings));
   settle(viewer);
   EXPECT_FALSE(top() == coarse) << "the title was there";

@@ -45,12 +45,9 @@ Image rendered(const Viewer& viewer, Engine engine, const RenderSettings& settin
 
 RenderSettings settings_of(const Viewer& viewer, int width, int height) {
   const ViewerSettings& of_viewer = viewer.settings();
-  RenderSettings settings = settings_from(viewer.scene().picture);
+  RenderSettings settings = settings_from(of_viewer.picture.result());
   settings.width_px = width;
   settings.height_px = height;
-  settings.samples_per_pixel = of_viewer.samples_per_pixel;
-  settings.recursion = of_viewer.recursion;
-  settings.shadows = of_viewer.shadows;
   settings.view = of_viewer.view;
   return settings;
 }
@@ -91,7 +88,7 @@ TEST(Viewer, settles_at_the_picture_that_the_program_renders) {
   EXPECT_GT(reports.back().mray_per_s, 0);
   EXPECT_TRUE(std::any_of(reports.begin(), reports.end(), [](const FrameReport& report) { return report.drawn; }));
 
-  EXPECT_EQ(viewer.settings().samples_per_pixel, 4);
+  EXPECT_EQ(viewer.settings().picture.result().samples_per_pixel, 4);
   const Image expected = rendered(viewer, Engine::wide, settings_of(viewer, 160, 90));
   EXPECT_EQ(picture_hash(viewer.image()), picture_hash(expected));
 
@@ -105,8 +102,8 @@ TEST(Viewer, every_view_is_the_renderers) {
   Viewer viewer;
   viewer.resize(96, 64);
   ASSERT_TRUE(viewer.load_built_in("four-spheres"));
-  EXPECT_EQ(viewer.settings().samples_per_pixel, 1) << "the scene's own";
-  EXPECT_FALSE(viewer.settings().shadows);
+  EXPECT_EQ(viewer.settings().picture.result().samples_per_pixel, 1) << "the scene's own";
+  EXPECT_FALSE(viewer.settings().picture.result().shadows);
   for (const View view : {View::recursion, View::traversal, View::normal, View::distance, View::id, View::tree}) {
     ViewerSettings settings = viewer.settings();
     settings.view = view;
@@ -132,8 +129,8 @@ TEST(Viewer, draws_with_the_tone_lens_and_adaptive_samples_of_a_scene_file) {
     viewer.resize(96, 64);
     ASSERT_TRUE(viewer.load(text, "a.json"));
     EXPECT_EQ(viewer.settings().camera.aperture, i == 3 ? 2 : 0);
-    EXPECT_EQ(viewer.settings().effects.adaptive_samples, i == 2);
-    EXPECT_EQ(viewer.settings().effects.tone.exposure_stops, i == 0 ? 0 : 1);
+    EXPECT_EQ(viewer.settings().picture.result().adaptive_samples, i == 2);
+    EXPECT_EQ(viewer.settings().picture.result().tone.exposure_stops, i == 0 ? 0 : 1);
     settle(viewer);
     hashes[i] = picture_hash(viewer.image());
     EXPECT_EQ(hashes[i], picture_hash(rendered(viewer, Engine::wide, settings_of(viewer, 96, 64)))) << i;
@@ -203,8 +200,7 @@ TEST(Viewer, an_error_leaves_everything_as_it_was) {
     EXPECT_FALSE(status);
     return status ? "" : status.error().to_string();
   };
-  EXPECT_THAT(refused([](ViewerSettings& s) { s.recursion = 17; }), HasSubstr("recursion"));
-  EXPECT_THAT(refused([](ViewerSettings& s) { s.samples_per_pixel = 0; }), HasSubstr("samples"));
+  EXPECT_THAT(refused([](ViewerSettings& s) { s.picture.user.set("samples_per_pixel", 65); }), HasSubstr("samples"));
   EXPECT_THAT(refused([](ViewerSettings& s) { s.max_prims = 0; }), HasSubstr("max_prims"));
   EXPECT_THAT(refused([](ViewerSettings& s) { s.camera.eye = s.camera.look_at; }), HasSubstr("same point"));
   EXPECT_THAT(refused([](ViewerSettings& s) { s.engine = ViewerEngine::gpu; }), HasSubstr("no graphics processor"));
@@ -401,8 +397,8 @@ TEST(Viewer, a_picture_to_be_saved_comes_in_steps) {
     change(settings);
     return static_cast<bool>(viewer.set(settings));
   };
-  expect_kept("range", [&] { return set([](ViewerSettings& s) { s.recursion = 99; }); });
-  expect_kept("wish", [&] { return set([](ViewerSettings& s) { s.effects.labels.scale_bar = true; }); });
+  expect_kept("range", [&] { return set([](ViewerSettings& s) { s.picture.user.set("samples_per_pixel", 99); }); });
+  expect_kept("wish", [&] { return set([](ViewerSettings& s) { s.picture.user.set("scale_bar", true); }); });
   expect_kept("engine", [&] { return set([](ViewerSettings& s) { s.engine = ViewerEngine::gpu; }); });
   expect_kept("focus", [&] { return set([](ViewerSettings& s) { s.focus_on = "resname NOT"; }); });
   expect_kept("look", [&] {

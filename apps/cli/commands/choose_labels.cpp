@@ -24,20 +24,9 @@ void check_one(bool Labels::*label, bool asked_for, const std::string& option, c
 
 }  // namespace
 
-void take_labels(const LabelOptions& options, Labels& labels) {
-  if (options.none) labels = {};
-  labels.legend = labels.legend || options.legend;
-  labels.scale_bar = labels.scale_bar || options.scale_bar;
-  labels.axes = labels.axes || options.axes;
-  labels.title = options.title.value_or(labels.title);
-  if (options.length_unit) labels.length_unit = options.length_unit;
-  if (options.length_unit && !labels.scale_bar)
-    fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
-}
-
-void leave_out_labels(const LabelOptions& options, const Scene& scene, RenderSettings& settings) {
-  check_one(&Labels::legend, options.legend, "--legend", scene, settings);
-  check_one(&Labels::scale_bar, options.scale_bar, "--scale-bar", scene, settings);
+void leave_out_labels(const Overrides& user, const Scene& scene, RenderSettings& settings) {
+  check_one(&Labels::legend, user.is_on("legend"), "--legend", scene, settings);
+  check_one(&Labels::scale_bar, user.is_on("scale_bar"), "--scale-bar", scene, settings);
 }
 
 }  // namespace bihive::cli

@@ -7,12 +7,8 @@
 
 namespace bihive::cli {
 
-/// Adds the user's labels to those of the scene and its style. Fails with kBadUsage where options contradict each
-/// other.
-void take_labels(const LabelOptions& options, Labels& labels);
-
 /// What of these the picture cannot have; the camera must stand already. Fails with kBadUsage on a label that the user
 /// asks for; leaves out one of the scene's or style's, with a warning.
-void leave_out_labels(const LabelOptions& options, const Scene& scene, RenderSettings& settings);
+void leave_out_labels(const Overrides& user, const Scene& scene, RenderSettings& settings);
 
 }  // namespace bihive::cli

@@ -13,7 +13,4 @@ Style choose_style(const StyleOptions& options);
 /// stand already.
 void apply_look(const StyleOptions& options, Input& input);
 
-/// The effects of the picture, with the user's options.
-void apply_effects(const StyleOptions& options, RenderSettings& settings);
-
 }  // namespace bihive::cli

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "bihive/image/transfer.h"
 #include "bihive/math/vec3.h"
 #include "bihive/render/layers.h"
 #include "bihive/render/renderer.h"
@@ -16,6 +15,7 @@
 #include "bihive/scene/framing.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/turn.h"
+#include "bihive/settings/overrides.h"
 #include "bihive/viewer/viewer_settings.h"
 #include "look_options.h"
 #include "support/input.h"
@@ -27,30 +27,16 @@ namespace bihive::cli {
 /// sphere.
 enum class RenderEngine { automatic, wide, reference, brute, wide_brute, gpu, gpu_brute };
 
-/// Ambient occlusion: unset values are the scene's. A distance or a number of directions switches it on.
-struct AmbientOptions {
-  std::optional<bool> on;
-  std::optional<double> distance;  ///< world units, > 0
-  std::optional<std::int64_t> directions;
-};
-
-/// Unset: the style's or the scene's value.
+/// The style of files and the lights.
 struct StyleOptions {
   std::string name;                        ///< a name or a path; empty: the default one
   LightChoice lights;                      ///< empty: the style's
   std::vector<std::string> light_words{};  ///< the same as they were given
-  AmbientOptions ambient;
-  std::optional<OpacityRule> opacity_rule;
-  std::optional<std::int64_t> light_points;
-  std::optional<double> outline_px, fog;  ///< 0: none
-  std::optional<double> exposure_stops;
-  std::optional<ToneCurve> tone;
 };
 
-/// Labels are added to those of the scene and its style; `none` leaves out theirs.
+/// Of labels: what is no parameter of a picture.
 struct LabelOptions {
-  bool legend = false, scale_bar = false, axes = false, none = false;
-  std::optional<std::string> title, length_unit;
+  bool none = false;              ///< leave out those of the scene and its style
   std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
 };
 
@@ -61,28 +47,23 @@ struct FixedByFilm {
   std::vector<ColourRange> ranges_of_looks;
 };
 
-/// Unset: the scene's value.
 /// The word of --background for a transparent picture.
 inline const std::string kNoBackground = "none";
 
+/// Unset: the scene's value.
 struct RenderOptions {
   InputOptions input;
   LookOptions looks;
   std::string output;  ///< a path, or "-": the standard output
   std::optional<std::vector<Layer>> layers;
-  std::optional<PictureSize> size;
+  Overrides picture;         ///< of the parameters in settings/parameter.h
   std::optional<Tile> crop;  ///< not yet compared with the size
-  std::optional<std::int64_t> recursion;
-  std::optional<std::int64_t> samples;  ///< or kAutomaticSamples
   View view = View::shaded;
   RenderEngine engine = RenderEngine::automatic;
   TreeParameters tree;
   std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
-  std::optional<bool> shadows;
   StyleOptions style;
   LabelOptions labels;
-  bool cell = false;  ///< draw the edges of the cell
-  std::optional<Transfer> transfer;
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
   std::optional<std::int64_t> bits;       ///< 8 or 16
   double dots_per_inch = 0;               ///< 0: not said
@@ -95,9 +76,9 @@ struct RenderOptions {
   std::optional<double> aperture;  ///< world units, at least 0
   std::optional<Focus> focus;      ///< world units, 0: where the camera looks at; or what is sharp
   bool json = false;
-  std::string film;                     ///< the file that describes a film, of which this is a picture; empty: none
-  std::optional<std::int64_t> picture;  ///< of the film, from 0; unset: input.frame says it
-  std::optional<FixedByFilm> fixed;     ///< taken from the film
+  std::string film;  ///< the file that describes a film, of which this is a picture; empty: none
+  std::optional<std::int64_t> picture_of_film;  ///< from 0; unset: input.frame says it
+  std::optional<FixedByFilm> fixed;             ///< taken from the film
 };
 void run_render(const RenderOptions& options);
 
@@ -165,14 +146,12 @@ struct ViewOptions {
   std::optional<PictureSize> size;  ///< of the window
   std::optional<ViewerEngine> engine;
   View view = View::shaded;
-  std::optional<std::int64_t> recursion, samples;  ///< samples: or kAutomaticSamples
-  std::optional<bool> shadows;
+  Overrides picture;
   TreeParameters tree;
   std::optional<ViewFrom> view_from;
   StyleOptions style;
   LookOptions looks;
   LabelOptions labels;
-  bool cell = false;
   std::optional<std::string> background;
   std::optional<double> fov_deg, aperture;
   std::optional<Projection> projection;

@@ -2,7 +2,6 @@
 // of views and sides.
 #pragma once
 
-#include "bihive/image/transfer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/names.h"
 #include "commands/commands.h"
@@ -21,6 +20,5 @@ inline const Names<RenderEngine> kRenderEngines{
     {"gpu-brute", RenderEngine::gpu_brute}};
 inline const Names<RangeOfColours> kRangesOfColours{
     {"first", RangeOfColours::first}, {"film", RangeOfColours::film}, {"frame", RangeOfColours::frame}};
-inline const Names<Transfer> kTransfers{{"srgb", Transfer::srgb}, {"none", Transfer::none}};
 
 }  // namespace bihive::cli

@@ -172,12 +172,14 @@ std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scen
   if (settings.view != View::shaded)
     fail_usage("OpenEXR holds light and layers of numbers, not the colours of --view",
                "name layers: --layers normal,depth,id");
-  const LabelOptions& labels = options.labels;
-  if (labels.legend || labels.scale_bar || labels.axes || labels.title)
+  const Overrides& user = options.picture;
+  if (user.is_on("legend") || user.is_on("scale_bar") || user.is_on("axes") || user.has("title"))
     fail_usage("labels are drawn over the pixels of a PNG, and OpenEXR has light instead",
                "leave them out, or write a PNG too");
   settings.labels = {};
-  settings.tone = {options.style.exposure_stops.value_or(0), options.style.tone.value_or(ToneCurve::none)};
+  PictureSettings of_user;
+  user.apply_to(of_user);
+  settings.tone = of_user.tone;  // not the style's
   std::vector<Layer> layers = options.layers.value_or(std::vector<Layer>{Layer{}});
   if (const Status status = check_layers(scene, layers); !status)
     fail_usage("--layers: " + status.error().message, status.error().hint);

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "bihive/base/json_text.h"
 #include "bihive/base/version.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/title_text.h"
+#include "bihive/settings/picture_report.h"
 #include "commands/choose_camera.h"
 #include "commands/choose_labels.h"
 #include "commands/choose_look.h"
@@ -26,50 +26,6 @@ namespace {
 
 bool shows_reference_tree(View view) {
   return view == View::traversal || view == View::tree;
-}
-
-// With the ambient light and the lights that throw soft shadows; only what differs from plain pictures.
-void describe_effects(const RenderSettings& settings, const Scene& scene, ordered_json& json) {
-  if (settings.ambient_occlusion) {
-    const AmbientOcclusion& ambient = *settings.ambient_occlusion;
-    ordered_json& object = json["ambient_occlusion"] = ordered_json::object();
-    if (std::isfinite(ambient.distance)) object["distance"] = ambient.distance;
-    object["directions"] = ambient.directions;
-  }
-  if (settings.opacity_rule != OpacityRule::each_surface && lets_light_through(scene))
-    json["opacity_rule"] = name_of(kOpacityRules, settings.opacity_rule);
-  for (const PointLight& light : scene.lights)
-    if (light.radius > 0) json["light_points"] = settings.light_points;
-  if (settings.outline) json["outline_px"] = settings.outline->width_px;
-  if (settings.fog) json["fog"] = settings.fog->strength;
-  if (settings.tone.any()) {
-    json["exposure"] = settings.tone.exposure_stops;
-    json["tone"] = name_of(kToneCurves, settings.tone.curve);
-  }
-}
-
-void describe_labels(const Labels& labels, ordered_json& json) {
-  if (!labels.any()) return;
-  ordered_json& object = json["labels"] = ordered_json::object();
-  if (labels.legend) object["legend"] = true;
-  if (labels.scale_bar) object["scale_bar"] = true;
-  if (labels.axes) object["axes"] = true;
-  if (!labels.title.empty()) object["title"] = labels.title;
-  if (labels.length_unit) object["length_unit"] = *labels.length_unit;
-}
-
-// The samples of a picture with --aperture and without --samples: so many places on the lens are hardly seen one by
-// one.
-constexpr int kLensSamples = 64;
-
-void choose_samples(const RenderOptions& options, RenderSettings& settings) {
-  if (options.samples) {
-    settings.adaptive_samples = *options.samples == kAutomaticSamples;
-    if (!settings.adaptive_samples) settings.samples_per_pixel = static_cast<int>(*options.samples);
-  } else if (options.aperture.value_or(0) > 0) {
-    settings.adaptive_samples = false;
-    settings.samples_per_pixel = std::max(settings.samples_per_pixel, kLensSamples);
-  }
 }
 
 // The title with the frame's values. A generated scene has no frame; its number is 0.
@@ -92,41 +48,42 @@ std::string filled_title(const std::string& title, const RenderOptions& options,
 // user's options are the result.
 RenderSettings apply_options(const RenderOptions& options, Input& input) {
   Scene& scene = input.scene;
-  RenderSettings settings = settings_from(scene.picture);
-  if (options.size) settings.width_px = options.size->width_px;
-  if (options.size) settings.height_px = options.size->height_px;
+  const Overrides& user = options.picture;
+  PictureSettings picture = scene.picture;
+  if (options.labels.none) picture.labels = {};
+  if (options.aperture.value_or(0) > 0 && !user.has("samples_auto")) use_lens_samples(picture);
+  user.apply_to(picture);
+  if (options.background) picture.transparent = *options.background == kNoBackground;
+  scene.picture.transfer = picture.transfer;
+  RenderSettings settings = settings_from(picture);
   settings.crop = options.crop;
   if (options.crop && (options.crop->x1 > settings.width_px || options.crop->y1 > settings.height_px))
     fail_usage(
         fmt::format("--crop ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
         "give the size of the whole picture by --size");
-  choose_samples(options, settings);
-  settings.recursion = static_cast<int>(options.recursion.value_or(settings.recursion));
-  settings.shadows = options.shadows.value_or(settings.shadows);
-  apply_effects(options.style, settings);
-  if (options.cell && !settings.cell_lines) settings.cell_lines.emplace();
-  if (options.cell && !scene.spheres.cell())
+  if (settings.fog && !(settings.fog->start < settings.fog->end))
+    fail_usage("--fog-start must be below --fog-end", "fog begins at 0 and ends at 1 unless stated");
+  if (user.has("length_unit") && !settings.labels.scale_bar)
+    fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
+  if (user.is_on("cell") && !scene.spheres.cell())
     fail({"there is no periodic cell that --cell could draw", options.input.input, 0, 0,
           "give one with --cell-vectors"});
-  if (options.cell && options.view != View::shaded)
+  if (user.is_on("cell") && options.view != View::shaded)
     fail_usage("--cell draws on the shaded picture alone", "leave out --view");
   settings.view = options.view;
   settings.threads = static_cast<int>(options.threads);
-  scene.picture.transfer = options.transfer.value_or(scene.picture.transfer);
-  if (options.background) settings.transparent = *options.background == kNoBackground;
   if (options.background && !settings.transparent)
     scene.background = *colour_from(*options.background, scene.picture.transfer);
   if (settings.transparent && shows_reference_tree(settings.view))
     fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
                "give a colour by --background, or choose another view");
-  take_labels(options.labels, settings.labels);
   settings.labels.title = filled_title(settings.labels.title, options, input);
   scene.camera = options.fixed ? options.fixed->camera : choose_camera(input, options, settings);
   if (settings.adaptive_samples && scene.camera.aperture > 0)
     fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
                "give a number: --samples 64");
   apply_look(options.style, input);
-  leave_out_labels(options.labels, scene, settings);
+  leave_out_labels(user, scene, settings);
   return settings;
 }
 
@@ -185,7 +142,9 @@ RenderEngine choose_engine(const RenderOptions& options) {
 }
 
 RenderSettings prepare_picture(const RenderOptions& options, RenderEngine engine, Input& input) {
-  if (options.transfer) input.scene.picture.transfer = *options.transfer;
+  PictureSettings& picture = input.scene.picture;
+  if (const SettingValue* const transfer = options.picture.find("transfer"))
+    parameter_named("transfer")->set(picture, *transfer);
   look(input, options.looks, options.fixed ? options.fixed->ranges_of_looks : std::vector<ColourRange>{});
   RenderSettings settings = apply_options(options, input);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
@@ -222,18 +181,12 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   json["view"] = name_of(kViews, settings.view);
   if (!layers.empty()) json["layers"] = ordered_json::array();
   for (const Layer& layer : layers) json["layers"].push_back(name_of_layer(layer));
-  json["width_px"] = settings.width_px;
-  json["height_px"] = settings.height_px;
+  const ReportedScene reported{has_soft_light(scene), lets_light_through(scene)};
+  json.update(*json_from_text<ordered_json>(picture_report(settings, reported)));
   if (settings.crop) json["crop"] = {settings.crop->x0, settings.crop->y0, settings.crop->x1, settings.crop->y1};
-  json["samples_per_pixel"] =
-      settings.adaptive_samples ? ordered_json("auto") : ordered_json(settings.samples_per_pixel);
-  json["recursion"] = settings.recursion;
-  json["shadows"] = settings.shadows;
-  describe_effects(settings, scene, json);
-  if (layers.empty()) json["transfer"] = name_of(kTransfers, scene.picture.transfer);
+  if (layers.empty()) json["transfer"] = scene.picture.transfer == Transfer::srgb ? "srgb" : "none";
   json["background"] = vector(scene.background);
   if (settings.transparent) json["transparent"] = true;
-  describe_labels(settings.labels, json);
   if (options.bits) json["bits"] = *options.bits;
   if (options.dots_per_inch > 0) json["dpi"] = options.dots_per_inch;
   json["camera"] = {{"eye", vector(scene.camera.eye)},
@@ -268,7 +221,6 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
     for (const Vec3d& v : *input.cell_vectors) json["cell_vectors"].push_back({v.x, v.y, v.z});
   if (input.cell_origin) json["cell_origin"] = {input.cell_origin->x, input.cell_origin->y, input.cell_origin->z};
   if (input.wrapping != Wrapping::none) json["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
-  if (settings.cell_lines) json["cell"] = true;
   if (!options.looks.element_colours.empty()) json["element_colours"] = options.looks.element_colours;
   if (!options.looks.words.empty()) json["looks"] = options.looks.words;
   return json;

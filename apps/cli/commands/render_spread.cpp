@@ -32,7 +32,7 @@ bool reads_parts(const RenderOptions& options) {
                            input.columns.empty() && !input.replicate && !input.cell_vectors && !input.cell_origin &&
                            input.wrapping == Wrapping::none;
   const bool plain_look = options.looks.words.empty() && options.looks.element_colours.empty() &&
-                          !options.labels.legend && !options.fixed && !options.cell &&
+                          !options.picture.is_on("legend") && !options.fixed && !options.picture.is_on("cell") &&
                           (!options.focus || std::holds_alternative<double>(*options.focus));
   if (!plain_input || !plain_look || is_built_in_scene(input.input)) return false;
   const Style style = choose_style(options.style);

@@ -43,38 +43,16 @@ ViewerLook look_of(const ViewOptions& options) {
   return look;
 }
 
-// An aperture needs many samples everywhere.
-void put_samples(const ViewOptions& options, ordered_json& settings) {
-  const bool automatic = options.samples == kAutomaticSamples;
-  if (automatic) settings["samples_auto"] = true;
-  if (options.samples && !automatic) settings["samples_auto"] = false;
-  if (options.samples && !automatic) settings["samples_per_pixel"] = *options.samples;
-  if (options.samples || options.aperture.value_or(0) == 0) return;
-  settings["samples_auto"] = false;
-  settings["samples_per_pixel"] = kMostSamples;
-}
-
-void put_effects(const StyleOptions& style, ordered_json& settings) {
-  const bool implied = style.ambient.distance || style.ambient.directions;
-  if (style.ambient.on || implied) settings["ao"] = style.ambient.on.value_or(true);
-  put(settings, "ao_distance", style.ambient.distance);
-  put(settings, "ao_directions", style.ambient.directions);
-  put(settings, "light_points", style.light_points);
-  if (style.opacity_rule) settings["opacity_rule"] = name_of(kOpacityRules, *style.opacity_rule);
-  put(settings, "fog", style.fog);
-  put(settings, "outline_px", style.outline_px);
-  put(settings, "exposure", style.exposure_stops);
-  if (style.tone) settings["tone"] = name_of(kToneCurves, *style.tone);
-}
-
-void put_labels(const LabelOptions& labels, ordered_json& settings) {
-  for (const auto& [key, asked_for] :
-       {std::pair("legend", labels.legend), std::pair("scale_bar", labels.scale_bar), std::pair("axes", labels.axes)})
-    if (asked_for || labels.none) settings[key] = asked_for;
-  if (labels.title || labels.none) settings["title"] = labels.title.value_or("");
-  put(settings, "length_unit", labels.length_unit);
-  if (labels.length_unit && !labels.scale_bar)
+// The parameters of the picture that the user has set.
+void put_parameters(const ViewOptions& options, ordered_json& settings) {
+  Overrides chosen = options.picture;
+  if (chosen.has("length_unit") && !chosen.is_on("scale_bar"))
     fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
+  // Without labels: none but those that are asked for.
+  for (const Parameter& parameter : picture_parameters())
+    if (options.labels.none && parameter.group == ParameterGroup::labels && !chosen.has(parameter.id))
+      chosen.set(parameter.id, parameter.get(PictureSettings()));
+  settings.update(*json_from_text<ordered_json>(overrides_to_json(chosen)));
 }
 
 void put_camera(const ViewOptions& options, ordered_json& settings) {
@@ -123,13 +101,8 @@ ordered_json request_of(const ViewOptions& options) {
   ordered_json settings = ordered_json::object();
   settings["view"] = name_of(kViews, options.view);
   if (options.engine) settings["engine"] = name_of(kViewerEngines, *options.engine);
-  put(settings, "recursion", options.recursion);
-  put_samples(options, settings);
-  put(settings, "shadows", options.shadows);
-  put_effects(options.style, settings);
-  put_labels(options.labels, settings);
+  put_parameters(options, settings);
   put_camera(options, settings);
-  if (options.cell) settings["cell"] = true;
   if (options.tree.max_prims) settings["max_prims"] = limit(*options.tree.max_prims);
   if (options.tree.max_depth) settings["max_depth"] = limit(*options.tree.max_depth);
   request["settings"] = settings;

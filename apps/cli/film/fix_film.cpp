@@ -52,7 +52,8 @@ void widen_over_film(const FrameSource& source, const FilmPlan& plan, const Film
   for (std::int64_t k = 1; k < plan.asked.frames.count; ++k) {
     CancellableSection::leave_if_cancelled();
     Input input = source.load(plan.asked.frames.frame(k), style);
-    if (options.picture.transfer) input.scene.picture.transfer = *options.picture.transfer;
+    if (const SettingValue* const transfer = options.picture.picture.find("transfer"))
+      parameter_named("transfer")->set(input.scene.picture, *transfer);
     look(input, options.picture.looks);
     widen(fixed.range_of_style, range_of_style(input, options.picture.looks));
     const std::vector<ColourRange> ranges = ranges_of_looks(input, options.picture.looks);

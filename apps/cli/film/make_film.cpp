@@ -126,7 +126,7 @@ class FilmSteps {
       if (CancellableSection::token().cancelled()) break;
       const Timer timer;
       ReadPicture picture{options_, number, {}};
-      picture.options.picture = number;
+      picture.options.picture_of_film = number;
       picture.options.input.frame.reset();
       take_film(picture.options, plan_);
       Style style = style_;

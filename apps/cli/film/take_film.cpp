@@ -13,12 +13,12 @@ namespace bihive::cli {
 
 void take_film(RenderOptions& options, const FilmPlan& plan) {
   const FilmPlan::Asked& asked = plan.asked;
-  if (!options.picture && !options.input.frame)
+  if (!options.picture_of_film && !options.input.frame)
     fail_usage("--film needs the number of a frame of the input or of a picture of the film",
                "give --frame I or --picture K, from 0");
-  std::int64_t picture = options.picture.value_or(0);
-  if (options.picture && options.input.frame) fail_usage("--picture and --frame both say which picture it is");
-  if (!options.picture) {
+  std::int64_t picture = options.picture_of_film.value_or(0);
+  if (options.picture_of_film && options.input.frame) fail_usage("--picture and --frame both say which picture it is");
+  if (!options.picture_of_film) {
     const std::optional<std::int64_t> found = asked.frames.picture_of(*options.input.frame);
     if (!found)
       fail_usage(fmt::format("frame {} is not in the film, which has frames {} to {} by steps of {}",

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "bihive/bih/tree.h"
-#include "bihive/scene/colour_text.h"
+#include "bihive/image/colour_text.h"
 #include "bihive/select/selection.h"
 
 namespace bihive::cli {
@@ -125,12 +125,11 @@ Result<Tile> crop_from(const std::string& text) {
   return unexpected("four whole numbers X0,Y0,X1,Y1 from 0 to 65535, X0 below X1 and Y0 below Y1", text);
 }
 
-Result<std::int64_t> samples_from(const std::string& text) {
+Result<std::int64_t> samples_from(const std::string& text, std::int64_t most) {
   if (text == "auto") return kAutomaticSamples;
-  constexpr std::int64_t kMost = 4096;
   const std::optional<std::int64_t> value = whole<std::int64_t>(text);
-  if (value && *value >= 1 && *value <= kMost) return *value;
-  return unexpected("a whole number from 1 to " + std::to_string(kMost) + " or \"auto\"", text);
+  if (value && *value >= 1 && *value <= most) return *value;
+  return unexpected("a whole number from 1 to " + std::to_string(most) + " or \"auto\"", text);
 }
 
 Result<Focus> focus_from(const std::string& text) {

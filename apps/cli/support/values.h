@@ -42,9 +42,9 @@ Result<PictureSize> size_from(const std::string& text);
 /// "X0,Y0,X1,Y1", whole numbers from 0 to 65535 with X0 < X1 and Y0 < Y1.
 Result<Tile> crop_from(const std::string& text);
 
-/// A whole number from 1 to 4096, or "auto" (kAutomaticSamples).
+/// A whole number from 1 to `most`, or "auto" (kAutomaticSamples).
 constexpr std::int64_t kAutomaticSamples = 0;
-Result<std::int64_t> samples_from(const std::string& text);
+Result<std::int64_t> samples_from(const std::string& text, std::int64_t most);
 
 /// A number above 0, "auto" (0), or the text of a selection.
 using Focus = std::variant<double, std::string>;

@@ -7,6 +7,7 @@
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/style.h"
+#include "bihive/viewer/viewer_json.h"
 #include "commands/commands.h"
 #include "support/failure.h"
 
@@ -118,6 +119,8 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     for (const CommandWords& command : program.commands) text += command.name + "\n";
   } else if (what == "options" && words.size() == 1) {
     text = list_of_options(program);
+  } else if (what == "settings" && words.size() == 1) {
+    text = parameters_to_json() + "\n";
   } else if (what == "man" && words.size() <= 2) {
     text = man_page(program, words.size() == 2 ? words[1] : "");
   } else if (words.size() == 1) {
@@ -126,7 +129,8 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     if (what == "fish") text = fish_completion(program);
   }
   if (text.empty())
-    fail_usage("bihive describe knows: commands, options, man [COMMAND], bash, zsh, fish", "see docs/packages.md");
+    fail_usage("bihive describe knows: commands, options, settings, man [COMMAND], bash, zsh, fish",
+               "see docs/packages.md");
   return text;
 }
 

@@ -8,6 +8,9 @@ _Array = np.ndarray[Any, Any]
 
 __version__: str
 
+def options() -> list[tuple[str, str]]: ...
+def actions() -> list[str]: ...
+
 class Spheres:
     xyz: _Array
     radius: _Array

@@ -9,28 +9,35 @@ import difflib
 import os
 from typing import Any, Iterable, Mapping
 
+from . import _bihive
 from ._checks import boolean, path_of, several, whole_text
 from ._errors import bad_argument, found
 
-# Given as True; False is the same as leaving it out.
-FLAGS = ["legend", "scale_bar", "axes", "no_labels", "cell", "recenter", "wrap", "unwrap", "no_hydrogens", "no_water"]
-# True and False are --name and --no-name.
-SWITCHES = ["shadows", "ao"]
-# One value each. A tuple stands for numbers between commas.
-VALUES = [
-    "crop view samples recursion style ao_distance ao_directions light_points opacity_rule fog exposure tone transfer",
-    "background bits dpi view_from eye look_at up fov projection turn zoom aperture focus engine max_prims max_depth",
-    "threads count seed radius radius_scale columns assembly frame trajectory cell_vectors cell_origin outline",
-    "element_colours",
-    "nan_colour title title_values length_unit",
-]
-ONE_VALUE = " ".join(VALUES).split()
-# Two or three numbers with an x between them.
-SIZES = ["size", "replicate"]
-_DEEPEST = 8  # of lists in lists
+# What has another form here than on the command line.
+_ELSEWHERE = {"help", "help-all", "output", "layers", "film", "picture", "json", "select", "hide", "show", "light"}
+# The options of a picture: their names, and the names of their values.
+_OPTIONS = {name: value for name, value in _bihive.options() if name not in _ELSEWHERE}
+
+
+def _python(names: Iterable[str]) -> list[str]:
+    return [name.replace("-", "_") for name in names]
+
 
 # Actions on spheres: of a Look, and of all spheres.
-ACTIONS = ["colour", "colour_by", "opacity", "material", "radius_scale", "outline", "crease", "clip"]
+ACTIONS = _python(name for name in _bihive.actions() if name not in _ELSEWHERE)
+# True and False are --name and --no-name.
+SWITCHES = _python(name for name in _OPTIONS if "no-" + name in _OPTIONS)
+# Given as True; False is the same as leaving it out.
+FLAGS = [
+    name
+    for name in _python(name for name, value in _OPTIONS.items() if not value)
+    if name not in SWITCHES and name.removeprefix("no_") not in SWITCHES
+]
+# Two or three numbers with an x between them.
+SIZES = _python(name for name, value in _OPTIONS.items() if value in ("WxH", "AxBxC"))
+# One value each. A tuple stands for numbers between commas.
+ONE_VALUE = [name for name in _python(name for name, value in _OPTIONS.items() if value) if name not in SIZES + ACTIONS]
+_DEEPEST = 8  # of lists in lists
 
 
 def number_word(name: str, value: Any) -> str:

@@ -14,14 +14,15 @@
 #include "bihive/base/timer.h"
 #include "bihive/base/write_file.h"
 #include "bihive/bih/reference_builder.h"
+#include "bihive/image/colour_text.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/packed.h"
 #include "bihive/io/write_spheres.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/colour_by.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/load_scene.h"
+#include "bihive/scene/look_text.h"
 #include "bihive/select/selection.h"
 #include "bihive/viewer/statistics_json.h"
 #include "errors.h"
@@ -282,7 +283,16 @@ cli::Request request_of(const std::vector<std::string>& words) {
   return cli::parse_command_line(static_cast<int>(arguments.size()), arguments.data());
 }
 
+// Name and name of the value of each option of `bihive render`; "": a switch.
+std::vector<std::pair<std::string, std::string>> options_of_pictures() {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const cli::OptionForm& form : cli::options_of_command("render")) options.emplace_back(form.name, form.value);
+  return options;
+}
+
 void bind_spheres(py::module_& module) {
+  module.def("options", options_of_pictures);
+  module.def("actions", look_action_names);
   py::class_<Spheres, std::shared_ptr<Spheres>>(module, "Spheres")
       .def("__len__", [](const Spheres& s) { return s.file.spheres.size(); })
       .def_property_readonly("xyz", centres)

@@ -4,6 +4,7 @@
 
 #include "bihive/gl/film_textures.h"
 #include "bihive/gl/tree_textures.h"
+#include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/light_points.h"
 
 namespace bihive {

@@ -1,4 +1,4 @@
-// The edges of periodic cells on a picture (CellLines of scene/picture_effects.h).
+// The edges of periodic cells on a picture (CellLines of settings/picture_effects.h).
 #pragma once
 
 #include <optional>
@@ -6,8 +6,8 @@
 
 #include "bihive/image/film.h"
 #include "bihive/scene/camera.h"
-#include "bihive/scene/picture_effects.h"
 #include "bihive/scene/scene.h"
+#include "bihive/settings/picture_effects.h"
 
 namespace bihive {
 

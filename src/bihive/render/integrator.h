@@ -10,6 +10,7 @@
 #include "bihive/render/scene_hit.h"
 #include "bihive/render/tracer.h"
 #include "bihive/render/transparency.h"
+#include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/light_points.h"
 #include "bihive/scene/scene.h"

@@ -1,4 +1,5 @@
-// Spheres that let light straight through, apart from those that end a ray: OpacityRule::once (scene/opacity_rule.h).
+// Spheres that let light straight through, apart from those that end a ray: OpacityRule::once
+// (settings/opacity_rule.h).
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 #include "bihive/math/vec3.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/material.h"
-#include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/scene.h"
+#include "bihive/settings/opacity_rule.h"
 
 namespace bihive {
 

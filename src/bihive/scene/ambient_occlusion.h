@@ -6,20 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "bihive/math/vec3.h"
 #include "bihive/scene/faint_level.h"
+#include "bihive/settings/ambient_occlusion.h"
 
 namespace bihive {
-
-constexpr int kMostAmbientDirections = 4096;
-
-struct AmbientOcclusion {
-  double distance = std::numeric_limits<double>::infinity();  ///< world units, > 0: what is farther does not darken
-  int directions = 64;  ///< of a set, on the whole sphere; 1 to kMostAmbientDirections
-};
 
 /// Samples beyond this many take the sets of the first ones again.
 constexpr int kMostDirectionSets = 16;

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "bihive/geometry/each_sphere.h"
+#include "bihive/image/colour_text.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/math/elementary.h"
 #include "bihive/scene/colour_of_number.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/palette.h"
 #include "bihive/select/attribute_names.h"
 

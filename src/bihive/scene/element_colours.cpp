@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/text_scanner.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/palette.h"
 
 namespace bihive {

@@ -14,8 +14,6 @@
 
 namespace bihive {
 
-constexpr int kMostLightPoints = 1024;
-
 /// Samples beyond this many take the points of the first ones again.
 constexpr int kMostPointSets = 16;
 
@@ -23,7 +21,7 @@ constexpr int kMostPointSets = 16;
 /// the disc evenly, as a bright ball does.
 class LightPointSets {
  public:
-  /// `points` 1 to kMostLightPoints, `samples_per_pixel` at least 1.
+  /// `points` 1 to kMostLightPoints (settings/picture_settings.h), `samples_per_pixel` at least 1.
   LightPointSets(int points, int samples_per_pixel);
 
   int count() const { return static_cast<int>(sets_.size()) / kFaintLevels; }

@@ -2,8 +2,8 @@
 
 #include <variant>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/io/parse_number.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/look_text.h"
 
 namespace bihive {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/io/parse_number.h"
 #include "bihive/scene/clips.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/named_materials.h"
 
 namespace bihive {

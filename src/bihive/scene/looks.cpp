@@ -7,8 +7,8 @@
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/creases.h"
-#include "bihive/scene/picture_effects.h"
 #include "bihive/select/selection.h"
+#include "bihive/settings/picture_effects.h"
 
 namespace bihive {
 namespace {

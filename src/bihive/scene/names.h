@@ -21,9 +21,6 @@ inline const Names<View> kViews{
 inline const Names<ViewFrom> kSides{{"front", ViewFrom::front}, {"back", ViewFrom::back}, {"left", ViewFrom::left},
                                     {"right", ViewFrom::right}, {"top", ViewFrom::top},   {"bottom", ViewFrom::bottom},
                                     {"iso", ViewFrom::iso}};
-inline const Names<ToneCurve> kToneCurves{
-    {"none", ToneCurve::none}, {"soft", ToneCurve::soft}, {"filmic", ToneCurve::filmic}};
-inline const Names<OpacityRule> kOpacityRules{{"each_surface", OpacityRule::each_surface}, {"once", OpacityRule::once}};
 inline const Names<Projection> kProjections{{"perspective", Projection::perspective},
                                             {"orthographic", Projection::orthographic}};
 

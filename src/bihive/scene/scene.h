@@ -9,15 +9,10 @@
 #include "bihive/geometry/clip.h"
 #include "bihive/geometry/plane.h"
 #include "bihive/geometry/sphere_set.h"
-#include "bihive/image/tone.h"
-#include "bihive/image/transfer.h"
-#include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/colour_by.h"
-#include "bihive/scene/labels.h"
 #include "bihive/scene/material.h"
-#include "bihive/scene/opacity_rule.h"
-#include "bihive/scene/picture_effects.h"
+#include "bihive/settings/picture_settings.h"
 
 namespace bihive {
 
@@ -43,27 +38,6 @@ struct ScenePlane {
   std::optional<Checker> checker;
 };
 
-/// The author's way to draw the picture; a user may choose another. These are a file's defaults; the thesis's scenes
-/// set their own.
-struct PictureDefaults {
-  int width_px = 1280;
-  int height_px = 720;
-  int samples_per_pixel = 4;      ///< 1 = the pixel's centre
-  bool adaptive_samples = false;  ///< more samples on edges; samples_per_pixel does not count then
-  int recursion = 5;              ///< generations of rays, 1 to 16
-  bool shadows = true;
-  std::optional<AmbientOcclusion> ambient_occlusion;
-  OpacityRule opacity_rule = OpacityRule::each_surface;
-  int light_points = 8;  ///< of each light with a radius, a sample; 1 to kMostLightPoints
-  std::optional<Outline> outline;
-  std::optional<Fog> fog;
-  std::optional<CellLines> cell_lines;
-  bool transparent = false;  ///< the picture has opacity instead of a background
-  Tone tone;
-  Labels labels;
-  Transfer transfer = Transfer::srgb;
-};
-
 struct Scene {
   SphereSet spheres;
   std::vector<Material> materials{matte_material()};  ///< at least one
@@ -80,9 +54,9 @@ struct Scene {
   std::optional<ScenePlane> plane;
   std::vector<Clip> clips;  ///< SphereAttributes::clips says on which spheres each acts; at most kMostClips
   Camera camera;
-  Vec3d background{1, 1, 1};     ///< linear radiance
-  Vec3d ambient_light{1, 1, 1};  ///< light from everywhere: the ambient term is multiplied by it
-  PictureDefaults picture;
+  Vec3d background{1, 1, 1};          ///< linear radiance
+  Vec3d ambient_light{1, 1, 1};       ///< light from everywhere: the ambient term is multiplied by it
+  PictureSettings picture;            ///< the author's way to draw it; a user may choose another
   std::string name;                   ///< for messages and the picture's text chunks
   std::optional<std::uint64_t> seed;  ///< of a generated scene
 };

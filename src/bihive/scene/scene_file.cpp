@@ -6,15 +6,16 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/io/data_path.h"
 #include "bihive/io/finish.h"
 #include "bihive/scene/clips.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/default_colours.h"
 #include "bihive/scene/focus.h"
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/look_json.h"
 #include "bihive/scene/scene_json.h"
+#include "bihive/settings/parameter_json.h"
 
 namespace bihive {
 namespace {
@@ -85,12 +86,9 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
-    for (const char* key : {"ambient_occlusion", "light_points", "opacity_rule", "outline", "fog", "transparent",
-                            "exposure", "tone", "legend", "scale_bar", "axes", "title", "length_unit", "cell_lines"})
-      if (value.contains(key)) need_version(2, std::string("/picture/") + key);
-    if (value.contains("samples_per_pixel") && value.at("samples_per_pixel").is_string())
-      need_version(2, "/picture/samples_per_pixel");
-    PictureDefaults& picture = loaded_.scene.picture;
+    const std::string newer = newer_key(value, document_.at("bihive_scene").get<int>());
+    if (!newer.empty()) need_version(2, "/picture/" + newer);
+    PictureSettings& picture = loaded_.scene.picture;
     bihive::take_picture(value, picture);
     if (picture.fog && !(picture.fog->start < picture.fog->end))
       fail("/picture/fog", "the start of the fog is not before its end");

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "bihive/scene/names.h"
 #include "bihive/scene/scene_file.h"
+#include "bihive/settings/parameter_json.h"
 
 namespace bihive {
 namespace {
@@ -134,32 +134,6 @@ std::string lens_members(const Camera& camera) {
   return fmt::format(", \"aperture\": {}", number(camera.aperture)) + focus;
 }
 
-// With its comma, or nothing.
-std::string ambient_member(const std::optional<AmbientOcclusion>& ambient) {
-  if (!ambient) return "";
-  const std::string distance =
-      std::isfinite(ambient->distance) ? fmt::format("\"distance\": {}, ", number(ambient->distance)) : "";
-  return fmt::format("\"ambient_occlusion\": {{{}\"directions\": {}}}, ", distance, ambient->directions);
-}
-
-std::string outline_member(const std::optional<Outline>& outline) {
-  if (!outline) return "";
-  return fmt::format("\"outline\": {{\"width_px\": {}, \"step\": {}, \"colour\": {}}}, ", number(outline->width_px),
-                     number(outline->step), vector(outline->colour));
-}
-
-std::string fog_member(const std::optional<Fog>& fog) {
-  if (!fog) return "";
-  return fmt::format("\"fog\": {{\"start\": {}, \"end\": {}, \"strength\": {}}}, ", number(fog->start),
-                     number(fog->end), number(fog->strength));
-}
-
-std::string cell_lines_member(const std::optional<CellLines>& lines) {
-  if (!lines) return "";
-  return fmt::format("\"cell_lines\": {{\"width_px\": {}, \"colour\": {}}}, ", number(lines->width_px),
-                     vector(lines->colour));
-}
-
 // The cell and the copies, with their line ends.
 std::string cell_members(const SphereSet& spheres) {
   std::string members;
@@ -169,30 +143,6 @@ std::string cell_members(const SphereSet& spheres) {
   const auto& [a, b, c] = spheres.images().counts;
   if (spheres.has_images()) members += fmt::format("  \"replicate\": [{}, {}, {}],\n", a, b, c);
   return members;
-}
-
-std::string labels_members(const Labels& labels) {
-  std::string members;
-  if (labels.legend) members += "\"legend\": true, ";
-  if (labels.scale_bar) members += "\"scale_bar\": true, ";
-  if (labels.axes) members += "\"axes\": true, ";
-  if (!labels.title.empty()) members += "\"title\": " + text(labels.title) + ", ";
-  if (labels.length_unit) members += "\"length_unit\": " + text(*labels.length_unit) + ", ";
-  return members;
-}
-
-std::string light_points_member(int points) {
-  return points == PictureDefaults().light_points ? "" : fmt::format("\"light_points\": {}, ", points);
-}
-
-std::string tone_members(const Tone& tone) {
-  if (!tone.any()) return "";
-  return fmt::format("\"exposure\": {}, \"tone\": \"{}\", ", number(tone.exposure_stops),
-                     name_of(kToneCurves, tone.curve));
-}
-
-std::string opacity_member(OpacityRule rule) {
-  return rule == PictureDefaults().opacity_rule ? "" : "\"opacity_rule\": \"" + name_of(kOpacityRules, rule) + "\", ";
 }
 
 bool has_ambient_light(const Scene& scene) {
@@ -207,15 +157,10 @@ bool has_own_outlines(const Scene& scene) {
 
 // The oldest version of the format that has all that the scene needs.
 int version_of(const Scene& scene) {
-  const PictureDefaults& picture = scene.picture;
-  const bool effects = picture.ambient_occlusion || picture.outline || picture.fog ||
-                       !light_points_member(picture.light_points).empty() ||
-                       !opacity_member(picture.opacity_rule).empty();
   const bool parallel = scene.camera.projection != Projection::perspective;
-  return effects || picture.adaptive_samples || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
+  return picture_version(scene.picture) > 1 || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
                  has_effects(scene) || has_own_outlines(scene) || has_ambient_light(scene) || parallel ||
-                 picture.transparent || picture.tone.any() || !labels_members(picture.labels).empty() ||
-                 !scene.clips.empty() || picture.cell_lines || scene.spheres.cell()
+                 !scene.clips.empty() || scene.spheres.cell()
              ? 2
              : 1;
 }
@@ -224,7 +169,6 @@ int version_of(const Scene& scene) {
 
 std::string scene_to_json(const Scene& scene) {
   const Camera& camera = scene.camera;
-  const PictureDefaults& picture = scene.picture;
   std::string out = fmt::format("{{\n  \"bihive_scene\": {},\n", version_of(scene));
   if (!scene.name.empty()) out += "  \"name\": " + text(scene.name) + ",\n";
   if (scene.seed) out += fmt::format("  \"seed\": {},\n", *scene.seed);
@@ -242,15 +186,7 @@ std::string scene_to_json(const Scene& scene) {
   if (!scene.clips.empty()) write_clips(scene, out);
   out += "  \"background\": " + vector(scene.background) + ",\n";
   if (has_ambient_light(scene)) out += "  \"ambient_light\": " + vector(scene.ambient_light) + ",\n";
-  out += fmt::format(
-      "  \"picture\": {{\"width_px\": {}, \"height_px\": {}, \"samples_per_pixel\": {}, \"recursion\": {}, "
-      "\"shadows\": {}, {}{}{}{}{}{}{}{}{}\"transfer\": \"{}\"}},\n",
-      picture.width_px, picture.height_px,
-      picture.adaptive_samples ? "\"auto\"" : std::to_string(picture.samples_per_pixel), picture.recursion,
-      picture.shadows, ambient_member(picture.ambient_occlusion), opacity_member(picture.opacity_rule),
-      light_points_member(picture.light_points), outline_member(picture.outline), fog_member(picture.fog),
-      cell_lines_member(picture.cell_lines), picture.transparent ? "\"transparent\": true, " : "",
-      tone_members(picture.tone), labels_members(picture.labels), picture.transfer == Transfer::srgb ? "srgb" : "none");
+  out += "  \"picture\": " + picture_to_json(scene.picture) + ",\n";
   out += cell_members(scene.spheres);
   out += "  \"spheres\": [\n";
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {

@@ -7,7 +7,7 @@ void apply_style(const Style& style, Scene& scene) {
   scene.material_of_sphere.clear();
   scene.background = style.background;
   scene.ambient_light = style.lights.ambient_light;
-  PictureDefaults picture = style.picture;
+  PictureSettings picture = style.picture;
   picture.width_px = scene.picture.width_px;
   picture.height_px = scene.picture.height_px;
   picture.transfer = scene.picture.transfer;

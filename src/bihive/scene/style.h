@@ -38,7 +38,7 @@ struct Style {
   std::string crease;
   LightRig lights;
   Vec3d background{1, 1, 1};  ///< linear
-  PictureDefaults picture;    ///< its size and transfer are of no use
+  PictureSettings picture;    ///< its size and transfer are of no use
 };
 
 /// The styles that the library brings along, the default one first.

@@ -10,6 +10,7 @@
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/scene_json.h"
 #include "bihive/scene/style.h"
+#include "bihive/settings/parameter_json.h"
 
 namespace bihive {
 namespace {

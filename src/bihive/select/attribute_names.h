@@ -33,10 +33,6 @@ FoundAttribute find_attribute(const SphereSet& spheres, std::string_view name);
 /// Every name that find_attribute() knows in this set, without those of other programs.
 std::vector<std::string> attribute_names(const SphereSet& spheres);
 
-/// The candidate that differs least from the name, by letters that are changed, added, removed or swapped; empty if
-/// none is near.
-std::string near_name(std::string_view name, const std::vector<std::string>& candidates);
-
 /// "x, y, z ...": at most 20 of them.
 std::string list_of_names(const std::vector<std::string>& names);
 

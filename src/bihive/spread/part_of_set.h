@@ -9,8 +9,8 @@
 #include "bihive/base/result.h"
 #include "bihive/render/tracer.h"
 #include "bihive/render/transparency.h"
-#include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/scene.h"
+#include "bihive/settings/opacity_rule.h"
 #include "bihive/spread/ray_messages.h"
 #include "bihive/spread/sphere_columns.h"
 

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "bihive/settings/parameter.h"
 #include "bihive/spread/sphere_columns.h"
 
 namespace bihive {
@@ -45,6 +46,17 @@ class Taking {
   ByteReader& in_;
 };
 
+// A value of the kind at this position of the variant.
+template <std::size_t... Kinds>
+SettingValue value_of_kind(std::size_t kind, std::index_sequence<Kinds...>) {
+  SettingValue value;
+  ((kind == Kinds ? void(value.emplace<Kinds>()) : void()), ...);
+  return value;
+}
+SettingValue value_of_kind(std::size_t kind) {
+  return value_of_kind(kind, std::make_index_sequence<std::variant_size_v<SettingValue>>());
+}
+
 // Structs of numbers alone go as they are.
 template <class A, class T>
 requires std::is_trivially_copyable_v<T>
@@ -75,6 +87,13 @@ void transfer(A& archive, ColourChoice& colour) {
   else
     transfer(archive, std::get<Vec3d>(colour));
 }
+template <class A>
+void transfer(A& archive, SettingValue& value) {
+  std::size_t kind = value.index();
+  archive.plain(kind);
+  if (A::kTakes) value = value_of_kind(kind);
+  std::visit([&archive](auto& held) { transfer(archive, held); }, value);
+}
 // A pair is not trivially copyable.
 template <class A>
 void transfer(A& archive, std::pair<double, double>& range) {
@@ -91,21 +110,21 @@ template <class A>
 void transfer(A& archive, ColourBy& by) {
   all(archive, by.attribute, by.map, by.range, by.logarithmic, by.nan_colour);
 }
+// Rows that are parts come before the row that says whether there is something to be a part of.
 template <class A>
-void transfer(A& archive, Labels& labels) {
-  all(archive, labels.legend, labels.scale_bar, labels.axes, labels.title, labels.length_unit);
-}
-template <class A>
-void transfer(A& archive, PictureDefaults& p) {
-  all(archive, p.width_px, p.height_px, p.samples_per_pixel, p.adaptive_samples, p.recursion, p.shadows,
-      p.ambient_occlusion, p.opacity_rule, p.light_points, p.outline, p.fog, p.cell_lines, p.transparent, p.tone,
-      p.labels, p.transfer);
+void transfer(A& archive, PictureSettings& picture) {
+  const auto rows = picture_parameters();
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+    SettingValue value;  // GCC 12 leaves it without one if a conditional expression on kTakes initialises it
+    if (!A::kTakes) value = row->get(picture);
+    transfer(archive, value);
+    if (A::kTakes) row->set(picture, value);
+  }
 }
 template <class A>
 void transfer(A& archive, RenderSettings& s) {
-  all(archive, s.width_px, s.height_px, s.samples_per_pixel, s.adaptive_samples, s.recursion, s.shadows,
-      s.ambient_occlusion, s.opacity_rule, s.light_points, s.outline, s.fog, s.cell_lines, s.labels, s.transparent,
-      s.tone, s.outline_scale, s.view, s.crop, s.threads);
+  transfer(archive, static_cast<PictureSettings&>(s));
+  all(archive, s.outline_scale, s.view, s.crop, s.threads);
 }
 template <class A>
 void transfer(A& archive, NamedNumbers& column) {

@@ -33,7 +33,7 @@ void make_quick(RenderSettings& settings, int divisor) {
 
 // For the labels of a picture of any step.
 RenderSettings whole_picture(const PictureSubject& subject) {
-  return render_settings(subject.settings, subject.shown.scene.picture, subject.size.width, subject.size.height, 1);
+  return render_settings(subject.settings, subject.size.width, subject.size.height, 1);
 }
 
 // Pixels of a picture of that step.
@@ -114,9 +114,8 @@ Status PictureSteps::begin_step(const PictureSubject& subject, PictureStep step)
   spent_ms_ = 0;
   shown_samples_ = 0;
   begun_ = true;
-  RenderSettings settings =
-      render_settings(subject.settings, shown.scene.picture, divided(subject.size.width, step_.divisor),
-                      divided(subject.size.height, step_.divisor), step_.samples);
+  RenderSettings settings = render_settings(subject.settings, divided(subject.size.width, step_.divisor),
+                                            divided(subject.size.height, step_.divisor), step_.samples);
   slow_parts_ = has_slow_parts(shown.scene, settings);
   quick_ = slow_parts_ && (moving_ || !is_last(step_, subject));
   if (quick_) make_quick(settings, step_.divisor);

@@ -4,7 +4,6 @@
 
 #include "bihive/base/check.h"
 #include "bihive/render/draw_labels.h"
-#include "bihive/viewer/viewer_effects.h"
 
 namespace bihive {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "bihive/image/colour_text.h"
 #include "bihive/io/packed.h"
-#include "bihive/scene/colour_text.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/look_text.h"

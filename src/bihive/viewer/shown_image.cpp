@@ -11,7 +11,6 @@
 #include "bihive/image/png_pixels.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/renderer.h"
-#include "bihive/viewer/viewer_effects.h"
 
 namespace bihive {
 namespace {

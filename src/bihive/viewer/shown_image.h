@@ -13,7 +13,7 @@ namespace bihive {
 /// transparent.
 Image image_to_show(const Film& film, View view, Transfer transfer);
 
-/// The image with the labels of a picture of these settings, those that it can have (viewer/viewer_effects.h). A
+/// The image with the labels of a picture of these settings, those that it can have. A
 /// coarser image is enlarged to the settings' size before, so that letters stay sharp and in place while something
 /// moves.
 Image labelled(Image image, const Scene& scene, const RenderSettings& settings);

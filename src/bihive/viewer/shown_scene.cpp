@@ -25,12 +25,10 @@ ShownScene::ShownScene(LoadedScene loaded)
 }
 
 Camera ShownScene::framed(ViewFrom side, const Camera& like, const ViewerSettings& settings, PictureSizePx size) const {
-  RenderSettings picture;
+  RenderSettings picture = settings_from(settings.picture.result());
   picture.width_px = size.width;
   picture.height_px = size.height;
   picture.view = settings.view;
-  if (settings.cell) picture.cell_lines.emplace();
-  picture.labels = settings.effects.labels;
   Camera camera = frame_picture(scene, side_of(side), {like.fov_deg, like.projection}, picture);
   camera.aperture = like.aperture;
   camera.focus = like.focus;

@@ -43,11 +43,11 @@ class Viewer::Implementation {
     // A new scene brings these settings along; the others stay.
     ViewerSettings settings = settings_;
     settings.replicate.reset();
-    take_defaults(next->scene.picture, settings);
+    settings.picture = {next->scene.picture, {}};
     const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
     settings.camera = side ? next->framed(*side, next->own_camera, settings, size_) : next->own_camera;
     settings.focus_on.clear();
-    if (settings.camera.aperture > 0) settings.effects.adaptive_samples = false;
+    put_below(*next, settings);
     if (Status status = check_settings(settings); !status) return status.error();
     next->trees = std::make_unique<SceneTrees>(next->scene, tree_parameters(settings));
     if (Status status = make_ready(*next, *next->trees, settings, /*upload=*/true); !status) return status.error();
@@ -148,6 +148,7 @@ class Viewer::Implementation {
   const ViewerSettings& settings() const { return settings_; }
 
   Status set(ViewerSettings settings) {
+    if (shown_) put_below(*shown_, settings);
     if (Status status = check_settings(settings); !status) return status;
     if (Status status = check_wishes(settings); !status) return status;
     // Only another projection, angle or lens: the camera still shows the whole set.
@@ -185,7 +186,7 @@ class Viewer::Implementation {
     if (framed_from_)
       look_from(*framed_from_);
     else if (turned_from_)
-      settings_.camera = shown_->far_enough(settings_.camera, settings_.cell, size_);
+      settings_.camera = shown_->far_enough(settings_.camera, settings_.picture.result().cell_lines.has_value(), size_);
     steps_.start_anew();
   }
 
@@ -200,7 +201,7 @@ class Viewer::Implementation {
       const Vec3d back = normalized(camera.eye - camera.look_at);
       camera.eye = camera.look_at + length(first->eye - first->look_at) * back;
       camera.shorter_side = first->shorter_side;
-      camera = shown_->far_enough(camera, settings_.cell, size_);
+      camera = shown_->far_enough(camera, settings_.picture.result().cell_lines.has_value(), size_);
     }
     move_to(camera);
     turned_from_ = first;
@@ -263,8 +264,7 @@ class Viewer::Implementation {
     drop_picture();
     steps_.drop_step();
     shown_->look_by(settings_);
-    Result<PictureToSave> picture =
-        begun_to_save(render_settings(settings_, shown_->scene.picture, width_px, height_px, samples_per_pixel));
+    Result<PictureToSave> picture = begun_to_save(render_settings(settings_, width_px, height_px, samples_per_pixel));
     if (!picture) return picture.error();
     to_save_ = std::move(*picture);
     return Done{};
@@ -322,7 +322,7 @@ class Viewer::Implementation {
       if (const Result<double> distance = focus_on(shown_->scene.spheres, settings.camera, settings.focus_on);
           !distance)
         return bad_setting("focus: " + distance.error().message, distance.error().hint);
-    const Labels &before = settings_.effects.labels, &labels = settings.effects.labels;
+    const Labels before = settings_.picture.result().labels, labels = settings.picture.result().labels;
     if (labels.scale_bar && !before.scale_bar && settings.camera.projection != Projection::orthographic)
       return bad_setting("a perspective picture has no scale: what is far looks small",
                          "choose the projection orthographic for a scale bar");
@@ -339,26 +339,14 @@ class Viewer::Implementation {
     return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.shorter_side == shorter_side;
   }
 
-  // The samples, recursion, shadows, cell's edges and effects of a scene's own picture.
-  static void take_defaults(const PictureDefaults& picture, ViewerSettings& settings) {
-    settings.recursion = std::clamp(picture.recursion, 1, kMostRecursion);
-    settings.samples_per_pixel = std::clamp(picture.samples_per_pixel, 1, kMostSamples);
-    settings.shadows = picture.shadows;
-    settings.cell = picture.cell_lines.has_value();
-    settings.effects = effects_of(picture);
-  }
-
-  // The same for another look: what the user has changed stays.
-  static void follow_defaults(const PictureDefaults& before, const PictureDefaults& now, ViewerSettings& settings) {
-    ViewerSettings old, next;
-    take_defaults(before, old);
-    take_defaults(now, next);
-    if (settings.recursion == old.recursion) settings.recursion = next.recursion;
-    if (settings.samples_per_pixel == old.samples_per_pixel) settings.samples_per_pixel = next.samples_per_pixel;
-    if (settings.shadows == old.shadows) settings.shadows = next.shadows;
-    if (settings.cell == old.cell) settings.cell = next.cell;
-    follow_effects(before, now, settings.effects);
-    if (settings.camera.aperture > 0) settings.effects.adaptive_samples = false;
+  // The layer below the user's settings: the scene's own picture. A lens that the user has opened wants more samples.
+  static void put_below(const ShownScene& shown, ViewerSettings& settings) {
+    PictureSettings& below = settings.picture.below;
+    below = shown.scene.picture;
+    below.samples_per_pixel = std::min(below.samples_per_pixel, kMostSamples);
+    if (settings.camera.aperture == 0) return;
+    below.adaptive_samples = false;
+    if (shown.own_camera.aperture == 0) use_lens_samples(below);
   }
 
   // Makes everything ready for these settings and, if there is one, for the next look of the scene; then shows it.
@@ -367,7 +355,7 @@ class Viewer::Implementation {
   Status show(std::unique_ptr<ShownScene> next, ViewerSettings& settings, bool keeps_side) {
     const ShownScene& scene = next ? *next : *shown_;
     const bool same_spheres = !next || shown_->same_spheres(*next);
-    if (next) follow_defaults(shown_->scene.picture, next->scene.picture, settings);
+    put_below(scene, settings);
     if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera, settings, size_);
 
     // The trees refer to the spheres that stay.

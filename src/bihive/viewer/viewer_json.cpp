@@ -1,13 +1,13 @@
 #include "bihive/viewer/viewer_json.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bihive/bih/tree.h"
 #include "bihive/io/cell_options.h"
-#include "bihive/scene/light_points.h"
 #include "bihive/scene/scene_json.h"
+#include "bihive/settings/parameter_json.h"
 
 namespace bihive {
 namespace {
@@ -41,14 +41,6 @@ class Members {
     value = member->get<bool>();
   }
 
-  void take(const char* key, int& value, int min, int max) {
-    const json* member = find(key);
-    if (member == nullptr) return;
-    if (!is_integer(*member, min, max))
-      return fail(key, "a whole number from " + std::to_string(min) + " to " + std::to_string(max), *member);
-    value = member->get<int>();
-  }
-
   void take(const char* key, std::optional<std::int64_t>& value) {
     const json* member = find(key);
     if (member == nullptr) return;
@@ -80,14 +72,6 @@ class Members {
     value = member->get<double>();
   }
 
-  void take(const char* key, double& value, double min, double max) {
-    const json* member = find(key);
-    if (member == nullptr) return;
-    if (!is_finite_number(*member) || !(member->get<double>() >= min && member->get<double>() <= max))
-      return fail(key, "a number from " + json(min).dump() + " to " + json(max).dump(), *member);
-    value = member->get<double>();
-  }
-
   void take(const char* key, std::vector<std::string>& value) {
     const json* member = find(key);
     if (member == nullptr) return;
@@ -100,22 +84,14 @@ class Members {
     value = std::move(texts);
   }
 
-  // null: none.
-  void take(const char* key, std::optional<std::string>& value) {
-    const json* member = find(key);
+  // A parameter of a picture.
+  void take(const Parameter& parameter, Overrides& values) {
+    const std::string key(parameter.id);
+    const json* member = find(key.c_str());
     if (member == nullptr) return;
-    if (member->is_null()) return value.reset();
-    if (!member->is_string()) return fail(key, "a text or null", *member);
-    value = member->get<std::string>();
-  }
-
-  // null: without a limit.
-  void take_distance(const char* key, double& value) {
-    const json* member = find(key);
-    if (member == nullptr) return;
-    if (!member->is_null() && !(is_finite_number(*member) && member->get<double>() > 0))
-      return fail(key, "a number above 0, or null", *member);
-    value = member->is_null() ? std::numeric_limits<double>::infinity() : member->get<double>();
+    const std::optional<SettingValue> value = value_from_json(parameter, *member);
+    if (!value) return fail(key, expected_by(parameter), *member);
+    values.set(parameter.id, *value);
   }
 
   void take(const char* key, std::string& value) {
@@ -211,42 +187,30 @@ void take_rows(Members& members, std::vector<LookRow>& rows, Error& error) {
   }
 }
 
-void take_effects(Members& members, ViewerEffects& effects) {
-  members.take("samples_auto", effects.adaptive_samples);
-  members.take("ao", effects.ambient_occlusion);
-  members.take_distance("ao_distance", effects.ambient_distance);
-  members.take("ao_directions", effects.ambient_directions, 1, kMostAmbientDirections);
-  members.take("light_points", effects.light_points, 1, kMostLightPoints);
-  members.take("opacity_rule", effects.opacity_rule, kOpacityRules);
-  members.take("fog", effects.fog, 0, 1);
-  members.take("outline_px", effects.outline_px, 0, kWidestOutlinePx);
-  members.take("exposure", effects.tone.exposure_stops, -kMostExposureStops, kMostExposureStops);
-  members.take("tone", effects.tone.curve, kToneCurves);
-  members.take("legend", effects.labels.legend);
-  members.take("scale_bar", effects.labels.scale_bar);
-  members.take("axes", effects.labels.axes);
-  members.take("title", effects.labels.title);
-  members.take("length_unit", effects.labels.length_unit);
+// The parameters of the picture. Those that the member `set` names are the user's; without it, all that are there.
+void take_parameters(Members& members, Overrides& user, Error& error) {
+  Overrides found;
+  for (Parameter parameter : picture_parameters()) {
+    if (parameter.id == "samples_per_pixel") parameter.most = kMostSamples;
+    if (parameter.in_window) members.take(parameter, found);
+  }
+  std::vector<std::string> of_user;
+  const bool says_which = members.find("set") != nullptr;
+  members.take("set", of_user);
+  if (!error.message.empty()) return;
+  for (const auto& [parameter, value] : found.all())
+    if (!says_which || std::find(of_user.begin(), of_user.end(), parameter->id) != of_user.end())
+      user.set(parameter->id, *value);
 }
 
-void put_effects_json(const ViewerEffects& effects, ordered_json& document) {
-  const Labels& labels = effects.labels;
-  const bool limited = std::isfinite(effects.ambient_distance);
-  document["samples_auto"] = effects.adaptive_samples;
-  document["ao"] = effects.ambient_occlusion;
-  document["ao_distance"] = limited ? ordered_json(effects.ambient_distance) : ordered_json();
-  document["ao_directions"] = effects.ambient_directions;
-  document["light_points"] = effects.light_points;
-  document["opacity_rule"] = name_of(kOpacityRules, effects.opacity_rule);
-  document["fog"] = effects.fog;
-  document["outline_px"] = effects.outline_px;
-  document["exposure"] = effects.tone.exposure_stops;
-  document["tone"] = name_of(kToneCurves, effects.tone.curve);
-  document["legend"] = labels.legend;
-  document["scale_bar"] = labels.scale_bar;
-  document["axes"] = labels.axes;
-  document["title"] = labels.title;
-  document["length_unit"] = labels.length_unit ? ordered_json(*labels.length_unit) : ordered_json();
+void put_parameters(const LayeredSettings& picture, ordered_json& document) {
+  ordered_json of_user = ordered_json::array();
+  for (const Parameter& parameter : picture_parameters()) {
+    if (!parameter.in_window) continue;
+    document[std::string(parameter.id)] = value_to_json(parameter, picture.value(parameter));
+    if (picture.user.has(parameter.id)) of_user.push_back(parameter.id);
+  }
+  document["set"] = of_user;
 }
 
 ordered_json vector_json(Vec3d v) {
@@ -263,14 +227,10 @@ std::string settings_to_json(const ViewerSettings& settings) {
   ordered_json document;
   document["engine"] = name_of(kViewerEngines, settings.engine);
   document["view"] = name_of(kViews, settings.view);
-  document["recursion"] = settings.recursion;
-  document["samples_per_pixel"] = settings.samples_per_pixel;
-  document["shadows"] = settings.shadows;
   document["max_prims"] = limit(settings.max_prims);
   document["max_depth"] = limit(settings.max_depth);
-  put_effects_json(settings.effects, document);
+  put_parameters(settings.picture, document);
   document["focus_on"] = settings.focus_on;
-  document["cell"] = settings.cell;
   document["replicate"] = settings.replicate ? ordered_json(*settings.replicate) : ordered_json();
   document["camera"] = {{"eye", vector_json(settings.camera.eye)},
                         {"look_at", vector_json(settings.camera.look_at)},
@@ -291,14 +251,10 @@ Result<ViewerSettings> settings_from_json(std::string_view text, const ViewerSet
   Members members(*document, "", error);
   members.take("engine", settings.engine, kViewerEngines);
   members.take("view", settings.view, kViews);
-  members.take("recursion", settings.recursion, 1, kMostRecursion);
-  members.take("samples_per_pixel", settings.samples_per_pixel, 1, kMostSamples);
-  members.take("shadows", settings.shadows);
   members.take("max_prims", settings.max_prims);
   members.take("max_depth", settings.max_depth);
-  take_effects(members, settings.effects);
+  take_parameters(members, settings.picture.user, error);
   members.take("focus_on", settings.focus_on);
-  members.take("cell", settings.cell);
   members.take("replicate", settings.replicate, 1, kMostCopies);
   if (const json* camera = members.find("camera")) {
     Members of_camera(*camera, "/camera", error);
@@ -354,6 +310,10 @@ Result<ViewerLook> viewer_look_from_json(std::string_view text, const ViewerLook
   members.refuse_others();
   if (!error.message.empty()) return error;
   return look;
+}
+
+std::string parameters_to_json() {
+  return describe_parameters().dump();
 }
 
 }  // namespace bihive

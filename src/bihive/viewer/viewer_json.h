@@ -10,19 +10,17 @@
 
 namespace bihive {
 
-/// One line: {"engine":"cpu","view":"shaded","recursion":5,"samples_per_pixel":4,"shadows":true,"max_prims":null,
-/// "max_depth":null,"samples_auto":false,"ao":true,"ao_distance":null,"ao_directions":64,"light_points":8,
-/// "opacity_rule":"once","fog":0,"outline_px":0,"exposure":0,"tone":"none","legend":false,"scale_bar":false,
-/// "axes":false,"title":"","length_unit":null,"focus_on":"","cell":false,"replicate":null,
-/// "camera":{"eye":[x,y,z],"look_at":[x,y,z],"up":[x,y,z],"fov_deg":30,"projection":"perspective","shorter_side":50,
-/// "aperture":0,"focus":0}}. Numbers come back exactly.
+/// One line: {"engine":"cpu","view":"shaded","max_prims":null,"max_depth":null, ..., "set":["fog"],"focus_on":"",
+/// "replicate":null,"camera":{"eye":[x,y,z],"look_at":[x,y,z],"up":[x,y,z],"fov_deg":30,"projection":"perspective",
+/// "shorter_side":50,"aperture":0,"focus":0}}, with each parameter of settings/parameter.h that windows have under its
+/// id. "set" names those that the user has set; the others are the scene's. Numbers come back exactly.
 std::string settings_to_json(const ViewerSettings& settings);
 
-/// A member that the document leaves out comes from `base`. A limit of the tree is a number, "unlimited" (kUnlimited),
-/// or null, which leaves the choice to the engine. "ao_distance" null: no limit; "length_unit" null: the input's;
-/// "replicate": [2,2,1], or null for the input's.
-/// Another projection without a shorter side keeps what is as far away as look_at at its size. Error: not JSON, an
-/// unknown key, a wrong type, a number out of range; the message begins with the place
+/// A member that the document leaves out comes from `base`. Without "set" each parameter that is there is the user's. A
+/// limit of the tree is a number, "unlimited" (kUnlimited), or null, which leaves the choice to the engine.
+/// "replicate": [2,2,1], or null for the input's. Another projection without a shorter side keeps what is as far away
+/// as look_at at its size. Error: not JSON, an unknown key, a wrong type, a number out of range; the message begins
+/// with the place
 /// ("/camera/eye: ..."). Whether the camera sees anything is not checked here: Viewer::set() checks it.
 Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSettings& base = {});
 
@@ -31,8 +29,12 @@ Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSet
 /// "nan_colour":"","crease":"chain","rows":[{"select":"chain A","action":"colour","value":"red"}]}.
 std::string viewer_look_to_json(const ViewerLook& look);
 
-/// A member that the document leaves out comes from `base`. Errors as above. Whether the scene has such spheres and
-/// attributes is not checked here: Viewer::set_look() checks it.
+/// A member that the document leaves out comes from `base`. Without "set" each parameter that is there is the user's.
+/// Errors as above. Whether the scene has such spheres and attributes is not checked here: Viewer::set_look() checks
+/// it.
 Result<ViewerLook> viewer_look_from_json(std::string_view json, const ViewerLook& base = {});
+
+/// The table of settings/parameter.h, an array with an object for each row.
+std::string parameters_to_json();
 
 }  // namespace bihive

@@ -11,14 +11,13 @@ Status check_settings(const ViewerSettings& settings) {
   const auto outside = [](std::int64_t value, std::int64_t min, std::int64_t max) {
     return value < min || value > max;
   };
-  if (outside(settings.recursion, 1, kMostRecursion))
-    return bad("recursion must be from 1 to " + std::to_string(kMostRecursion));
-  if (outside(settings.samples_per_pixel, 1, kMostSamples))
-    return bad("samples a pixel must be from 1 to " + std::to_string(kMostSamples));
+  const PictureSettings picture = settings.picture.result();
+  if (outside(picture.samples_per_pixel, 1, kMostSamples))
+    return bad("samples per pixel must be from 1 to " + std::to_string(kMostSamples));
   if (settings.max_prims.value_or(1) < 1 || settings.max_depth.value_or(1) < 1)
     return bad("max_prims and max_depth must be at least 1");
-  if (Status status = check_effects(settings.effects); !status) return status;
-  if (settings.effects.adaptive_samples && settings.camera.aperture > 0)
+  if (picture.fog && !(picture.fog->start < picture.fog->end)) return bad("fog must begin before it ends");
+  if (picture.adaptive_samples && settings.camera.aperture > 0)
     return Error{"adaptive samples look for edges, and depth of field needs many samples everywhere", "", 0, 0,
                  "choose a number of samples: 64"};
   if (settings.replicate)
@@ -41,29 +40,24 @@ bool needs_reference_tree(const ViewerSettings& settings) {
 }
 
 bool draws_adaptive_samples(const ViewerSettings& settings) {
-  return settings.effects.adaptive_samples && settings.engine == ViewerEngine::cpu;
+  return settings.picture.result().adaptive_samples && settings.engine == ViewerEngine::cpu;
 }
 
 int samples_at_rest(const ViewerSettings& settings) {
-  return draws_adaptive_samples(settings) ? kFewSamples : settings.samples_per_pixel;
+  return draws_adaptive_samples(settings) ? kFewSamples : settings.picture.result().samples_per_pixel;
 }
 
-RenderSettings render_settings(const ViewerSettings& settings, const PictureDefaults& defaults, int width_px,
-                               int height_px, int samples_per_pixel) {
+RenderSettings render_settings(const ViewerSettings& settings, int width_px, int height_px, int samples_per_pixel) {
   const bool gpu = settings.engine == ViewerEngine::gpu;
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
-  RenderSettings picture = settings_from(defaults);
-  put_effects(settings.effects, picture);
+  RenderSettings picture = settings_from(settings.picture.result());
   picture.adaptive_samples = draws_adaptive_samples(settings);
   if (of_tree) picture.transparent = false;
   picture.width_px = width_px;
   picture.height_px = height_px;
   picture.samples_per_pixel = samples_per_pixel;
-  picture.recursion = settings.recursion;
-  picture.shadows = settings.shadows;
   picture.view = settings.view;
-  if (!settings.cell || gpu) picture.cell_lines.reset();
-  if (settings.cell && !gpu && !picture.cell_lines) picture.cell_lines.emplace();
+  if (gpu) picture.cell_lines.reset();
   return picture;
 }
 

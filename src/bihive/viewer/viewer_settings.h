@@ -13,7 +13,7 @@
 #include "bihive/scene/camera.h"
 #include "bihive/scene/names.h"
 #include "bihive/scene/render_settings.h"
-#include "bihive/viewer/viewer_effects.h"
+#include "bihive/settings/overrides.h"
 
 namespace bihive {
 
@@ -21,19 +21,17 @@ enum class ViewerEngine { cpu, gpu };
 
 inline const Names<ViewerEngine> kViewerEngines{{"cpu", ViewerEngine::cpu}, {"gpu", ViewerEngine::gpu}};
 
-constexpr int kMostRecursion = 16;
+/// Of a picture at rest; `bihive render` draws more.
 constexpr int kMostSamples = 64;
 
 /// All choices of the user. Plain data; viewer/viewer_json.h turns them into JSON, for links and saved states.
 struct ViewerSettings {
   ViewerEngine engine = ViewerEngine::cpu;
   View view = View::shaded;
-  int recursion = 5;          ///< 1 to kMostRecursion
-  int samples_per_pixel = 4;  ///< 1 to kMostSamples, once at rest
-  bool shadows = true;
+  /// What the user has set, over the scene's own picture with at most kMostSamples samples per pixel. The edges of the
+  /// cell are drawn by the CPU alone, and stay in view.
+  LayeredSettings picture;
   std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
-  ViewerEffects effects;
-  bool cell = false;  ///< draw the edges of the periodic cell, if there is one, and keep them in view; on the CPU
   /// Copies along the vectors of the cell, each 1 to 1000000; unset: those of the input. Without a cell, or with the
   /// GPU engine, no more than 1 x 1 x 1.
   std::optional<std::array<std::int32_t, 3>> replicate;
@@ -43,7 +41,8 @@ struct ViewerSettings {
   std::string focus_on;
 };
 
-/// Error: out of range, a camera that sees nothing (check_camera), or adaptive samples with an aperture.
+/// Error: out of range, a camera that sees nothing (check_camera), adaptive samples with an aperture, or fog that ends
+/// before it begins.
 Status check_settings(const ViewerSettings& settings);
 bool same_tree(const ViewerSettings& a, const ViewerSettings& b);
 TreeParameters tree_parameters(const ViewerSettings& settings);
@@ -53,9 +52,8 @@ bool needs_reference_tree(const ViewerSettings& settings);
 bool draws_adaptive_samples(const ViewerSettings& settings);
 /// The samples of a picture at rest: their number, or with adaptive samples that of every pixel.
 int samples_at_rest(const ViewerSettings& settings);
-/// For a picture of that size with the effects of the settings; the GPU engine draws no adaptive samples.
-/// `samples_per_pixel` does not count where adaptive samples are on.
-RenderSettings render_settings(const ViewerSettings& settings, const PictureDefaults& defaults, int width_px,
-                               int height_px, int samples_per_pixel);
+/// For a picture of that size; the GPU engine draws no adaptive samples. `samples_per_pixel` does not count where
+/// adaptive samples are on.
+RenderSettings render_settings(const ViewerSettings& settings, int width_px, int height_px, int samples_per_pixel);
 
 }  // namespace bihive

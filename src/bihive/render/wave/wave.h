@@ -17,9 +17,9 @@
 #include "bihive/render/wave/column.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/image_colours.h"
-#include "bihive/scene/opacity_rule.h"
 #include "bihive/scene/sample_pattern.h"
 #include "bihive/scene/scene.h"
+#include "bihive/settings/opacity_rule.h"
 #include "bihive/wide/ray_batch.h"
 
 namespace bihive {

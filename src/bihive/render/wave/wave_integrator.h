@@ -9,6 +9,7 @@
 #include "bihive/render/tracer.h"
 #include "bihive/render/transparency.h"
 #include "bihive/render/wave/wave.h"
+#include "bihive/scene/ambient_occlusion.h"
 #include "bihive/scene/faint_level.h"
 #include "bihive/scene/light_points.h"
 

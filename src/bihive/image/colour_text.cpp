@@ -1,4 +1,4 @@
-#include "bihive/scene/colour_text.h"
+#include "bihive/image/colour_text.h"
 
 #include <cstdint>
 

@@ -1,0 +1,110 @@
+#include "bihive/settings/parameter.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace bihive {
+namespace {
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+}
+
+// The largest float stands for "any finite number".
+bool is_bounded(double limit) {
+  return std::abs(limit) < 3e38;
+}
+
+std::string range_of(const Parameter& p) {
+  if (p.or_zero) return "0, or a number from " + number_text(p.least) + " to " + number_text(p.most);
+  if (is_bounded(p.most)) return "from " + number_text(p.least) + " to " + number_text(p.most);
+  if (!is_bounded(p.least)) return "";
+  return (p.above_least ? "above " : "of at least ") + number_text(p.least);
+}
+
+bool in_range(const Parameter& p, double value) {
+  if (p.or_zero && value == 0) return true;
+  return (p.above_least ? value > p.least : value >= p.least) && value <= p.most;
+}
+
+}  // namespace
+
+const Parameter* parameter_named(std::string_view id) {
+  for (const Parameter& parameter : picture_parameters())
+    if (parameter.id == id || (!parameter.alias.empty() && parameter.alias == id)) return &parameter;
+  return nullptr;
+}
+
+std::vector<std::string> names_of(const Parameter& parameter) {
+  std::vector<std::string> names;
+  for (std::string_view rest = parameter.names; !rest.empty();) {
+    const std::size_t bar = std::min(rest.find('|'), rest.size());
+    names.emplace_back(rest.substr(0, bar));
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+  }
+  return names;
+}
+
+std::string expected_by(const Parameter& parameter) {
+  const std::string range = range_of(parameter);
+  const std::string null = parameter.nullable ? ", or null" : "";
+  std::string names;
+  switch (parameter.kind) {
+    case ParameterKind::flag:
+      return "true or false";
+    case ParameterKind::whole:
+      return "a whole number " + range + null;
+    case ParameterKind::number:
+      if (parameter.or_zero) return range + null;
+      return (range.empty() ? "a number" : "a number " + range) + null;
+    case ParameterKind::choice:
+      for (const std::string& name : names_of(parameter)) names += (names.empty() ? "" : ", ") + name;
+      return "one of " + names;
+    case ParameterKind::text:
+      return parameter.nullable ? "a text or null" : "a text";
+    case ParameterKind::colour:
+      break;
+  }
+  return "#rrggbb, three numbers from 0 to 1, or the name of a colour";
+}
+
+bool fits(const Parameter& parameter, const SettingValue& value) {
+  if (std::holds_alternative<std::monostate>(value)) return parameter.nullable;
+  switch (parameter.kind) {
+    case ParameterKind::flag:
+      return std::holds_alternative<bool>(value);
+    case ParameterKind::whole: {
+      const auto* const number = std::get_if<std::int64_t>(&value);
+      return number != nullptr && in_range(parameter, static_cast<double>(*number));
+    }
+    case ParameterKind::number: {
+      const auto* const number = std::get_if<double>(&value);
+      return number != nullptr && in_range(parameter, *number);
+    }
+    case ParameterKind::choice: {
+      const auto* const position = std::get_if<std::int64_t>(&value);
+      return position != nullptr && *position >= 0 && *position < std::ssize(names_of(parameter));
+    }
+    case ParameterKind::text:
+      return std::holds_alternative<std::string>(value);
+    case ParameterKind::colour:
+      break;
+  }
+  if (std::holds_alternative<std::string>(value)) return true;
+  const auto* const colour = std::get_if<Vec3d>(&value);
+  if (colour == nullptr) return false;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!((*colour)[axis] >= 0 && (*colour)[axis] <= 1)) return false;
+  return true;
+}
+
+std::string option_of(const Parameter& parameter) {
+  std::string option = "--" + std::string(parameter.id);
+  for (char& c : option)
+    if (c == '_') c = '-';
+  return option;
+}
+
+}  // namespace bihive

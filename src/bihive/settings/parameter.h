@@ -1,0 +1,77 @@
+// The table of parameters of a picture: one row per setting, from which the options of the command line with their
+// help, JSON of scene files, links and reports, the schema, the messages between ranks, controls and bindings are made.
+//
+// To add a parameter: a member of PictureSettings, a row in picture_parameters.cpp, and the code that draws it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bihive/settings/picture_settings.h"
+#include "bihive/settings/setting_value.h"
+
+namespace bihive {
+
+enum class ParameterKind { flag, whole, number, choice, text, colour };
+
+/// The heading below which help and controls show a parameter.
+enum class ParameterGroup { picture, light, lines, tone, labels, cell };
+
+/// What a scene must have for a parameter to matter.
+enum class ParameterNeeds { nothing, soft_light, see_through };
+
+struct Parameter {
+  std::string_view id;          ///< "light_points": of Python, C, and the JSON of window and page
+  std::string_view alias = "";  ///< another id that is understood too
+  ParameterKind kind = ParameterKind::flag;
+  double least = 0, most = 0;   ///< of numbers
+  bool above_least = false;     ///< `least` itself is out of range
+  bool or_zero = false;         ///< 0 is in range too: none
+  bool nullable = false;        ///< may be std::monostate
+  std::string_view names = "";  ///< of a choice, in the order of the enumeration: "none|soft|filmic"
+
+  std::string_view path = "";    ///< key in `picture` of scene and style files: "fog", or "fog.start"; "": none
+  std::string_view report = "";  ///< key in reports and in the text of PNG files; "": none
+  int version = 2;               ///< of the scene format that brought the key
+  ParameterNeeds needs = ParameterNeeds::nothing;
+
+  bool has_option = true;         ///< "--" and the id with hyphens; false: another option of the command line sets it
+  bool has_no_option = false;     ///< a flag: "--no-..." too
+  bool in_window = true;          ///< window and page have it too
+  bool cpu_only = false;          ///< the graphics processor does not draw it
+  std::string_view implies = "";  ///< setting it switches this parameter on, unless that is set as well
+  std::string_view value_name = "N";  ///< of its value in --help
+  std::string_view help = "";         ///< one sentence, without a full stop
+  std::string_view usual = "";        ///< what holds unless it is set, where help should say it: "the style's"
+  ParameterGroup group = ParameterGroup::picture;
+  std::string_view label = "";               ///< of its control; "": it has none
+  double slider_least = 0, slider_most = 0;  ///< equal: a field instead of a slider
+  std::string_view slider_format = "";       ///< as of printf
+
+  SettingValue (*get)(const PictureSettings&) = nullptr;
+  /// The value must be in range.
+  void (*set)(PictureSettings&, const SettingValue&) = nullptr;
+};
+
+/// All rows; one that another one implies comes before it.
+std::span<const Parameter> picture_parameters();
+
+/// The row of an id or alias; null: none.
+const Parameter* parameter_named(std::string_view id);
+
+/// The names of a choice.
+std::vector<std::string> names_of(const Parameter& parameter);
+
+/// "a whole number from 1 to 16", "one of none, soft, filmic".
+std::string expected_by(const Parameter& parameter);
+
+/// Whether the value is of the parameter's kind and in its range. A colour may be text.
+bool fits(const Parameter& parameter, const SettingValue& value);
+
+/// "--light-points", "--[no-]shadows".
+std::string option_of(const Parameter& parameter);
+
+}  // namespace bihive

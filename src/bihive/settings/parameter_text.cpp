@@ -1,0 +1,74 @@
+#include "bihive/settings/parameter_text.h"
+
+#include <charconv>
+#include <optional>
+
+#include "bihive/image/colour_text.h"
+
+namespace bihive {
+namespace {
+
+// A number that is the whole text.
+template <class T>
+std::optional<T> whole_text(std::string_view text) {
+  T value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// "R,G,B".
+std::optional<Vec3d> three_numbers(std::string_view text) {
+  Vec3d vector;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = axis < 2 ? text.find(',') : text.size();
+    if (comma == std::string_view::npos) return std::nullopt;
+    const std::optional<double> number = whole_text<double>(text.substr(0, comma));
+    if (!number) return std::nullopt;
+    vector[axis] = *number;
+    text.remove_prefix(axis < 2 ? comma + 1 : comma);
+  }
+  return vector;
+}
+
+// Nothing: the text is not of the parameter's kind.
+std::optional<SettingValue> parsed(const Parameter& parameter, const std::string& text) {
+  switch (parameter.kind) {
+    case ParameterKind::flag:
+      if (text == "true" || text == "false") return text == "true";
+      return std::nullopt;
+    case ParameterKind::whole:
+      if (const auto number = whole_text<std::int64_t>(text)) return *number;
+      return std::nullopt;
+    case ParameterKind::number:
+      if (const auto number = whole_text<double>(text)) return *number;
+      return std::nullopt;
+    case ParameterKind::choice: {
+      std::int64_t position = 0;
+      for (const std::string& name : names_of(parameter)) {
+        if (name == text) return position;
+        ++position;
+      }
+      return std::nullopt;
+    }
+    case ParameterKind::text:
+      return text;
+    case ParameterKind::colour:
+      break;
+  }
+  if (const auto colour = three_numbers(text)) return *colour;
+  if (colour_from_text(text, Transfer::none)) return text;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<SettingValue> value_from_text(const Parameter& parameter, const std::string& text) {
+  std::optional<SettingValue> value = parsed(parameter, text);
+  if (value && fits(parameter, *value)) return std::move(*value);
+  Parameter named = parameter;
+  named.nullable = false;  // null is a word of JSON
+  return Error{"expected " + expected_by(named) + ", found \"" + text + "\"", "", 0, 0, ""};
+}
+
+}  // namespace bihive

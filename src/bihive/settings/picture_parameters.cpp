@@ -1,0 +1,202 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "bihive/settings/parameter.h"
+
+namespace bihive {
+namespace {
+
+using P = PictureSettings;
+using enum ParameterKind;
+using Group = ParameterGroup;
+
+// --- From members to values and back ------------------------------------------------------------------------------
+
+template <class T>
+SettingValue value_of(const T& member) {
+  if constexpr (std::is_same_v<T, std::optional<std::string>>)
+    return member ? SettingValue(*member) : SettingValue();
+  else if constexpr (std::is_same_v<T, double>)
+    return std::isinf(member) ? SettingValue() : SettingValue(member);  // no limit
+  else if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>)
+    return static_cast<std::int64_t>(member);
+  else
+    return member;
+}
+
+template <class T>
+void put(const SettingValue& value, T& member) {
+  const bool is_null = std::holds_alternative<std::monostate>(value);
+  if constexpr (std::is_same_v<T, std::optional<std::string>>)
+    member = is_null ? std::nullopt : std::optional(std::get<std::string>(value));
+  else if constexpr (std::is_same_v<T, double>)
+    member = is_null ? std::numeric_limits<double>::infinity() : std::get<double>(value);
+  else if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>)
+    member = static_cast<T>(std::get<std::int64_t>(value));
+  else
+    member = std::get<T>(value);
+}
+
+// A row with the access to its member.
+template <auto Member>
+constexpr Parameter row(Parameter parameter) {
+  parameter.get = [](const P& s) { return value_of(s.*Member); };
+  parameter.set = [](P& s, const SettingValue& value) { put(value, s.*Member); };
+  return parameter;
+}
+
+// The same for a member of a member.
+template <auto Outer, auto Member>
+constexpr Parameter row(Parameter parameter) {
+  parameter.get = [](const P& s) { return value_of((s.*Outer).*Member); };
+  parameter.set = [](P& s, const SettingValue& value) { put(value, (s.*Outer).*Member); };
+  return parameter;
+}
+
+// The same for a member of something that may be absent; then it has its default. Setting it makes it present.
+template <auto Outer>
+using Content = typename std::remove_reference_t<decltype(std::declval<P>().*Outer)>::value_type;
+template <auto Outer, auto Member>
+constexpr Parameter part(Parameter parameter) {
+  parameter.get = [](const P& s) { return value_of((s.*Outer).value_or(Content<Outer>{}).*Member); };
+  parameter.set = [](P& s, const SettingValue& value) {
+    if (!(s.*Outer)) (s.*Outer).emplace();
+    put(value, *(s.*Outer).*Member);
+  };
+  return parameter;
+}
+
+// Whether something is there.
+template <auto Outer>
+constexpr Parameter presence(Parameter parameter) {
+  parameter.get = [](const P& s) -> SettingValue { return (s.*Outer).has_value(); };
+  parameter.set = [](P& s, const SettingValue& value) {
+    if (!std::get<bool>(value)) (s.*Outer).reset();
+    if (std::get<bool>(value) && !(s.*Outer)) (s.*Outer).emplace();
+  };
+  return parameter;
+}
+
+// A number of which 0 means that something is not there.
+template <auto Outer, auto Member>
+constexpr Parameter strength(Parameter parameter) {
+  parameter.get = [](const P& s) -> SettingValue { return s.*Outer ? *(s.*Outer).*Member : 0.0; };
+  parameter.set = [](P& s, const SettingValue& value) {
+    const double number = std::get<double>(value);
+    if (number == 0) return (s.*Outer).reset();
+    if (!(s.*Outer)) (s.*Outer).emplace();
+    *(s.*Outer).*Member = number;
+  };
+  return parameter;
+}
+
+constexpr double kLargest = 3.4028234663852886e38;
+
+// --- The rows -----------------------------------------------------------------------------------------------------
+
+// clang-format off
+constexpr std::array kRows{
+    row<&P::width_px>({.id = "width_px", .kind = whole, .least = 1, .most = kMostSidePx, .path = "width_px",
+        .report = "width_px", .version = 1, .has_option = false, .in_window = false, .help = "Width in pixels"}),
+    row<&P::height_px>({.id = "height_px", .kind = whole, .least = 1, .most = kMostSidePx, .path = "height_px",
+        .report = "height_px", .version = 1, .has_option = false, .in_window = false, .help = "Height in pixels"}),
+    row<&P::samples_per_pixel>({.id = "samples_per_pixel", .kind = whole, .least = 1, .most = kMostSamplesPerPixel,
+        .has_option = false, .help = "Samples per pixel; 1: the pixel's centre",
+        .label = "samples", .slider_least = 1, .slider_most = 64}),
+    row<&P::adaptive_samples>({.id = "samples_auto", .has_option = false, .cpu_only = true,
+        .help = "4 samples per pixel, and 16 on edges", .label = "more on edges"}),
+    row<&P::recursion>({.id = "recursion", .kind = whole, .least = 1, .most = kMostGenerations, .path = "recursion",
+        .report = "recursion", .version = 1, .help = "Generations of rays; 1: primary rays only", .usual = "5",
+        .label = "recursion", .slider_least = 1, .slider_most = kMostGenerations}),
+    row<&P::shadows>({.id = "shadows", .path = "shadows", .report = "shadows", .version = 1, .has_no_option = true,
+        .help = "Spheres cast shadows", .usual = "files: yes, thesis scenes: no", .group = Group::light, .label = "shadows"}),
+    presence<&P::ambient_occlusion>({.id = "ao", .path = "ambient_occlusion",
+        .has_no_option = true, .help = "Ambient occlusion: surfaces that see little of their surroundings are darker",
+        .group = Group::light, .label = "occlusion"}),
+    part<&P::ambient_occlusion, &AmbientOcclusion::distance>({.id = "ao_distance", .kind = number, .least = 0,
+        .most = kLargest, .above_least = true, .nullable = true, .path = "ambient_occlusion.distance",
+        .report = "ambient_occlusion.distance", .implies = "ao", .value_name = "D",
+        .help = "Reach of ambient occlusion in world units", .usual = "no limit", .group = Group::light,
+        .label = "reach"}),
+    part<&P::ambient_occlusion, &AmbientOcclusion::directions>({.id = "ao_directions", .kind = whole, .least = 1,
+        .most = kMostAmbientDirections, .path = "ambient_occlusion.directions",
+        .report = "ambient_occlusion.directions", .implies = "ao",
+        .help = "Directions of ambient occlusion per sample", .usual = "64", .group = Group::light,
+        .label = "directions", .slider_least = 1, .slider_most = 256}),
+    row<&P::opacity_rule>({.id = "opacity_rule", .kind = choice, .names = "each_surface|once", .path = "opacity_rule",
+        .report = "opacity_rule", .needs = ParameterNeeds::see_through,
+        .help = "Whether a sphere that light passes straight weakens it once or at each surface", .usual = "the style's",
+        .group = Group::light, .label = "opacity"}),
+    row<&P::light_points>({.id = "light_points", .kind = whole, .least = 1, .most = kMostLightPoints,
+        .path = "light_points", .report = "light_points", .needs = ParameterNeeds::soft_light,
+        .help = "Shadow rays per area light and sample", .usual = "the style's", .group = Group::light, .label = "soft rays",
+        .slider_least = 1, .slider_most = 64}),
+    strength<&P::outline, &Outline::width_px>({.id = "outline_px", .alias = "outline", .kind = number, .least = 1,
+        .most = kWidestOutlinePx, .or_zero = true, .path = "outline.width_px", .report = "outline_px",
+        .has_option = false, .value_name = "PX", .help = "Width of outlines in pixels; 0: none", .usual = "the style's",
+        .group = Group::lines, .label = "outlines", .slider_least = 0, .slider_most = kWidestOutlinePx,
+        .slider_format = "%.0f px"}),
+    part<&P::outline, &Outline::step>({.id = "outline_step", .kind = number, .least = 0, .most = kLargest,
+        .path = "outline.step", .implies = "outline_px", .value_name = "F",
+        .help = "Least step in depth at an outline, in radii of the sphere in front", .usual = "2", .group = Group::lines}),
+    part<&P::outline, &Outline::colour>({.id = "outline_colour", .kind = colour, .path = "outline.colour",
+        .implies = "outline_px", .value_name = "COLOUR", .help = "Colour of outlines", .usual = "black",
+        .group = Group::lines}),
+    strength<&P::fog, &Fog::strength>({.id = "fog", .kind = number, .least = 0, .most = 1, .path = "fog.strength",
+        .report = "fog", .value_name = "F",
+        .help = "Share of the background where the set is deepest; 0: none", .usual = "the style's", .group = Group::light,
+        .label = "fog", .slider_least = 0, .slider_most = 1, .slider_format = "%.2f"}),
+    part<&P::fog, &Fog::start>({.id = "fog_start", .kind = number, .least = -kLargest, .most = kLargest,
+        .path = "fog.start", .implies = "fog", .value_name = "F",
+        .help = "Depth where fog begins: 0 at the set's nearest point, 1 at its farthest", .usual = "0",
+        .group = Group::light}),
+    part<&P::fog, &Fog::end>({.id = "fog_end", .kind = number, .least = -kLargest, .most = kLargest,
+        .path = "fog.end", .implies = "fog", .value_name = "F",
+        .help = "Depth from which fog has its full strength; above that where it begins", .usual = "1",
+        .group = Group::light}),
+    presence<&P::cell_lines>({.id = "cell", .path = "cell_lines", .report = "cell", .cpu_only = true,
+        .help = "Draw the edges of the periodic cell, and of its copies", .group = Group::cell, .label = "edges"}),
+    part<&P::cell_lines, &CellLines::width_px>({.id = "cell_width", .kind = number, .least = 1,
+        .most = kWidestOutlinePx, .path = "cell_lines.width_px", .implies = "cell", .value_name = "PX",
+        .help = "Width of the cell's edges in pixels", .usual = "2", .group = Group::cell}),
+    part<&P::cell_lines, &CellLines::colour>({.id = "cell_colour", .kind = colour, .path = "cell_lines.colour",
+        .implies = "cell", .value_name = "COLOUR", .help = "Colour of the cell's edges", .usual = "nearly black",
+        .group = Group::cell}),
+    row<&P::transparent>({.id = "transparent", .path = "transparent", .has_option = false, .in_window = false,
+        .help = "The picture has opacity instead of a background"}),
+    row<&P::tone, &Tone::exposure_stops>({.id = "exposure", .kind = number, .least = -kMostExposureStops,
+        .most = kMostExposureStops, .path = "exposure", .report = "exposure", .value_name = "EV",
+        .help = "Stops: all light times 2^EV; the background keeps its colour", .usual = "the style's", .group = Group::tone,
+        .label = "exposure", .slider_least = -4, .slider_most = 4, .slider_format = "%+.2f stops"}),
+    row<&P::tone, &Tone::curve>({.id = "tone", .kind = choice, .names = "none|soft|filmic", .path = "tone",
+        .report = "tone", .help = "Curve for light that is too bright for the picture", .usual = "the style's",
+        .group = Group::tone, .label = "tone"}),
+    row<&P::labels, &Labels::title>({.id = "title", .kind = text, .path = "title", .report = "labels.title",
+        .value_name = "TEXT",
+        .help = "Write this at the top; {time}, {step}, {frame}, {spheres} are values of the\n"
+                "frame, {time:.2f} has two digits after the point",
+        .group = Group::labels, .label = "title"}),
+    row<&P::labels, &Labels::legend>({.id = "legend", .path = "legend", .report = "labels.legend",
+        .help = "Say what the colours mean: a colour bar, or names", .group = Group::labels, .label = "legend"}),
+    row<&P::labels, &Labels::axes>({.id = "axes", .path = "axes", .report = "labels.axes",
+        .help = "Show the directions of x, y and z", .group = Group::labels, .label = "axes"}),
+    row<&P::labels, &Labels::scale_bar>({.id = "scale_bar", .path = "scale_bar", .report = "labels.scale_bar",
+        .help = "Show a round length of the world; for orthographic pictures", .group = Group::labels, .label = "scale bar"}),
+    row<&P::labels, &Labels::length_unit>({.id = "length_unit", .kind = text, .nullable = true,
+        .path = "length_unit", .report = "labels.length_unit", .value_name = "TEXT",
+        .help = "Unit after the scale bar's number", .usual = "PDB, mmCIF: \u00C5; else none", .group = Group::labels,
+        .label = "unit"}),
+    row<&P::transfer>({.id = "transfer", .kind = choice, .names = "srgb|none", .path = "transfer", .version = 1,
+        .in_window = false, .help = "Curve from radiance to pixels", .usual = "files: srgb, thesis scenes: none"}),
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Parameter> picture_parameters() {
+  return kRows;
+}
+
+}  // namespace bihive

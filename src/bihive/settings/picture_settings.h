@@ -1,0 +1,59 @@
+// All settings of a picture that its author may state: in a style, in a scene file, or as a user.
+#pragma once
+
+#include <optional>
+
+#include "bihive/image/tone.h"
+#include "bihive/image/transfer.h"
+#include "bihive/settings/ambient_occlusion.h"
+#include "bihive/settings/labels.h"
+#include "bihive/settings/opacity_rule.h"
+#include "bihive/settings/picture_effects.h"
+
+namespace bihive {
+
+constexpr int kMostSidePx = 65535;
+constexpr int kMostSamplesPerPixel = 4096;
+constexpr int kMostGenerations = 16;
+constexpr int kMostLightPoints = 1024;
+
+/// Samples per pixel of adaptive sampling: of every pixel, and of those on edges instead.
+constexpr int kFewSamples = 4;
+constexpr int kManySamples = 16;
+/// Samples per pixel of depth of field unless stated: with fewer, single points of the lens show.
+constexpr int kLensSamples = 64;
+
+/// The table of settings/parameter.h describes each member: its range, its name, its help. The values here are the
+/// defaults of files; the thesis's scenes state their own.
+struct PictureSettings {
+  int width_px = 1280;        ///< 1 to kMostSidePx
+  int height_px = 720;        ///< 1 to kMostSidePx
+  int samples_per_pixel = 4;  ///< 1 to kMostSamplesPerPixel; 1: the pixel's centre
+  /// Then every pixel gets kFewSamples, and the pixels on edges (render/edge_pixels.h) get kManySamples instead:
+  /// each pixel is that of a picture with the one or the other number. View::shaded alone; other views get kFewSamples.
+  bool adaptive_samples = false;
+  int recursion = 5;  ///< generations of rays, 1 to kMostGenerations
+  bool shadows = true;
+  std::optional<AmbientOcclusion> ambient_occlusion;
+  OpacityRule opacity_rule = OpacityRule::each_surface;
+  int light_points = 8;  ///< shadow rays per light with a radius and sample; 1 to kMostLightPoints
+  std::optional<Outline> outline;
+  std::optional<Fog> fog;
+  std::optional<CellLines> cell_lines;  ///< without effect if the spheres have no cell
+  /// The picture has opacity instead of a background: samples that hit nothing add no light to their pixel. Reflected
+  /// and transmitted rays see the background as ever. Not for View::traversal and View::tree.
+  bool transparent = false;
+  /// View::shaded: of the light of all samples that hit something, before outlines and fog. So the background and the
+  /// colours of outlines and fog are on the screen what they are.
+  Tone tone;
+  Labels labels;                       ///< for draw_labels() (render/draw_labels.h); a film has none
+  Transfer transfer = Transfer::srgb;  ///< for png_pixels_from_film(); a film is linear
+};
+
+/// Depth of field needs many samples everywhere: gives `settings` at least kLensSamples.
+inline void use_lens_samples(PictureSettings& settings) {
+  settings.adaptive_samples = false;
+  if (settings.samples_per_pixel < kLensSamples) settings.samples_per_pixel = kLensSamples;
+}
+
+}  // namespace bihive

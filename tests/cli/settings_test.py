@@ -1,0 +1,65 @@
+"""The table of parameters: what is generated from it is up to date, and each parameter works in every front end."""
+
+import json
+import os
+import subprocess
+import sys
+
+from program import BIHIVE, ProgramTest, main
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+class Table(ProgramTest):
+    def table(self):
+        return json.loads(self.succeed("describe", "settings"))
+
+    def test_generated_files_are_up_to_date(self):
+        environment = {**os.environ, "BIHIVE": BIHIVE}
+        script = os.path.join(SOURCE, "scripts/settings_tables")
+        done = subprocess.run([sys.executable, script, "--check"], env=environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_each_option_is_in_the_help(self):
+        text = self.succeed("render", "--help-all")
+        for row in self.table():
+            if "option" in row:
+                self.assertIn(row["option"] + " ", text + " ", row["id"])
+
+    def test_a_value_means_the_same_as_an_option_and_in_a_scene_file(self):
+        values = {
+            "flag": lambda row: not row["default"],
+            "whole": lambda row: row["default"] + 1,
+            "number": lambda row: min(row["most"], 0.75),
+            "choice": lambda row: row["names"][-1],
+            "text": lambda row: "A title",
+            "colour": lambda row: "#204060",
+        }
+        # What these spheres cannot show, and a curve that the text of a colour depends on.
+        left_out = ("legend", "length_unit", "cell", "cell_width", "cell_colour", "transfer")
+        size = ["--size", "48x36", "--samples", "1", "--projection", "orthographic"]
+        with open(self.path("spheres.csv"), "w") as file:
+            file.write("x,y,z,r\n0,0,0,1\n1,0,-3,1\n0,1,1,0.5\n")
+        for row in self.table():
+            if "option" not in row or "path" not in row or row["id"] in left_out:
+                continue
+            with self.subTest(row["id"]):
+                value = values[row["kind"]](row)
+                whole, _, key = row["path"].partition(".")
+                picture = {whole: {key: value} if key else {} if whole == "ambient_occlusion" else value}
+                # A part of something whose presence has a number of its own is set with it.
+                extra = {"fog": ["--fog", "0.5"], "outline": ["--outline", "1"]}.get(whole, []) if key and row["id"] not in ("fog",) else []
+                with open(self.path("scene.json"), "w") as file:
+                    json.dump({"bihive_scene": 2, "picture": picture, "spheres": {"file": self.path("spheres.csv")}}, file)
+                by_file = self.hash(self.path("scene.json"), *size)
+                option = row["option"] if value is not False else row["option"].replace("--", "--no-", 1)
+                words = [option] if row["kind"] == "flag" else [f"{option}={value}"]
+                by_option = self.hash(self.path("spheres.csv"), *size, "--style", "plain", *extra, *words)
+                self.assertEqual(by_option, by_file, row["id"])
+
+    def hash(self, source, *words):
+        return json.loads(self.succeed("render", source, "-o", self.path("a.png"), "--json", *words))["picture_hash"]
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,29 @@
+// The parameters of a picture, written by scripts/settings_tables from the table in src/bihive/settings/.
+
+export interface PictureSettings {
+  samples_per_pixel: number;
+  samples_auto: boolean;
+  recursion: number;
+  shadows: boolean;
+  ao: boolean;
+  ao_distance: number | null;
+  ao_directions: number;
+  opacity_rule: 'each_surface' | 'once';
+  light_points: number;
+  outline_px: number;
+  outline_step: number;
+  outline_colour: [number, number, number] | string;
+  fog: number;
+  fog_start: number;
+  fog_end: number;
+  cell: boolean;
+  cell_width: number;
+  cell_colour: [number, number, number] | string;
+  exposure: number;
+  tone: 'none' | 'soft' | 'filmic';
+  title: string;
+  legend: boolean;
+  axes: boolean;
+  scale_bar: boolean;
+  length_unit: string | null;
+}
