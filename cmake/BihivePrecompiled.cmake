@@ -25,8 +25,8 @@ function(bihive_precompile target)
   bihive_quiet_with_precompiled(${target})
 endfunction()
 
-# bihive_compile_together(target): eight neighbouring source files are compiled as one, because reading the same headers
-# again and again took most of the time. Files that Highway includes into themselves, once for each instruction set, stay
+# bihive_compile_together(target [COUNT]): eight (or COUNT) neighbouring source files are compiled as one, because reading the
+# same headers again and again took most of the time. Files that Highway includes into themselves, once for each instruction set, stay
 # alone, and so do files with flags of their own and those that say SKIP_UNITY_BUILD_INCLUSION. A name in an anonymous namespace
 # must then differ from those of the neighbours. CMake's own UNITY_BUILD names the files by whole paths, so no compiler cache
 # knows them in another clone; here they are named from the tops of the sources and of the build. Call it after the target
@@ -34,6 +34,10 @@ endfunction()
 function(bihive_compile_together target)
   if(NOT BIHIVE_COMPILE_TOGETHER)
     return()
+  endif()
+  set(most 8)
+  if(ARGC GREATER 1)
+    set(most ${ARGV1})
   endif()
   get_target_property(sources ${target} SOURCES)
   set(alone "")
@@ -64,9 +68,9 @@ function(bihive_compile_together target)
   set(number 0)
   list(LENGTH together left)
   while(left GREATER 0)
-    math(EXPR first "8 * ${number}")
-    math(EXPR left "${left} - 8")
-    list(SUBLIST together ${first} 8 batch)
+    math(EXPR first "${most} * ${number}")
+    math(EXPR left "${left} - ${most}")
+    list(SUBLIST together ${first} ${most} batch)
     set(text "")
     set(generated "")
     foreach(source ${batch})

@@ -24,28 +24,29 @@ ordered_json min_avg_max(const MinAvgMax& value) {
 ordered_json wide_json(const WideFacts& wide) {
   const auto chosen = [](std::int64_t value) { return value == 0 ? ordered_json() : ordered_json(value); };
   const WideStatistics& s = wide.statistics;
-  ordered_json json = ordered_json::object();
-  json["nodes"] = s.nodes;
-  json["leaves"] = s.leaves;
-  json["levels"] = s.levels;
-  json["children"] = min_avg_max(s.children);
-  json["spheres_per_leaf"] = min_avg_max(s.spheres_per_leaf);
-  json["nodes_above_leaf"] = min_avg_max(s.nodes_above_leaf);
-  json["node_fill"] = s.node_fill;
-  json["leaf_fill"] = s.leaf_fill;
-  json["overlap"] = s.overlap;
-  json["expected_cost"] = {{"nodes", s.expected_nodes}, {"leaves", s.expected_leaves}, {"spheres", s.expected_spheres}};
-  json["bytes"] = {
+  ordered_json facts = ordered_json::object();
+  facts["nodes"] = s.nodes;
+  facts["leaves"] = s.leaves;
+  facts["levels"] = s.levels;
+  facts["children"] = min_avg_max(s.children);
+  facts["spheres_per_leaf"] = min_avg_max(s.spheres_per_leaf);
+  facts["nodes_above_leaf"] = min_avg_max(s.nodes_above_leaf);
+  facts["node_fill"] = s.node_fill;
+  facts["leaf_fill"] = s.leaf_fill;
+  facts["overlap"] = s.overlap;
+  facts["expected_cost"] = {
+      {"nodes", s.expected_nodes}, {"leaves", s.expected_leaves}, {"spheres", s.expected_spheres}};
+  facts["bytes"] = {
       {"nodes", s.node_bytes}, {"spheres", s.sphere_bytes}, {"other", s.other_bytes}, {"total", s.used_bytes}};
-  json["bytes_per_sphere"] = wide.bytes_per_sphere();
-  json["allocated_bytes"] = s.allocated_bytes;
-  json["predicted_bytes"] = {{"low", wide.predicted.low_bytes}, {"high", wide.predicted.high_bytes}};
-  json["peak_bytes"] = {{"predicted", wide.predicted.peak_bytes}, {"measured", wide.measured_peak_bytes}};
-  json["build_ms"] = wide.build_ms;
-  json["target"] = active_target();
-  json["max_prims"] = chosen(wide.parameters.max_prims);
-  json["max_depth"] = chosen(wide.parameters.max_depth);
-  return json;
+  facts["bytes_per_sphere"] = wide.bytes_per_sphere();
+  facts["allocated_bytes"] = s.allocated_bytes;
+  facts["predicted_bytes"] = {{"low", wide.predicted.low_bytes}, {"high", wide.predicted.high_bytes}};
+  facts["peak_bytes"] = {{"predicted", wide.predicted.peak_bytes}, {"measured", wide.measured_peak_bytes}};
+  facts["build_ms"] = wide.build_ms;
+  facts["target"] = active_target();
+  facts["max_prims"] = chosen(wide.parameters.max_prims);
+  facts["max_depth"] = chosen(wide.parameters.max_depth);
+  return facts;
 }
 
 }  // namespace
