@@ -377,7 +377,7 @@ bool is_of_picture(const GivenOption& given) {
       "-o",          "--output",      "--frames",       "--pictures",   "--fps",
       "--turntable", "--camera-keys", "--colour-range", "--codec",      "--shard",
       "--join",      "--json",        "--threads",      "--trajectory", "-h",
-      "--help"};
+      "--help",      "--help-all"};
   return given.option != nullptr && std::find(of_film.begin(), of_film.end(), given.name) == of_film.end();
 }
 

@@ -133,7 +133,7 @@ Said run(MpiTeam& team, const std::vector<const char*>& arguments) {
     std::erase_if(others, is_distribute);
     const std::string first = others.size() > 1 ? others[1] : "";
     if (others.size() < 2) return {cli::kBadUsage, "", kHelp};
-    if (first == "--help" || first == "-h") {
+    if (first == "--help" || first == "--help-all" || first == "-h") {
       cli::print(kHelp);
     } else {
       run_request(team, cli::parse_command_line(static_cast<int>(others.size()), others.data()));

@@ -67,7 +67,7 @@ class Tone(ProgramTest):
             self.assertIn("--exposure: expected a number", said)
         self.assertIn("--tone: expected one of none, soft, filmic", self.fail_usage("render", "demo", "-o", "a.png", "--tone", "aces"))
         for text, place in [('"exposure": 40', "/picture/exposure: expected a number from -32 to 32"),
-                            ('"tone": "hard"', '/picture/tone: expected "none", "soft" or "filmic"')]:
+                            ('"tone": "hard"', '/picture/tone: expected one of none, soft, filmic')]:
             self.write("s.json", SPHERE % (', "picture": {%s}' % text))
             self.assertIn(place, self.fail_input("render", "s.json", "-o", "a.png"))
             self.write("style.json", json.dumps({"bihive_style": 1}).replace("1}", '1, "picture": {%s}}' % text))

@@ -27,7 +27,7 @@ class Words(ProgramTest):
 
     def options(self, *command):
         """The names of the options that --help lists."""
-        names = ",".join(OPTION.findall(self.succeed(*command, "--help"))).split(",")
+        names = ",".join(OPTION.findall(self.succeed(*command, "--help-all"))).split(",")
         self.assertIn("--help", names)
         return names
 
@@ -39,7 +39,7 @@ class ManualPages(Words):
         return re.sub(r"\\f[BIR]", "", page).replace("\\-", "-")
 
     def test_every_command_of_help_has_one(self):
-        listed = re.findall(r"^  ([a-z]+) ", self.succeed("--help").split("Subcommands:")[1], re.MULTILINE)
+        listed = re.findall(r"^  ([a-z]+) ", self.succeed("--help-all").split("Subcommands:")[1], re.MULTILINE)
         self.assertEqual(self.commands(), listed)
         page = self.shown()
         for command in listed:

@@ -1,4 +1,4 @@
-// Outlines and fog (scene/picture_effects.h) as the header defines them, sample by sample and ray by ray.
+// Outlines and fog (settings/picture_effects.h) as the header defines them, sample by sample and ray by ray.
 #pragma once
 
 #include <algorithm>

@@ -21,9 +21,9 @@ export interface PictureSettings {
   cell_colour: [number, number, number] | string;
   exposure: number;
   tone: 'none' | 'soft' | 'filmic';
-  legend: boolean;
-  scale_bar: boolean;
-  axes: boolean;
   title: string;
+  legend: boolean;
+  axes: boolean;
+  scale_bar: boolean;
   length_unit: string | null;
 }

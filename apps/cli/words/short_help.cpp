@@ -33,8 +33,8 @@ void shorten_help(CLI::App& command) {
     const std::set<CLI::Option*> excluded = option->get_excludes();
     for (CLI::Option* other : excluded) option->remove_excludes(other);
   }
-  command.footer(command.get_footer() + "\n\nbihive " + command.get_name() + " --help-all shows all " +
-                 std::to_string(named.size()) + " options.");
+  command.footer("bihive " + command.get_name() + " --help-all shows all " + std::to_string(named.size()) +
+                 " options.\n\n" + command.get_footer());
 }
 
 std::string advice_on(const CLI::App* command, const std::vector<std::string>& unknown, const std::string& otherwise) {

@@ -1,4 +1,4 @@
-// Outlines, fog and cell edges of scene/picture_effects.h, sample by sample.
+// Outlines, fog and cell edges of settings/picture_effects.h, sample by sample.
 #pragma once
 
 #include <cstdint>

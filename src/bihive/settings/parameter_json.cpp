@@ -206,7 +206,8 @@ std::string picture_report(const PictureSettings& settings, const ReportedScene&
     if (row.report.empty() || std::holds_alternative<std::monostate>(value)) continue;
     if (row.needs == ParameterNeeds::soft_light && !scene.soft_light) continue;
     if (row.needs == ParameterNeeds::see_through && !scene.see_through) continue;
-    const bool is_said = row.version == 1 || row.needs == ParameterNeeds::soft_light || !is_default(row, settings);
+    const bool is_said = row.version == 1 || row.needs == ParameterNeeds::soft_light ||
+                         (row.group == ParameterGroup::tone && settings.tone.any()) || !is_default(row, settings);
     if (row.implies.empty() ? !is_said : !is_there(row, settings)) continue;
     const std::string object = object_of(row.report);
     (object.empty() ? report : report[object])[key_of(row.report)] = value_to_json(row, value);

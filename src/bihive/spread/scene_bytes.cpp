@@ -115,7 +115,8 @@ template <class A>
 void transfer(A& archive, PictureSettings& picture) {
   const auto rows = picture_parameters();
   for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    SettingValue value = A::kTakes ? SettingValue() : row->get(picture);
+    SettingValue value;  // GCC 12 leaves it without one if a conditional expression on kTakes initialises it
+    if (!A::kTakes) value = row->get(picture);
     transfer(archive, value);
     if (A::kTakes) row->set(picture, value);
   }
