@@ -71,7 +71,7 @@ bool flag(const Parameter& parameter, SettingValue& value) {
 }
 
 bool name(const Parameter& parameter, SettingValue& value) {
-  const std::vector<std::string> names = names_of(parameter);
+  const std::vector<std::string> names = choice_labels_of(parameter);
   auto& position = std::get<std::int64_t>(value);
   bool changed = false;
   if (!ImGui::BeginCombo(hidden_name(parameter).c_str(), names[static_cast<std::size_t>(position)].c_str()))
@@ -97,14 +97,43 @@ bool whole_slider(const Parameter& parameter, SettingValue& value) {
 // Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
 bool number_slider(const Parameter& parameter, SettingValue& value) {
   auto shown = static_cast<float>(std::get<double>(value));
-  const std::string format(parameter.or_zero && shown == 0 ? "none" : parameter.slider_format);
+  const bool is_whole = parameter.slider_step >= 1;
+  // A share is written as it is typed: 0.35.
+  std::string format = fmt::format("%{}.{}f", parameter.slider_least < 0 ? "+" : "", is_whole ? 0 : 2);
+  if (!parameter.unit.empty() && parameter.unit != "%") format += " " + std::string(parameter.unit);
+  if (parameter.or_zero && shown == 0) format = "none";
   if (!ImGui::SliderFloat(hidden_name(parameter).c_str(), &shown, static_cast<float>(parameter.slider_least),
                           static_cast<float>(parameter.slider_most), format.c_str(), ImGuiSliderFlags_AlwaysClamp))
     return false;
-  double number = std::round(100 * static_cast<double>(shown)) / 100;
+  const double steps = is_whole ? 1 : 100;
+  double number = std::round(steps * static_cast<double>(shown)) / steps;
   if (parameter.or_zero) number = number < 0.5 ? 0 : std::max(parameter.least, number);
   value = number;
   return true;
+}
+
+bool is_on(std::string_view id, const PictureSettings& settings) {
+  const SettingValue value = parameter_named(id)->get(settings);
+  if (const bool* const flag = std::get_if<bool>(&value)) return *flag;
+  return std::get<double>(value) != 0;
+}
+
+// Whether engine or camera cannot draw it.
+bool is_beyond(const Parameter& parameter, const ViewerSettings& settings) {
+  return (parameter.cpu_only && settings.engine == ViewerEngine::gpu) ||
+         (parameter.needs == ParameterNeeds::orthographic && settings.camera.projection == Projection::perspective);
+}
+
+// Whether a change of it would change nothing. What the camera cannot draw can be switched off.
+bool is_off(const Parameter& parameter, const ViewerSettings& settings) {
+  const PictureSettings now = settings.picture.result();
+  if (!parameter.implies.empty() && !is_on(parameter.implies, now)) return true;
+  if (!parameter.only_with.empty() && !is_on(parameter.only_with, now)) return true;
+  if (!parameter.replaced_by.empty() && is_on(parameter.replaced_by, now) &&
+      !is_beyond(*parameter_named(parameter.replaced_by), settings))
+    return true;
+  if (!is_beyond(parameter, settings)) return false;
+  return parameter.cpu_only || parameter.kind != ParameterKind::flag || !is_on(parameter.id, now);
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -185,7 +214,7 @@ void EffectsPanel::parameter(const Parameter& parameter, LayeredSettings& pictur
         constexpr double kNone = -1;
         const double* const before = std::get_if<double>(&value);
         double shown = before != nullptr ? *before : kNone;
-        changed = number(title.c_str(), parameter.nullable ? "no limit" : "", kNone, shown);
+        changed = number(title.c_str(), std::string(parameter.empty_means).c_str(), kNone, shown);
         if (shown != kNone) value = shown;
         if (shown == kNone || (shown == 0 && parameter.nullable)) value = {};
       }
@@ -198,7 +227,7 @@ void EffectsPanel::parameter(const Parameter& parameter, LayeredSettings& pictur
     case ParameterKind::colour: {
       const auto* const before = std::get_if<std::string>(&value);
       std::string shown = before != nullptr ? *before : "";
-      changed = text(title.c_str(), parameter.nullable ? "the file's" : "none", shown);
+      changed = text(title.c_str(), parameter.empty_means.empty() ? "none" : parameter.empty_means.data(), shown);
       value = shown;
       if (parameter.nullable && shown.empty()) value = {};
     }
@@ -207,21 +236,13 @@ void EffectsPanel::parameter(const Parameter& parameter, LayeredSettings& pictur
 }
 
 void EffectsPanel::parameters(ParameterGroup group, ViewerSettings& settings) {
-  const PictureSettings now = settings.picture.result();
-  const bool gpu = settings.engine == ViewerEngine::gpu;
-  for (const Parameter& row : picture_parameters()) {
-    if (row.group != group || row.label.empty()) continue;
-    // A part of what is switched off, or a number that another choice replaces.
-    const Parameter* const whole = row.implies.empty() ? nullptr : parameter_named(row.implies);
-    const bool off = (whole != nullptr && whole->get(now) == whole->get(PictureSettings())) ||
-                     (row.needs == ParameterNeeds::soft_light && !now.shadows) ||
-                     (row.id == "samples_per_pixel" && draws_adaptive_samples(settings)) || (gpu && row.cpu_only);
-    ImGui::BeginDisabled(off);
-    parameter(row, settings.picture);
+  for (const Parameter* const row : controls_of(group)) {
+    ImGui::BeginDisabled(is_off(*row, settings));
+    parameter(*row, settings.picture);
     ImGui::EndDisabled();
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) continue;
-    const std::string help = gpu && row.cpu_only ? "the CPU engine alone draws this" : std::string(row.help);
-    ImGui::SetTooltip("%s", help.c_str());
+    const bool says_why = is_beyond(*row, settings) && !row->note.empty();
+    ImGui::SetTooltip("%s", std::string(says_why ? row->note : row->help).c_str());
   }
 }
 

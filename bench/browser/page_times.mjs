@@ -46,7 +46,7 @@ for (let i = 0; i < repetitions; ++i) {
 const { context, page } = await visit();
 await and_settle(page, () => page.$eval('#style input[value=plain]', (input) => input.click()));
 await and_settle(page, () =>
-  page.$eval('#samples', (input) => {
+  page.$eval('#samples_per_pixel', (input) => {
     input.value = '1';
     input.dispatchEvent(new Event('input', { bubbles: true }));
     input.dispatchEvent(new Event('change', { bubbles: true }));

@@ -68,6 +68,32 @@ TEST(Parameters, names_are_unique_and_rows_complete) {
   EXPECT_EQ(parameter_named("light-points"), nullptr);
 }
 
+TEST(Parameters, controls_are_complete) {
+  std::size_t controls = 0;
+  for (int group = 0; group <= static_cast<int>(ParameterGroup::cell); ++group) {
+    int place = -1000;
+    for (const Parameter* const p : controls_of(static_cast<ParameterGroup>(group))) {
+      ++controls;
+      EXPECT_GE(p->place, place) << p->id;
+      place = p->place;
+      EXPECT_EQ(choice_labels_of(*p).size(), names_of(*p).size()) << p->id;
+      if (p->slider_least != p->slider_most) {
+        EXPECT_TRUE(p->or_zero || p->slider_least >= p->least) << p->id;
+        EXPECT_LE(p->slider_most, p->most) << p->id;
+        EXPECT_GT(p->slider_step, 0) << p->id;
+      }
+      for (const std::string_view flag : {p->only_with, p->replaced_by}) {
+        if (flag.empty()) continue;
+        ASSERT_NE(parameter_named(flag), nullptr) << p->id;
+        EXPECT_EQ(parameter_named(flag)->kind, ParameterKind::flag) << p->id;
+      }
+      EXPECT_TRUE(p->note.empty() || p->cpu_only || p->needs == ParameterNeeds::orthographic) << p->id;
+    }
+  }
+  EXPECT_GT(controls, 15U);
+  EXPECT_EQ(controls_of(ParameterGroup::picture).front()->id, "recursion");
+}
+
 TEST(Parameters, each_reaches_its_own_member) {
   const PictureSettings changed = all_changed();
   for (const Parameter& p : picture_parameters()) EXPECT_EQ(p.get(changed), another_value(p)) << p.id;

@@ -52,7 +52,7 @@ for (const [name, is_plain] of modes)
       await and_settle(page, () => page.selectOption('#built_in', scene));
       if (options.length) await and_settle(page, () => set_value(page, '#count', options[1]));
       const native = native_picture(scene, scene, '--size', '320x200', '--samples', '1', '--recursion', '5', ...options);
-      await set_value(page, '#samples', 1);
+      await set_value(page, '#samples_per_pixel', 1);
       await and_settle(page, () => set_value(page, '#recursion', 5));
       const here = await saved_picture(page, 320, 200);
       assert.deepEqual(await compare(page, native, here, 0), { width: 320, height: 200, share: 0 }, scene);
@@ -68,7 +68,7 @@ test('every control changes what it says', async () => {
 
   // Values.
   await set_value(page, '#recursion', 2);
-  await set_value(page, '#samples', 1);
+  await set_value(page, '#samples_per_pixel', 1);
   await page.click('#light_group > summary');
   await and_settle(page, () => page.click('#shadows'));
   let { settings } = await link_state(page);
@@ -223,7 +223,7 @@ test('a picture to be saved says how far it is, and can be cancelled', async () 
   let downloads = 0;
   page.on('download', () => ++downloads);
   const bar = () => page.$eval('#busy_bar', ({ value }) => value);
-  await set_value(page, '#samples', 64);
+  await set_value(page, '#samples_per_pixel', 64);
   await page.fill('#save_width', '3000');
   await page.fill('#save_height', '2000');
   await page.focus('#save');
@@ -242,14 +242,14 @@ test('a picture to be saved says how far it is, and can be cancelled', async () 
   assert.equal(await page.evaluate(() => document.activeElement.id), 'save');
 
   // Everything goes on; another scene ends a picture too.
-  await and_settle(page, () => set_value(page, '#samples', 1));
-  await set_value(page, '#samples', 64);
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
+  await set_value(page, '#samples_per_pixel', 64);
   await page.click('#save');
   await page.waitForFunction(() => document.querySelector('#busy_bar').value > 0);
   await and_settle(page, () => page.selectOption('#built_in', 'demo'));
   await page.waitForSelector('#save:not([hidden])');
   assert.equal(downloads, 0);
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   const native = native_picture('demo', 'after-cancel', '--size', '568x600', '--samples', '1');
   assert.equal((await compare(page, native, await saved_picture(page, 568, 600), 0)).share, 0);
   assert.equal(downloads, 1);

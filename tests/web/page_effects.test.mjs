@@ -1,6 +1,7 @@
 // The page's groups colours, light, lines, lens and labels draw what the program draws with the same options, bit for
 // bit, on the screen and saved; and their link.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -51,18 +52,18 @@ const groups = {
     [(page) => set_value(page, '#fov', 50), ['--fov', '50']],
     [(page) => set_value(page, '#exposure', 0.5), ['--exposure', '0.5']],
     [(page) => page.selectOption('#tone', 'filmic'), ['--tone', 'filmic']],
-    [(page) => set_value(page, '#aperture', 3), ['--aperture', '3', '--samples', '64'], ['--samples', '2']],
+    [(page) => set_value(page, '#aperture', 3), ['--aperture', '3']],
     [async (page) => {
       await page.selectOption('#focus', 'spheres');
       await page.fill('#focus_on', 'resname 478');
       await page.press('#focus_on', 'Enter');
     }, ['--focus', 'resname 478']],
     [async (page) => {
-      await set_value(page, '#samples', 8);
+      await set_value(page, '#samples_per_pixel', 8);
       await page.selectOption('#focus', 'distance');
       await page.fill('#focus_distance', '40');
       await page.press('#focus_distance', 'Enter');
-    }, ['--focus', '40', '--samples', '8'], ['--focus', 'resname 478', '--samples', '64']],
+    }, ['--focus', '40', '--samples', '8'], ['--focus', 'resname 478', '--samples', '2']],
   ],
   labels_group: [
     [async (page) => {
@@ -90,7 +91,7 @@ function without(options, gone) {
 for (const [group, steps] of Object.entries(groups))
   test(`${group}: each control is an option of the program`, async () => {
     const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 800, height: 900 } });
-    await and_settle(page, () => set_value(page, '#samples', 2));
+    await and_settle(page, () => set_value(page, '#samples_per_pixel', 2));
     await open_group(page, group);
     await and_settle(page, () => page.setViewportSize(small.viewport));
     let options = ['--samples', '2'];
@@ -119,10 +120,62 @@ for (const [group, steps] of Object.entries(groups))
     await context.close();
   });
 
+test('each parameter of the library has its control, with its label, its help and its state', async () => {
+  const rows = JSON.parse(execFileSync(process.env.BIHIVE, ['describe', 'settings'])).filter((row) => row.in_window && row.label);
+  assert.ok(rows.length > 15);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  const written = (text) => text.replace(/\s+/g, ' ').replaceAll("'", '’');
+  const first_large = (text) => written(text.charAt(0).toUpperCase() + text.slice(1));
+  const type = ({ kind, slider }) =>
+    ({ flag: 'checkbox', choice: 'select-one', text: 'text', colour: 'text' })[kind] ?? (slider ? 'range' : 'number');
+  const shown = await page.$$eval('[data-parameters] :is(input, select)', (all) =>
+    all.map(({ id, type, title, labels, disabled, parentElement }) =>
+      ({ id, type, title, label: labels[0].textContent, disabled, group: parentElement.parentElement.dataset.parameters })));
+  const off = ['scale_bar', 'length_unit']; // in perspective
+  const expected = rows.map((row) => ({
+    id: row.id, type: type(row), title: first_large(row.help), label: first_large(row.long_label ?? row.label),
+    disabled: off.includes(row.id), group: row.group,
+  }));
+  const by_id = (a, b) => a.id.localeCompare(b.id);
+  assert.deepEqual(shown.sort(by_id), expected.sort(by_id));
+
+  // A part is disabled without its whole.
+  await and_settle(page, () => page.evaluate(() => document.getElementById('ao').click()));
+  assert.ok(await page.isDisabled('#ao_distance'));
+  assert.ok(await page.isDisabled('#ao_directions'));
+  await and_settle(page, () => page.evaluate(() => document.getElementById('shadows').click()));
+  assert.ok(await page.isDisabled('#light_points'));
+  // What is set is in the link, and nothing else.
+  assert.deepEqual((await link_state(page)).settings.set, ['shadows', 'ao']);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a lens brings 64 samples where nobody has chosen a number, and ends more samples on edges', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  const shows = (id, value) => page.waitForFunction(([at, wanted]) => document.getElementById(at).value === wanted, [id, value]);
+  const own = await page.inputValue('#samples_per_pixel');
+  await set_value(page, '#aperture', 3);
+  await shows('samples_per_pixel', '64');
+  await set_value(page, '#aperture', 0);
+  await shows('samples_per_pixel', own);
+  await page.click('#samples_auto');
+  await page.waitForFunction(() => document.getElementById('samples_per_pixel').disabled);
+  await set_value(page, '#aperture', 3);
+  await shows('samples_per_pixel', '64');
+  assert.ok(!(await page.isChecked('#samples_auto')));
+  await set_value(page, '#samples_per_pixel', 8);
+  await set_value(page, '#aperture', 2);
+  await and_settle(page, () => set_value(page, '#recursion', 1));
+  assert.equal(await page.inputValue('#samples_per_pixel'), '8');
+  no_complaints(complaints);
+  await context.close();
+});
+
 test('samples on edges', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   await and_settle(page, () => page.click('#samples_auto'));
-  assert.ok(await page.isDisabled('#samples'));
+  assert.ok(await page.isDisabled('#samples_per_pixel'));
   assert_same_picture(await saved_picture(page, width, height), native_picture('demo', 'auto', ...size, '--samples', 'auto'), 'auto');
   no_complaints(complaints);
   await context.close();
@@ -181,7 +234,7 @@ test('what a scene file says is shown and kept by the controls', async () => {
   const file = { name: 'own.json', bytes: Buffer.from(JSON.stringify(document)) };
   await and_settle(page, () => ways_in.picker(page, file));
   const value = (id) => page.inputValue(`#${id}`);
-  assert.deepEqual(await Promise.all(['ao_distance', 'ao_directions', 'fog', 'outline_px', 'exposure', 'tone', 'light_points', 'aperture', 'focus', 'focus_distance', 'samples'].map(value)),
+  assert.deepEqual(await Promise.all(['ao_distance', 'ao_directions', 'fog', 'outline_px', 'exposure', 'tone', 'light_points', 'aperture', 'focus', 'focus_distance', 'samples_per_pixel'].map(value)),
     ['2', '12', '0.75', '3', '0.5', 'soft', '5', '0.2', 'distance', '8', '9']);
   const path = join(scratch, file.name);
   writeFileSync(path, file.bytes);

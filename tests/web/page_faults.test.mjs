@@ -37,11 +37,11 @@ const not_scrolled = async (page, what) => assert.deepEqual(new Set(await scroll
 
 test('a link made from a file of one’s own asks for that file, and gives its camera to no other', async () => {
   const { page, context, complaints } = await open_page(browser, server.url, small);
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   await and_settle(page, () => ways_in.picker(page, molecule));
   await and_settle(page, () => page.click('[data-side=left]'));
   await and_settle(page, () => page.press('#picture', 'ArrowUp'));
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   const state = await link_state(page);
   assert.deepEqual(state.source, { file: 'mine.pdb' });
   const picture = await saved_picture(page, 96, 64);
@@ -78,7 +78,7 @@ test('a link made from a file of one’s own asks for that file, and gives its c
 for (const [width, height] of sizes)
   test(`by click and by Tab nothing scrolls the picture away, ${width} x ${height}`, async () => {
     const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width, height } });
-    await and_settle(page, () => set_value(page, '#samples', 1));
+    await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
     await open_panel(page);
     await page.evaluate(() => document.querySelectorAll('details.group').forEach((group) => (group.open = true)));
 
@@ -147,7 +147,7 @@ test('progress ends with the first picture, not before', async () => {
 
 test('keys move the picture before anybody has clicked it', async () => {
   const { page, context, complaints } = await open_page(browser, server.url, small);
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   const camera = async () => (await link_state(page)).settings.camera;
   const first = await camera();
   await page.evaluate(() => document.activeElement?.blur());
@@ -226,7 +226,7 @@ test('a long molecule stays in the picture while it turns', async () => {
   const rod = `x,y,z,r\n${Array.from({ length: 81 }, (_, i) => `0,0,${i - 40},1`).join('\n')}\n`;
   await and_settle(page, () => ways_in.picker(page, { name: 'rod.csv', bytes: Buffer.from(rod) }));
   await and_settle(page, () => page.selectOption('#background', 'none'));
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   for (let i = 0; i < 3; ++i) {
     await and_settle(page, () => page.press('#picture', 'ArrowLeft'));
     const png = await saved_picture(page, 468, 300);
@@ -251,7 +251,7 @@ test('a radius is a field and an address, and messages name the field', async ()
   const words = await page.textContent('#messages');
   assert.match(words, /“Radius” in the panel sets another/);
   assert.doesNotMatch(words, /--/);
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   await and_settle(page, () => set_value(page, '#radius', 0.25));
   const state = await link_state(page);
   assert.deepEqual(state.source, { file: 'points.csv', reading: { radius: 0.25 } });
@@ -271,7 +271,7 @@ test('a radius is a field and an address, and messages name the field', async ()
   const asked = await open_page(browser, `${server.url}?radius=0.5&radius_scale=2`, small);
   await and_settle(asked.page, () => ways_in.picker(asked.page, points));
   assert.equal(await asked.page.inputValue('#radius'), '0.5');
-  await and_settle(asked.page, () => set_value(asked.page, '#samples', 1));
+  await and_settle(asked.page, () => set_value(asked.page, '#samples_per_pixel', 1));
   assert_same_picture(await saved_picture(asked.page, 468, 240), native('--radius', '0.5', '--radius-scale', '2'), 'by address');
   await asked.context.close();
 
@@ -293,7 +293,7 @@ test('columns are a field and an address, also for a file that cannot be read wi
   await page.waitForFunction(() => document.getElementById('errors').textContent.includes('missing'));
   assert.equal(await page.inputValue('#columns'), 'x=px,y=py,z=missing', 'what was asked for stays');
   await and_settle(page, () => set_value(page, '#columns', 'x=px,y=py,z=pz,r=size'));
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   const state = await link_state(page);
   assert.deepEqual(state.source, { file: 'table.csv', reading: { columns: 'x=px,y=py,z=pz,r=size' } });
   assert_same_picture(await saved_picture(page, 468, 240), native(), 'columns by name');
@@ -302,7 +302,7 @@ test('columns are a field and an address, also for a file that cannot be read wi
 
   const asked = await open_page(browser, `${server.url}?columns=x=px,y=py,z=pz,r=size`, small);
   await and_settle(asked.page, () => ways_in.picker(asked.page, table));
-  await and_settle(asked.page, () => set_value(asked.page, '#samples', 1));
+  await and_settle(asked.page, () => set_value(asked.page, '#samples_per_pixel', 1));
   assert_same_picture(await saved_picture(asked.page, 468, 240), native(), 'columns by address');
   await asked.context.close();
 });

@@ -51,11 +51,11 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
   // A small window: software draws slowly.
   const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
   await choose_gpu(page);
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   for (const scene of ['demo', 'four-spheres', 'scenario1', 'scenario2', 'scenario3']) {
     if (scene === 'demo') await and_settle(page, () => page.check('#style input[value=plain]', { force: true }));
     else await and_settle(page, () => page.selectOption('#built_in', scene));
-    await and_settle(page, () => set_value(page, '#samples', 1));
+    await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
     for (const recursion of [1, 5]) {
       await and_settle(page, () => set_value(page, '#recursion', recursion));
       const { settings } = await link_state(page);
@@ -75,12 +75,12 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
 test('more samples on edges are the CPU engine’s: the GPU engine takes their number', async () => {
   const { page, context } = await open_page(browser, server.url, { viewport: { width: 800, height: 240 } });
   await and_settle(page, () => page.click('#samples_auto'));
-  assert.ok(await page.isDisabled('#samples'));
+  assert.ok(await page.isDisabled('#samples_per_pixel'));
   await choose_gpu(page);
-  assert.ok(await page.isEnabled('#samples'));
+  assert.ok(await page.isEnabled('#samples_per_pixel'));
   assert.ok(await page.isDisabled('#samples_auto'));
   assert.ok(await page.isVisible('#samples_auto_note'));
-  await and_settle(page, () => set_value(page, '#samples', 2));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 2));
   assert.equal((await link_state(page)).settings.samples_per_pixel, 2);
   await context.close();
 });
@@ -88,10 +88,10 @@ test('more samples on edges are the CPU engine’s: the GPU engine takes their n
 test('the GPU engine draws styles, and a transparent background', async () => {
   const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
   await choose_gpu(page);
-  await and_settle(page, () => set_value(page, '#samples', 2));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 2));
   for (const style of ['default', 'xray']) {
     await and_settle(page, () => page.check(`#style input[value=${style}]`, { force: true }));
-    await and_settle(page, () => set_value(page, '#samples', 2));
+    await and_settle(page, () => set_value(page, '#samples_per_pixel', 2));
     const { settings, look } = await link_state(page);
     assert.equal(settings.engine, 'gpu');
     assert.ok(look.style === style || (style === 'default' && !look.style));
@@ -130,7 +130,7 @@ test('without textures of floating point the GPU engine draws the very same pict
     const { page, context, complaints } = await open_page(browser, url, { viewport: { width: 780, height: 240 } });
     await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
     await choose_gpu(page);
-    await and_settle(page, () => set_value(page, '#samples', 2));
+    await and_settle(page, () => set_value(page, '#samples_per_pixel', 2));
     const mine = [];
     for (const view of ['shaded', 'distance']) {
       await and_settle(page, () => page.selectOption('#view', view));
@@ -166,7 +166,7 @@ test('without WebGL2 the CPU draws, and the page says why', async () => {
     };
     await check();
     await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
-    await and_settle(page, () => set_value(page, '#samples', 1));
+    await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
     const native = native_picture('four-spheres', 'no-webgl', '--size', '320x200', '--samples', '1');
     assert.equal((await compare(page, native, await saved_picture(page, 320, 200), 0)).share, 0);
 
@@ -237,7 +237,7 @@ test('a context that is lost comes back with the picture', async () => {
 // A scene that software draws quickly.
 async function draw_a_little_by_gpu(page) {
   await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   await choose_gpu(page);
 }
 

@@ -56,7 +56,7 @@ test('each style is the one of the program, with its name and picture', async ()
 
 test('looks of selections, colours of elements and a background, by keys; and their link', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 800, height: 900 } });
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   await and_settle(page, () => page.selectOption('#element_colours', 'cpk'));
   await page.selectOption('#background', 'colour');
   await and_settle(page, () => set_value(page, '#background_colour', '#203040'));
@@ -101,7 +101,7 @@ test('looks of selections, colours of elements and a background, by keys; and th
 
 test('a wrong row says why and where below it, and the picture stays', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
-  await and_settle(page, () => set_value(page, '#samples', 1));
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   const picture = await saved_picture(page, 96, 64);
   await add_row(page, { select: 'chain A and wter', action: 'hide' });
   await page.waitForSelector('.look_row .words.fault');

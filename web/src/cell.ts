@@ -1,13 +1,11 @@
-// The panel's group of the periodic cell: its edges, and copies along its vectors.
+// The copies of the periodic cell along its vectors.
 import { element } from './dom';
 import type { Changes, Facts, Settings } from './protocol';
 
 export class CellControls {
-  private readonly edges = element<HTMLInputElement>('cell');
   private readonly copies = ['copies_a', 'copies_b', 'copies_c'].map((id) => element<HTMLInputElement>(id));
 
   constructor(change: (changes: Changes) => void) {
-    this.edges.addEventListener('change', () => change({ cell: this.edges.checked }));
     for (const input of this.copies)
       input.addEventListener('change', () => {
         if (!this.copies.every((one) => one.reportValidity())) return;
@@ -23,11 +21,8 @@ export class CellControls {
   }
 
   /** What the user is writing stays. */
-  show({ engine, cell, replicate }: Settings): void {
-    this.edges.checked = cell;
-    const gpu = engine === 'gpu';
-    element('cell_note').hidden = !gpu;
-    for (const input of [this.edges, ...this.copies]) input.disabled = gpu;
+  show({ engine, replicate }: Settings): void {
+    for (const input of this.copies) input.disabled = engine === 'gpu';
     if (this.copies.includes(document.activeElement as HTMLInputElement)) return;
     for (const [i, input] of this.copies.entries()) input.value = replicate ? String(replicate[i]) : '';
   }

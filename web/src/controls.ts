@@ -1,7 +1,9 @@
 // The panel's controls for settings. They show the settings, and report the user's changes.
 import { CellControls } from './cell';
 import { element, RadioGroup } from './dom';
-import { EffectControls } from './effects';
+import { LensControls } from './lens';
+import type { Parameter } from './parameter';
+import { ParameterControls } from './parameter_controls';
 import type { Camera, Changes, EngineName, Facts, Move, Settings, SideName, ViewName } from './protocol';
 import { Slider } from './slider';
 
@@ -17,11 +19,10 @@ const limit_of = (value: Settings['max_prims']) => (value === null ? 0 : value =
 export class Controls {
   private readonly engine: RadioGroup;
   private readonly view = element<HTMLSelectElement>('view');
-  private readonly effects: EffectControls;
+  private readonly parameters: ParameterControls;
+  private readonly lens: LensControls;
   private readonly cell: CellControls;
   private readonly projection = element<HTMLSelectElement>('projection');
-  private readonly recursion: Slider;
-  private readonly samples: Slider;
   private readonly max_prims: Slider;
   private readonly max_depth: Slider;
   private shown: Settings | null = null;
@@ -30,9 +31,8 @@ export class Controls {
     const { change } = actions;
     this.engine = new RadioGroup('engine', (value) => this.set_engine(value as EngineName));
     this.view.addEventListener('change', () => this.set_view(this.view.value as ViewName));
-    this.recursion = new Slider('recursion', String, (recursion) => change({ recursion }));
-    this.samples = new Slider('samples', String, (samples_per_pixel) => change({ samples_per_pixel }));
-    this.effects = new EffectControls(change);
+    this.parameters = new ParameterControls(change);
+    this.lens = new LensControls(change);
     this.cell = new CellControls(change);
     this.max_prims = new Slider('max_prims', limit_words, (value) => change({ max_prims: value || null }));
     this.max_depth = new Slider('max_depth', limit_words, (value) => change({ max_depth: value || null }));
@@ -65,6 +65,11 @@ export class Controls {
     this.actions.change(view === 'tree' ? { view, engine: 'cpu' } : { view });
   }
 
+  /** The library's table. */
+  build(parameters: Parameter[]): void {
+    this.parameters.build(parameters);
+  }
+
   /** What the scene has. */
   show_facts(facts: Facts): void {
     this.cell.show_facts(facts);
@@ -75,13 +80,10 @@ export class Controls {
     this.shown = settings;
     this.engine.value = settings.engine;
     this.view.value = settings.view;
-    this.effects.show(settings);
+    this.parameters.show(settings);
+    this.lens.show(settings);
     this.cell.show(settings);
     this.projection.value = settings.camera.projection;
-    this.recursion.value = settings.recursion;
-    this.samples.value = settings.samples_per_pixel;
-    // The GPU engine draws the number of samples everywhere.
-    this.samples.disabled = settings.samples_auto && settings.engine === 'cpu';
     this.max_prims.value = limit_of(settings.max_prims);
     this.max_depth.value = limit_of(settings.max_depth);
   }

@@ -51,7 +51,8 @@ let size = { width: 1, height: 1 };
 
 const engine = new Engine(
   {
-    ready: ({ version, threads, gpu: found }) => {
+    ready: ({ version, threads, gpu: found, parameters }) => {
+      controls.build(parameters);
       program_version = version;
       gpu = found;
       show_gpu();

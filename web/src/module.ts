@@ -11,6 +11,7 @@ export interface Page {
   set_frames_per_second(speed: number): void;
   set_loops(loops: boolean): void;
   continue_playing(now_ms: number): string;
+  choices(): string;
   settings(): string;
   set(changes: string): string;
   look(): string;

@@ -1,5 +1,7 @@
 // The messages between the page and its worker. The worker owns the C++ module and both canvases; the page owns the
 // controls. Numbers and names of settings are those of the C++ library.
+import type { Parameter } from './parameter';
+import type { PictureSettings } from './settings';
 
 export type EngineName = 'cpu' | 'gpu';
 export type ViewName = 'shaded' | 'recursion' | 'traversal' | 'normal' | 'distance' | 'id' | 'tree';
@@ -17,31 +19,13 @@ export interface Camera {
 }
 
 /** As ViewerSettings of the library; a limit of the tree that is null leaves the choice to the engine. */
-export interface Settings {
+export interface Settings extends PictureSettings {
   engine: EngineName;
   view: ViewName;
-  recursion: number;
-  samples_per_pixel: number;
-  shadows: boolean;
   max_prims: number | 'unlimited' | null;
   max_depth: number | 'unlimited' | null;
-  samples_auto: boolean;
-  ao: boolean;
-  ao_distance: number | null; // null: no limit
-  ao_directions: number;
-  light_points: number;
-  opacity_rule: 'each_surface' | 'once';
-  fog: number;
-  outline_px: number;
-  exposure: number;
-  tone: 'none' | 'soft' | 'filmic';
-  legend: boolean;
-  scale_bar: boolean;
-  axes: boolean;
-  title: string;
-  length_unit: string | null; // null: the input's
+  set: (keyof PictureSettings)[]; // what the user has set; the others are the scene's
   focus_on: string;
-  cell: boolean;
   replicate: [number, number, number] | null; // null: the input's copies
   camera: Camera;
 }
@@ -179,7 +163,7 @@ export type Request =
 
 /** From the worker. `serial`: of the last request to set something that is in these settings. */
 export type Answer =
-  | { type: 'ready'; version: string; threads: number; gpu: GpuState }
+  | { type: 'ready'; version: string; threads: number; gpu: GpuState; parameters: Parameter[] }
   | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; coloured_by: ColouredBy[]; notes: string[] }
   | { type: 'failed'; id: number | null; message: string }
   | { type: 'note'; message: string }

@@ -1,6 +1,7 @@
 // The worker: the C++ module, the loop of frames, and the answers to the page.
 import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
 import { GlCanvas } from './gl_canvas';
+import type { Parameter } from './parameter';
 import { PictureRun } from './picture_run';
 import type {
   Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
@@ -418,7 +419,8 @@ async function start(request: Request & { type: 'start' }): Promise<void> {
   cpu_canvas = request.cpu_canvas;
   cpu_context = cpu_canvas.getContext('2d', { alpha: false })!;
   gl = new GlCanvas(module, request.gpu_canvas, { lost: on_lost, restored: on_restored });
-  send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state('') });
+  const { settings: parameters } = JSON.parse(page.choices()) as { settings: Parameter[] };
+  send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state(''), parameters });
 }
 
 let started: Promise<void> | null = null;

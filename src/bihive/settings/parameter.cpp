@@ -1,15 +1,15 @@
 #include "bihive/settings/parameter.h"
 
-#include <array>
-#include <charconv>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace bihive {
 namespace {
 
 std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+  return fmt::format("{}", value);
 }
 
 // The largest float stands for "any finite number".
@@ -29,6 +29,17 @@ bool in_range(const Parameter& p, double value) {
   return (p.above_least ? value > p.least : value >= p.least) && value <= p.most;
 }
 
+// The items of "none|soft|filmic".
+std::vector<std::string> items_of(std::string_view list) {
+  std::vector<std::string> items;
+  for (std::string_view rest = list; !rest.empty();) {
+    const std::size_t bar = std::min(rest.find('|'), rest.size());
+    items.emplace_back(rest.substr(0, bar));
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+  }
+  return items;
+}
+
 }  // namespace
 
 const Parameter* parameter_named(std::string_view id) {
@@ -38,13 +49,20 @@ const Parameter* parameter_named(std::string_view id) {
 }
 
 std::vector<std::string> names_of(const Parameter& parameter) {
-  std::vector<std::string> names;
-  for (std::string_view rest = parameter.names; !rest.empty();) {
-    const std::size_t bar = std::min(rest.find('|'), rest.size());
-    names.emplace_back(rest.substr(0, bar));
-    rest.remove_prefix(std::min(bar + 1, rest.size()));
-  }
-  return names;
+  return items_of(parameter.names);
+}
+
+std::vector<std::string> choice_labels_of(const Parameter& parameter) {
+  return items_of(parameter.choice_labels.empty() ? parameter.names : parameter.choice_labels);
+}
+
+std::vector<const Parameter*> controls_of(ParameterGroup group) {
+  std::vector<const Parameter*> controls;
+  for (const Parameter& parameter : picture_parameters())
+    if (parameter.group == group && parameter.in_window && !parameter.label.empty()) controls.push_back(&parameter);
+  std::stable_sort(controls.begin(), controls.end(),
+                   [](const Parameter* a, const Parameter* b) { return a->place < b->place; });
+  return controls;
 }
 
 std::string expected_by(const Parameter& parameter) {

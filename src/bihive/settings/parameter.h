@@ -24,8 +24,8 @@ enum class ParameterGroup { picture, light, lines, tone, labels, cell };
 /// whole file; or the setting does not work there.
 enum class ParameterRanks { refused, whole, chunks };
 
-/// What a scene must have for a parameter to matter.
-enum class ParameterNeeds { nothing, soft_light, see_through };
+/// What a scene or its camera must have for a parameter to matter.
+enum class ParameterNeeds { nothing, soft_light, see_through, orthographic };
 
 struct Parameter {
   std::string_view id;          ///< "light_points": of Python, C, and the JSON of window and page
@@ -53,9 +53,19 @@ struct Parameter {
   std::string_view help = "";         ///< one sentence, without a full stop
   std::string_view usual = "";        ///< what holds unless it is set, where help should say it: "the style's"
   ParameterGroup group = ParameterGroup::picture;
-  std::string_view label = "";               ///< of its control; "": it has none
+
+  // Its control in window and page.
+  std::string_view label = "";               ///< "": it has none
+  std::string_view long_label = "";          ///< where there is room; "": `label`
+  int place = 0;                             ///< in the group: lower ones come first, equal ones as in the table
+  std::string_view choice_labels = "";       ///< of `names`: "cut off|soft|filmic"; "": the names themselves
+  std::string_view empty_means = "";         ///< shown in a field that is empty: "no limit"
   double slider_least = 0, slider_most = 0;  ///< equal: a field instead of a slider
-  std::string_view slider_format = "";       ///< as of printf
+  double slider_step = 1;
+  std::string_view unit = "";         ///< after the slider's number; "%": of a share
+  std::string_view only_with = "";    ///< a flag without which it changes nothing
+  std::string_view replaced_by = "";  ///< a flag that takes its place
+  std::string_view note = "";         ///< why it is disabled, where engine or camera cannot draw it; a sentence
 
   SettingValue (*get)(const PictureSettings&) = nullptr;
   /// The value must be in range.
@@ -70,6 +80,12 @@ const Parameter* parameter_named(std::string_view id);
 
 /// The names of a choice.
 std::vector<std::string> names_of(const Parameter& parameter);
+
+/// The names of a choice as a control shows them.
+std::vector<std::string> choice_labels_of(const Parameter& parameter);
+
+/// The parameters of a group that have a control, in the order in which they are shown.
+std::vector<const Parameter*> controls_of(ParameterGroup group);
 
 /// "a whole number from 1 to 16", "one of none, soft, filmic".
 std::string expected_by(const Parameter& parameter);

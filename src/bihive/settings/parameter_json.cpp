@@ -222,9 +222,27 @@ std::string overrides_to_json(const Overrides& overrides) {
   return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+namespace {
+
+void describe_control(const Parameter& row, ordered_json& object) {
+  object["label"] = row.label;
+  if (!row.long_label.empty()) object["long_label"] = row.long_label;
+  object["place"] = row.place;
+  if (row.kind == ParameterKind::choice) object["choice_labels"] = choice_labels_of(row);
+  if (!row.empty_means.empty()) object["empty_means"] = row.empty_means;
+  if (row.slider_least != row.slider_most) object["slider"] = {row.slider_least, row.slider_most, row.slider_step};
+  if (!row.unit.empty()) object["unit"] = row.unit;
+  if (!row.only_with.empty()) object["only_with"] = row.only_with;
+  if (!row.replaced_by.empty()) object["replaced_by"] = row.replaced_by;
+  if (!row.note.empty()) object["note"] = row.note;
+}
+
+}  // namespace
+
 ordered_json describe_parameters() {
   static constexpr const char* kKinds[] = {"flag", "whole", "number", "choice", "text", "colour"};
   static constexpr const char* kGroups[] = {"picture", "light", "lines", "tone", "labels", "cell"};
+  static constexpr const char* kNeeds[] = {"", "soft_light", "see_through", "orthographic"};
   ordered_json rows = ordered_json::array();
   for (const Parameter& row : picture_parameters()) {
     ordered_json object;
@@ -246,9 +264,9 @@ ordered_json describe_parameters() {
     object["group"] = kGroups[static_cast<int>(row.group)];
     if (row.in_window) object["in_window"] = true;
     if (row.cpu_only) object["cpu_only"] = true;
-    if (!row.label.empty()) object["label"] = row.label;
-    if (row.slider_least != row.slider_most) object["slider"] = {row.slider_least, row.slider_most};
+    if (row.needs != ParameterNeeds::nothing) object["needs"] = kNeeds[static_cast<int>(row.needs)];
     if (!row.implies.empty()) object["implies"] = row.implies;
+    if (!row.label.empty()) describe_control(row, object);
     object["help"] = row.help;
     if (!row.usual.empty()) object["usual"] = row.usual;
     rows.push_back(std::move(object));

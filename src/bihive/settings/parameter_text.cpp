@@ -1,21 +1,12 @@
 #include "bihive/settings/parameter_text.h"
 
-#include <charconv>
 #include <optional>
 
 #include "bihive/image/colour_text.h"
+#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {
-
-// A number that is the whole text.
-template <class T>
-std::optional<T> whole_text(std::string_view text) {
-  T value{};
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 // "R,G,B".
 std::optional<Vec3d> three_numbers(std::string_view text) {
@@ -23,7 +14,7 @@ std::optional<Vec3d> three_numbers(std::string_view text) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t comma = axis < 2 ? text.find(',') : text.size();
     if (comma == std::string_view::npos) return std::nullopt;
-    const std::optional<double> number = whole_text<double>(text.substr(0, comma));
+    const std::optional<double> number = parse_double(text.substr(0, comma));
     if (!number) return std::nullopt;
     vector[axis] = *number;
     text.remove_prefix(axis < 2 ? comma + 1 : comma);
@@ -38,10 +29,10 @@ std::optional<SettingValue> parsed(const Parameter& parameter, const std::string
       if (text == "true" || text == "false") return text == "true";
       return std::nullopt;
     case ParameterKind::whole:
-      if (const auto number = whole_text<std::int64_t>(text)) return *number;
+      if (const auto number = parse_int(text)) return *number;
       return std::nullopt;
     case ParameterKind::number:
-      if (const auto number = whole_text<double>(text)) return *number;
+      if (const auto number = parse_double(text)) return *number;
       return std::nullopt;
     case ParameterKind::choice: {
       std::int64_t position = 0;

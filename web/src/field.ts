@@ -1,0 +1,33 @@
+// A field for a text or a number.
+import { element } from './dom';
+
+export class Field<T> {
+  private readonly input: HTMLInputElement;
+
+  /** `words`: a value as text; `parse` gives undefined where a text is no value. */
+  constructor(
+    id: string,
+    private readonly words: (value: T) => string,
+    parse: (text: string) => T | undefined,
+    on_change: (value: T) => void,
+  ) {
+    this.input = element<HTMLInputElement>(id);
+    this.input.addEventListener('change', () => {
+      if (!this.input.reportValidity()) return;
+      const value = parse(this.input.value.trim());
+      if (value !== undefined) on_change(value);
+    });
+  }
+
+  /** What the user is writing stays. */
+  set value(value: T) {
+    if (document.activeElement !== this.input) this.input.value = this.words(value);
+  }
+
+  set disabled(disabled: boolean) {
+    this.input.disabled = disabled;
+  }
+}
+
+/** With six digits. */
+export const readable = (value: number) => String(+value.toPrecision(6));
