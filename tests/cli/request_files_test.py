@@ -22,8 +22,8 @@ OUTPUTS = {
 NO_OUTPUT = {"stats", "info", "select", "web", "scene", "styles"}
 # Read before the run writes its own results over them, as its page says.
 READ_BEFORE = {("thesis", "--against")}
-# `bihive view` takes the names of looks and colours alone.
-REFUSED = {("view", "--style"), ("view", "--element-colours")}
+# `bihive view` takes the names of looks and colours alone; `bihive thesis --page` is an output, and the only one.
+REFUSED = {("view", "--style"), ("view", "--element-colours"), ("thesis", "--page")}
 
 
 class RequestFilesTest(ProgramTest):

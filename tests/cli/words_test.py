@@ -58,7 +58,7 @@ class ManualPages(Words):
         self.assertIn("\n.TP\n--view shaded|recursion", self.shown("render"))
         self.assertIn("Degrees: the camera goes AZ to the right and EL up around what it looks at;", self.shown("film"))
         self.assertIn("\nbihive render INPUT [TRAJECTORY] -o FILE [OPTION]...\n", self.shown("render"))
-        self.assertIn("\nbihive thesis [EXPERIMENT]... --out DIR [OPTION]...\n", self.shown("thesis"))
+        self.assertIn("\nbihive thesis [EXPERIMENT]... [OPTION]...\n", self.shown("thesis"))
 
     @need("groff")
     def test_groff_has_nothing_to_say(self):

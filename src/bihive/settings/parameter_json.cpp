@@ -267,6 +267,8 @@ ordered_json describe_parameters() {
     if (row.needs != ParameterNeeds::nothing) object["needs"] = kNeeds[static_cast<int>(row.needs)];
     if (!row.implies.empty()) object["implies"] = row.implies;
     if (!row.label.empty()) describe_control(row, object);
+    static constexpr const char* kRanks[] = {"refused", "whole", "chunks"};
+    object["ranks"] = kRanks[static_cast<int>(row.ranks)];
     object["help"] = row.help;
     if (!row.usual.empty()) object["usual"] = row.usual;
     rows.push_back(std::move(object));
