@@ -114,7 +114,8 @@ BIHIVE_API int bihive_scene_view_from(bihive_scene* scene, const char* side);
 
 /* Sets a parameter of the pictures by the name that Python gives it, to a value as text: "ao_distance" to "2.5",
  * "shadows" to "false", "tone" to "filmic", "outline_colour" to "#404040". docs/settings.md lists all. `value` NULL:
- * the scene's own again. Failures: an unknown name, a value out of range; the message says what was expected. */
+ * the scene's own again. The size is an argument of bihive_render(). Failures: an unknown name, a value out of range;
+ * the message says what was expected. */
 BIHIVE_API int bihive_scene_set(bihive_scene* scene, const char* name, const char* value);
 
 /* Draws the picture of `bihive render`: width * height * 4 bytes to `rgba`, row by row from the top; red, green and

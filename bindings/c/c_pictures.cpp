@@ -166,6 +166,8 @@ int bihive_scene_set(bihive_scene* scene, const char* name, const char* value) {
       return fail(Error{"there is no parameter \"" + std::string(name) + "\"", "", 0, 0,
                         near.empty() ? "docs/settings.md lists them" : "did you mean " + near + "?"});
     }
+    if (parameter->id == "width_px" || parameter->id == "height_px")
+      return fail("width and height are arguments of bihive_render()");
     const std::lock_guard<std::mutex> lock(scene->in_use);
     if (value == nullptr) {
       scene->user.reset(parameter->id);
@@ -185,6 +187,8 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     PictureSettings picture = scene->loaded.scene.picture;
     scene->user.apply_to(picture);
     if (picture.fog && !(picture.fog->start < picture.fog->end)) return fail("fog_start must be below fog_end");
+    if (scene->user.is_on("cell") && !scene->loaded.scene.spheres.cell())
+      return fail("cell: the spheres have no periodic cell");
     place_camera_and_lights(*scene, picture, width, height);
     const Scene& drawn = scene->loaded.scene;
     RenderSettings settings = settings_from(picture);

@@ -210,6 +210,11 @@ static void test_pictures(void) {
   EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
   EXPECT(memcmp(one, other, sizeof one) == 0);
   EXPECT_ERROR(bihive_scene_set(scene, "ligth_points", "3"), "did you mean light_points");
+  EXPECT_ERROR(bihive_scene_set(scene, "width_px", "20"), "arguments of bihive_render");
+  EXPECT_ERROR(bihive_scene_set(scene, "outline_colour", "reddish"), "the name of a colour");
+  EXPECT(bihive_scene_set(scene, "cell", "true") == 0);
+  EXPECT_ERROR(bihive_render(scene, kWidth, kHeight, 1, 0, other), "no periodic cell");
+  EXPECT(bihive_scene_set(scene, "cell", NULL) == 0);
   EXPECT_ERROR(bihive_scene_set(scene, "light_points", "0"), "a whole number from 1 to 1024");
   EXPECT_ERROR(bihive_scene_set(scene, "fog", NULL) || bihive_scene_set(NULL, "fog", "1"), "NULL");
   EXPECT_ERROR(bihive_render(scene, 0, 10, 1, 0, other), "65535");

@@ -172,6 +172,21 @@ TEST(Overrides, a_part_switches_on_what_it_belongs_to) {
   EXPECT_EQ(layers.value(*parameter_named("ao_distance")), SettingValue(3.0));
 }
 
+TEST(Overrides, a_number_of_samples_takes_the_place_of_adaptive_ones) {
+  LayeredSettings layers;
+  layers.below.adaptive_samples = true;
+  layers.user.set("samples_per_pixel", 9);
+  EXPECT_FALSE(layers.result().adaptive_samples);
+  EXPECT_EQ(layers.result().samples_per_pixel, 9);
+  layers.user.set("samples_auto", true);
+  EXPECT_TRUE(layers.result().adaptive_samples);
+}
+
+TEST(Overrides, a_text_that_is_no_colour_is_no_value) {
+  EXPECT_FALSE(fits(*parameter_named("outline_colour"), std::string("reddish")));
+  EXPECT_TRUE(fits(*parameter_named("outline_colour"), std::string("red")));
+}
+
 TEST(Overrides, colours_as_text_count_under_the_transfer) {
   for (const bool srgb : {true, false}) {
     Overrides chosen;

@@ -1,8 +1,8 @@
 // The parameters of a picture, written by scripts/settings_tables from the table in src/bihive/settings/.
 
 export interface PictureSettings {
-  samples_per_pixel: number;
   samples_auto: boolean;
+  samples_per_pixel: number;
   recursion: number;
   shadows: boolean;
   ao: boolean;

@@ -59,7 +59,7 @@ void Overrides::apply_to(PictureSettings& settings) const {
     const auto& [parameter, value] = *entry;
     const auto* const text = std::get_if<std::string>(&value);
     if (parameter->kind == ParameterKind::colour && text != nullptr)
-      parameter->set(settings, colour_from_text(*text, settings.transfer).value_or(Vec3d()));
+      parameter->set(settings, *colour_from_text(*text, settings.transfer));
     else
       parameter->set(settings, value);
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/image/colour_text.h"
+
 namespace bihive {
 namespace {
 
@@ -110,7 +112,8 @@ bool fits(const Parameter& parameter, const SettingValue& value) {
     case ParameterKind::colour:
       break;
   }
-  if (std::holds_alternative<std::string>(value)) return true;
+  if (const auto* const text = std::get_if<std::string>(&value))
+    return colour_from_text(*text, Transfer::none).has_value();
   const auto* const colour = std::get_if<Vec3d>(&value);
   if (colour == nullptr) return false;
   for (int axis = 0; axis < 3; ++axis)

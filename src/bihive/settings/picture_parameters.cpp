@@ -92,6 +92,16 @@ constexpr Parameter strength(Parameter parameter) {
   return parameter;
 }
 
+// A number of samples takes the place of adaptive ones, unless these are set too.
+constexpr Parameter fixed_samples(Parameter parameter) {
+  parameter = row<&P::samples_per_pixel>(parameter);
+  parameter.set = [](P& s, const SettingValue& value) {
+    put(value, s.samples_per_pixel);
+    s.adaptive_samples = false;
+  };
+  return parameter;
+}
+
 constexpr double kLargest = 3.4028234663852886e38;
 
 // --- The rows -----------------------------------------------------------------------------------------------------
@@ -104,13 +114,14 @@ constexpr std::array kRows{
     row<&P::height_px>({.id = "height_px", .kind = whole, .least = 1, .most = kMostSidePx, .path = "height_px",
         .report = "height_px", .version = 1, .ranks = ParameterRanks::chunks,
         .has_option = false, .in_window = false, .help = "Height in pixels"}),
-    row<&P::samples_per_pixel>({.id = "samples_per_pixel", .kind = whole, .least = 1, .most = kMostSamplesPerPixel,
-        .ranks = ParameterRanks::chunks, .has_option = false, .help = "Samples per pixel; 1: the pixel's centre",
-        .label = "samples", .slider_least = 1, .slider_most = 64, .replaced_by = "samples_auto"}),
     row<&P::adaptive_samples>({.id = "samples_auto", .ranks = ParameterRanks::chunks,
         .has_option = false, .cpu_only = true,
-        .help = "4 samples per pixel, and 16 on edges", .label = "more on edges", .long_label = "more samples on edges",
+        .help = "4 samples per pixel, and 16 on edges", .label = "more on edges",
+        .long_label = "more samples on edges", .place = 1,
         .note = "The CPU engine alone draws more samples on edges"}),
+    fixed_samples({.id = "samples_per_pixel", .kind = whole, .least = 1, .most = kMostSamplesPerPixel,
+        .ranks = ParameterRanks::chunks, .has_option = false, .help = "Samples per pixel; 1: the pixel's centre",
+        .label = "samples", .slider_least = 1, .slider_most = 64, .replaced_by = "samples_auto"}),
     row<&P::recursion>({.id = "recursion", .kind = whole, .least = 1, .most = kMostGenerations, .path = "recursion",
         .report = "recursion", .version = 1, .ranks = ParameterRanks::chunks,
         .help = "Generations of rays; 1: primary rays only", .usual = "5",
