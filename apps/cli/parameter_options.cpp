@@ -38,7 +38,7 @@ void add_parameters(CLI::App& app, ParameterGroup group, Overrides& chosen, bool
   for (const Parameter& parameter : picture_parameters())
     if (parameter.group == group && parameter.has_option && (parameter.in_window || !of_window))
       add_parameter(app, parameter, chosen);
-  // What implies a switch contradicts its opposite.
+  // An option that implies a switch excludes the one that turns it off.
   for (const Parameter& parameter : picture_parameters()) {
     const Parameter* const implied = parameter.implies.empty() ? nullptr : parameter_named(parameter.implies);
     if (parameter.group != group || implied == nullptr || !implied->has_no_option) continue;

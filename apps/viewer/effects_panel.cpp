@@ -124,7 +124,7 @@ bool is_beyond(const Parameter& parameter, const ViewerSettings& settings) {
          (parameter.needs == ParameterNeeds::orthographic && settings.camera.projection == Projection::perspective);
 }
 
-// Whether a change of it would change nothing. What the camera cannot draw can be switched off.
+// Whether changing it has no effect. A setting that the camera cannot draw can still be switched off.
 bool is_off(const Parameter& parameter, const ViewerSettings& settings) {
   const PictureSettings now = settings.picture.result();
   if (!parameter.implies.empty() && !is_on(parameter.implies, now)) return true;

@@ -35,7 +35,7 @@ class ThesisRun {
   /// (once it is finished: the last round of all configurations)}.
   std::string step();
   /// The results so far, of complete passes alone: {"result": JSON text, "charts": [SVG text]}; of a complete run also
-  /// what the steps of a ray cost here, which takes a second or two. `device`: a JSON object with "device", words, and
+  /// the fitted costs of a ray's steps, which takes a second or two. `device`: a JSON object with "device", words, and
   /// other texts by name.
   std::string so_far(const std::string& device) const;
 

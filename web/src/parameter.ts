@@ -37,7 +37,7 @@ export function is_beyond({ cpu_only, needs }: Parameter, { engine, camera }: Se
   return (cpu_only && engine === 'gpu') || (needs === 'orthographic' && camera.projection === 'perspective');
 }
 
-/** Whether a change of it would change nothing. What the camera cannot draw can be switched off. */
+/** Whether changing it has no effect. A setting that the camera cannot draw can still be switched off. */
 export function is_off(row: Parameter, rows: Parameter[], settings: Settings): boolean {
   const { implies, only_with, replaced_by } = row;
   if ((implies && !settings[implies]) || (only_with && !settings[only_with])) return true;

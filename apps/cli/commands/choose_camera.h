@@ -12,7 +12,7 @@
 
 namespace bihive::cli {
 
-/// What a picture asks of all its spheres, for a process that has a chunk of them (commands/render_spread.cpp).
+/// Facts about the whole set that a picture needs, for a process that holds a chunk of it (commands/render_spread.cpp).
 struct WholeSet {
   std::int64_t count = 0;
   SphereSet::Bounds bounds;  ///< of what clips leave

@@ -35,7 +35,7 @@ struct StyleOptions {
   std::vector<std::string> light_words{};  ///< the same as they were given
 };
 
-/// Of labels: what is no parameter of a picture.
+/// Options of labels that are not parameters of a picture.
 struct LabelOptions {
   bool none = false;              ///< leave out those of the scene and its style
   std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none

@@ -185,7 +185,8 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   const ReportedScene reported{has_soft_light(scene), lets_light_through(scene)};
   json.update(*json_from_text<ordered_json>(picture_report(settings, reported)));
   if (settings.crop) json["crop"] = {settings.crop->x0, settings.crop->y0, settings.crop->x1, settings.crop->y1};
-  if (layers.empty()) json["transfer"] = scene.picture.transfer == Transfer::srgb ? "srgb" : "none";
+  if (layers.empty())
+    json["transfer"] = names_of(*parameter_named("transfer"))[static_cast<std::size_t>(scene.picture.transfer)];
   json["background"] = vector(scene.background);
   if (settings.transparent) json["transparent"] = true;
   if (options.bits) json["bits"] = *options.bits;

@@ -13,7 +13,7 @@ namespace bihive::cli {
 /// Hides all but the common options of a command with many, and says where the others are.
 void shorten_help(CLI::App& command);
 
-/// What to do about words that a command does not take: the near option, if there is one, then `otherwise`.
+/// Advice on arguments that a command does not take: the nearest option, if one is near, then `otherwise`.
 std::string advice_on(const CLI::App* command, const std::vector<std::string>& unknown, const std::string& otherwise);
 
 }  // namespace bihive::cli

@@ -13,7 +13,7 @@ from . import _bihive
 from ._checks import boolean, path_of, several, whole_text
 from ._errors import bad_argument, found
 
-# What has another form here than on the command line.
+# Options whose form differs from that of the command line.
 _ELSEWHERE = {"help", "help-all", "output", "layers", "film", "picture", "json", "select", "hide", "show", "light"}
 # The options of a picture: their names, and the names of their values.
 _OPTIONS = {name: value for name, value in _bihive.options() if name not in _ELSEWHERE}

@@ -11,7 +11,7 @@ struct Labels {
   bool scale_bar = false;  ///< a round length of the world; for orthographic pictures
   bool axes = false;       ///< the directions of x, y and z
   std::string title = "";  ///< UTF-8; empty: none
-  /// The unit of lengths, behind the scale bar's number. Unset: the input's (Scene::length_unit). Empty: none.
+  /// The unit of lengths, after the scale bar's number. Unset: the input's (Scene::length_unit). Empty: none.
   std::optional<std::string> length_unit = std::nullopt;
 
   bool any() const { return legend || scale_bar || axes || !title.empty(); }
