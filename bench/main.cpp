@@ -17,6 +17,7 @@ namespace {
 
 int run(int argc, const char* const* argv) {
   try {
+    cli::name_settings_as_options();
     const ParsedOptions parsed = parse_options(argc, argv);
     if (parsed.text) {
       cli::print(*parsed.text);

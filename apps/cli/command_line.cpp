@@ -274,6 +274,15 @@ void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object instead of text");
 }
 
+// The error of the parser, which begins with the option to blame: "--radius: expected a number, found ...".
+void fail_with_option(const std::string& what, const std::string& advice) {
+  const std::size_t end = what.starts_with("--") ? what.find_first_of(": ") : 0;
+  if (end == 0 || end == std::string::npos) return;
+  std::string id = what.substr(2, end - 2);
+  std::replace(id.begin(), id.end(), '-', '_');
+  fail_setting(id, what.substr(end), advice);
+}
+
 // A sub-command whose help ends in two examples. A call of it sets `request` to `options`.
 template <class Options>
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help, const std::string& first_example,
@@ -674,7 +683,9 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
       fail_usage(what + ": here, and in the film's options", "leave it out here");
     const CLI::App* const called = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
     const std::vector<std::string> unknown = called != nullptr ? called->remaining() : std::vector<std::string>();
-    fail_usage(what, advice_on(called, unknown, "see " + command + " --help"));
+    const std::string advice = advice_on(called, unknown, "see " + command + " --help");
+    fail_with_option(what, advice);
+    fail_usage(what, advice);
   }
   if (std::holds_alternative<HelpText>(request)) return HelpText{app.help(), false};
   return request;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/base/write_file.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/look_text.h"
@@ -21,7 +22,7 @@ void recolour(LoadedScene& input, const std::string& choice) {
   std::optional<ElementColours> colours = element_colours_called(choice);
   if (!colours) colours = value_or_fail(read_element_colours(value_or_fail(read_file(choice)), choice));
   if (const Status status = recolour_elements(input.scene, *colours); !status)
-    fail_usage("--element-colours: " + status.error().message, "leave it out");
+    fail_setting("element_colours", ": " + status.error().message, "leave it out");
 }
 
 std::size_t colourings_of(const std::vector<Look>& looks) {
@@ -31,18 +32,25 @@ std::size_t colourings_of(const std::vector<Look>& looks) {
   return count;
 }
 
+// "radius-scale" as "radius_scale".
+std::string id_of(std::string name) {
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 }  // namespace
 
-void LookOptions::add(LookAction action, const std::string& option) {
+void LookOptions::add(LookAction action, const std::string& name) {
+  const std::string setting = id_of(name);
   if (!has_current_) {
     has_current_ = true;
     current_ = looks.size();
     looks.emplace_back();
-    of_look.push_back(option);
+    of_look.push_back(setting);
   }
   looks[current_].actions.push_back(std::move(action));
   of_actions.resize(looks.size());
-  of_actions[current_].push_back(option);
+  of_actions[current_].push_back(setting);
 }
 
 void LookOptions::add_row(const std::string& action, const std::string& value) {
@@ -50,26 +58,26 @@ void LookOptions::add_row(const std::string& action, const std::string& value) {
 }
 
 void LookOptions::select(const std::string& text) {
-  if (const Status status = check_selection(text); !status) fail_selection("--select", text, status.error());
+  if (const Status status = check_selection(text); !status) fail_selection("select", text, status.error());
   selected = true;
   has_current_ = true;
   current_ = looks.size();
   looks.push_back({text, {}});
-  of_look.emplace_back("--select");
+  of_look.emplace_back("select");
   words.push_back("--select " + text);
 }
 
 void LookOptions::show(bool shown) {
-  const std::string option = shown ? "--show" : "--hide";
-  add(SetShown{shown}, option);
-  add_row(shown ? "show" : "hide", "");
-  words.push_back(option);
+  const std::string name = shown ? "show" : "hide";
+  add(SetShown{shown}, name);
+  add_row(name, "");
+  words.push_back("--" + name);
 }
 
 Status LookOptions::act(const std::string& name, const std::string& text) {
   Result<LookAction> action = look_action_from_text(name, text);
   if (!action) return action.error();
-  add(std::move(*action), "--" + name);
+  add(std::move(*action), name);
   add_row(name, text);
   words.push_back("--" + name + " " + text);
   return Done{};
@@ -84,7 +92,7 @@ Status LookOptions::set_nan_colour(const std::string& text) {
 
 void LookOptions::hide_word(const std::string& option, const std::string& word) {
   looks.push_back({word, {SetShown{false}}});
-  of_look.push_back(option);
+  of_look.push_back(id_of(option.substr(2)));
   rows.push_back({word, "hide", ""});
   words.push_back(option);
   if (!has_current_) return;
@@ -124,12 +132,12 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
     }
     const bool is_of_action =
         failed - own < options.of_actions.size() && failed_action < options.of_actions[failed - own].size();
-    if (is_of_action) fail_usage(options.of_actions[failed - own][failed_action] + ": " + error.message, error.hint);
+    if (is_of_action) fail_setting(options.of_actions[failed - own][failed_action], ": " + error.message, error.hint);
     fail_selection(options.of_look[failed - own], looks[failed].select, error);
   }
   for (std::size_t i = own; i < looks.size(); ++i)
-    if ((*counts)[i] == 0 && options.of_look[i - own] == "--select" && !looks[i].actions.empty())
-      warn("--select \"" + looks[i].select + "\" selects no sphere");
+    if ((*counts)[i] == 0 && options.of_look[i - own] == "select" && !looks[i].actions.empty())
+      warn(setting_name("select") + " \"" + looks[i].select + "\" selects no sphere");
 }
 
 std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOptions& options) {

@@ -17,7 +17,7 @@ namespace bihive::cli {
 /// all spheres. An error says what was expected.
 struct LookOptions {
   std::vector<Look> looks;
-  std::vector<std::string> of_look;                  ///< for messages: the option that begins each look
+  std::vector<std::string> of_look;                  ///< for messages: the id of the option that begins each look
   std::vector<std::vector<std::string>> of_actions;  ///< and those of its actions
   std::vector<std::string> words;                    ///< the options as they were given, one each
   std::vector<LookRow> rows;                         ///< the same for the window: an action each, as text
@@ -35,7 +35,7 @@ struct LookOptions {
   void hide_word(const std::string& option, const std::string& word);
 
  private:
-  void add(LookAction action, const std::string& option);
+  void add(LookAction action, const std::string& name);
   void add_row(const std::string& action, const std::string& value);
   std::size_t current_ = 0;  // the look that takes actions, if there is any
   bool has_current_ = false;

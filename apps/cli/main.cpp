@@ -90,6 +90,7 @@ int run(int argc, const char* const* argv) {
   try {
     fill_closed_streams();
     handle_signals();
+    name_settings_as_options();
     if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
     const Request request = parse_command_line(argc, argv, describe);
     keep_within_control_group(request);

@@ -126,6 +126,7 @@ struct Said {
 Said run(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
   try {
     cli::handle_signals();
+    cli::name_settings_as_options();
     agree_on_arguments(ranks, arguments);
     if (const Status status = check_target_environment(); !status) throw cli::Failure{cli::kBadUsage, status.error()};
     // The program's own option is none of bihive's.

@@ -299,6 +299,7 @@ __attribute__((section(".preinit_array"), used)) void (*const kFirst)() = prepar
 int run(int argc, const char* const* argv) {
   try {
     cli::handle_signals();
+    cli::name_settings_as_options();
     if (const Status status = check_target_environment(); !status) throw cli::Failure{cli::kBadUsage, status.error()};
     const cli::Request request = cli::parse_command_line(argc, argv);
     const auto* const options = std::get_if<ThesisOptions>(&request);

@@ -9,6 +9,7 @@
 #include "../shared/last_line.h"
 #include "app.h"
 #include "bihive/base/readable.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/write_file.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/viewer/load_file.h"
@@ -57,6 +58,7 @@ Status choose(Viewer& viewer, const Request& request) {
 }
 
 int run(int argc, char** argv) {
+  name_settings_by(&option_of_setting);
   if (argc != 2) return fail({"this program is started by `bihive view`", "", 0, 0, ""}, kBadUsage);
   const Result<Request> request = request_from_json(argv[1]);
   if (!request) return fail(request.error(), kBadUsage);

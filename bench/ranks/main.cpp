@@ -288,6 +288,7 @@ void run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   try {
+    bihive::cli::name_settings_as_options();
     bihive::bench::run(argc, argv);
   } catch (const bihive::cli::Failure& failure) {
     bihive::cli::say_error(failure.error.to_string());

@@ -11,6 +11,7 @@
 
 #include "answers.h"
 #include "bihive/base/json_text.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/colour_maps.h"
 #include "bihive/scene/look_text.h"
@@ -287,6 +288,7 @@ std::string Page::take_picture() {
 }  // namespace bihive::page
 
 EMSCRIPTEN_BINDINGS(page) {
+  bihive::name_settings_by(&bihive::page::control_name);
   using bihive::page::Page;
   emscripten::class_<Page>("Page")
       .constructor<>()

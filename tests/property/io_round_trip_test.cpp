@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/formats.h"
 #include "bihive/io/npy.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/math/rng.h"
 
 namespace bihive {

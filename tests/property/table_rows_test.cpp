@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/packed/random_file.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/plain_number.h"
 #include "bihive/io/text/sphere_table.h"
 

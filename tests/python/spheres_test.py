@@ -181,7 +181,7 @@ class Attributes(unittest.TestCase):
         s = bh.Spheres(np.zeros((2, 3)), 1)
         with self.assertRaises(bh.UsageError) as caught:
             bh.select(s, "x > 1 and and")
-        self.assertEqual(caught.exception.argument, "")
+        self.assertEqual(caught.exception.argument, "expression")
         self.assertRegex(str(caught.exception), r"\Aexpression: column 11: [^\n]+\n  x > 1 and and\n {12}\^\Z")
 
     def test_copies_and_pickles(self):

@@ -79,8 +79,8 @@ TEST(ChosenColumns, Faults) {
   EXPECT_THAT(fault_of(csv, "a.csv", {{"r", "z"}, {"q", "3"}}), HasSubstr("is asked for as q and as r"));
   EXPECT_THAT(fault_of(csv, "a.csv", {{"r", "z"}}), HasSubstr("there is no z"));
   EXPECT_THAT(fault_of(csv, "a.csv", {{"r", "4"}, {"diameter", "5"}}), HasSubstr("one column for the radius"));
-  EXPECT_THAT(fault_of("px,py,pz\n1,2,3\n", "a.csv", {}), HasSubstr("--columns x=NAME"));
-  EXPECT_THAT(fault_of("1 2 3 4 5\n", "a.txt", {}), HasSubstr("--columns x=1"));
+  EXPECT_THAT(fault_of("px,py,pz\n1,2,3\n", "a.csv", {}), HasSubstr("columns x=NAME"));
+  EXPECT_THAT(fault_of("1 2 3 4 5\n", "a.txt", {}), HasSubstr("columns x=1"));
   EXPECT_THAT(fault_of("ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 20.25           N\n", "a.pdb",
                        {{"r", "x"}}),
               HasSubstr("the columns of this format cannot be chosen"));
@@ -120,7 +120,7 @@ TEST(ChosenColumns, Npy) {
   ASSERT_TRUE(file.ok()) << file.error().to_string();
   EXPECT_EQ(file->spheres.centre(1), (Vec3d{4, 5, 6}));
   EXPECT_EQ(file->spheres.radius(1), 0.25);
-  EXPECT_THAT(fault_of(npy, "a.npy", {}), HasSubstr("--columns"));
+  EXPECT_THAT(fault_of(npy, "a.npy", {}), HasSubstr("columns x="));
   EXPECT_THAT(fault_of(npy, "a.npy", {{"x", "6"}}), HasSubstr("there is no column '6'"));
 }
 

@@ -37,7 +37,7 @@ TEST(LammpsDump, HalvesADiameterAndGuessesARadius) {
   const SphereFile bare = read_text(frame("type x y z", "3 0 0 0\n3 0 0 6\n", 2), "d");
   EXPECT_EQ(bare.spheres.radius(0), 3);
   ASSERT_EQ(bare.warnings.size(), 1u);
-  EXPECT_NE(bare.warnings[0].find("--radius"), std::string::npos);
+  EXPECT_NE(bare.warnings[0].find("radius sets another"), std::string::npos);
 }
 
 TEST(LammpsDump, BringsScaledCoordinatesIntoAnOrthogonalBox) {
@@ -80,7 +80,7 @@ TEST(LammpsDump, TakesTheFrameAskedForAndOtherSections) {
   EXPECT_EQ(read_text(text, "d", at_frame(1)).spheres.centre(1), (Vec3d{3, 0, 0}));
   EXPECT_EQ(error_of(text, "d", at_frame(2)), "d: there are no spheres in it (read as LAMMPS dump)");
   EXPECT_EQ(error_of(text, "d", at_frame(3)),
-            "d: there is no frame 3: the file has 3 (0 to 2); choose one with --frame, counting from 0");
+            "d: there is no frame 3: the file has 3 (0 to 2); choose one with frame, counting from 0");
 }
 
 TEST(LammpsDump, NamesTheLineWhereItIsCut) {

@@ -86,7 +86,7 @@ TEST(Mmcif, TakesTheModelAskedFor) {
   EXPECT_EQ(xs(read_text(text, "a.cif")), (Xs{1, 4}));
   EXPECT_EQ(xs(read_text(text, "a.cif", at_frame(1))), (Xs{2, 3}));
   EXPECT_EQ(error_of(text, "a.cif", at_frame(2)),
-            "a.cif: there is no frame 2: the file has 2 (0 to 1); choose one with --frame, counting from 0");
+            "a.cif: there is no frame 2: the file has 2 (0 to 1); choose one with frame, counting from 0");
 }
 
 TEST(Mmcif, TakesASingleAtomOutsideALoopAndTheFirstBlockWithAtoms) {

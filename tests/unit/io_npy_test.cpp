@@ -182,13 +182,13 @@ TEST(NpySpheres, TakeThreeOrFourColumns) {
   const SphereFile three = read_text(npy_bytes(std::vector<double>{1, 2, 3, 1, 2, 5}, {2, 3}), "named_anything");
   EXPECT_EQ(three.spheres.radius(0), 1);
   ASSERT_EQ(three.warnings.size(), 1u);
-  EXPECT_NE(three.warnings[0].find("--radius"), std::string::npos);
+  EXPECT_NE(three.warnings[0].find("radius sets another"), std::string::npos);
 }
 
 TEST(NpySpheres, NameAWrongShapeAndAWrongNumber) {
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>(10), {2, 5}), "a.npy"),
             "a.npy: the NPY array's shape is (2, 5); expected (n, 3) for x, y, z or (n, 4) for x, y, z, radius; say "
-            "which columns these are: --columns x=1,y=2,z=3");
+            "which columns these are: columns x=1,y=2,z=3");
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>(4), {4}), "a.npy"),
             "a.npy: the NPY array's shape is (4,); expected (n, 3) for x, y, z or (n, 4) for x, y, z, radius");
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>{}, {0, 3}), "a.npy"),
@@ -199,7 +199,7 @@ TEST(NpySpheres, NameAWrongShapeAndAWrongNumber) {
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>{0, 0, 0, -1}, {1, 4}), "a.npy"),
             "a.npy: row 0 (from 0): the radius is negative: -1.000000");
   EXPECT_EQ(error_of(npy_bytes(std::vector<float>(3), {1, 3}), "a.npy", test::at_frame(1)),
-            "a.npy: there is no frame 1: the file has one only (0); choose one with --frame, counting from 0");
+            "a.npy: there is no frame 1: the file has one only (0); choose one with frame, counting from 0");
 }
 
 }  // namespace

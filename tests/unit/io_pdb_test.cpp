@@ -338,8 +338,8 @@ TEST(Pdb, TakesElementsInAnyCaseAndGuessesTheRadiusOfUnknownOnes) {
   EXPECT_EQ(file.spheres.radius(1), 0.5);
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_EQ(file.warnings[0],
-            "1 sphere has neither element nor radius; each gets radius 0.5, as all centres are at one place; --radius "
-            "R sets another");
+            "1 sphere has neither element nor radius; each gets radius 0.5, as all centres are at one place; radius "
+            "sets another");
 }
 
 TEST(Pdb, TakesTheModelAskedFor) {
@@ -355,7 +355,7 @@ TEST(Pdb, TakesTheModelAskedFor) {
   EXPECT_EQ(xs(read_text(models, "a.pdb", at_frame(1))), (Xs{3}));
   EXPECT_EQ(xs(read_text(models, "a.pdb", at_frame(2))), (Xs{4}));
   EXPECT_EQ(error_of(models, "a.pdb", at_frame(3)),
-            "a.pdb: there is no frame 3: the file has 3 (0 to 2); choose one with --frame, counting from 0");
+            "a.pdb: there is no frame 3: the file has 3 (0 to 2); choose one with frame, counting from 0");
   const std::string ends = atom(1) + "END\n" + atom(2) + "ENDMDL\n" + atom(3) + "ENDMDL\n";
   EXPECT_EQ(xs(read_text(ends, "a.pdb", at_frame(2))), (Xs{3}));
 }

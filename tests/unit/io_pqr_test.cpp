@@ -68,7 +68,7 @@ TEST(Pqr, TakesTheModelAskedFor) {
   EXPECT_EQ(read_text(two, "a.pqr").frames, 2);
   EXPECT_EQ(read_text(two, "a.pqr", at_frame(1)).spheres.centre(0), (Vec3d{7, 8, 9}));
   EXPECT_EQ(error_of(two, "a.pqr", at_frame(2)),
-            "a.pqr: there is no frame 2: the file has 2 (0 to 1); choose one with --frame, counting from 0");
+            "a.pqr: there is no frame 2: the file has 2 (0 to 1); choose one with frame, counting from 0");
   EXPECT_EQ(error_of("REMARK\n", "a.pqr"), "a.pqr: there is no ATOM or HETATM record in it");
 }
 

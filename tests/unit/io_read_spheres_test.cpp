@@ -105,7 +105,7 @@ TEST(ReadSpheres, AppliesRadiusThenScale) {
 TEST(ReadSpheres, SaysWhatItAssumedUnlessToldOtherwise) {
   EXPECT_EQ(read_text("1 2 3\n", "a").warnings,
             (std::vector<std::string>{
-                "no radii; each sphere gets radius 0.5, as all centres are at one place; --radius R sets another"}));
+                "no radii; each sphere gets radius 0.5, as all centres are at one place; radius sets another"}));
   ReadOptions options;
   options.radius = 0.5;
   EXPECT_TRUE(read_text("1 2 3\n", "a", options).warnings.empty());
@@ -116,14 +116,14 @@ TEST(ReadSpheres, RefusesRadiiThatAreNone) {
   ReadOptions options;
   options.radius = -1;
   EXPECT_EQ(error_of("1 2 3\n", "a", options),
-            "a: the radius that replaces all others is negative: -1; give --radius a number from 0");
+            "a: the radius that replaces all others is negative: -1; give radius a number from 0");
   options.radius = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error_of("1 2 3\n", "a", options),
-            "a: the radius that replaces all others is not finite: nan; give --radius a number from 0");
+            "a: the radius that replaces all others is not finite: nan; give radius a number from 0");
   options.radius.reset();
   options.radius_scale = -2;
   EXPECT_EQ(error_of("1 2 3\n", "a", options),
-            "a: the factor for radii is negative: -2; give --radius-scale a number from 0");
+            "a: the factor for radii is negative: -2; give radius_scale a number from 0");
   options.radius_scale = 1e30;
   EXPECT_EQ(error_of("1 2 3 1e30\n", "a", options).substr(0, 3), "a: ");
 }
@@ -135,7 +135,7 @@ TEST(ReadSpheres, RecentersInDoubleAndOffersIt) {
   const SphereFile as_is = read_text(far, "a");
   ASSERT_EQ(as_is.warnings.size(), 1u);
   EXPECT_NE(as_is.warnings[0].find("moves 3 of 3 centres by more than 1 % of the radius"), std::string::npos);
-  EXPECT_NE(as_is.warnings[0].find("--recenter"), std::string::npos);
+  EXPECT_NE(as_is.warnings[0].find("recenter"), std::string::npos);
   EXPECT_EQ(as_is.recentred_by, (Vec3d{}));
 
   ReadOptions options;
@@ -149,7 +149,7 @@ TEST(ReadSpheres, RecentersInDoubleAndOffersIt) {
   // If the extent itself is too large, the message does not suggest the same option again.
   const SphereFile wide = read_text("-1000000.01 0 0 1e-3\n1000000.02 0 0 1e-3\n5 0 0 1e-3\n", "a", options);
   ASSERT_EQ(wide.warnings.size(), 1u);
-  EXPECT_EQ(wide.warnings[0].find("--recenter"), std::string::npos);
+  EXPECT_EQ(wide.warnings[0].find("recenter"), std::string::npos);
 }
 
 TEST(ReadSpheres, KeepsQuietWhereRoundingDoesNoHarm) {

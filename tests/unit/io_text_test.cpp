@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

@@ -67,7 +67,7 @@ TEST(UnknownRadii, AreHalfTheMiddleDistanceAndSaid) {
   for (int id = 0; id < 3; ++id) EXPECT_EQ(file.spheres.radius(id), 0.125);
   EXPECT_THAT(file.warnings,
               ElementsAre("no radii; each sphere gets radius 0.125, half the middle distance to the nearest neighbour; "
-                          "--radius R sets another"));
+                          "radius sets another"));
   EXPECT_EQ(file.rules.back(), "radii: 0.125, half the middle distance to the nearest neighbour");
 }
 
@@ -75,7 +75,7 @@ TEST(UnknownRadii, AreAHalfAtOnePlace) {
   const SphereFile file = read_text("1 2 3\n1 2 3\n", "points.txt");
   EXPECT_EQ(file.spheres.radius(1), 0.5);
   EXPECT_THAT(file.warnings,
-              ElementsAre("no radii; each sphere gets radius 0.5, as all centres are at one place; --radius R sets "
+              ElementsAre("no radii; each sphere gets radius 0.5, as all centres are at one place; radius sets "
                           "another"));
   EXPECT_EQ(file.rules.back(), "radii: 0.5, as all centres are at one place");
 }
@@ -87,7 +87,7 @@ TEST(UnknownRadii, LeaveElementsAlone) {
   EXPECT_EQ(file.spheres.radius(1), 1.5);
   EXPECT_THAT(file.warnings,
               ElementsAre("1 sphere has neither element nor radius; each gets radius 1.5, half the middle distance to "
-                          "the nearest neighbour; --radius R sets another"));
+                          "the nearest neighbour; radius sets another"));
   EXPECT_THAT(file.rules.back(),
               "radii: 1.5 where neither element nor radius is known, half the middle distance to "
               "the nearest neighbour");

@@ -32,7 +32,7 @@ TEST(Xyz, TakesOtherLabelsAsTypes) {
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_EQ(file.warnings[0],
             "2 spheres have neither element nor radius; each gets radius 0.5, half the middle distance to the nearest "
-            "neighbour; --radius R sets another");
+            "neighbour; radius sets another");
 
   const SphereFile numbers = read_text("2\n\n0 0 0 0\n500 1 0 0\n", "a.xyz");
   EXPECT_EQ(numbers.spheres.attributes().type, (std::vector<std::int32_t>{0, 500}));
@@ -48,9 +48,9 @@ TEST(Xyz, TakesTheFrameAskedFor) {
     EXPECT_EQ(file.spheres.centre(0).x, x);
   }
   EXPECT_EQ(error_of(text, "a.xyz", at_frame(3)),
-            "a.xyz: there is no frame 3: the file has 3 (0 to 2); choose one with --frame, counting from 0");
+            "a.xyz: there is no frame 3: the file has 3 (0 to 2); choose one with frame, counting from 0");
   EXPECT_EQ(error_of(text, "a.xyz", at_frame(-1)),
-            "a.xyz: there is no frame -1: the file has 3 (0 to 2); choose one with --frame, counting from 0");
+            "a.xyz: there is no frame -1: the file has 3 (0 to 2); choose one with frame, counting from 0");
 }
 
 TEST(Xyz, ReadsExtendedColumns) {

@@ -1,5 +1,4 @@
 // The C++ module: the choice of one of its two builds, and its functions (bindings/wasm/page.h).
-import { in_words_of_the_page } from './words';
 
 export interface Page {
   load(name: string, trajectory: string, radius: number, radius_scale: number, columns: string): string;
@@ -115,5 +114,5 @@ export function value_of<T>(answer: string): T {
   if (!value.error) return value;
   const { message, file, line, column, hint, row } = value.error;
   const place = [file, line > 0 ? `line ${line}` : '', column > 0 ? `column ${column}` : ''].filter(Boolean).join(', ');
-  throw new BadInput(in_words_of_the_page(`${place ? `${place}: ` : ''}${message}${hint ? `; ${hint}` : ''}`), row);
+  throw new BadInput(`${place ? `${place}: ` : ''}${message}${hint ? `; ${hint}` : ''}`, row);
 }

@@ -7,7 +7,6 @@ import type {
   Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
 } from './protocol';
 import { UserFiles } from './user_files';
-import { in_words_of_the_page } from './words';
 
 const frame_budget_ms = 25;
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
@@ -301,7 +300,7 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   const { id, source } = request;
   const chosen = choose(request.settings ?? {}, request.look);
   const coloured_by = chosen.coloured_by ?? loaded.coloured_by;
-  const notes = [...loaded.facts.warnings.map(in_words_of_the_page), ...chosen.notes];
+  const notes = [...loaded.facts.warnings, ...chosen.notes];
   send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), coloured_by, notes });
   send_player();
   statistics_wanted = true;

@@ -1,5 +1,6 @@
 #include "commands/choose_camera.h"
 
+#include "bihive/base/setting_name.h"
 #include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
@@ -33,14 +34,14 @@ void refuse_bad(const Camera& camera, const RenderOptions& options) {
   const Status status = check_camera(camera);
   if (status) return;
   if (options.fov_deg && *options.fov_deg < kTinyAngle && !options.eye)
-    fail_usage("--fov: under so small an angle the camera would stand too far away", "choose a larger angle");
+    fail_setting("fov", ": under so small an angle the camera would stand too far away", "choose a larger angle");
   fail_usage(status.error().message, status.error().hint);
 }
 
 double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& camera) {
   if (const double* const distance = std::get_if<double>(&wanted)) return *distance;
   const Result<double> distance = focus_on(spheres, camera, std::get<std::string>(wanted));
-  if (!distance) fail_usage("--focus: " + distance.error().message, distance.error().hint);
+  if (!distance) fail_setting("focus", ": " + distance.error().message, distance.error().hint);
   return *distance;
 }
 
@@ -49,7 +50,9 @@ double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& cam
 Camera choose_camera(const Input& input, const RenderOptions& options, const RenderSettings& settings,
                      const WholeSet* whole) {
   const bool user_places = options.eye || options.look_at || options.up;
-  if (user_places && options.view_from) fail_usage("--view-from and --eye, --look-at or --up contradict each other");
+  if (user_places && options.view_from)
+    fail_setting("view_from", " and " + setting_name("eye") + ", " + setting_name("look_at") + " or " +
+                                  setting_name("up") + " contradict each other");
 
   Camera camera = input.scene.camera;
   camera.fov_deg = options.fov_deg.value_or(camera.fov_deg);
@@ -74,7 +77,8 @@ Camera choose_camera(const Input& input, const RenderOptions& options, const Ren
   camera.aperture = options.aperture.value_or(input.scene.camera.aperture);
   camera.focus = options.focus ? focus_of(*options.focus, input.scene.spheres, camera) : input.scene.camera.focus;
   if (options.focus && camera.aperture == 0)
-    fail_usage("--focus changes nothing without an aperture", "give the radius of the lens by --aperture");
+    fail_setting("focus", " changes nothing without an aperture",
+                 "give the radius of the lens by " + setting_name("aperture"));
   refuse_bad(camera, options);
   return camera;
 }

@@ -17,7 +17,7 @@ Style choose_style(const StyleOptions& options) {
   const std::string& wanted = options.name.empty() ? style_names().front() : options.name;
   if (is_path(wanted)) return value_or_fail(parse_style(value_or_fail(read_file(wanted)), wanted));
   Result<Style> style = style_named(wanted);
-  if (!style) fail_usage("--style: " + style.error().message, style.error().hint);
+  if (!style) fail_setting("style", ": " + style.error().message, style.error().hint);
   return std::move(*style);
 }
 

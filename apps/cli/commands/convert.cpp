@@ -49,7 +49,7 @@ const OutputFormat& output_format(const ConvertOptions& options) {
 
 // Takes the spheres away that the expression does not select.
 void keep_selected(Scene& scene, const std::string& expression) {
-  const std::vector<std::uint8_t> mask = selected_or_fail(scene.spheres, expression, "--select");
+  const std::vector<std::uint8_t> mask = selected_or_fail(scene.spheres, expression, "select");
   const std::int64_t count = std::count(mask.begin(), mask.end(), std::uint8_t{1});
   if (count == 0) fail({"no sphere is selected by " + expression, "", 0, 0, "bihive select counts"});
   if (count == scene.spheres.size()) return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bihive/base/place_file.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/render/memory.h"
@@ -41,16 +42,16 @@ using nlohmann::ordered_json;
 void check_film_options(const FilmOptions& options, FilmKind kind) {
   const RenderOptions& picture = options.picture;
   if (options.join && (!picture.input.input.empty() || options.shard || options.frames || options.pictures))
-    fail_usage("--join takes the film's output alone: the shards know the rest", "bihive film --join -o run.mp4");
+    fail_setting("join", " takes the film's output alone: the shards know the rest", "bihive film --join -o run.mp4");
   if (!options.join && picture.input.input.empty()) fail_usage("bihive film needs an INPUT", "see bihive film --help");
   if (!options.codec.empty() && kind != FilmKind::encoded)
-    fail_usage("--codec is for films that ffmpeg encodes", "let the output end in .mp4, .mov, .mkv or .webm");
+    fail_setting("codec", " is for films that ffmpeg encodes", "let the output end in .mp4, .mov, .mkv or .webm");
   if (kind != FilmKind::pictures && picture.bits.value_or(8) != 8)
-    fail_usage("--bits 16 is for a sequence of pictures", "name the output run/%05d.png");
+    fail_setting("bits", " 16 is for a sequence of pictures", "name the output run/%05d.png");
   if (kind != FilmKind::pictures && picture.background == kNoBackground)
     fail_usage("a film in one file has no transparent background", "name the output run/%05d.png");
   if (options.turntable_deg != 0 && !options.camera_keys.empty())
-    fail_usage("--turntable and --camera-keys both move the camera", "leave one of them out");
+    fail_setting("turntable", " and " + setting_name("camera_keys") + " both move the camera", "leave one of them out");
 }
 
 std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
@@ -141,7 +142,7 @@ void check_codec_of_shards(const FilmOptions& options, const FilmPlan& plan, con
   const std::string& codec = plan.asked.codec;
   if (!options.codec.empty() && options.codec != codec)
     fail({"the shards were made for another codec: " + (codec.empty() ? "the default one" : codec), path, 0, 0,
-          "leave --codec out, or give that one"});
+          "leave " + setting_name("codec") + " out, or give that one"});
   if (!options.codec.empty()) return;
   if (const Status status = check_codec_of_file(codec); !status)
     fail({status.error().message, path, 0, 0, status.error().hint});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
@@ -161,17 +162,18 @@ bool is_exr(const std::string& output) {
 
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings) {
   if (!is_exr(options.output)) {
-    if (options.layers) fail_usage("--layers need a file that holds them", "let the output end in .exr");
+    if (options.layers) fail_setting("layers", " need a file that holds them", "let the output end in .exr");
     return {};
   }
   if (!can_write_exr())
     fail_environment({"this build of bihive has no OpenEXR", options.output, 0, 0,
                       "install libopenexr-dev (scripts/setup demo) and build again, or write a PNG"});
   if (options.bits)
-    fail_usage("--bits is for PNG: OpenEXR gets numbers of 32 bits with a floating point", "leave --bits out");
+    fail_setting("bits", " is for PNG: OpenEXR gets numbers of 32 bits with a floating point",
+                 "leave " + setting_name("bits") + " out");
   if (settings.view != View::shaded)
-    fail_usage("OpenEXR holds light and layers of numbers, not the colours of --view",
-               "name layers: --layers normal,depth,id");
+    fail_usage("OpenEXR holds light and layers of numbers, not the colours of " + setting_name("view"),
+               "name layers: " + setting_name("layers") + " normal,depth,id");
   const Overrides& user = options.picture;
   if (user.is_on("legend") || user.is_on("scale_bar") || user.is_on("axes") || user.has("title"))
     fail_usage("labels are drawn over the pixels of a PNG, and OpenEXR has light instead",
@@ -182,7 +184,7 @@ std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scen
   settings.tone = of_user.tone;  // not the style's
   std::vector<Layer> layers = options.layers.value_or(std::vector<Layer>{Layer{}});
   if (const Status status = check_layers(scene, layers); !status)
-    fail_usage("--layers: " + status.error().message, status.error().hint);
+    fail_setting("layers", ": " + status.error().message, status.error().hint);
   return layers;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/base/json_text.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
@@ -40,7 +41,7 @@ std::string filled_title(const std::string& title, const RenderOptions& options,
     values.insert(values.begin(), more.begin(), more.end());
   }
   Result<std::string> filled = fill_title(title, values);
-  if (!filled) fail_usage("--title: " + filled.error().message, filled.error().hint);
+  if (!filled) fail_setting("title", ": " + filled.error().message, filled.error().hint);
   return *filled;
 }
 
@@ -58,31 +59,33 @@ RenderSettings apply_options(const RenderOptions& options, Input& input, const W
   RenderSettings settings = settings_from(picture);
   settings.crop = options.crop;
   if (options.crop && (options.crop->x1 > settings.width_px || options.crop->y1 > settings.height_px))
-    fail_usage(
-        fmt::format("--crop ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
-        "give the size of the whole picture by --size");
+    fail_setting("crop",
+                 fmt::format(" ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
+                 "give the size of the whole picture by " + setting_name("size"));
   if (settings.fog && !(settings.fog->start < settings.fog->end))
-    fail_usage("--fog-start must be below --fog-end", "fog begins at 0 and ends at 1 unless stated");
+    fail_setting("fog_start", " must be below " + setting_name("fog_end"),
+                 "fog begins at 0 and ends at 1 unless stated");
   if (user.has("length_unit") && !settings.labels.scale_bar)
-    fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
+    fail_setting("length_unit", " is for the scale bar, and the picture has none",
+                 "add " + setting_name("scale_bar") + ", or leave it out");
   if (user.is_on("cell") && !scene.spheres.cell())
-    fail({"there is no periodic cell that --cell could draw", options.input.input, 0, 0,
-          "give one with --cell-vectors"});
+    fail({"there is no periodic cell that " + setting_name("cell") + " could draw", options.input.input, 0, 0,
+          "give one with " + setting_name("cell_vectors")});
   if (user.is_on("cell") && options.view != View::shaded)
-    fail_usage("--cell draws on the shaded picture alone", "leave out --view");
+    fail_setting("cell", " draws on the shaded picture alone", "leave out " + setting_name("view"));
   settings.view = options.view;
   settings.threads = static_cast<int>(options.threads);
   if (options.background && !settings.transparent)
     scene.background = *colour_from(*options.background, scene.picture.transfer);
   if (settings.transparent && shows_reference_tree(settings.view))
-    fail_usage("--view " + name_of(kViews, settings.view) + " has no transparent background",
-               "give a colour by --background, or choose another view");
+    fail_setting("view", " " + name_of(kViews, settings.view) + " has no transparent background",
+                 "give a colour by " + setting_name("background") + ", or choose another view");
   settings.labels.title =
       filled_title(settings.labels.title, options, input, whole != nullptr ? whole->count : scene.spheres.size());
   scene.camera = options.fixed ? options.fixed->camera : choose_camera(input, options, settings, whole);
   if (settings.adaptive_samples && scene.camera.aperture > 0)
     fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
-               "give a number: --samples 64");
+               "give a number: " + setting_name("samples") + " 64");
   apply_look(options.style, input);
   leave_out_labels(user, scene, settings);
   return settings;
@@ -91,13 +94,13 @@ RenderSettings apply_options(const RenderOptions& options, Input& input, const W
 // Refuses what the graphics processor cannot draw.
 void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings& settings) {
   const auto refuse = [engine](const std::string& what, const std::string& without) {
-    fail_usage("--engine " + name_of(kRenderEngines, engine) + " draws no " + what,
-               "leave --engine out, or draw " + without);
+    fail_setting("engine", " " + name_of(kRenderEngines, engine) + " draws no " + what,
+                 "leave " + setting_name("engine") + " out, or draw " + without);
   };
-  if (settings.cell_lines) refuse("edges of a cell", "without --cell");
-  if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: --samples 4");
-  if (has_clips(scene)) refuse("cut spheres", "without --clip");
-  if (scene.spheres.has_images()) refuse("replicated spheres", "without --replicate");
+  if (settings.cell_lines) refuse("edges of a cell", "without " + setting_name("cell"));
+  if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: " + setting_name("samples") + " 4");
+  if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
+  if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
 }
 
 }  // namespace
@@ -129,16 +132,16 @@ RenderEngine choose_engine(const RenderOptions& options) {
   const RenderEngine engine = options.engine;
   if (!shows_reference_tree(options.view) || engine == RenderEngine::reference) return engine;
   if (engine == RenderEngine::automatic) return RenderEngine::reference;
-  const std::string view = "--view " + name_of(kViews, options.view);
-  const std::string chosen = "--engine " + name_of(kRenderEngines, engine);
+  const std::string view = " " + name_of(kViews, options.view);
+  const std::string chosen = setting_name("engine") + " " + name_of(kRenderEngines, engine);
   if (engine == RenderEngine::brute || engine == RenderEngine::wide_brute || engine == RenderEngine::gpu_brute)
-    fail_usage(view + " shows a tree, and " + chosen + " has none");
+    fail_setting("view", view + " shows a tree, and " + chosen + " has none");
   if (engine == RenderEngine::wide)
-    fail_usage(view + " shows the reference tree, and --engine wide has another one",
-               "leave --engine out, or choose --engine reference");
+    fail_setting("view", view + " shows the reference tree, and " + setting_name("engine") + " wide has another one",
+                 "leave " + setting_name("engine") + " out, or choose " + setting_name("engine") + " reference");
   if (options.view == View::tree)
-    fail_usage(view + " is drawn by the CPU alone, not by " + chosen,
-               "leave --engine out, or choose --engine reference");
+    fail_setting("view", view + " is drawn by the CPU alone, not by " + chosen,
+                 "leave " + setting_name("engine") + " out, or choose " + setting_name("engine") + " reference");
   return engine;
 }
 
@@ -149,12 +152,13 @@ RenderSettings prepare_picture(const RenderOptions& options, RenderEngine engine
   look(input, options.looks, options.fixed ? options.fixed->ranges_of_looks : std::vector<ColourRange>{});
   RenderSettings settings = apply_options(options, input, whole);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
-    fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of whole spheres", "leave out --clip");
+    fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",
+                 "leave out " + setting_name("clip"));
   if (shows_reference_tree(settings.view) && input.scene.spheres.has_images())
-    fail_usage("--view " + name_of(kViews, settings.view) + " shows the tree of the stored spheres",
-               "leave out --replicate");
+    fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of the stored spheres",
+                 "leave out " + setting_name("replicate"));
   if (input.scene.spheres.has_images() && has_clips(input.scene))
-    fail_usage("--clip does not cut the copies of --replicate", "leave one of them out");
+    fail_setting("clip", " does not cut the copies of " + setting_name("replicate"), "leave one of them out");
   if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
   return settings;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/base/timer.h"
 #include "bihive/io/data_path.h"
 #include "bihive/render/frame_picture.h"
@@ -63,9 +64,9 @@ LoadedPicture load_chunk(const RenderOptions& options, Style& style, Communicato
 
 void refuse(const PreparedPicture& prepared) {
   if (const Status status = SpreadScene::refusal(prepared.input.scene, prepared.settings); !status)
-    fail_usage("--distribute: " + status.error().message, status.error().hint);
+    fail_setting("distribute", ": " + status.error().message, status.error().hint);
   if (prepared.engine != RenderEngine::automatic && prepared.engine != RenderEngine::wide)
-    fail_usage("distributed spheres are drawn by the engine wide alone", "leave --engine out");
+    fail_usage("distributed spheres are drawn by the engine wide alone", "leave " + setting_name("engine") + " out");
 }
 
 }  // namespace

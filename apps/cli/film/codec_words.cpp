@@ -5,6 +5,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "bihive/base/setting_name.h"
+
 namespace bihive::cli {
 namespace {
 
@@ -105,7 +107,7 @@ Status check_codec_of_file(const std::string& text) {
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const auto refuse = [&](const std::string& what) -> Status {
       return Error{"the codec contains " + what + ", which is not allowed in a file", "", 0, 0,
-                   "if it is your own, give the same --codec on the command line too"};
+                   "if it is your own, give the same " + setting_name("codec") + " on the command line too"};
     };
     if (!is_in(kWithValue, words[i])) return refuse(words[i]);
     if (i + 1 == words.size()) return refuse(words[i] + " without a value");

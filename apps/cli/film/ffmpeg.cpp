@@ -15,6 +15,7 @@
 #include <ctime>
 #include <utility>
 
+#include "bihive/base/setting_name.h"
 #include "commands/draw_picture.h"
 #include "film/system_failure.h"
 #include "support/failure.h"
@@ -248,7 +249,8 @@ std::string FfmpegRun::output() const {
 void FfmpegRun::fail_with_log(const std::string& what) {
   const std::string said = last_line(end_of_file(log_.get()));
   fail_environment({"ffmpeg " + what + (said.empty() ? "" : ", and said: " + said), "", 0, 0,
-                    "what is encoded already is kept: run the same again when ffmpeg works, or give another --codec"});
+                    "what is encoded already is kept: run the same again when ffmpeg works, or give another " +
+                        setting_name("codec")});
 }
 
 namespace {
@@ -280,9 +282,9 @@ void check_pictures(const std::string& ffmpeg, const OwnFolder& folder, const st
   if (found >= 0) found = counted(ffmpeg, folder, film, /*decoded=*/true);
   if (found == pictures) return;
   const std::string wrote = found < 0 ? "a file that is not a film" : std::to_string(found) + " pictures";
-  fail_environment(
-      {"ffmpeg was given " + std::to_string(pictures) + " pictures, and wrote " + wrote, "", 0, 0,
-       "remove from --codec what changes the number of pictures, or check that " + ffmpeg + " is really ffmpeg"});
+  fail_environment({"ffmpeg was given " + std::to_string(pictures) + " pictures, and wrote " + wrote, "", 0, 0,
+                    "remove from " + setting_name("codec") + " what changes the number of pictures, or check that " +
+                        ffmpeg + " is really ffmpeg"});
 }
 
 }  // namespace bihive::cli

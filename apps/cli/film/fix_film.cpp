@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/io/data_path.h"
@@ -74,7 +75,7 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   if (!options.picture.labels.title_values.empty())
     asked.input.push_back(described_file(options.picture.labels.title_values));
   const Result<FrameList> list = frames_in(options.frames.value_or(FrameRange{}), frames);
-  if (!list) fail_usage("--frames: " + list.error().message, list.error().hint);
+  if (!list) fail_setting("frames", ": " + list.error().message, list.error().hint);
   asked.frames = *list;
   asked.rate = options.rate;
   asked.options = options.words;
@@ -83,8 +84,8 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
     asked.path.keys =
         value_or_fail(parse_camera_keys(value_or_fail(read_file(options.camera_keys)), options.camera_keys));
   if (options.pictures && asked.frames.count > 1)
-    fail_usage("--pictures is for a film of one frame, and this one has " + std::to_string(asked.frames.count),
-               "name one by --frames 0, or leave --pictures out");
+    fail_setting("pictures", " is for a film of one frame, and this one has " + std::to_string(asked.frames.count),
+                 "name one by " + setting_name("frames") + " 0, or leave " + setting_name("pictures") + " out");
 
   // Each frame is one picture. One frame alone is shown while the camera moves.
   asked.pictures = options.pictures.value_or(asked.frames.count);
@@ -98,8 +99,8 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   }
   if (asked.pictures > kMostPictures) fail_usage("a film has at most 100,000,000 pictures");
   if (!asked.path.keys.empty() && asked.path.keys.back().picture >= asked.pictures)
-    fail_usage(fmt::format("--camera-keys: the last key is for picture {}, and the last picture is {}",
-                           asked.path.keys.back().picture, asked.pictures - 1));
+    fail_setting("camera_keys", fmt::format(": the last key is for picture {}, and the last picture is {}",
+                                            asked.path.keys.back().picture, asked.pictures - 1));
   asked.range_of_colours = name_of(kRangesOfColours, options.range_of_colours);
   asked.codec = options.codec;
   return asked;

@@ -15,7 +15,7 @@ FrameSource FrameSource::open(const InputOptions& options, const Style& style, b
   source.options_ = options;
   source.asked_for_ = asked_for;
   if (is_generated(options.input)) {
-    if (asked_for) fail_usage("--style is for files, not for " + options.input);
+    if (asked_for) fail_setting("style", " is for files, not for " + options.input);
     return source;
   }
   if (options.input != "demo" && !must_be_read_whole(options.input)) {

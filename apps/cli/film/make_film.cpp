@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/base/timer.h"
 #include "bihive/render/draw_labels.h"
 #include "commands/draw_on_ranks.h"
@@ -155,7 +156,8 @@ class FilmSteps {
       const RenderEngine engine = choose_engine(options_);
       picture->settings = prepare_picture(picture->options, engine, picture->input);
       if (picture->settings.width_px != plan_.fixed.width_px || picture->settings.height_px != plan_.fixed.height_px)
-        if (!picture->settings.crop) fail({"the pictures of the film differ in size", "", 0, 0, "give one by --size"});
+        if (!picture->settings.crop)
+          fail({"the pictures of the film differ in size", "", 0, 0, "give one by " + setting_name("size")});
       check_memory_of(engine, picture->input, picture->options, picture->settings);
       picture->tracer = value_or_fail(
           Tracer::build(picture->input.scene, structure_of(engine), options_.tree, picture->settings.threads));

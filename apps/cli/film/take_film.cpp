@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "bihive/base/setting_name.h"
 #include "film/film_plan.h"
 #include "support/failure.h"
 #include "support/input.h"
@@ -14,10 +15,11 @@ namespace bihive::cli {
 void take_film(RenderOptions& options, const FilmPlan& plan) {
   const FilmPlan::Asked& asked = plan.asked;
   if (!options.picture_of_film && !options.input.frame)
-    fail_usage("--film needs the number of a frame of the input or of a picture of the film",
-               "give --frame I or --picture K, from 0");
+    fail_setting("film", " needs the number of a frame of the input or of a picture of the film",
+                 "give " + setting_name("frame") + " I or " + setting_name("picture") + " K, from 0");
   std::int64_t picture = options.picture_of_film.value_or(0);
-  if (options.picture_of_film && options.input.frame) fail_usage("--picture and --frame both say which picture it is");
+  if (options.picture_of_film && options.input.frame)
+    fail_setting("picture", " and " + setting_name("frame") + " both say which picture it is");
   if (!options.picture_of_film) {
     const std::optional<std::int64_t> found = asked.frames.picture_of(*options.input.frame);
     if (!found)
@@ -25,7 +27,8 @@ void take_film(RenderOptions& options, const FilmPlan& plan) {
                              *options.input.frame, asked.frames.first, asked.frames.frame(asked.frames.count - 1),
                              asked.frames.step));
     if (asked.frames.count == 1 && asked.pictures > 1)
-      fail_usage("all pictures of the film show this frame", "say which one by --picture K, from 0");
+      fail_usage("all pictures of the film show this frame",
+                 "say which one by " + setting_name("picture") + " K, from 0");
     picture = *found;
   }
   if (picture >= asked.pictures)

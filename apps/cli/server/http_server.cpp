@@ -21,6 +21,7 @@
 #include <optional>
 #include <utility>
 
+#include "bihive/base/setting_name.h"
 #include "server/crowd.h"
 
 namespace bihive::cli {
@@ -216,7 +217,7 @@ class Connection : public std::enable_shared_from_this<Connection>, public Crowd
 
 Error cannot_listen(const std::string& address, int port, const error_code& code) {
   return {"cannot serve at " + address + ", port " + std::to_string(port) + ": " + code.message(), "", 0, 0,
-          code == asio::error::address_in_use ? "--port 0 takes any that is free" : ""};
+          code == asio::error::address_in_use ? setting_name("port") + " 0 takes any that is free" : ""};
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "bihive/base/result.h"
+#include "bihive/base/setting_name.h"
 
 namespace bihive::cli {
 
@@ -19,7 +21,8 @@ enum ExitCode : int {
 struct Failure {
   ExitCode code;
   Error error;
-  std::string shown{};  ///< lines below the error's own, each with its end; usually none
+  std::string shown{};    ///< lines below the error's own, each with its end; usually none
+  std::string setting{};  ///< the id of the setting with whose name the message begins; empty: it does not
 };
 
 [[noreturn]] inline void fail(Error error) {
@@ -27,6 +30,11 @@ struct Failure {
 }
 [[noreturn]] inline void fail_usage(const std::string& message, const std::string& hint = "") {
   throw Failure{kBadUsage, Error{message, "", 0, 0, hint}};
+}
+
+/// The message is the setting's name and `rest`: "--focus" and ": expected a number".
+[[noreturn]] inline void fail_setting(std::string_view id, const std::string& rest, const std::string& hint = "") {
+  throw Failure{kBadUsage, Error{setting_name(id) + rest, "", 0, 0, hint}, {}, std::string(id)};
 }
 
 [[noreturn]] inline void fail_environment(Error error) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/base/write_file.h"
 #include "bihive/io/data_path.h"
 #include "bihive/io/packed.h"
@@ -17,27 +18,27 @@
 namespace bihive::cli {
 namespace {
 
-void only_for(bool given, const std::string& option, const std::string& what, const std::string& input) {
-  if (given) fail_usage(option + " is for " + what + ", not for " + input);
+void only_for(bool given, std::string_view id, const std::string& what, const std::string& input) {
+  if (given) fail_setting(id, " is for " + what + ", not for " + input);
 }
 
 void refuse_generator_options(const InputOptions& options) {
-  only_for(options.count.has_value(), "--count", "scenario1, scenario2 and scenario3", options.input);
-  only_for(options.seed.has_value(), "--seed", "scenario1, scenario2 and scenario3", options.input);
+  only_for(options.count.has_value(), "count", "scenario1, scenario2 and scenario3", options.input);
+  only_for(options.seed.has_value(), "seed", "scenario1, scenario2 and scenario3", options.input);
 }
 
 void refuse_file_options(const InputOptions& options) {
-  only_for(options.radius_scale.has_value(), "--radius-scale", "files", options.input);
-  only_for(options.recenter, "--recenter", "files", options.input);
-  only_for(options.frame.has_value(), "--frame", "files", options.input);
-  only_for(!options.trajectory.empty(), "a trajectory", "files", options.input);
-  only_for(!options.assembly.empty(), "--assembly", "PDB and mmCIF files", options.input);
-  only_for(!options.columns.empty(), "--columns", "files", options.input);
-  only_for(options.replicate.has_value(), "--replicate", "files", options.input);
-  only_for(options.cell_vectors.has_value(), "--cell-vectors", "files", options.input);
-  only_for(options.cell_origin.has_value(), "--cell-origin", "files", options.input);
-  only_for(options.wrapping == Wrapping::wrap, "--wrap", "files", options.input);
-  only_for(options.wrapping == Wrapping::unwrap, "--unwrap", "files", options.input);
+  only_for(options.radius_scale.has_value(), "radius_scale", "files", options.input);
+  only_for(options.recenter, "recenter", "files", options.input);
+  only_for(options.frame.has_value(), "frame", "files", options.input);
+  only_for(!options.trajectory.empty(), "trajectory", "files", options.input);
+  only_for(!options.assembly.empty(), "assembly", "PDB and mmCIF files", options.input);
+  only_for(!options.columns.empty(), "columns", "files", options.input);
+  only_for(options.replicate.has_value(), "replicate", "files", options.input);
+  only_for(options.cell_vectors.has_value(), "cell_vectors", "files", options.input);
+  only_for(options.cell_origin.has_value(), "cell_origin", "files", options.input);
+  only_for(options.wrapping == Wrapping::wrap, "wrap", "files", options.input);
+  only_for(options.wrapping == Wrapping::unwrap, "unwrap", "files", options.input);
 }
 
 void warn_of_growth(const std::string& path) {
@@ -113,11 +114,12 @@ void check_input_options(const InputOptions& options) {
   refuse_file_options(options);
   if (options.input != "four-spheres") return;
   refuse_generator_options(options);
-  only_for(options.radius.has_value(), "--radius", "the scenarios and files", options.input);
+  only_for(options.radius.has_value(), "radius", "the scenarios and files", options.input);
 }
 
 void refuse_copies(const InputOptions& options, const std::string& what) {
-  if (options.replicate) fail_usage(what + " without copies, so --replicate changes nothing there", "leave it out");
+  if (options.replicate)
+    fail_usage(what + " without copies, so " + setting_name("replicate") + " changes nothing there", "leave it out");
 }
 
 std::optional<Scene> generated_scene(const InputOptions& options) {
@@ -159,7 +161,7 @@ Input load_file(const InputOptions& options, const std::function<Result<Input>(c
 
 Input load_input(const InputOptions& options, LooksOfFile looks, const Style* style, bool asked_for) {
   if (std::optional<Input> generated = generated_input(options)) {
-    only_for(asked_for, "--style", "files", options.input);
+    only_for(asked_for, "style", "files", options.input);
     return std::move(*generated);
   }
   if (options.input != "demo" && !must_be_read_whole(options.input))

@@ -8,11 +8,13 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <mutex>
 #include <unordered_set>
 
+#include "bihive/base/setting_name.h"
 #include "support/failure.h"
 
 namespace bihive::cli {
@@ -38,6 +40,11 @@ void say(const std::string& text) {
 }
 
 }  // namespace
+
+void name_settings_as_options() {
+  const char* const names = std::getenv("BIHIVE_SETTING_NAMES");
+  if (names == nullptr || std::string_view(names) != "ids") name_settings_by(&option_of_setting);
+}
 
 void warn_of_each_text_once() {
   g_once = true;

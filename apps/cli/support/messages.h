@@ -28,6 +28,10 @@ class CollectedWarnings {
 /// "bihive: error: ..." in one line.
 void say_error(const std::string& text);
 
+/// From now on messages name settings as options: "--radius-scale" (base/setting_name.h). If the environment has
+/// BIHIVE_SETTING_NAMES=ids, they keep their ids: for packages that start this program and show its messages.
+void name_settings_as_options();
+
 /// Lines on stderr, each with its end.
 void say_lines(const std::string& text);
 

@@ -10,12 +10,12 @@
 
 namespace bihive::cli {
 
-/// Fails with kBadUsage: the message, then the expression with a caret below the place. `option` names the option or
-/// argument.
-[[noreturn]] void fail_selection(const std::string& option, const std::string& expression, const Error& error);
+/// Fails with kBadUsage: the message, then the expression with a caret below the place. `setting`: the id of the option
+/// or argument.
+[[noreturn]] void fail_selection(const std::string& setting, const std::string& expression, const Error& error);
 
 /// The expression's mask over the spheres; fails as above.
 std::vector<std::uint8_t> selected_or_fail(const SphereSet& spheres, const std::string& expression,
-                                           const std::string& option);
+                                           const std::string& setting);
 
 }  // namespace bihive::cli

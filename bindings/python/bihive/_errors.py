@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import reprlib
 from typing import Any
 
@@ -58,27 +57,18 @@ class InputWarning(UserWarning):
     """What a reader or a picture wants its user to know."""
 
 
-_OPTION = re.compile(r"--([a-z][a-z-]*[a-z]|[a-z])\b")
-
-
-def in_python(text: str) -> str:
-    """A message of the command line in the words of Python: ``--view-from`` is ``view_from``."""
-    return _OPTION.sub(lambda match: match.group(1).replace("-", "_"), text)
-
-
-def failure(kind: str, message: str, file: str, line: int, column: int, hint: str, shown: str) -> Error:
+def failure(kind: str, message: str, file: str, line: int, column: int, hint: str, shown: str, argument: str) -> Error:
     """The exception of a failure in the compiled part, which calls this."""
-    argument = _OPTION.match(message)
     message, hint = shortened(message, _LONGEST_MESSAGE), shortened(hint, _LONGEST_MESSAGE)
-    hint = "" if hint.endswith("--help") else in_python(hint)
+    hint = "" if hint.endswith("--help") else hint
     place = ":".join([shortened(file), *(str(number) for number in (line, column) if number > 0)]) if file else ""
-    text = (place + ": " if place else "") + in_python(message) + ("; " + hint if hint else "")
+    text = (place + ": " if place else "") + message + ("; " + hint if hint else "")
     if 0 < len(shown) <= _LONGEST_MESSAGE:
         text += "\n" + "\n".join(printable(line) for line in shown.rstrip("\n").split("\n"))
     made: dict[str, type[Error]] = {"usage": UsageError, "missing": MissingError}
     return made.get(kind, InputError)(
         text,
-        argument=argument.group(1).replace("-", "_") if argument else "",
+        argument=argument,
         file=file,
         line=line,
         column=column,

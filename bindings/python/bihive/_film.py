@@ -34,6 +34,11 @@ _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
 _OF_PROGRAM = ["frames", "pictures", "turntable", "camera_keys", "colour_range", "codec", "shard", "join"]
 
 
+def environment() -> dict[str, str]:
+    """That of the program, whose messages then name settings as Python does: radius_scale."""
+    return {**os.environ, "BIHIVE_SETTING_NAMES": "ids"}
+
+
 def program() -> str:
     """The program `bihive`: as BIHIVE says, in the folder of the build or of the installation, or in PATH."""
     import shutil
@@ -67,12 +72,10 @@ def _said(run: subprocess.Popen[Any]) -> tuple[Any, Any]:
 def _film_of_file(source: str, path: str, words: list[str], progress: Progress) -> None:
     import subprocess
 
-    from ._errors import in_python
-
     command = [program(), "film", "-o", path, *words, "--", source]
     # The program shows its own progress, on a terminal.
     with subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace"
+        command, env=environment(), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace"
     ) as run:
         try:
             said = _said(run)[1]
@@ -87,7 +90,7 @@ def _film_of_file(source: str, path: str, words: list[str], progress: Progress) 
     if run.returncode == 0:
         return
     errors = [line for line in said.splitlines() if line.startswith("bihive: error: ")]
-    text = in_python(errors[-1].removeprefix("bihive: error: ") if errors else said.strip())
+    text = errors[-1].removeprefix("bihive: error: ") if errors else said.strip()
     if run.returncode in (130, -2):
         raise KeyboardInterrupt
     raise {2: UsageError, 3: MissingError}.get(run.returncode, UsageError)(text)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from ._adapt import spheres_of
 from ._checks import boolean
-from ._errors import InputError, MissingError, UsageError, bad_argument, found, in_python
-from ._film import program
+from ._errors import InputError, MissingError, UsageError, bad_argument, found
+from ._film import environment, program
 from ._spheres import Spheres, check_readable
 
 if TYPE_CHECKING:
@@ -109,13 +109,13 @@ def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = N
         else:
             words, descriptors = _command_of(spheres_of(source, "source"), folder)
         words = [program(), "web", "--json", "--port", str(port or 0), *([] if browser else ["--no-browser"]), "--", *words]
-        server = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        server = subprocess.Popen(words, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert server.stdout is not None and server.stderr is not None
         line = server.stdout.readline()
         if not line:
             code = server.wait()
             errors = [one for one in server.stderr.read().splitlines() if one.startswith("bihive: error: ")]
-            text = in_python(errors[-1].removeprefix("bihive: error: ") if errors else f"bihive web ended with {code}")
+            text = errors[-1].removeprefix("bihive: error: ") if errors else f"bihive web ended with {code}"
             raise {1: InputError, 3: MissingError}.get(code, UsageError)(text)
     except BaseException:
         _let_go(folder, descriptors)

@@ -29,9 +29,10 @@ void raise(const cli::Failure& failure) {
     // Texts may hold bytes that are no UTF-8, of which Python makes no str; the name of a file has a way of its own.
     const auto file = py::reinterpret_steal<py::str>(
         PyUnicode_DecodeFSDefaultAndSize(error.file.data(), static_cast<Py_ssize_t>(error.file.size())));
-    const py::object made = py::module_::import("bihive._errors")
-                                .attr("failure")(kind_of(failure.code), escaped(error.message), file, error.line,
-                                                 error.column, escaped(error.hint), escaped_lines(failure.shown));
+    const py::object made =
+        py::module_::import("bihive._errors")
+            .attr("failure")(kind_of(failure.code), escaped(error.message), file, error.line, error.column,
+                             escaped(error.hint), escaped_lines(failure.shown), failure.setting);
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   } catch (py::error_already_set& other) {
     other.restore();

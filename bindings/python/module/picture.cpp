@@ -61,17 +61,20 @@ struct Picture {
 
 // The options that are for files: an array has been read already. Its frame is for titles.
 void refuse_for_arrays(const cli::InputOptions& options) {
-  const auto refuse = [](bool given, const char* option, const char* hint) {
-    if (given) cli::fail_usage(std::string(option) + " is for files, and these spheres are in memory", hint);
+  const auto refuse = [](bool given, const char* argument, const char* hint) {
+    if (given) cli::fail_setting(argument, " is for files, and these spheres are in memory", hint);
   };
-  refuse(options.count || options.seed, "--count and --seed", "leave them out");
-  refuse(options.radius.has_value(), "--radius", "give it to Spheres");
-  refuse(options.radius_scale.has_value(), "--radius-scale", "use looks: Look(radius_scale=...)");
-  refuse(!options.trajectory.empty(), "--trajectory", "give it to read");
-  refuse(options.recenter, "--recenter", "give it to read");
-  refuse(!options.assembly.empty(), "--assembly", "give it to read");
-  refuse(options.cell_vectors || options.cell_origin, "--cell-vectors and --cell-origin", "give Spheres a cell");
-  refuse(options.wrapping != Wrapping::none, "--wrap and --unwrap", "give them to read");
+  refuse(options.count.has_value(), "count", "leave it out");
+  refuse(options.seed.has_value(), "seed", "leave it out");
+  refuse(options.radius.has_value(), "radius", "give it to Spheres");
+  refuse(options.radius_scale.has_value(), "radius_scale", "use looks: Look(radius_scale=...)");
+  refuse(!options.trajectory.empty(), "trajectory", "give it to read");
+  refuse(options.recenter, "recenter", "give it to read");
+  refuse(!options.assembly.empty(), "assembly", "give it to read");
+  refuse(options.cell_vectors.has_value(), "cell_vectors", "give Spheres a cell");
+  refuse(options.cell_origin.has_value(), "cell_origin", "give Spheres a cell");
+  refuse(options.wrapping == Wrapping::wrap, "wrap", "give it to read");
+  refuse(options.wrapping == Wrapping::unwrap, "unwrap", "give it to read");
 }
 
 cli::Input input_of(const Spheres& spheres, const cli::RenderOptions& options, const Style& style) {
@@ -80,7 +83,7 @@ cli::Input input_of(const Spheres& spheres, const cli::RenderOptions& options, c
     cli::fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
   SphereFile file = spheres.file;
   if (options.input.replicate) {
-    if (!file.spheres.cell()) cli::fail_usage("--replicate needs a periodic cell", "give Spheres a cell");
+    if (!file.spheres.cell()) cli::fail_setting("replicate", " needs a periodic cell", "give Spheres a cell");
     value_of(file.spheres.replicate(file.spheres.cell()->vectors, *options.input.replicate));
   }
   return scene_of_spheres(std::move(file), spheres.name, &style);

@@ -341,7 +341,7 @@ void bind_spheres(py::module_& module) {
     return std::array<double, 3>{light->x, light->y, light->z};
   });
   module.def("check_selection", [](const std::string& text) {
-    if (const Status status = check_selection(text); !status) cli::fail_selection("--select", text, status.error());
+    if (const Status status = check_selection(text); !status) cli::fail_selection("select", text, status.error());
   });
   module.def("atomic_number", [](const std::string& symbol) { return atomic_number(symbol); });
   module.def("element_symbol", element_symbol);

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 
 namespace bihive {
 namespace {

@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parse_number.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/formats/formats.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -122,7 +123,8 @@ Result<RawSpheres> DumpChunk::spheres(std::int64_t first, std::int64_t all) {
     return Error{
         "the dump promises " + std::to_string(head_.atoms) + " atoms, but " + std::to_string(all) + " lines follow",
         path_, head_.count_line, 0,
-        "is the file whole? With several frames leave out --distribute, or give the first a file of its own"};
+        "is the file whole? With several frames leave out " + setting_name("distribute") +
+            ", or give the first a file of its own"};
   // A head that counts the lines of this chunk.
   std::string text = head_.before_count + std::to_string(rows_) + "\n" + head_.after_count;
   text += lines_;

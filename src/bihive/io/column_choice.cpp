@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 #include "bihive/io/text/text_scanner.h"
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/points/npy_layout.h"
 #include "bihive/io/packed/binary_number.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -13,7 +14,7 @@ Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t fr
   if (frames == 0) return {what + "none", file, 0, 0, ""};
   const std::string have =
       frames == 1 ? "one only (0)" : std::to_string(frames) + " (0 to " + std::to_string(frames - 1) + ")";
-  return {what + have, file, 0, 0, "choose one with --frame, counting from 0"};
+  return {what + have, file, 0, 0, "choose one with " + setting_name("frame") + ", counting from 0"};
 }
 
 std::string spheres_have(std::int64_t count) {

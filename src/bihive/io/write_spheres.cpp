@@ -9,9 +9,9 @@
 #include <iterator>
 #include <unordered_set>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/npy.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

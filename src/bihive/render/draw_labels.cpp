@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/render/labels/parts.h"
 #include "bihive/scene/legend.h"
 
@@ -47,7 +48,7 @@ Status check_labels(const Scene& scene, const Camera& camera, const RenderSettin
   const Labels& labels = settings.labels;
   if (labels.scale_bar && camera.projection != Projection::orthographic)
     return Error{"a perspective picture has no scale: what is far looks small", "", 0, 0,
-                 "draw it with --projection orthographic"};
+                 "draw it with " + setting_name("projection") + " orthographic"};
   if (labels.legend && settings.view != View::shaded)
     return Error{"the legend explains the colours of spheres, which this view does not show", "", 0, 0,
                  "choose the view shaded"};
@@ -57,7 +58,7 @@ Status check_labels(const Scene& scene, const Camera& camera, const RenderSettin
                                                  [](std::int32_t meaning) { return meaning >= 0; }));
   if (labels.legend && !has_meaning)
     return Error{"the colours of these spheres have no meaning that a legend could explain", "", 0, 0,
-                 "colour them by an attribute: --colour-by z"};
+                 "colour them by an attribute: " + setting_name("colour_by") + " z"};
   return Done{};
 }
 

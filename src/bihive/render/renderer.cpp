@@ -11,6 +11,7 @@
 
 #include "bihive/base/check.h"
 #include "bihive/base/parallel.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/timer.h"
 #include "bihive/render/after_effects.h"
 #include "bihive/render/edge_pixels.h"
@@ -418,7 +419,7 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   if (of_tree && scene.spheres.has_images())
     return Error{"this view shows the tree of the stored spheres, and the set has copies", "", 0, 0,
-                 "leave out --replicate"};
+                 "leave out " + setting_name("replicate")};
   if (scene.spheres.has_images() != tracer.has_images())
     return Error{"the tracer does not have the copies of the scene", "", 0, 0, "build the tracer from the scene"};
   const bool is_cut = cut_set_of(scene) != nullptr;

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/geometry/cut_sphere.h"
-#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/geometry/each_sphere.h"
 #include "bihive/image/colour_text.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/math/elementary.h"
 #include "bihive/scene/colour_of_number.h"
 #include "bihive/scene/palette.h"

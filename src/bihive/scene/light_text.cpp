@@ -2,8 +2,8 @@
 
 #include <variant>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/image/colour_text.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/scene/look_text.h"
 
 namespace bihive {

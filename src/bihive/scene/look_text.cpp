@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/image/colour_text.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/named_materials.h"
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/io/assemble/finish.h"
 #include "bihive/io/data_path.h"
@@ -462,7 +463,7 @@ Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, 
   if (!document) return document.error();
   if (document->contains("bihive_film"))
     return Error{"is the description of a film, not a scene", name, 0, 0,
-                 "name the film's input, and this file after --film"};
+                 "name the film's input, and this file after " + setting_name("film")};
   const Status status = check_against_schema(*document, name);
   if (!status) return status.error();
   return Extraction(*document, name, options, looks, style).run();

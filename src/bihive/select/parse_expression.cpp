@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

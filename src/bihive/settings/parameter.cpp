@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/image/colour_text.h"
 
 namespace bihive {
@@ -122,10 +123,7 @@ bool fits(const Parameter& parameter, const SettingValue& value) {
 }
 
 std::string option_of(const Parameter& parameter) {
-  std::string option = "--" + std::string(parameter.id);
-  for (char& c : option)
-    if (c == '_') c = '-';
-  return option;
+  return option_of_setting(parameter.id);
 }
 
 const Parameter* parameter_of_option(std::string_view option) {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/image/colour_text.h"
-#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/io/assemble/finish.h"
 #include "bihive/io/assemble/unknown_radii.h"
 #include "bihive/io/chunk_of_file.h"
@@ -47,7 +48,7 @@ Result<RawSpheres> read_rows(const std::string& path, Communicator& ranks) {
   const std::optional<double> columns = columns_of(*spheres);
   if (are_alike({columns.value_or(-1)}, ranks) && columns) return spheres;
   return Error{"parts of this file can be read only if all columns are numbers, and types whole ones", path, 0, 0,
-               "leave out --distribute, or convert the file: bihive convert FILE -o set.npy"};
+               "leave out " + setting_name("distribute") + ", or convert the file: bihive convert FILE -o set.npy"};
 }
 
 // Radii for a set without any: half the lower median of the distances from neighbour to neighbour, on whatever ranks

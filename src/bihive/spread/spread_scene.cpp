@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/geometry/stored_clip.h"
 #include "bihive/scene/clips.h"
@@ -227,10 +228,11 @@ SpreadScene::~SpreadScene() = default;
 
 Status SpreadScene::refusal(const Scene& scene, const RenderSettings& settings) {
   if (scene.spheres.has_images())
-    return Error{"copies of a replicated set cannot be distributed", "", 0, 0, "leave out --replicate"};
+    return Error{"copies of a replicated set cannot be distributed", "", 0, 0,
+                 "leave out " + setting_name("replicate")};
   if (settings.view == View::tree || settings.view == View::traversal)
     return Error{"this view shows the tree of all spheres, and distributed spheres have a tree on each rank", "", 0, 0,
-                 "leave out --distribute"};
+                 "leave out " + setting_name("distribute")};
   return Done{};
 }
 

@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parse_number.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/raw_spheres.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -163,7 +164,8 @@ std::vector<std::size_t> members_of(const NamedTexts& column, const std::vector<
 Error no_such_assembly(const RawSpheres& spheres, const std::string& id, const std::string& file) {
   const std::vector<std::string> ids = spheres.assemblies.ids();
   if (ids.empty())
-    return {"the file states no assemblies, so there is no " + quote(id), file, 0, 0, "leave --assembly out"};
+    return {"the file states no assemblies, so there is no " + quote(id), file, 0, 0,
+            "leave " + setting_name("assembly") + " out"};
   std::string known;
   for (const std::string& one : ids) known += (known.empty() ? "there are " : ", ") + one;
   return {"there is no assembly " + quote(id), file, 0, 0, known};

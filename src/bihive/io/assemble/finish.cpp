@@ -7,6 +7,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/assemble/unknown_radii.h"
 #include "bihive/io/assemble/wrapping.h"
@@ -28,14 +29,14 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
     if (const char* fault = radius_fault(*options.radius))
       return Error{
           "the radius that replaces all others " + std::string(fault) + ": " + readable_number(*options.radius), name,
-          0, 0, "give --radius a number from 0"};
+          0, 0, "give " + setting_name("radius") + " a number from 0"};
     raw.r.assign(raw.size(), *options.radius);
     raw.rules.push_back("radii: all " + readable_number(*options.radius) + ", as asked for");
   }
   if (options.radius_scale != 1) {
     if (const char* fault = radius_fault(options.radius_scale))
       return Error{"the factor for radii " + std::string(fault) + ": " + readable_number(options.radius_scale), name, 0,
-                   0, "give --radius-scale a number from 0"};
+                   0, "give " + setting_name("radius_scale") + " a number from 0"};
     for (double& r : raw.r) r *= options.radius_scale;
     raw.rules.push_back("radii: multiplied by " + readable_number(options.radius_scale));
   }
@@ -50,14 +51,17 @@ Result<Images> apply_cell_options(RawSpheres& raw, const std::string& name, cons
   }
   if (options.cell_origin) {
     if (!raw.cell)
-      return Error{"there is no periodic cell that could begin elsewhere", name, 0, 0, "give one with --cell-vectors"};
+      return Error{"there is no periodic cell that could begin elsewhere", name, 0, 0,
+                   "give one with " + setting_name("cell_vectors")};
     raw.cell->origin = *options.cell_origin;
   }
   if (raw.cell && !is_finite(*raw.cell)) return Error{"the numbers of the cell must be finite", name, 0, 0, ""};
   if (Status status = apply_wrapping(raw, options.wrapping, name); !status) return status.error();
   Images images;
   if (options.replicate == images.counts) return images;
-  if (!raw.cell) return Error{"there is no periodic cell to replicate by", name, 0, 0, "give one with --cell-vectors"};
+  if (!raw.cell)
+    return Error{"there is no periodic cell to replicate by", name, 0, 0,
+                 "give one with " + setting_name("cell_vectors")};
   images.counts = options.replicate;
   images.vectors = raw.cell->vectors;
   raw.rules.push_back("replicated: " + std::to_string(images.counts[0]) + " x " + std::to_string(images.counts[1]) +
@@ -160,7 +164,7 @@ Result<RoundingLoss> SphereFinisher::round(double extent_of_whole) {
   set_.cell() = raw_.cell;
   if (Status status = set_.replicate(images_.vectors, images_.counts); !status) {
     Error error = named(status.error());
-    error.hint = "see --replicate and --cell-vectors";
+    error.hint = "see " + setting_name("replicate") + " and " + setting_name("cell_vectors");
     return error;
   }
   loss.vanishing = set_.vanishing_radii();
@@ -169,11 +173,12 @@ Result<RoundingLoss> SphereFinisher::round(double extent_of_whole) {
 
 SphereFile SphereFinisher::finish(const RoundingLoss& of_whole) {
   if (of_whole.moved > 0)
-    raw_.warnings.push_back(
-        "rounding to single precision moves " + std::to_string(of_whole.moved) + " of " + std::to_string(all_) +
-        " centres by more than 1 % of the radius (sphere " + std::to_string(of_whole.worst_id) + " by " +
-        readable_number(100 * of_whole.worst_share) + " %)" +
-        (options_.recenter ? "; the radii are too small for the extent" : "; --recenter makes it finer"));
+    raw_.warnings.push_back("rounding to single precision moves " + std::to_string(of_whole.moved) + " of " +
+                            std::to_string(all_) + " centres by more than 1 % of the radius (sphere " +
+                            std::to_string(of_whole.worst_id) + " by " + readable_number(100 * of_whole.worst_share) +
+                            " %)" +
+                            (options_.recenter ? "; the radii are too small for the extent"
+                                               : "; " + setting_name("recenter") + " makes it finer"));
   if (of_whole.vanishing > 0)
     raw_.warnings.push_back(spheres_have(of_whole.vanishing) +
                             " a radius below 2^-60 of the whole extent and cannot be told from a point");

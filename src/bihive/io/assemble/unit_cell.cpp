@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/math/elementary.h"
 

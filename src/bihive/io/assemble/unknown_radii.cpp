@@ -10,6 +10,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/readable.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/assemble/nearest_place.h"
 #include "bihive/io/elements.h"
 
@@ -102,7 +103,7 @@ void fill_radii(RawSpheres& spheres, const UnknownRadii& whole) {
   spheres.rules.push_back("radii: " + number + (all ? ", " : " where neither element nor radius is known, ") + source);
   spheres.warnings.push_back(
       (all ? "no radii; each sphere" : spheres_have(whole.unknown) + " neither element nor radius; each") +
-      " gets radius " + number + ", " + source + "; --radius R sets another");
+      " gets radius " + number + ", " + source + "; " + setting_name("radius") + " sets another");
 }
 
 }  // namespace bihive

@@ -8,7 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -130,7 +131,8 @@ Status apply_wrapping(RawSpheres& raw, Wrapping wrapping, const std::string& nam
   if (wrapping == Wrapping::none) return Done{};
   const std::string what = wrapping == Wrapping::wrap ? "wrap" : "unwrap";
   if (!raw.cell)
-    return Error{"there is no periodic cell to " + what + " by", name, 0, 0, "give one with --cell-vectors"};
+    return Error{"there is no periodic cell to " + what + " by", name, 0, 0,
+                 "give one with " + setting_name("cell_vectors")};
   const Shares shares(*raw.cell);
   if (!shares.has_volume()) return Error{"the cell has no volume, so nothing can " + what, name, 0, 0, ""};
   if (wrapping == Wrapping::wrap) {

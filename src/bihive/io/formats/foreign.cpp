@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/formats.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

@@ -1,7 +1,7 @@
 #include "bihive/io/text/fields.h"
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/raw_spheres.h"
-#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 

@@ -8,9 +8,9 @@
 
 #include "bihive/base/aligned_buffer.h"
 #include "bihive/base/memory.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/base/readable.h"
 #include "bihive/io/text/column_numbers.h"
-#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 

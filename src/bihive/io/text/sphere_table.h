@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/column_choice.h"
 #include "bihive/io/raw_spheres.h"
 #include "bihive/io/text/text_scanner.h"
@@ -56,7 +57,9 @@ bool chooses_places(const ColumnChoice& choice);
 std::vector<TableColumn> columns_without_names(std::size_t count);
 
 /// The remedy where no column is called x.
-constexpr std::string_view kNameColumns = "say which columns they are: --columns x=NAME,y=NAME,z=NAME";
+inline std::string how_to_name_columns() {
+  return "say which columns they are: " + setting_name("columns") + " x=NAME,y=NAME,z=NAME";
+}
 
 class SphereTable {
  public:

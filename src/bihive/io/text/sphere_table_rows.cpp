@@ -7,8 +7,8 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/base/parallel.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/text/column_numbers.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/plain_number.h"
 #include "bihive/io/text/sphere_table.h"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/image/transfer.h"
 #include "bihive/io/elements.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
 namespace bihive {

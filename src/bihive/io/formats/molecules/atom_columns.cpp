@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

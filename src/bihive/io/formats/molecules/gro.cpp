@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

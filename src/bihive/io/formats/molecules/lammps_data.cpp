@@ -7,11 +7,11 @@
 #include <optional>
 #include <set>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/base/readable.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/lammps_styles.h"
-#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {

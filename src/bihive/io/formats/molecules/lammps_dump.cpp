@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/format.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
 namespace bihive {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

@@ -9,12 +9,12 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/cif.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

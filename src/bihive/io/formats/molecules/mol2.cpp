@@ -3,12 +3,12 @@
 #include <limits>
 #include <optional>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/text/fields.h"
-#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/alternates.h"
@@ -13,7 +14,6 @@
 #include "bihive/io/formats/molecules/pdb_assemblies.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/formats/molecules/pqr_line.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/text/fields.h"
-#include "bihive/io/text/parse_number.h"
 
 namespace bihive {
 namespace {

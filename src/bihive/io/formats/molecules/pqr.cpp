@@ -3,11 +3,11 @@
 // pdb2pqr keeps to columns unless it is asked for blanks, so large numbers may touch. Then the columns count.
 #include <algorithm>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/formats.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/formats/molecules/pqr_line.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

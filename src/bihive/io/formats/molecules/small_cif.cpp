@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/molecules/cif.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {

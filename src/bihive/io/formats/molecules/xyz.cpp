@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
 namespace bihive {

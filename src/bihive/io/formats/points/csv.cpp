@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "bihive/base/parse_number.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/formats/format.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
 namespace bihive {
@@ -64,16 +65,17 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
     scanner.set_comment('#');
     fields = fields_of(scanner, separator_of(scanner.line(), false));
     if (fields.size() != 3 && fields.size() != 4 && !chooses_places(choice))
-      return scanner.line_error("expected 'x y z' or 'x y z r' but found " + std::to_string(fields.size()) +
-                                    (fields.size() == 1 ? " column" : " columns"),
-                                "name the columns in a header line, or say which they are: --columns x=1,y=2,z=3");
+      return scanner.line_error(
+          "expected 'x y z' or 'x y z r' but found " + std::to_string(fields.size()) +
+              (fields.size() == 1 ? " column" : " columns"),
+          "name the columns in a header line, or say which they are: " + setting_name("columns") + " x=1,y=2,z=3");
   }
 
   std::vector<TableColumn> columns = has_header ? columns_of_header(fields) : columns_without_names(fields.size());
   if (const std::string fault = choose_columns(choice, columns); !fault.empty()) return scanner.line_error(fault);
   SphereTable table(columns);
   if (const std::string fault = table.columns_fault(); !fault.empty())
-    return scanner.line_error(fault + " in the header " + quote(table.column_names()), std::string(kNameColumns));
+    return scanner.line_error(fault + " in the header " + quote(table.column_names()), how_to_name_columns());
   table.reserve(scanner.lines_left() + 1, scanner.bytes_left());
 
   // Every later line is a sphere.

@@ -83,7 +83,7 @@ Result<RawSpheres> spheres_of_named_arrays(const NamedArrays& all, const std::st
   }
   if (const std::string fault = choose_columns(choice, columns); !fault.empty()) return bad(fault);
   SphereTable table(columns);
-  if (const std::string fault = table.columns_fault(); !fault.empty()) return bad(fault, std::string(kNameColumns));
+  if (const std::string fault = table.columns_fault(); !fault.empty()) return bad(fault, how_to_name_columns());
   std::vector<double> row(columns.size());
   table.reserve(rows, rows * static_cast<std::int64_t>(2 * columns.size()));
   for (std::size_t i = 0; i < static_cast<std::size_t>(rows); ++i) {

@@ -1,4 +1,5 @@
 #include "bihive/base/memory.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/text/sphere_table.h"
@@ -38,8 +39,9 @@ Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std
     const std::string shape = array->shape.size() == 2
                                   ? std::to_string(array->shape[0]) + ", " + std::to_string(array->shape[1])
                                   : std::to_string(array->shape[0]) + ",";
-    return Error{"the NPY array's shape is (" + shape + "); expected (n, 3) for x, y, z or (n, 4) for x, y, z, radius",
-                 file, 0, 0, array->shape.size() == 2 ? "say which columns these are: --columns x=1,y=2,z=3" : ""};
+    return Error{
+        "the NPY array's shape is (" + shape + "); expected (n, 3) for x, y, z or (n, 4) for x, y, z, radius", file, 0,
+        0, array->shape.size() == 2 ? "say which columns these are: " + setting_name("columns") + " x=1,y=2,z=3" : ""};
   }
   if (frame != 0) return no_such_frame(file, frame, 1);
 

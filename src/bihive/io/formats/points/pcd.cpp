@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/points/lzf.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/text/fields.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
 namespace bihive {
@@ -36,7 +36,7 @@ class PcdReader {
       return scanner_.line_error(fault + " in FIELDS");
     SphereTable table(columns_);
     if (const std::string fault = table.columns_fault(); !fault.empty())
-      return scanner_.line_error(fault + " in FIELDS", std::string(kNameColumns));
+      return scanner_.line_error(fault + " in FIELDS", how_to_name_columns());
     if (has_rgb_) table.colours_are_bytes();
     table.reserve(points_, scanner_.bytes_left());
     if (Status points = data_ == "ascii" ? read_text(table) : read_binary(table); !points) return points.error();

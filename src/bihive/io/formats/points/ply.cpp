@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/text/fields.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/sphere_table.h"
 
 namespace bihive {
@@ -179,7 +179,7 @@ class PlyReader {
       if (columns[i].role == ColumnRole::red) colours_are_bytes = whole[i];
     SphereTable table(columns);
     if (const std::string fault = table.columns_fault(); !fault.empty())
-      return scanner_.line_error(fault + " in the element 'vertex'", std::string(kNameColumns));
+      return scanner_.line_error(fault + " in the element 'vertex'", how_to_name_columns());
     if (colours_are_bytes) table.colours_are_bytes();
     table.reserve(element.count, static_cast<std::int64_t>(bytes_.size() - body_));
     std::vector<double> row;

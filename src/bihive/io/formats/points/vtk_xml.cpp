@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/points/vtk_arrays.h"
 #include "bihive/io/packed/binary_number.h"
-#include "bihive/io/text/parse_number.h"
 #include "bihive/io/text/text_scanner.h"
 
 #if BIHIVE_HAS_ZLIB

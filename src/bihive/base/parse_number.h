@@ -1,4 +1,4 @@
-// Numbers from text, independent of the locale. The whole text must be the number: nothing before or behind it.
+// Numbers from text, independent of the locale. The whole text must be the number: nothing before or after it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "bihive/io/text/parse_number.h"
+#include "bihive/base/parse_number.h"
 
 #include <gemmi/third_party/fast_float.h>
 
