@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/bih/tree.h"
+#include "parameter_options.h"
 #include "support/failure.h"
 #include "support/values.h"
 
@@ -32,13 +34,13 @@ template <class Target>
 void add_integer(CLI::App& app, const std::string& name, Target& target, std::int64_t min, std::int64_t max,
                  const std::string& help) {
   add_value(app, name, target, "N", help,
-            [min, max](const std::string& text) { return cli::integer_from(text, min, max); });
+            [min, max](const std::string& text) { return whole_number_from_text(text, min, max); });
 }
 
 template <class Target>
 void add_number(CLI::App& app, const std::string& name, Target& target, const std::string& help) {
   add_value(app, name, target, "R", help,
-            [](const std::string& text) { return cli::number_from(text, 0, kLargestFloat); });
+            [](const std::string& text) { return number_from_text(text, 0, kLargestFloat); });
 }
 
 std::vector<std::string> words_of_only() {
@@ -60,10 +62,7 @@ void add_input(CLI::App& app, BenchOptions& options) {
       ->type_name("FILE");
   add_integer(app, "--count", input.count, 1, kUnlimited, "Scenarios: how many spheres (4096)");
   add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", cli::seed_from);
-  add_number(app, "--radius", input.radius, "Radius of every sphere (scenarios: 1)");
-  add_number(app, "--radius-scale", input.radius_scale, "Files: multiply every radius");
-  app.add_flag("--recenter", input.recenter, "Files: move the middle of the set to the origin");
-  add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
+  for (const char* const id : {"radius", "radius_scale", "recenter", "frame"}) cli::add_reading(app, id, input.reading);
 }
 
 }  // namespace
@@ -90,7 +89,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_integer(app, "--rays", options.rays, 64, std::int64_t{1} << 26,
               "Primary and random rays, pixels of the frame, about (1048576)");
   add_value(app, "--ao-distance", options.ao_distance, "D", "Length of the rays of ambient occlusion (no limit)",
-            [](const std::string& text) { return cli::number_from(text, 0, kLargestFloat, true); });
+            [](const std::string& text) { return number_from_text(text, 0, kLargestFloat, true); });
   add_integer(app, "--tile", options.tile, 64, 1048576,
               "Rays that a thread takes at a time, at most (131072, random rays 1048576)");
   add_integer(app, "--call", options.call, 1, 1048576,

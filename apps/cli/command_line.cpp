@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/base/version.h"
-#include "bihive/io/cell_options.h"
 #include "bihive/io/known_formats.h"
+#include "bihive/io/reading_settings.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
@@ -45,13 +46,14 @@ template <class Target>
 CLI::Option* add_integer(CLI::App& app, const std::string& name, Target& target, std::int64_t min, std::int64_t max,
                          const std::string& help) {
   return add_value(app, name, target, "N", help,
-                   [min, max](const std::string& text) { return integer_from(text, min, max); });
+                   [min, max](const std::string& text) { return whole_number_from_text(text, min, max); });
 }
 
 template <class Target>
 CLI::Option* add_number(CLI::App& app, const std::string& name, Target& target, double max, const std::string& type,
                         const std::string& help) {
-  return add_value(app, name, target, type, help, [max](const std::string& text) { return number_from(text, 0, max); });
+  return add_value(app, name, target, type, help,
+                   [max](const std::string& text) { return number_from_text(text, 0, max); });
 }
 
 template <class T>
@@ -87,17 +89,6 @@ void add_generator_options(CLI::App& app, InputOptions& input) {
   add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", seed_from);
 }
 
-// A text of --help in lines of at most this many characters.
-std::string in_lines(std::string text) {
-  constexpr std::size_t kWidth = 84;
-  for (std::size_t begin = 0; text.size() - begin > kWidth;) {
-    const std::size_t blank = text.rfind(' ', begin + kWidth);
-    text[blank] = '\n';
-    begin = blank + 1;
-  }
-  return text;
-}
-
 // `alone`: no other word without an option follows INPUT.
 void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
   app.add_option("INPUT", input.input,
@@ -106,40 +97,14 @@ void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
                           "- is the standard input"))
       ->type_name("")
       ->required();
-  app.add_option(alone ? "TRAJECTORY,--trajectory" : "--trajectory", input.trajectory,
-                 in_lines("Files: the places of the same spheres at many times (" +
-                          names_of_formats(FormatsThat::are_trajectories) + ")"))
-      ->type_name("FILE");
+  add_reading(app, "trajectory", input.reading, alone ? "TRAJECTORY," : "");
 }
 
 void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scale = true) {
   add_generator_options(app, input);
-  add_number(app, "--radius", input.radius, kLargestFloat, "R", "Radius of every sphere (scenarios: 1)");
-  if (with_radius_scale)
-    add_number(app, "--radius-scale", input.radius_scale, kLargestFloat, "F", "Files: multiply every radius");
-  app.add_flag("--recenter", input.recenter, "Files: move the middle of the set to the origin");
-  add_value(app, "--assembly", input.assembly, "ID",
-            "PDB, mmCIF: copy the chains as this biological assembly says, e.g.\n--assembly 1; bihive info lists them",
-            [](const std::string& text) -> Result<std::string> {
-              if (text.empty()) return Error{"expected the id of an assembly, found an empty text", "", 0, 0, ""};
-              return text;
-            });
-  add_value(app, "--columns", input.columns, "PART=COLUMN,...",
-            in_lines(names_of_formats(FormatsThat::have_columns) +
-                     ": columns by name or place, e.g. --columns x=px,y=py,z=pz,r=5"),
-            columns_from_text);
-  add_integer(app, "--frame", input.frame, 0, kUnlimited, "Files: which frame or model, from 0 (0)");
-  add_value(app, "--replicate", input.replicate, "AxBxC",
-            "Files: so many copies along the vectors of the periodic cell", copies_from_text);
-  add_value(app, "--cell-vectors", input.cell_vectors, "AX,AY,AZ,BX...",
-            "Files: the three vectors of the cell (the file's)", cell_vectors_from_text);
-  add_value(app, "--cell-origin", input.cell_origin, "X,Y,Z", "Files: the corner of the cell (the file's, else 0,0,0)",
-            cell_origin_from_text);
-  const auto set = [&input](Wrapping wrapping) { return [&input, wrapping] { input.wrapping = wrapping; }; };
-  CLI::Option* wrap = app.add_flag_callback("--wrap", set(Wrapping::wrap), "Files: move every centre into the cell");
-  app.add_flag_callback("--unwrap", set(Wrapping::unwrap),
-                        "Files: bring together what belongs together, by the columns\nix, iy, iz or by mol")
-      ->excludes(wrap);
+  for (const ReadingSetting& row : reading_settings())
+    if (row.id != "trajectory" && (with_radius_scale || row.id != "radius_scale"))
+      add_reading(app, row.id, input.reading);
 }
 
 void add_tree_options(CLI::App& app, TreeParameters& tree) {
@@ -202,11 +167,8 @@ void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input, Overrides
   add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
       [&looks, &input](const std::string& text) -> Status {
         if (looks.selected) return looks.act("radius-scale", text);
-        if (input.radius_scale) return Error{"is given more than once before a --select", "", 0, 0, ""};
-        const Result<double> factor = number_from(text, 0, kLargestFloat);
-        if (!factor) return factor.error();
-        input.radius_scale = *factor;
-        return Done{};
+        if (input.reading.has("radius_scale")) return Error{"is given more than once before a --select", "", 0, 0, ""};
+        return input.reading.take("radius_scale", text);
       });
   add("--outline", "PX", "Behind a --select: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)",
       [&looks, &chosen](const std::string& text) -> Status {
@@ -242,7 +204,7 @@ void add_background(CLI::App& app, std::optional<std::string>& background) {
 
 void add_projection(CLI::App& app, std::optional<double>& fov_deg, std::optional<Projection>& projection) {
   add_value(app, "--fov", fov_deg, "DEG", "Angle along the shorter side (30)",
-            [](const std::string& text) { return number_from(text, 0, 180, /*open=*/true); });
+            [](const std::string& text) { return number_from_text(text, 0, 180, /*open=*/true); });
   add_choice(app, "--projection", projection, kProjections,
              "orthographic: equal spheres look equally large at any distance (perspective)");
 }
@@ -317,7 +279,7 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   add_background(command, options.background);
   add_value(command, "--bits", options.bits, "8|16", "Bits of each number in the picture (8)", bits_from);
   add_value(command, "--dpi", options.dots_per_inch, "N", "Pixels an inch in print, as a note in the picture",
-            [](const std::string& text) { return number_from(text, 0, kMostDotsPerInch, /*open=*/true); });
+            [](const std::string& text) { return number_from_text(text, 0, kMostDotsPerInch, /*open=*/true); });
   begin_theme(command, "Style and light");
   add_style_options(command, options.style);
   for (const ParameterGroup group : {ParameterGroup::light, ParameterGroup::lines, ParameterGroup::tone})
@@ -333,7 +295,7 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
             "looks at; the picture turns ROLL counter-clockwise",
             turn_from);
   add_value(command, "--zoom", options.zoom, "F", "Draw everything F times as large (1)",
-            [](const std::string& text) { return number_from(text, 0, kMostZoom, /*open=*/true); });
+            [](const std::string& text) { return number_from_text(text, 0, kMostZoom, /*open=*/true); });
   add_lens(command, options.aperture, options.focus);
   begin_theme(command, "Engine");
   add_choice(command, "--engine", options.engine, kRenderEngines,
@@ -392,7 +354,7 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
               "How many pictures of an input with one frame (ten seconds, or all keys)");
   add_value(command, "--turntable", options.turntable_deg, "DEG",
             "The camera goes so far around the scene while the film runs",
-            [](const std::string& text) { return number_from(text, -1e6, 1e6); });
+            [](const std::string& text) { return number_from_text(text, -1e6, 1e6); });
   command.add_option("--camera-keys", options.camera_keys, "Key frames of the camera: docs/films.md")
       ->type_name("FILE");
   add_choice(command, "--colour-range", options.range_of_colours, kRangesOfColours,
@@ -477,7 +439,7 @@ void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
       ->type_name("")
       ->required();
   add_generator_options(command, options.input);
-  add_number(command, "--radius", options.input.radius, kLargestFloat, "R", "Scenarios: radius of every sphere (1)");
+  add_reading(command, "radius", options.input.reading);
   add_path(command, "-o,--output", options.output,
            ".npy: x, y, z, r as float32 (n, 4); .json: a scene file;\n- writes a scene file to the standard output");
 }

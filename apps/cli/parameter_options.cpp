@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/settings/parameter_text.h"
 
 namespace bihive::cli {
@@ -44,6 +45,30 @@ void add_parameters(CLI::App& app, ParameterGroup group, Overrides& chosen, bool
     if (parameter.group != group || implied == nullptr || !implied->has_no_option) continue;
     app.get_option("--no" + option_of(*implied).substr(1))->excludes(app.get_option(option_of(parameter)));
   }
+}
+
+void add_reading(CLI::App& app, std::string_view id, GivenReading& given, const std::string& other_names) {
+  const ReadingSetting& row = *reading_setting(id);
+  const std::string name = option_of_setting(id);
+  const auto take = [&given, id, name](const std::string& text) {
+    if (const Status status = given.take(id, text); !status) throw CLI::ValidationError(name, status.error().message);
+  };
+  CLI::Option* const option = row.value_name.empty()
+                                  ? app.add_flag_callback(
+                                        name, [take] { take(""); }, in_lines(row.help))
+                                  : app.add_option_function<std::string>(other_names + name, take, in_lines(row.help))
+                                        ->type_name(std::string(row.value_name));
+  if (!row.excludes.empty()) option->excludes(app.get_option(option_of_setting(row.excludes)));
+}
+
+std::string in_lines(std::string text) {
+  constexpr std::size_t kWidth = 84;
+  for (std::size_t begin = 0; text.size() - begin > kWidth;) {
+    const std::size_t blank = text.rfind(' ', begin + kWidth);
+    text[blank] = '\n';
+    begin = blank + 1;
+  }
+  return text;
 }
 
 }  // namespace bihive::cli

@@ -2,9 +2,8 @@
 // program with one argument, a JSON object:
 //
 //   {"input": "demo",                        a built-in name or a file
-//    "count": 64, "seed": 1, "radius": 1,    of the scenarios; all but "input" may be missing
-//    "radius_scale": 1, "recenter": false, "frame": 0, "assembly": "1", "columns": {"x": "px"},
-//    "replicate": [1, 1, 1], "cell_vectors": [[x, y, z], ...], "cell_origin": [x, y, z], "wrapping": "wrap",
+//    "count": 64, "seed": 1,                 of the scenarios; all but "input" may be missing
+//    "reading": {"radius_scale": "2"},       as in io/reading_settings.h
 //    "size": [1280, 800], "view_from": "left",
 //    "settings": {...}, "look": {...},       as in viewer/viewer_json.h; missing ones are the scene's
 //    "screenshot": "window.png"}

@@ -12,6 +12,7 @@
 #include "answers.h"
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
+#include "bihive/io/reading_settings.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/colour_maps.h"
 #include "bihive/scene/look_text.h"
@@ -20,6 +21,7 @@
 #include "bihive/scene/style.h"
 #include "bihive/viewer/load_file.h"
 #include "bihive/viewer/viewer_json.h"
+#include "control_names.h"
 
 namespace bihive::page {
 namespace {
@@ -39,14 +41,6 @@ std::string done_or(const Status& status) {
 
 // JavaScript's largest whole number; memory allows fewer spheres.
 constexpr double kMostSpheres = 9007199254740991;
-
-// A radius below 0: the file's own.
-ReadOptions reading_of(double radius, double radius_scale) {
-  ReadOptions reading;
-  if (radius >= 0) reading.radius = radius;
-  reading.radius_scale = radius_scale;
-  return reading;
-}
 
 // What colours the spheres: for the words beside the controls. A continuous map has a range.
 ordered_json coloured_by_json(const Scene& scene) {
@@ -87,15 +81,11 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
   return text_of(json);
 }
 
-std::string Page::load(const std::string& name, const std::string& trajectory, double radius, double radius_scale,
-                       const std::string& columns) {
+std::string Page::load(const std::string& name, const std::string& trajectory, const std::string& how) {
   return with_memory([&] {
-    ReadOptions reading = reading_of(radius, radius_scale);
-    if (!columns.empty()) {
-      Result<ColumnChoice> choice = columns_from_text(columns);
-      if (!choice) return failure(choice.error());
-      reading.columns = std::move(*choice);
-    }
+    const Result<GivenReading> given = reading_from_json(how);
+    if (!given) return failure(given.error());
+    ReadOptions reading = given->options();
     if (!trajectory.empty()) reading.trajectory = folder() + trajectory;
     Result<LoadedFile> file = load_file(viewer_, folder() + name, reading);
     if (!file) return failure(file.error());
@@ -162,16 +152,19 @@ Status Page::show_frame(std::int64_t frame) {
   return Done{};
 }
 
-std::string Page::load_built_in(const std::string& name, double count, double radius, double radius_scale) {
+std::string Page::load_built_in(const std::string& name, double count, const std::string& how) {
   return with_memory([&] {
+    const Result<GivenReading> given = reading_from_json(how);
+    if (!given) return failure(given.error());
+    const ReadOptions& reading = given->options();
     ScenarioParameters parameters;
     if (count != 0) {
       if (!(count >= 1 && count <= kMostSpheres && count == std::floor(count)))
         return failure({"the number of spheres must be a whole number from 1", name, 0, 0, ""});
       parameters.count = static_cast<std::int64_t>(count);
     }
-    if (radius >= 0) parameters.radius = scenario_radius(radius);
-    const Result<SceneFacts> facts = viewer_.load_built_in(name, parameters, reading_of(radius, radius_scale));
+    if (reading.radius) parameters.radius = scenario_radius(*reading.radius);
+    const Result<SceneFacts> facts = viewer_.load_built_in(name, parameters, reading);
     if (facts) frames_.reset();
     if (facts) start_player();
     return loaded(facts);

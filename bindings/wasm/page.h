@@ -20,17 +20,16 @@ namespace bihive::page {
 
 class Page {
  public:
-  // The scene. Answers: {"facts": {...}, "settings": {...}, "look": {...}, "coloured_by": [...]}. `radius` below 0: the
-  // file's own; `radius_scale` multiplies every radius of a file; `columns` is the text of --columns, or empty.
+  // The scene. Answers: {"facts": {...}, "settings": {...}, "look": {...}, "coloured_by": [...]}. `how`: the
+  // JSON of io/reading_settings.h.
 
   /// Where the caller puts the user's files (Emscripten's WORKERFS), with a slash at its end. Answers leave it out.
   static std::string folder();
   /// A file there, and its trajectory, or an empty text. Both must stay until the next scene is loaded: frames are read
   /// when they are wanted.
-  std::string load(const std::string& name, const std::string& trajectory, double radius, double radius_scale,
-                   const std::string& columns);
+  std::string load(const std::string& name, const std::string& trajectory, const std::string& how);
   /// `count` 0: the scenario's own number of spheres.
-  std::string load_built_in(const std::string& name, double count, double radius, double radius_scale);
+  std::string load_built_in(const std::string& name, double count, const std::string& how);
 
   // The player of a file with several frames. Times are of any steady clock, in milliseconds.
 

@@ -247,7 +247,8 @@ class OptionsOfDistributedSpheres(ProgramTest):
         """A new option is refused with --distribute until somebody says how it works there."""
         shown = self.succeed("render", "--help-all")
         options = set(re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", shown, re.MULTILINE)) - {"--help", "--help-all"}
-        # Parameters of pictures say it in their own table.
+        # Parameters of pictures and settings of reading say it in their own tables.
+        options -= {row["option"] for row in json.loads(self.succeed("describe", "reading"))}
         for row in json.loads(self.succeed("describe", "settings")):
             if "option" in row:
                 self.assertNotEqual(row["ranks"], "refused", row["id"])

@@ -35,13 +35,13 @@ TEST(DistributedOptions, OneThatLooksAtMoreNeedsTheWholeSet) {
 
 TEST(DistributedOptions, SomeDependOnTheirValue) {
   RenderOptions options = given({"--frame", "--focus"});
-  options.input.frame = 0;
+  options.input.reading.set_frame(0);
   options.focus = 2.5;
   EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::chunks);
   options.focus = "chain A";
   EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
   options.focus.reset();
-  options.input.frame = 1;
+  options.input.reading.set_frame(1);
   EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
 }
 

@@ -1,5 +1,6 @@
 // Parts of `bihive film`: the words of a codec that stand in a file, the index of a sequence, and lists of pictures.
 // ctest: needs bihive_commands
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,6 +58,10 @@ TEST(CodecWords, OfAFileDoNothingElse) {
                                  "-vstats_file x",
                                  "-dump_attachment:t x"})
     EXPECT_FALSE(check_codec_of_file(text)) << text;
+}
+
+TEST(CodecOfFile, ErrorsShowNoControlCharacters) {
+  EXPECT_THAT(check_codec_of_file("-b:v \x01\x1b[2J").error().message, testing::HasSubstr("-b:v ??[2J"));
 }
 
 TEST(PictureIndex, HoldsWhatWasWritten) {

@@ -1,5 +1,6 @@
 // The whole state as a link: scene and settings in the address behind "#".
 import type { Changes, Look, Reading, Source } from './protocol';
+import { reading_ids } from './settings';
 
 export interface State {
   source: Source;
@@ -20,12 +21,14 @@ export function link_of(state: State): string {
 // The largest number that the library keeps a radius in; a factor needs no more.
 const largest_radius = 3.4028234663852886e38;
 
+const radii: string[] = ['radius', 'radius_scale'];
+
 const is_radius = (number: unknown): number is number => typeof number === 'number' && number >= 0 && number <= largest_radius;
 
 function is_reading(value: unknown): value is Reading {
   if (typeof value !== 'object' || value === null) return false;
-  return Object.entries(value).every(([key, one]) =>
-    key === 'columns' ? typeof one === 'string' : ['radius', 'radius_scale'].includes(key) && is_radius(one),
+  return Object.entries(value).every(
+    ([key, one]) => (reading_ids as readonly string[]).includes(key) && (radii.includes(key) ? is_radius(one) : typeof one === 'string' || Number.isFinite(one)),
   );
 }
 
@@ -74,19 +77,16 @@ export function state_of(hash: string): State | null {
   throw new Error('The link is damaged: it does not hold a scene');
 }
 
-/** The reading that an address asks for: `?radius=0.5&radius_scale=2&columns=x=px,y=py,z=pz`. Throws words for the user. */
+/** The reading that an address asks for: `?radius=0.5&frame=3&columns=x=px,y=py,z=pz`. Throws words for the user. */
 export function reading_of(search: string): Reading | undefined {
   const asked = new URLSearchParams(search);
   const reading: Reading = {};
-  for (const key of ['radius', 'radius_scale'] as const) {
+  for (const key of reading_ids) {
     const text = asked.get(key);
     if (text === null) continue;
-    const number = Number(text);
-    if (text.trim() === '' || !is_radius(number))
-      throw new Error(`${key}=${text} in the address: expected a number from 0 to ${largest_radius}`);
-    reading[key] = number;
+    if (!radii.includes(key)) reading[key] = text;
+    else if (text.trim() !== '' && is_radius(Number(text))) reading[key] = Number(text);
+    else throw new Error(`${key}=${text} in the address: expected a number from 0 to ${largest_radius}`);
   }
-  const columns = asked.get('columns');
-  if (columns !== null) reading.columns = columns;
   return Object.keys(reading).length > 0 ? reading : undefined;
 }

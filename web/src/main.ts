@@ -253,7 +253,7 @@ async function open(
     if (id !== loading) return; // another one was asked for meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
     awaited.set(id, { own, framed: !state.settings?.camera?.eye });
-    asked_columns = from.reading?.columns ?? '';
+    asked_columns = String(from.reading?.columns ?? '');
     engine.send({ type: 'load', id, source: from, files, ...state });
   } catch (error) {
     busy(null);

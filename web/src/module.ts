@@ -1,8 +1,8 @@
 // The C++ module: the choice of one of its two builds, and its functions (bindings/wasm/page.h).
 
 export interface Page {
-  load(name: string, trajectory: string, radius: number, radius_scale: number, columns: string): string;
-  load_built_in(name: string, count: number, radius: number, radius_scale: number): string;
+  load(name: string, trajectory: string, reading: string): string;
+  load_built_in(name: string, count: number, reading: string): string;
   player(): string;
   toggle_play(now_ms: number): void;
   step_frames(by: number): void;

@@ -1,7 +1,7 @@
 // The messages between the page and its worker. The worker owns the C++ module and both canvases; the page owns the
 // controls. Numbers and names of settings are those of the C++ library.
 import type { Parameter } from './parameter';
-import type { PictureSettings } from './settings';
+import type { PictureSettings, ReadingId } from './settings';
 
 export type EngineName = 'cpu' | 'gpu';
 export type ViewName = 'shaded' | 'recursion' | 'traversal' | 'normal' | 'distance' | 'id' | 'tree';
@@ -58,12 +58,8 @@ export interface LookFault {
 /** Changes of settings; what a camera leaves out stays. */
 export type Changes = Omit<Partial<Settings>, 'camera'> & { camera?: Partial<Camera> };
 
-/** How a file is read; what is left out is the file's own. `columns`: "x=px,y=py,z=pz,r=5". */
-export interface Reading {
-  radius?: number;
-  radius_scale?: number;
-  columns?: string;
-}
+/** How a file is read, as on the command line ("x=px,y=py,z=pz,r=5"); what is left out is the file's own. */
+export type Reading = Partial<Record<ReadingId, string | number>>;
 
 /** Where a scene comes from. A dropped file has no address: a link names it, and the page asks for it. */
 export type Source = ({ built_in: string; count?: number } | { url: string } | { file: string; trajectory?: string }) & { reading?: Reading };

@@ -27,3 +27,8 @@ export interface PictureSettings {
   scale_bar: boolean;
   length_unit: string | null;
 }
+
+/** How a file is read; src/bihive/io/reading_settings.cpp. */
+// prettier-ignore
+export const reading_ids = ['radius', 'radius_scale', 'frame', 'recenter', 'assembly', 'columns', 'replicate', 'cell_vectors', 'cell_origin', 'wrap', 'unwrap'] as const;
+export type ReadingId = (typeof reading_ids)[number];

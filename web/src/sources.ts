@@ -141,7 +141,7 @@ export function show_source(source: Source): void {
   const [radius, scale, columns] = reading_inputs();
   radius.value = String(source.reading?.radius ?? '');
   scale.value = String(source.reading?.radius_scale ?? '');
-  columns.value = source.reading?.columns ?? '';
+  columns.value = String(source.reading?.columns ?? '');
   // The thesis's scenes have radii of their own: scenarios take another one.
   radius.disabled = name === 'four-spheres';
   element('radius_scale_row').hidden = name !== '' && name !== 'demo';

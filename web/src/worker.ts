@@ -279,14 +279,14 @@ function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
 
 async function load(request: Request & { type: 'load' }): Promise<void> {
   let loaded: Loaded;
-  const { radius = -1, radius_scale = 1, columns = '' } = request.source.reading ?? {};
+  const reading = JSON.stringify(request.source.reading ?? {});
   if ('built_in' in request.source) {
-    loaded = value_of(page.load_built_in(request.source.built_in, request.source.count ?? 0, radius, radius_scale));
+    loaded = value_of(page.load_built_in(request.source.built_in, request.source.count ?? 0, reading));
     user_files.forget();
   } else {
     const { name, trajectory } = await user_files.show(request.files!);
     try {
-      loaded = value_of(page.load(name, trajectory, radius, radius_scale, columns));
+      loaded = value_of(page.load(name, trajectory, reading));
     } catch (error) {
       user_files.keep(false);
       throw error;

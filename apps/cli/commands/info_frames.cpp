@@ -17,7 +17,6 @@
 #include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/messages.h"
-#include "support/read_options.h"
 
 namespace bihive::cli {
 namespace {
@@ -202,7 +201,7 @@ void run_info_of_frames(const InfoOptions& options) {
   if (file_of(options.input).empty()) fail_usage("--frames is for files, not for " + path);
   check_input_options(options.input);
   const Result<std::shared_ptr<const Frames>> frames =
-      open_frames(path, read_options(options.input), FramesOptions{options.keep_index});
+      open_frames(path, options.input.reading.options(), FramesOptions{options.keep_index});
   if (!frames) value_or_fail(Status(frames.error()));
   warn((*frames)->warnings());
   const Summary all = summary_of(**frames);

@@ -32,12 +32,12 @@ bool shows_reference_tree(View view) {
 std::string filled_title(const std::string& title, const RenderOptions& options, const Input& input,
                          std::int64_t spheres) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  TitleValues values{{"frame", static_cast<double>(options.input.frame.value_or(0))},
+  TitleValues values{{"frame", static_cast<double>(options.input.reading.options().frame)},
                      {"time", input.time_ps.value_or(kUnknown)},
                      {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
                      {"spheres", static_cast<double>(spheres)}};
   if (!options.labels.title_values.empty()) {
-    const TitleValues more = values_of_frame(options.labels.title_values, options.input.frame.value_or(0));
+    const TitleValues more = values_of_frame(options.labels.title_values, options.input.reading.options().frame);
     values.insert(values.begin(), more.begin(), more.end());
   }
   Result<std::string> filled = fill_title(title, values);
@@ -215,18 +215,14 @@ ordered_json settings_json(const RenderOptions& options, const RenderSettings& s
   }
   const InputOptions& input = options.input;
   json["spheres"] = scene.spheres.size();
-  if (input.radius) json["radius"] = *input.radius;
-  if (input.radius_scale) json["radius_scale"] = *input.radius_scale;
-  if (input.frame) json["frame"] = *input.frame;
-  if (!input.trajectory.empty()) json["trajectory"] = input.trajectory;
-  if (input.recenter) json["recenter"] = true;
-  if (!input.assembly.empty()) json["assembly"] = input.assembly;
-  if (!input.columns.empty()) json["columns"] = input.columns;
-  if (scene.spheres.has_images()) json["replicate"] = scene.spheres.images().counts;
-  if (input.cell_vectors)
-    for (const Vec3d& v : *input.cell_vectors) json["cell_vectors"].push_back({v.x, v.y, v.z});
-  if (input.cell_origin) json["cell_origin"] = {input.cell_origin->x, input.cell_origin->y, input.cell_origin->z};
-  if (input.wrapping != Wrapping::none) json["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
+  for (const ReadingSetting& row : reading_settings()) {
+    const std::string key(row.report.empty() ? row.id : row.report);
+    // Scene files replicate too.
+    if (row.id == "replicate" && scene.spheres.has_images())
+      json[key] = scene.spheres.images().counts;
+    else if (row.id != "replicate" && input.reading.has(row.id))
+      json[key] = *json_from_text<ordered_json>(row.value(input.reading.options()));
+  }
   if (!options.looks.element_colours.empty()) json["element_colours"] = options.looks.element_colours;
   if (!options.looks.words.empty()) json["looks"] = options.looks.words;
   return json;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/base/write_file.h"
 #include "support/failure.h"
 #include "support/values.h"
@@ -64,7 +65,7 @@ TitleValues values_of_frame(const std::string& path, std::int64_t frame) {
       values.emplace_back(names[i], std::numeric_limits<double>::quiet_NaN());
       continue;
     }
-    const Result<double> number = number_from(fields[i], -kLargest, kLargest);
+    const Result<double> number = number_from_text(fields[i], -kLargest, kLargest);
     if (!number) fail({number.error().message, path, frame + 2, 0, "the table holds numbers alone"});
     values.emplace_back(names[i], *number);
   }

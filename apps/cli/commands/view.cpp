@@ -78,18 +78,7 @@ ordered_json request_of(const ViewOptions& options) {
   request["input"] = input.input == kStandardStream ? "/dev/stdin" : input.input;
   put(request, "count", input.count);
   put(request, "seed", input.seed);
-  put(request, "radius", input.radius);
-  put(request, "radius_scale", input.radius_scale);
-  put(request, "frame", input.frame);
-  if (!input.trajectory.empty()) request["trajectory"] = input.trajectory;
-  if (input.recenter) request["recenter"] = true;
-  if (!input.assembly.empty()) request["assembly"] = input.assembly;
-  if (!input.columns.empty()) request["columns"] = input.columns;
-  put(request, "replicate", input.replicate);
-  if (input.cell_vectors)
-    for (const Vec3d& v : *input.cell_vectors) request["cell_vectors"].push_back({v.x, v.y, v.z});
-  if (input.cell_origin) request["cell_origin"] = {input.cell_origin->x, input.cell_origin->y, input.cell_origin->z};
-  if (input.wrapping != Wrapping::none) request["wrapping"] = input.wrapping == Wrapping::wrap ? "wrap" : "unwrap";
+  request["reading"] = *json_from_text<ordered_json>(reading_to_json(input.reading));
   if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
   request["look"] = *json_from_text<ordered_json>(viewer_look_to_json(look_of(options)));

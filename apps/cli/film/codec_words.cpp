@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "bihive/base/readable.h"
 #include "bihive/base/setting_name.h"
 
 namespace bihive::cli {
@@ -106,7 +107,7 @@ Status check_codec_of_file(const std::string& text) {
   const std::vector<std::string> words = codec_words(text);
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const auto refuse = [&](const std::string& what) -> Status {
-      return Error{"the codec contains " + what + ", which is not allowed in a file", "", 0, 0,
+      return Error{"the codec contains " + masked(what) + ", which is not allowed in a file", "", 0, 0,
                    "if it is your own, give the same " + setting_name("codec") + " on the command line too"};
     };
     if (!is_in(kWithValue, words[i])) return refuse(words[i]);

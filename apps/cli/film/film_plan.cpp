@@ -104,7 +104,9 @@ FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   asked.frames = {whole_of(frames.at("first"), 0, kLastFrame), whole_of(frames.at("step"), 1, kLastFrame),
                   whole_of(frames.at("count"), 1, kMostPictures)};
   asked.pictures = whole_of(value.at("pictures"), 1, kMostPictures);
-  asked.rate = value_or_fail(frame_rate_from(value.at("fps").get<std::string>()));
+  const Result<FrameRate> rate = frame_rate_from(value.at("fps").get<std::string>());
+  if (!rate) throw std::out_of_range("fps");
+  asked.rate = *rate;
   asked.options = value.at("options").get<std::vector<std::string>>();
   asked.path.turntable_deg = value.at("turntable_deg").get<double>();
   if (!value.at("camera").is_null())

@@ -53,7 +53,7 @@ FilmPlan parse_film_plan(const std::string& text, const std::string& path, const
 std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked);
 
 /// Sets the options' frame, camera and ranges to those of the picture that `options.picture_of_film` or
-/// `options.input.frame` names. Fails with kBadUsage if the film has no such picture.
+/// the setting `frame` of the input names. Fails with kBadUsage if the film has no such picture.
 void take_film(RenderOptions& options, const FilmPlan& plan);
 
 }  // namespace bihive::cli

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "bihive/base/parse_number.h"
 #include "commands/commands.h"
 
 namespace bihive::cli {
@@ -20,8 +21,8 @@ Error rate_error(const std::string& text) {
 Result<FrameRate> frame_rate_from(const std::string& text) {
   const std::size_t slash = text.find('/'), point = text.find('.');
   if (slash != std::string::npos) {
-    const Result<std::int64_t> pictures = integer_from(text.substr(0, slash), 1, kMostOfRate);
-    const Result<std::int64_t> seconds = integer_from(text.substr(slash + 1), 1, kMostOfRate);
+    const Result<std::int64_t> pictures = whole_number_from_text(text.substr(0, slash), 1, kMostOfRate);
+    const Result<std::int64_t> seconds = whole_number_from_text(text.substr(slash + 1), 1, kMostOfRate);
     if (!pictures || !seconds) return rate_error(text);
     return FrameRate{*pictures, *seconds};
   }
@@ -35,7 +36,7 @@ Result<FrameRate> frame_rate_from(const std::string& text) {
     digits.erase(point, 1);
     for (std::size_t i = 0; i < decimals; ++i) scale *= 10;
   }
-  const Result<std::int64_t> pictures = integer_from(digits, 1, kMostOfRate * scale);
+  const Result<std::int64_t> pictures = whole_number_from_text(digits, 1, kMostOfRate * scale);
   if (!pictures) return rate_error(text);
   return FrameRate{*pictures, scale};
 }
@@ -44,8 +45,8 @@ Result<Shard> shard_from(const std::string& text) {
   constexpr std::int64_t kMostShards = 1'000'000;
   const std::size_t slash = text.find('/');
   if (slash != std::string::npos) {
-    const Result<std::int64_t> index = integer_from(text.substr(0, slash), 0, kMostShards);
-    const Result<std::int64_t> count = integer_from(text.substr(slash + 1), 1, kMostShards);
+    const Result<std::int64_t> index = whole_number_from_text(text.substr(0, slash), 0, kMostShards);
+    const Result<std::int64_t> count = whole_number_from_text(text.substr(slash + 1), 1, kMostShards);
     if (index && count && *index < *count) return Shard{*index, *count};
   }
   return Error{"expected i/N with i from 0 to N - 1, found \"" + text + "\"", "", 0, 0, ""};

@@ -70,8 +70,8 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   FilmPlan::Asked asked;
   asked.program = version();
   asked.input = {described_file(options.picture.input.input)};
-  if (!options.picture.input.trajectory.empty())
-    asked.input.push_back(described_file(options.picture.input.trajectory));
+  const std::string& trajectory = options.picture.input.reading.options().trajectory;
+  if (!trajectory.empty()) asked.input.push_back(described_file(trajectory));
   if (!options.picture.labels.title_values.empty())
     asked.input.push_back(described_file(options.picture.labels.title_values));
   const Result<FrameList> list = frames_in(options.frames.value_or(FrameRange{}), frames);
@@ -109,7 +109,7 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
 FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options,
                               const Style& style) {
   RenderOptions first = options.picture;
-  if (!is_generated(first.input.input)) first.input.frame = plan.frame_of(0);
+  if (!is_generated(first.input.input)) first.input.reading.set_frame(plan.frame_of(0));
   Input input = source.load(plan.frame_of(0), style);
   warn(input.warnings);
   const RenderSettings settings = prepare_picture(first, choose_engine(first), input);

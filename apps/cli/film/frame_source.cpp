@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "bihive/base/write_file.h"
-#include "bihive/io/data_path.h"
 #include "support/failure.h"
 #include "support/outputs.h"
 
@@ -19,7 +18,7 @@ FrameSource FrameSource::open(const InputOptions& options, const Style& style, b
     return source;
   }
   if (options.input != "demo" && !must_be_read_whole(options.input)) {
-    ReadOptions reading = read_options(options);
+    ReadOptions reading = options.reading.options();
     reading.frame = 0;
     source.frames_ = value_or_fail(open_frames(options.input, reading));
     source.count_ = source.frames_->count();
@@ -39,10 +38,10 @@ Input FrameSource::load(std::int64_t frame, const Style& style) const {
   if (std::optional<Input> generated = generated_input(options_)) return std::move(*generated);
   if (frames_) {
     Input input = scene_of_spheres(value_or_fail(frames_->read(frame)), options_.input, &style);
-    if (!options_.trajectory.empty()) input.files.push_back(data_path(options_.trajectory).file);
+    add_trajectory(options_, input);
     return input;
   }
-  ReadOptions reading = read_options(options_);
+  ReadOptions reading = options_.reading.options();
   reading.frame = frame;
   const Style* const wanted = asked_for_ || !looks_like_scene(bytes_) ? &style : nullptr;
   return value_or_fail(options_.input == "demo" ? built_in_scene("demo", {}, reading, &style)

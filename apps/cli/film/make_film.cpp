@@ -134,7 +134,7 @@ class FilmSteps {
       const Timer timer;
       ReadPicture picture{options_, number, {}};
       picture.options.picture_of_film = number;
-      picture.options.input.frame.reset();
+      picture.options.input.reading.set_frame(-1);
       take_film(picture.options, plan_);
       Style style = style_;
       fix_range(style, plan_.fixed.range_of_style);

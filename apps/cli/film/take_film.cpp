@@ -14,18 +14,19 @@ namespace bihive::cli {
 
 void take_film(RenderOptions& options, const FilmPlan& plan) {
   const FilmPlan::Asked& asked = plan.asked;
-  if (!options.picture_of_film && !options.input.frame)
+  const bool has_frame = options.input.reading.has("frame");
+  const std::int64_t frame = options.input.reading.options().frame;
+  if (!options.picture_of_film && !has_frame)
     fail_setting("film", " needs the number of a frame of the input or of a picture of the film",
                  "give " + setting_name("frame") + " I or " + setting_name("picture") + " K, from 0");
   std::int64_t picture = options.picture_of_film.value_or(0);
-  if (options.picture_of_film && options.input.frame)
+  if (options.picture_of_film && has_frame)
     fail_setting("picture", " and " + setting_name("frame") + " both say which picture it is");
   if (!options.picture_of_film) {
-    const std::optional<std::int64_t> found = asked.frames.picture_of(*options.input.frame);
+    const std::optional<std::int64_t> found = asked.frames.picture_of(frame);
     if (!found)
-      fail_usage(fmt::format("frame {} is not in the film, which has frames {} to {} by steps of {}",
-                             *options.input.frame, asked.frames.first, asked.frames.frame(asked.frames.count - 1),
-                             asked.frames.step));
+      fail_usage(fmt::format("frame {} is not in the film, which has frames {} to {} by steps of {}", frame,
+                             asked.frames.first, asked.frames.frame(asked.frames.count - 1), asked.frames.step));
     if (asked.frames.count == 1 && asked.pictures > 1)
       fail_usage("all pictures of the film show this frame",
                  "say which one by " + setting_name("picture") + " K, from 0");
@@ -33,7 +34,7 @@ void take_film(RenderOptions& options, const FilmPlan& plan) {
   }
   if (picture >= asked.pictures)
     fail_usage(fmt::format("the film has no picture {}: its last one is {}", picture, asked.pictures - 1));
-  if (!is_generated(options.input.input)) options.input.frame = plan.frame_of(picture);
+  if (!is_generated(options.input.input)) options.input.reading.set_frame(plan.frame_of(picture));
   options.fixed = FixedByFilm{camera_at(asked.path, plan.fixed.camera, picture, asked.pictures),
                               plan.fixed.range_of_style, plan.fixed.ranges_of_looks};
 }

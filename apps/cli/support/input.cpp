@@ -13,7 +13,6 @@
 #include "support/failure.h"
 #include "support/messages.h"
 #include "support/outputs.h"
-#include "support/read_options.h"
 
 namespace bihive::cli {
 namespace {
@@ -25,20 +24,6 @@ void only_for(bool given, std::string_view id, const std::string& what, const st
 void refuse_generator_options(const InputOptions& options) {
   only_for(options.count.has_value(), "count", "scenario1, scenario2 and scenario3", options.input);
   only_for(options.seed.has_value(), "seed", "scenario1, scenario2 and scenario3", options.input);
-}
-
-void refuse_file_options(const InputOptions& options) {
-  only_for(options.radius_scale.has_value(), "radius_scale", "files", options.input);
-  only_for(options.recenter, "recenter", "files", options.input);
-  only_for(options.frame.has_value(), "frame", "files", options.input);
-  only_for(!options.trajectory.empty(), "trajectory", "files", options.input);
-  only_for(!options.assembly.empty(), "assembly", "PDB and mmCIF files", options.input);
-  only_for(!options.columns.empty(), "columns", "files", options.input);
-  only_for(options.replicate.has_value(), "replicate", "files", options.input);
-  only_for(options.cell_vectors.has_value(), "cell_vectors", "files", options.input);
-  only_for(options.cell_origin.has_value(), "cell_origin", "files", options.input);
-  only_for(options.wrapping == Wrapping::wrap, "wrap", "files", options.input);
-  only_for(options.wrapping == Wrapping::unwrap, "unwrap", "files", options.input);
 }
 
 void warn_of_growth(const std::string& path) {
@@ -85,22 +70,6 @@ std::string read_input(const std::string& path) {
   return bytes;
 }
 
-ReadOptions read_options(const InputOptions& options) {
-  ReadOptions reading;
-  reading.radius = options.radius;
-  reading.radius_scale = options.radius_scale.value_or(1);
-  reading.recenter = options.recenter;
-  reading.frame = options.frame.value_or(0);
-  reading.trajectory = options.trajectory;
-  reading.assembly = options.assembly;
-  reading.columns = options.columns;
-  reading.replicate = options.replicate.value_or(reading.replicate);
-  reading.cell_vectors = options.cell_vectors;
-  reading.cell_origin = options.cell_origin;
-  reading.wrapping = options.wrapping;
-  return reading;
-}
-
 std::string input_name(const std::string& path) {
   return path == kStandardStream ? "standard input" : path;
 }
@@ -111,14 +80,14 @@ std::string file_of(const InputOptions& options) {
 
 void check_input_options(const InputOptions& options) {
   if (!is_generated(options.input)) return refuse_generator_options(options);
-  refuse_file_options(options);
-  if (options.input != "four-spheres") return;
-  refuse_generator_options(options);
-  only_for(options.radius.has_value(), "radius", "the scenarios and files", options.input);
+  const bool is_scenario = options.input != "four-spheres";
+  for (const auto& [row, text] : options.reading.all())
+    only_for(!is_scenario || row->id != "radius", row->id, std::string(row->inputs), options.input);
+  if (!is_scenario) refuse_generator_options(options);
 }
 
 void refuse_copies(const InputOptions& options, const std::string& what) {
-  if (options.replicate)
+  if (options.reading.has("replicate"))
     fail_usage(what + " without copies, so " + setting_name("replicate") + " changes nothing there", "leave it out");
 }
 
@@ -129,7 +98,7 @@ std::optional<Scene> generated_scene(const InputOptions& options) {
   ScenarioParameters parameters;
   if (name != "four-spheres") {
     parameters.count = options.count.value_or(parameters.count);
-    if (options.radius) parameters.radius = scenario_radius(*options.radius);
+    if (options.reading.has("radius")) parameters.radius = scenario_radius(*options.reading.options().radius);
     parameters.seed = options.seed.value_or(parameters.seed);
     value_or_fail(check_scenario_memory(parameters));
   }
@@ -149,12 +118,17 @@ std::optional<Input> generated_input(const InputOptions& options) {
   return input;
 }
 
+void add_trajectory(const InputOptions& options, Input& input) {
+  const std::string& trajectory = options.reading.options().trajectory;
+  if (!trajectory.empty()) input.files.push_back(data_path(trajectory).file);
+}
+
 Input load_file(const InputOptions& options, const std::function<Result<Input>(const ReadOptions&)>& read) {
   check_input_options(options);
   const FileSize size(data_path(options.input).file);
-  Input input = value_or_fail(read(read_options(options)));
+  Input input = value_or_fail(read(options.reading.options()));
   if (size.grew()) warn_of_growth(options.input);
-  if (!options.trajectory.empty()) input.files.push_back(data_path(options.trajectory).file);
+  add_trajectory(options, input);
   warn(input.warnings);
   return input;
 }
@@ -167,7 +141,7 @@ Input load_input(const InputOptions& options, LooksOfFile looks, const Style* st
   if (options.input != "demo" && !must_be_read_whole(options.input))
     return load_file(options, [&](const ReadOptions& reading) { return load_spheres(options.input, reading, style); });
   check_input_options(options);
-  const ReadOptions reading = read_options(options);
+  const ReadOptions& reading = options.reading.options();
   const auto load = [&]() -> Result<Input> {
     if (options.input == "demo") return built_in_scene("demo", {}, reading, style);
     const std::string name = input_name(options.input);
@@ -175,7 +149,7 @@ Input load_input(const InputOptions& options, LooksOfFile looks, const Style* st
     return load_scene(bytes, name, reading, looks, asked_for || !looks_like_scene(bytes) ? style : nullptr);
   };
   Input input = value_or_fail(load());
-  if (!options.trajectory.empty()) input.files.push_back(data_path(options.trajectory).file);
+  add_trajectory(options, input);
   warn(input.warnings);
   return input;
 }

@@ -1,34 +1,24 @@
 // INPUT of every sub-command: a built-in name, a scene file or a file of spheres.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "bihive/bih/tree.h"
+#include "bihive/io/reading_settings.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/load_scene.h"
 
 namespace bihive::cli {
 
-/// The input's options on the command line; unset if not given.
+/// The input and its options on the command line; unset if not given.
 struct InputOptions {
   std::string input;
   std::optional<std::int64_t> count;
-  std::optional<double> radius;
   std::optional<std::uint64_t> seed;
-  std::optional<double> radius_scale;
-  std::optional<std::int64_t> frame;
-  std::string trajectory = "";  ///< a file; empty: none
-  bool recenter = false;
-  std::string assembly = "";  ///< an id; empty: not asked for
-  ColumnChoice columns = {};  ///< empty: by their names
-  std::optional<std::array<std::int32_t, 3>> replicate;
-  std::optional<std::array<Vec3d, 3>> cell_vectors;
-  std::optional<Vec3d> cell_origin;
-  Wrapping wrapping = Wrapping::none;
+  GivenReading reading;
 };
 
 /// The bytes of a file, or of the standard input for "-". Warns if the file grew meanwhile. Fails with kBadInput.
@@ -60,8 +50,8 @@ Input load_input(const InputOptions& options, LooksOfFile looks = LooksOfFile::a
 /// The same of a file on the disk that `read` reads. It must not be read whole.
 Input load_file(const InputOptions& options, const std::function<Result<Input>(const ReadOptions&)>& read);
 
-/// The readers' options; the frame is 0 if none is named.
-ReadOptions read_options(const InputOptions& options);
+/// Notes the trajectory among the input's files.
+void add_trajectory(const InputOptions& options, Input& input);
 
 /// Made by the program, not read: scenario1, scenario2, scenario3, four-spheres.
 bool is_generated(const std::string& name);

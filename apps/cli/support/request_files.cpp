@@ -14,7 +14,7 @@ Files together(std::initializer_list<Files> lists) {
 }
 
 Files files_of(const InputOptions& input) {
-  return {file_of(input), data_path(input.trajectory).file};
+  return {file_of(input), data_path(input.reading.options().trajectory).file};
 }
 
 // The options that commands share that draw.

@@ -50,22 +50,7 @@ std::optional<Vec3d> three_numbers(std::string_view text) {
   return is_finite(v) ? std::optional(v) : std::nullopt;
 }
 
-std::string short_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
 }  // namespace
-
-Result<std::int64_t> integer_from(const std::string& text, std::int64_t min, std::int64_t max) {
-  const std::optional<std::int64_t> value = whole<std::int64_t>(text);
-  if (value && *value >= min && *value <= max) return *value;
-  const bool bounded = max != kUnlimited;
-  return unexpected("a whole number " + (bounded ? "from " + std::to_string(min) + " to " + std::to_string(max)
-                                                 : "of at least " + std::to_string(min)),
-                    text);
-}
 
 Result<std::uint64_t> seed_from(const std::string& text) {
   const std::optional<std::uint64_t> value = whole<std::uint64_t>(text);
@@ -78,14 +63,6 @@ Result<std::int64_t> limit_from(const std::string& text) {
   const std::optional<std::int64_t> value = whole<std::int64_t>(text);
   if (value && *value >= 1) return *value;
   return unexpected("a whole number of at least 1 or \"unlimited\"", text);
-}
-
-Result<double> number_from(const std::string& text, double min, double max, bool open) {
-  const std::optional<double> value = whole<double>(text);
-  if (value && (open ? *value > min && *value < max : *value >= min && *value <= max)) return *value;
-  return unexpected(open ? "a number above " + short_text(min) + " and below " + short_text(max)
-                         : "a number from " + short_text(min) + " to " + short_text(max),
-                    text);
 }
 
 Result<Vec3d> vector_from(const std::string& text) {

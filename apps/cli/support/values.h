@@ -20,15 +20,10 @@ struct PictureSize {
   int width_px, height_px;
 };
 
-/// Decimal digits, with a sign if negative numbers are allowed; no other text before or after them.
-Result<std::int64_t> integer_from(const std::string& text, std::int64_t min, std::int64_t max);
 Result<std::uint64_t> seed_from(const std::string& text);
 
 /// "unlimited" (kUnlimited) or at least 1.
 Result<std::int64_t> limit_from(const std::string& text);
-
-/// Finite, and in [min, max], or in (min, max) if `open`.
-Result<double> number_from(const std::string& text, double min, double max, bool open = false);
 
 /// "X,Y,Z", each within +-3.4e38.
 Result<Vec3d> vector_from(const std::string& text);

@@ -23,8 +23,7 @@ _WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".
 _MAPS = ["viridis", "magma", "cividis", "coolwarm", "okabe-ito"]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
 _TYPES = (-(2**31), 2**31 - 1)
-_READING = ["radius", "radius_scale", "assembly", "frame", "trajectory", "cell_vectors", "cell_origin", "recenter"]
-_READING += ["wrap", "unwrap", "columns", "count", "seed"]
+_READING = [*_bihive.reading_settings(), "count", "seed"]
 
 
 def _bytes_on_screen(colours: Array) -> Array:

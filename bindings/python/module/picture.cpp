@@ -66,15 +66,9 @@ void refuse_for_arrays(const cli::InputOptions& options) {
   };
   refuse(options.count.has_value(), "count", "leave it out");
   refuse(options.seed.has_value(), "seed", "leave it out");
-  refuse(options.radius.has_value(), "radius", "give it to Spheres");
-  refuse(options.radius_scale.has_value(), "radius_scale", "use looks: Look(radius_scale=...)");
-  refuse(!options.trajectory.empty(), "trajectory", "give it to read");
-  refuse(options.recenter, "recenter", "give it to read");
-  refuse(!options.assembly.empty(), "assembly", "give it to read");
-  refuse(options.cell_vectors.has_value(), "cell_vectors", "give Spheres a cell");
-  refuse(options.cell_origin.has_value(), "cell_origin", "give Spheres a cell");
-  refuse(options.wrapping == Wrapping::wrap, "wrap", "give it to read");
-  refuse(options.wrapping == Wrapping::unwrap, "unwrap", "give it to read");
+  for (const auto& [row, text] : options.reading.all())
+    refuse(row->id != "frame" && row->id != "replicate", std::string(row->id).c_str(),
+           "give it to read, or to Spheres");
 }
 
 cli::Input input_of(const Spheres& spheres, const cli::RenderOptions& options, const Style& style) {
@@ -82,9 +76,9 @@ cli::Input input_of(const Spheres& spheres, const cli::RenderOptions& options, c
   if (spheres.file.spheres.empty())
     cli::fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
   SphereFile file = spheres.file;
-  if (options.input.replicate) {
+  if (options.input.reading.has("replicate")) {
     if (!file.spheres.cell()) cli::fail_setting("replicate", " needs a periodic cell", "give Spheres a cell");
-    value_of(file.spheres.replicate(file.spheres.cell()->vectors, *options.input.replicate));
+    value_of(file.spheres.replicate(file.spheres.cell()->vectors, options.input.reading.options().replicate));
   }
   return scene_of_spheres(std::move(file), spheres.name, &style);
 }

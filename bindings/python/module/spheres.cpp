@@ -18,6 +18,7 @@
 #include "bihive/io/bundled.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/packed.h"
+#include "bihive/io/reading_settings.h"
 #include "bihive/io/write_spheres.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/colour_by.h"
@@ -120,7 +121,7 @@ SphereFile without_scene(LoadedScene loaded) {
 SphereFile read_input_file(const cli::InputOptions& options) {
   if (std::optional<cli::Input> generated = cli::generated_input(options)) return without_scene(std::move(*generated));
   cli::check_input_options(options);
-  const ReadOptions reading = cli::read_options(options);
+  const ReadOptions& reading = options.reading.options();
   if (options.input == "demo") return value_of(read_spheres_from_memory(bundled_molecule(), "demo", reading));
   if (!cli::must_be_read_whole(options.input)) return value_of(read_spheres(options.input, reading));
   const std::string bytes = value_of(unpack_if_packed(cli::read_input(options.input), options.input));
@@ -330,6 +331,11 @@ void bind_spheres(py::module_& module) {
       .def("written", written);
   module.def("spheres_from_arrays", spheres_from_arrays);
   module.def("read", read);
+  module.def("reading_settings", [] {
+    std::vector<std::string> ids;
+    for (const ReadingSetting& row : reading_settings()) ids.emplace_back(row.id);
+    return ids;
+  });
   module.def("write_file", [](const std::string& path, const std::string& bytes) {
     const py::gil_scoped_release unlocked;
     value_of(write_file(path, bytes));

@@ -1,5 +1,6 @@
 #include "bihive/base/parse_number.h"
 
+#include <fmt/format.h>
 #include <gemmi/third_party/fast_float.h>
 
 #include <charconv>
@@ -11,6 +12,10 @@ namespace {
 std::string_view without_plus(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   return plus ? text.substr(1) : text;
+}
+
+Error unexpected(const std::string& expected, const std::string& found) {
+  return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
 }
 
 }  // namespace
@@ -32,6 +37,23 @@ std::optional<std::int64_t> parse_int(std::string_view text) {
   const auto parsed = std::from_chars(text.data(), end, value);
   if (parsed.ec != std::errc() || parsed.ptr != end) return std::nullopt;
   return value;
+}
+
+Result<double> number_from_text(const std::string& text, double least, double most, bool open) {
+  const std::optional<double> value = parse_double(text);
+  if (value && (open ? *value > least && *value < most : *value >= least && *value <= most)) return *value;
+  return unexpected(open ? "a number above " + fmt::format("{}", least) + " and below " + fmt::format("{}", most)
+                         : "a number from " + fmt::format("{}", least) + " to " + fmt::format("{}", most),
+                    text);
+}
+
+Result<std::int64_t> whole_number_from_text(const std::string& text, std::int64_t least, std::int64_t most) {
+  const std::optional<std::int64_t> value = parse_int(text);
+  if (value && *value >= least && *value <= most) return *value;
+  const bool bounded = most != std::numeric_limits<std::int64_t>::max();
+  return unexpected("a whole number " + (bounded ? "from " + std::to_string(least) + " to " + std::to_string(most)
+                                                 : "of at least " + std::to_string(least)),
+                    text);
 }
 
 }  // namespace bihive

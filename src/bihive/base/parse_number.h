@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
+
+#include "bihive/base/result.h"
 
 namespace bihive {
 
@@ -12,5 +16,10 @@ std::optional<double> parse_double(std::string_view text);
 
 /// A decimal whole number that fits 64 bits, with a sign or without.
 std::optional<std::int64_t> parse_int(std::string_view text);
+
+/// In [least, most], or in (least, most) if `open`. Error: the expected and the found text.
+Result<double> number_from_text(const std::string& text, double least, double most, bool open = false);
+Result<std::int64_t> whole_number_from_text(const std::string& text, std::int64_t least,
+                                            std::int64_t most = std::numeric_limits<std::int64_t>::max());
 
 }  // namespace bihive
