@@ -47,7 +47,7 @@ struct Run {
   int operator()(const ConvertOptions& options) const { return run_convert(options), kSuccess; }
   int operator()(const ThesisOptions& options) const {
     if (!options.page.empty()) return write_phone_page(options.page), kSuccess;
-    become_program("bihive-thesis", arguments, "build it: make demo, or cmake --build with the target bihive-thesis");
+    become_program("bihive-thesis", arguments, "build it: cmake --build build --target bihive-thesis");
   }
   int operator()(const WebOptions& options) const { return run_web(options), kSuccess; }
 };

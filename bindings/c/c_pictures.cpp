@@ -23,6 +23,7 @@
 #include "bihive/scene/names.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/title_text.h"
+#include "bihive/settings/check_picture.h"
 #include "bihive/settings/overrides.h"
 #include "bihive/settings/parameter_text.h"
 #include "c_errors.h"
@@ -186,7 +187,8 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     const std::lock_guard<std::mutex> lock(scene->in_use);
     PictureSettings picture = scene->loaded.scene.picture;
     scene->user.apply_to(picture);
-    if (picture.fog && !(picture.fog->start < picture.fog->end)) return fail("fog_start must be below fog_end");
+    if (const Status status = bihive::check_picture(picture, scene->loaded.scene.camera.aperture); !status)
+      return fail(status.error());
     if (scene->user.is_on("cell") && !scene->loaded.scene.spheres.cell())
       return fail("cell: the spheres have no periodic cell");
     place_camera_and_lights(*scene, picture, width, height);

@@ -522,7 +522,7 @@ TEST(ViewerLook, labels_that_a_picture_cannot_have) {
   settings.picture.user.set("samples_auto", true);
   refused = viewer.set(settings);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().to_string(), HasSubstr("choose a number of samples"));
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("give a number: samples 64"));
   settings.picture.user.set("samples_auto", false);
   settings.focus_on = "chain Q";
   EXPECT_FALSE(viewer.set(settings));

@@ -11,6 +11,7 @@
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/title_text.h"
+#include "bihive/settings/check_picture.h"
 #include "bihive/settings/picture_report.h"
 #include "commands/choose_labels.h"
 #include "commands/choose_look.h"
@@ -62,9 +63,6 @@ RenderSettings apply_options(const RenderOptions& options, Input& input, const W
     fail_setting("crop",
                  fmt::format(" ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
                  "give the size of the whole picture by " + setting_name("size"));
-  if (settings.fog && !(settings.fog->start < settings.fog->end))
-    fail_setting("fog_start", " must be below " + setting_name("fog_end"),
-                 "fog begins at 0 and ends at 1 unless stated");
   if (user.has("length_unit") && !settings.labels.scale_bar)
     fail_setting("length_unit", " is for the scale bar, and the picture has none",
                  "add " + setting_name("scale_bar") + ", or leave it out");
@@ -83,9 +81,8 @@ RenderSettings apply_options(const RenderOptions& options, Input& input, const W
   settings.labels.title =
       filled_title(settings.labels.title, options, input, whole != nullptr ? whole->count : scene.spheres.size());
   scene.camera = options.fixed ? options.fixed->camera : choose_camera(input, options, settings, whole);
-  if (settings.adaptive_samples && scene.camera.aperture > 0)
-    fail_usage("adaptive samples look for edges, and depth of field needs many samples everywhere",
-               "give a number: " + setting_name("samples") + " 64");
+  if (const Status status = check_picture(settings, scene.camera.aperture); !status)
+    fail_usage(status.error().message, status.error().hint);
   apply_look(options.style, input);
   leave_out_labels(user, scene, settings);
   return settings;

@@ -16,6 +16,7 @@
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/look_json.h"
 #include "bihive/scene/scene_json.h"
+#include "bihive/settings/check_picture.h"
 #include "bihive/settings/parameter_json.h"
 
 namespace bihive {
@@ -91,8 +92,7 @@ class Extraction {
     if (!newer.empty()) need_version(2, "/picture/" + newer);
     PictureSettings& picture = loaded_.scene.picture;
     bihive::take_picture(value, picture);
-    if (picture.fog && !(picture.fog->start < picture.fog->end))
-      fail("/picture/fog", "the start of the fog is not before its end");
+    if (!check_picture(picture)) fail("/picture/fog", "the start of the fog is not before its end");
   }
 
   Material material(const json& value, const std::string& pointer) {

@@ -10,6 +10,7 @@
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/scene_json.h"
 #include "bihive/scene/style.h"
+#include "bihive/settings/check_picture.h"
 #include "bihive/settings/parameter_json.h"
 
 namespace bihive {
@@ -79,8 +80,7 @@ Result<Style> style_from(const json& document, const std::string& file) {
       return fault(file, "/lights: a light's direction is [0, 0, 0]", "state right, up and towards the viewer");
   if (style.material.transmissive > 0 && !(style.material.refraction_index > 0))
     return fault(file, "/material/refraction_index: expected a number above 0, because transmissive is above 0", "");
-  if (style.picture.fog && !(style.picture.fog->start < style.picture.fog->end))
-    return fault(file, "/picture/fog: the start of the fog is not before its end", "");
+  if (!check_picture(style.picture)) return fault(file, "/picture/fog: the start of the fog is not before its end", "");
   return style;
 }
 

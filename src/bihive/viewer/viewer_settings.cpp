@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bihive/io/cell_options.h"
+#include "bihive/settings/check_picture.h"
 
 namespace bihive {
 
@@ -16,10 +17,7 @@ Status check_settings(const ViewerSettings& settings) {
     return bad("samples per pixel must be from 1 to " + std::to_string(kMostSamples));
   if (settings.max_prims.value_or(1) < 1 || settings.max_depth.value_or(1) < 1)
     return bad("max_prims and max_depth must be at least 1");
-  if (picture.fog && !(picture.fog->start < picture.fog->end)) return bad("fog must begin before it ends");
-  if (picture.adaptive_samples && settings.camera.aperture > 0)
-    return Error{"adaptive samples look for edges, and depth of field needs many samples everywhere", "", 0, 0,
-                 "choose a number of samples: 64"};
+  if (Status status = check_picture(picture, settings.camera.aperture); !status) return status;
   if (settings.replicate)
     for (const std::int32_t count : *settings.replicate)
       if (outside(count, 1, kMostCopies))
