@@ -56,7 +56,7 @@ void expect_block(const std::string& page, const std::string& name, const std::s
     std::ofstream(kTop + page, std::ios::binary) << text.replace(from, last - from, wanted);
     FAIL() << "updated " << page;
   }
-  FAIL() << page << " is old: BIHIVE_UPDATE_DOCS=1 build-release/tests/unit_io_formats_test";
+  FAIL() << page << " is old: BIHIVE_UPDATE_DOCS=1 build-release/tests/unit_tests --file unit/io_formats";
 }
 
 std::string table_of_formats() {
