@@ -1,8 +1,7 @@
-#include "against.h"
-
+// A run beside an older one.
 #include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
-#include "support/failure.h"
+#include "report.h"
 
 namespace bihive::thesis {
 namespace {
@@ -42,42 +41,32 @@ Json read_older_run(const std::string& file) {
   }
 }
 
-Json compared_with(Json older, const std::vector<ReportPart>& parts) {
-  int same = 0, changed = 0, moved = 0, fresh = 0;
+Json compared_with(Json older, const std::list<Experiment>& parts) {
+  std::map<std::string, int> counts{{"same", 0}, {"changed", 0}, {"moved", 0}, {"fresh", 0}};
   Json rows = Json::array();
   Json& findings = older["findings"];
-  for (const ReportPart& part : parts)
-    for (const Finding& finding : part.findings) {
-      const auto found = findings.find(part.experiment->id + " " + finding.name);
-      if (found == findings.end()) {
-        ++fresh;
-        continue;
-      }
-      const Json then = *found;
-      findings.erase(found);
-      const bool other_verdict = then["verdict"] != name_of(finding.verdict);
-      if (!other_verdict && then["ours"] == finding.ours) {
-        ++same;
-        continue;
-      }
-      ++(other_verdict ? changed : moved);
-      rows.push_back({{"experiment", part.experiment->id},
-                      {"name", finding.name},
-                      {"claim", finding.claim + (finding.row.empty() ? "" : ": " + finding.row)},
-                      {"changed", other_verdict ? "verdict" : "value"},
+  for (const Experiment& part : parts)
+    for (const Json& now : part.findings) {
+      const std::string key = part.id + " " + now["name"].get<std::string>();
+      const Json then = findings.value(key, Json());
+      const bool fresh = then.is_null(), same = !fresh && then["verdict"] == now["verdict"];
+      findings.erase(key);
+      ++counts[fresh ? "fresh" : !same ? "changed" : then["ours"] != now["ours"] ? "moved" : "same"];
+      if (fresh || (same && then["ours"] == now["ours"])) continue;
+      const std::string claim = now["claim"], row = now["row"];
+      rows.push_back({{"experiment", part.id},
+                      {"name", now["name"]},
+                      {"claim", claim + (row.empty() ? "" : ": " + row)},
+                      {"changed", same ? "value" : "verdict"},
                       {"then", then["verdict"]},
-                      {"now", name_of(finding.verdict)},
+                      {"now", now["verdict"]},
                       {"then_ours", then["ours"]},
-                      {"now_ours", finding.ours}});
+                      {"now_ours", now["ours"]}});
     }
-  const std::size_t gone = findings.size();
+  older["gone"] = findings.size();
   older.erase("findings");
-  older.update({{"same", same},
-                {"changed", changed},
-                {"moved", moved},
-                {"fresh", fresh},
-                {"gone", gone},
-                {"rows", std::move(rows)}});
+  older.update(counts);
+  older["rows"] = std::move(rows);
   return older;
 }
 

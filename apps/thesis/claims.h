@@ -12,58 +12,31 @@
 //   "reason": shown where the claim does not simply agree
 //   "note": always shown
 //   "section", "held_by": the section of the text, by default the experiment's, and the tests that check the claim
+//
+// Verdicts are texts: "agrees", "differs", "undecided" (the spread of our measurement reaches across the limit),
+// "text_inconsistent" (the text contradicts itself: no value of ours could agree with all of it).
 #pragma once
 
-#include <map>
 #include <string>
-#include <vector>
 
 #include "experiment.h"
 
 namespace bihive::thesis {
 
-/// How a quantity of ours compares with an expected value.
-enum class Verdict {
-  agrees,
-  differs,
-  undecided,         ///< the spread of our measurement reaches across the limit
-  text_inconsistent  ///< the text contradicts itself: no value of ours could agree with all of it
-};
-/// For machines: "agrees", "differs", "undecided", "text_inconsistent".
-const char* name_of(Verdict verdict);
+/// A finding for each entry with a claim whose quantity is in the data, as results.json has it: [{"name" (of the entry,
+/// unique in its experiment), "claim", "row", "kind" (whose the value is), "expected", "ours", "verdict"}].
+Json judge(const Values& values, const Json& data);
 
-/// How a verdict is written: its words, a sign and a CSS class. A quantity that agrees is "reproduced" only if the text
-/// states it and nothing of ours was made to suit it; and only a quantity that the text states can differ.
-struct Words {
-  const char *words, *sign, *css_class;
-};
-Words words_of(Verdict verdict, ValueKind kind);
+/// How a verdict is written, by thesis/report/verdicts.json: {"words", "sign", "css_class"}. A quantity that agrees is
+/// "reproduced" only if the text states it and nothing of ours was made to suit it; and only a quantity that the text
+/// states can differ. So the verdict stands after the kind, "stated_agrees"; or it says why there is none,
+/// "value_lost".
+Json words_of(const std::string& verdict);
+Json words_of(const Json& finding);
 
-/// One comparison.
-struct Finding {
-  std::string name;  ///< of the entry, unique in its experiment
-  std::string claim, row, expected, ours;
-  Verdict verdict;
-  ValueKind kind;
-};
-
-/// A finding for each entry with a claim whose quantity is in the data.
-std::vector<Finding> judge(const Values& values, const Json& data);
-
-/// The finding of one entry on another quantity; nothing if there is no such quantity.
-std::vector<Finding> judge_on(const Values& values, const std::string& name, const Json& data, const std::string& path);
-
-/// A claim of the text with what became of it, for the report's list and for docs/thesis_map.md.
-struct Claim {
-  std::string section, claim, experiment;
-  std::string sentence;  ///< of its first entry
-  std::vector<const Finding*> findings;
-  /// The worst of its findings; of a remark "value lost" or "not compared".
-  Words words;
-  std::string verdict;               ///< for machines
-  std::string found;                 ///< our numbers in short, the note, and the reason where it applies
-  std::vector<std::string> held_by;  ///< tests
-};
-std::vector<Claim> claims_of(const Experiment& experiment, const Values& values, const std::vector<Finding>& findings);
+/// The claims of the text with what became of them: [{"section", "claim", "experiment", "verdict" (that of its worst
+/// finding, after its kind; of a remark "value_lost", "not_compared", "tested"), "found" (our numbers in short, the
+/// note, and the reason where it applies)}], with the members of words_of() and "sentence" (that of its first entry).
+Json claims_of(const Experiment& experiment);
 
 }  // namespace bihive::thesis

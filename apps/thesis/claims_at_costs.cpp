@@ -3,155 +3,100 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "bihive/thesis/frame_rates_report.h"
 
 namespace bihive::thesis {
 namespace {
 
-class Quantities {
- public:
-  Quantities(const FigureWork& work, const StepCosts& costs, const Values& values)
-      : work_(work),
-        costs_(costs),
-        values_(values),
-        scenarios_(values.integers("scenarios")),
-        counts_(values.integers("spheres_list")),
-        max_prims_(values.integers("max_prims_list")) {}
+// A tree, or with MAX_PRIMS 0 brute force, in a configuration.
+struct Contestant {
+  double cost = 0;
+  std::int64_t max_prims = 0;
+  Configuration configuration = {};
 
-  Json all() {
-    for (const auto& [configuration, trees] : work_) {
-      add_configuration(configuration, trees);
-      add_extremes(configuration, trees);
-    }
-    found_["wins"] = wins_of(work_, values_.integer("winner.max_prims"), max_prims_, costs_.inner, costs_.leaf);
-    found_["best"] = which(best_);
-    found_["worst_by_brute_force"] = worst_is_brute_ ? worst_.configuration.second : 0;
-    found_["one_leaf_over_brute_force"] = {least_one_leaf_, most_one_leaf_};
-    found_["slowest_tree_over_brute_force"] = most_over_brute_;
-    const auto cost_of = [this](const std::string& name) {
-      const auto trees = work_.find({values_.integer(name + ".scenario"), values_.integer(name + ".spheres")});
-      if (trees == work_.end()) return 0.0;
-      const auto tree = trees->second.find(values_.integer(name + ".max_prims"));
-      return tree == trees->second.end() ? 0.0 : costs_.of(tree->second);
-    };
-    if (cost_of("supposed_best") > 0) found_["beyond_the_display"] = cost_of("best") / cost_of("supposed_best");
-    add_gains();
-    return std::move(found_);
-  }
-
- private:
-  struct Contestant {
-    double cost;
-    std::int64_t max_prims;
-    Configuration configuration;
-  };
-
-  static std::string which(const Contestant& tree) {
-    return fmt::format("{}, {} primitives", tree_name(tree.max_prims), tree.configuration.second);
-  }
-
-  double brute(const Configuration& configuration) const {
-    return costs_.of({0, 0, static_cast<double>(configuration.second)});
-  }
-
-  // The cheapest tree; `named`: among the text's values of MAX_PRIMS.
-  Contestant cheapest(const Configuration& configuration, const WorkByTree& trees, bool named) const {
-    Contestant best{std::numeric_limits<double>::infinity(), 0, configuration};
-    for (const auto& [prims, work] : trees) {
-      if (named && std::find(max_prims_.begin(), max_prims_.end(), prims) == max_prims_.end()) continue;
-      if (costs_.of(work) < best.cost) best = {costs_.of(work), prims, configuration};
-    }
-    return best;
-  }
-
-  static std::string name_of(const Configuration& configuration) {
-    return fmt::format("scenario{}_spheres{}", configuration.first, configuration.second);
-  }
-
-  // Which tree wins, and the shape of the curve over MAX_PRIMS: the rate is the reciprocal of the cost.
-  void add_configuration(const Configuration& configuration, const WorkByTree& trees) {
-    std::vector<double> rates;
-    for (const std::int64_t prims : max_prims_)
-      if (trees.count(prims) > 0) rates.push_back(1 / costs_.of(trees.at(prims)));
-    const auto peak = std::max_element(rates.begin(), rates.end());
-    const bool one_peak =
-        std::is_sorted(rates.begin(), peak + 1) && std::is_sorted(rates.rbegin(), std::make_reverse_iterator(peak));
-    found_["curve"][name_of(configuration)] = !one_peak                 ? "up and down"
-                                              : peak + 1 == rates.end() ? "only rises"
-                                              : peak == rates.begin()   ? "only falls"
-                                                                        : "rises, peaks, falls";
-    found_["winner"][name_of(configuration)] = cheapest(configuration, trees, true).max_prims;
-    found_["sweet_spot"][name_of(configuration)] = cheapest(configuration, trees, false).max_prims;
-  }
-
-  void add_extremes(const Configuration& configuration, const WorkByTree& trees) {
-    const Contestant best = cheapest(configuration, trees, true);
-    if (best_.max_prims == 0 || best.cost < best_.cost) best_ = best;
-    const auto consider = [&](double cost, std::int64_t prims) {
-      if (cost <= worst_.cost) return;
-      worst_ = {cost, prims, configuration};
-      worst_is_brute_ = prims == 0;
-    };
-    const double by_brute_force = brute(configuration);
-    consider(by_brute_force, 0);
-    for (const auto& [prims, work] : trees) {
-      const double over_brute = costs_.of(work) / by_brute_force;
-      most_over_brute_ = std::max(most_over_brute_, over_brute);
-      if (prims != configuration.second) {
-        consider(costs_.of(work), prims);
-        continue;
-      }
-      least_one_leaf_ = std::min(least_one_leaf_, over_brute);
-      most_one_leaf_ = std::max(most_one_leaf_, over_brute);
-    }
-  }
-
-  // The gains of the best tree over brute force, in percent.
-  void add_gains() {
-    std::map<std::int64_t, double> most_of, mean_of;
-    for (const std::int64_t scenario : scenarios_) {
-      Json gains = Json::object();
-      double sum = 0;
-      for (const std::int64_t count : counts_) {
-        const auto found = work_.find({scenario, count});
-        if (found == work_.end()) return;
-        const Contestant best = cheapest(found->first, found->second, true);
-        const double gain = 100 * (brute(found->first) / best.cost - 1);
-        sum += gain;
-        const auto keep = [&](const char* name, bool better) {
-          if (gains.contains(name) && !better) return;
-          gains[name] = gain;
-          gains[std::string(name) + "_which"] = which(best);
-        };
-        keep("most", gain > gains.value("most", 0.0));
-        keep("least", gain < gains.value("least", 0.0));
-      }
-      gains["mean"] = mean_of[scenario] = sum / static_cast<double>(counts_.size());
-      most_of[scenario] = gains["most"].get<double>();
-      found_["gain"][fmt::format("scenario{}", scenario)] = std::move(gains);
-      found_["mean_gain"][std::to_string(scenario)] = mean_of[scenario];
-    }
-    const std::vector<std::int64_t> pair = values_.integers("mean_exceeds_best.scenarios");
-    if (mean_of.count(pair.front()) > 0 && most_of.count(pair.back()) > 0)
-      found_["mean_ahead_of_most"] = mean_of[pair.front()] - most_of[pair.back()];
-  }
-
-  const FigureWork& work_;
-  const StepCosts costs_;
-  const Values& values_;
-  const std::vector<std::int64_t> scenarios_, counts_, max_prims_;
-  Json found_ = Json::object();
-  Contestant best_{0, 0, {}}, worst_{0, 0, {}};
-  bool worst_is_brute_ = false;
-  double least_one_leaf_ = std::numeric_limits<double>::infinity(), most_one_leaf_ = 0, most_over_brute_ = 0;
+  std::string words() const { return fmt::format("{}, {} primitives", tree_name(max_prims), configuration.second); }
 };
+bool cheaper(const Contestant& a, const Contestant& b) {
+  return a.cost < b.cost;
+}
+
+// The shape of the curve over MAX_PRIMS: the rate is the reciprocal of the cost.
+std::string shape_of(const std::vector<Contestant>& trees) {
+  const auto peak = std::min_element(trees.begin(), trees.end(), cheaper);
+  const bool rises = std::is_sorted(std::make_reverse_iterator(peak + 1), trees.rend(), cheaper);
+  if (!rises || !std::is_sorted(peak, trees.end(), cheaper)) return "up and down";
+  if (peak + 1 == trees.end()) return "only rises";
+  return peak == trees.begin() ? "only falls" : "rises, peaks, falls";
+}
+
+// The gains of the best trees of a scenario over brute force, in percent.
+Json gains_of(const std::vector<std::pair<double, Contestant>>& gains) {
+  const auto [least, most] =
+      std::minmax_element(gains.begin(), gains.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  double sum = 0;
+  for (const auto& [gain, tree] : gains) sum += gain;
+  return {{"most", most->first},
+          {"most_which", most->second.words()},
+          {"least", least->first},
+          {"least_which", least->second.words()},
+          {"mean", sum / static_cast<double>(gains.size())}};
+}
 
 }  // namespace
 
-Json quantities_at(const FigureWork& work, const StepCosts& costs, const Values& values) {
-  return Quantities(work, costs, values).all();
+Json quantities_at(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs, const Values& values) {
+  Json found = Json::object();
+  std::vector<Contestant> best, all;  // of each configuration; of all but trees of one leaf
+  std::vector<double> over_brute, one_leaf_over_brute;
+  std::map<std::int64_t, std::vector<std::pair<double, Contestant>>> gains;  // by scenario, with the tree
+  for (const auto& [configuration, trees] : work) {
+    const Contestant brute{costs.of({0, 0, static_cast<double>(configuration.second)}), 0, configuration};
+    all.push_back(brute);
+    std::vector<Contestant> named, any;  // those that the text names; all
+    for (const auto& [prims, one] : trees) {
+      any.push_back({costs.of(one), prims, configuration});
+      const auto is_this = [&, prims = prims, most = configuration.second](std::int64_t named_prims) {
+        return std::min(named_prims, most) == prims;
+      };
+      if (std::any_of(pattern.among.begin(), pattern.among.end(), is_this)) named.push_back(any.back());
+      over_brute.push_back(any.back().cost / brute.cost);
+      if (prims == configuration.second)
+        one_leaf_over_brute.push_back(over_brute.back());
+      else
+        all.push_back(any.back());
+    }
+    const std::string name = fmt::format("scenario{}_spheres{}", configuration.first, configuration.second);
+    best.push_back(*std::min_element(named.begin(), named.end(), cheaper));
+    found["curve"][name] = shape_of(named);
+    found["winner"][name] = best.back().max_prims;
+    found["sweet_spot"][name] = std::min_element(any.begin(), any.end(), cheaper)->max_prims;
+    gains[configuration.first].emplace_back(100 * (brute.cost / best.back().cost - 1), best.back());
+  }
+  found["wins"] = wins_of(work, pattern, costs);
+  found["best"] = std::min_element(best.begin(), best.end(), cheaper)->words();
+  const Contestant worst = *std::max_element(all.begin(), all.end(), cheaper);
+  found["worst_by_brute_force"] = worst.max_prims == 0 ? worst.configuration.second : 0;
+  const auto [least, most] = std::minmax_element(one_leaf_over_brute.begin(), one_leaf_over_brute.end());
+  found["one_leaf_over_brute_force"] = {*least, *most};
+  found["slowest_tree_over_brute_force"] = *std::max_element(over_brute.begin(), over_brute.end());
+
+  const auto cost_of = [&](const std::string& name) {
+    const auto trees = work.find({values.integer(name + ".scenario"), values.integer(name + ".spheres")});
+    if (trees == work.end()) return 0.0;
+    const auto tree = trees->second.find(values.integer(name + ".max_prims"));
+    return tree == trees->second.end() ? 0.0 : costs.of(tree->second);
+  };
+  if (cost_of("supposed_best") > 0) found["beyond_the_display"] = cost_of("best") / cost_of("supposed_best");
+  for (const auto& [scenario, of_scenario] : gains) {
+    const Json gain = found["gain"][fmt::format("scenario{}", scenario)] = gains_of(of_scenario);
+    found["mean_gain"][std::to_string(scenario)] = gain["mean"];
+  }
+  const std::vector<std::int64_t> pair = values.integers("mean_exceeds_best.scenarios");
+  if (gains.count(pair.front()) > 0 && gains.count(pair.back()) > 0)
+    found["mean_ahead_of_most"] =
+        gains_of(gains[pair.front()])["mean"].get<double>() - gains_of(gains[pair.back()])["most"].get<double>();
+  return found;
 }
 
 }  // namespace bihive::thesis

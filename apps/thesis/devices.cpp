@@ -1,5 +1,4 @@
-#include "devices.h"
-
+// Runs of Figure 4.4 and frames shown per second, measured on other devices.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +6,8 @@
 
 #include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
-#include "bihive/thesis/cost_model.h"
+#include "bihive/thesis/frame_rates_report.h"
+#include "report.h"
 #include "statistics.h"
 
 namespace bihive::thesis {
@@ -26,30 +26,13 @@ std::string picture_of(const Json& document) {
   return fmt::format("{} x {}", document.at("width_px").get<int>(), document.at("height_px").get<int>());
 }
 
-// The share of the text's picture that this one has.
-double scale_of(const Json& document, const Values& values) {
-  return document.at("width_px").get<double>() * document.at("height_px").get<double>() /
-         (values.number("width_px") * values.number("height_px"));
-}
-
 Json run_from(const Json& document, const Values& values) {
-  EngineTimes all;
-  std::vector<double> drifts;  // of each contestant: the last round's time over the first's
-  for (const Json& one : document.at("configurations")) {
-    const auto ms = one.at("frame_ms").get<std::vector<double>>();
-    if (ms.empty() || std::any_of(ms.begin(), ms.end(), [](double each) { return !(each > 0); }))
-      throw wrong("a frame without a time");
-    ConfigurationTimes& times = all[{one.at("scenario").get<std::int64_t>(), one.at("spheres").get<std::int64_t>()}];
-    const Json& max_prims = one.at("max_prims");
-    if (!max_prims.is_null() && max_prims.get<std::int64_t>() < 1) throw wrong("max_prims below 1");
-    (max_prims.is_null() ? times.brute : times.trees[max_prims.get<std::int64_t>()]) = ms;
-    drifts.push_back(ms.back() / ms.front());
-  }
-
+  const std::optional<SavedFrameRates> saved = saved_frame_rates(document.dump());
+  if (!saved) throw wrong("a size, a round or the time of a frame is not there");
   std::int64_t wins = 0, configurations = 0;
   double best_fps = 0;
   std::map<std::int64_t, std::vector<double>> gains;
-  for (const auto& [key, times] : all) {
+  for (const auto& [key, times] : times_of(saved->rates)) {
     const std::int64_t fastest = times.fastest();
     if (times.brute.empty() || fastest == 0) continue;
     ++configurations;
@@ -63,17 +46,20 @@ Json run_from(const Json& document, const Values& values) {
     by_scenario.push_back(
         {{"scenario", scenario}, {"least", *least}, {"most", *most}, {"mean", spread_of(percents).mean}});
   }
+  // The share of the text's picture that this one has.
+  const double scale = static_cast<double>(saved->width_px) * saved->height_px /
+                       (values.number("width_px") * values.number("height_px"));
   Json run = {{"device", document.at("device").get<std::string>()},
-              {"engine", document.at("engine").get<std::string>()},
+              {"engine", saved->engine},
               {"picture", picture_of(document)},
-              {"quick", document.at("quick").get<bool>()},
+              {"quick", saved->quick},
               {"complete", document.at("complete").get<bool>()},
               {"configurations", configurations},
               {"wins", wins},
               {"best_fps", best_fps},
-              {"best_fps_scaled", best_fps * scale_of(document, values)},
+              {"best_fps_scaled", best_fps * scale},
               {"gains", std::move(by_scenario)},
-              {"drift", drifts.empty() ? 1 : median(drifts)}};
+              {"drift", drift_of(saved->rates)}};
   // Costs of the page's steps; runs of earlier versions lack them.
   if (document.contains("costs"))
     for (const char* const name : {"inner_per_test", "inner_per_test_error", "leaf_per_inner", "leaf_per_inner_error"})

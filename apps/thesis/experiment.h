@@ -1,7 +1,6 @@
 // An experiment of the thesis: steps that measure or draw, and the numbers that follow from them.
 //
-// Each step's result is saved as its own JSON file, so that an interrupted run continues where it stopped. Claims
-// (claims.h) and the report's templates (report.h) read nothing but an experiment's data.
+// Claims (claims.h) and the report's templates (report.h) read nothing but an experiment's data.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +8,16 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/cancel.h"
 #include "bihive/thesis/experiments.h"
+#include "machine_load.h"
 #include "values.h"
 
 namespace bihive::thesis {
-
-using Json = nlohmann::ordered_json;
 
 struct Settings {
   bool quick = false;      ///< everything small, within a minute on two cores
@@ -28,58 +28,66 @@ struct Settings {
   std::vector<double> costs = {};
 };
 
-/// The context of a step. Long work watches `cancel`.
-struct StepContext {
-  const Settings& settings;
-  const Values& values;
-  std::string folder;  ///< of the experiment, exists: pictures go there
-  const CancelToken& cancel;
-};
-
 /// `run` returns the step's result; after a cancellation anything. Names are file names ("scenario1-max_prims8").
 /// `weight` is the step's time relative to the other steps of the whole run, about in seconds.
 struct Step {
   std::string name;
   double weight;
-  std::function<Json(StepContext&)> run;
+  std::function<Json()> run;
 };
 
-/// The results of all finished steps, by name.
-using StepResults = std::map<std::string, Json>;
+/// An experiment in a run. It stays where it is: its steps refer to it.
+struct Experiment {
+  // A row of bihive/thesis/experiments.h.
+  std::string id;         ///< "table-4.2": its name on the command line and its folder in thesis/ and in the output
+  std::string section;    ///< of the thesis's chapter: "B" to "G"
+  std::string title;      ///< "Table 4.2: statistics of the trees"
+  std::string_view page;  ///< its template
 
-struct DataContext {
   const Settings& settings;
-  const Values& values;
-  const StepResults& results;
-  std::string folder;  ///< of the experiment: charts go there
+  Values values;
+  std::string folder;         ///< in the output; exists while a step runs, and while data are made: pictures go there
+  const CancelToken& cancel;  ///< long work watches it
 
+  /// Filled by the experiment's own function.
+  std::vector<Step> steps = {};
+  /// Gives an object. Works with any subset of the results, and leaves out what follows from missing ones.
+  std::function<Json()> make_data = {};
+
+  bool asked = true;                         ///< on the command line; else it is shown as an earlier run left it
+  std::map<std::string, Json> results = {};  ///< of all finished steps, by name
+  MachineLoad load = {};                     ///< of these steps
+  Json data = Json::object();                ///< made of the results
+  Json findings = Json::array(), claims = Json::array();
+
+  void add(std::string step, double quick_weight, double weight, std::function<Json()> run) {
+    steps.push_back({std::move(step), settings.quick ? quick_weight : weight, std::move(run)});
+  }
   /// The step's result, or null if it is not done.
   const Json* result(const std::string& step) const {
     const auto found = results.find(step);
     return found == results.end() ? nullptr : &found->second;
   }
+  /// The finished steps in their order: name and result.
+  std::vector<std::pair<std::string, const Json*>> finished() const {
+    std::vector<std::pair<std::string, const Json*>> all;
+    for (const Step& step : steps)
+      if (const Json* const done = result(step.name)) all.emplace_back(step.name, done);
+    return all;
+  }
+  std::vector<std::string> missing_steps() const {
+    std::vector<std::string> names;
+    for (const Step& step : steps)
+      if (result(step.name) == nullptr) names.push_back(step.name);
+    return names;
+  }
 };
 
-/// The code of an experiment.
-struct ExperimentCode {
-  std::function<std::vector<Step>(const Settings&, const Values&)> steps;
-  /// An object. Must work with any subset of the results; leaves out what follows from missing ones.
-  std::function<Json(const DataContext&)> data;
-};
-
-/// A row of bihive/thesis/experiments.h with its code.
-struct Experiment {
-  std::string id;       ///< "table-4.2": its name on the command line and its folder in thesis/ and in the output
-  std::string section;  ///< of the thesis's chapter: "B" to "G"
-  std::string title;    ///< "Table 4.2: statistics of the trees"
-  ExperimentCode code;
-};
-
-/// figure_4_1() in scenes.cpp, figure_4_2() in recursion_depths.cpp, figure_4_3() in small_trees.cpp, section_d() in
-/// one_leaf.cpp, table_4_2() in tree_statistics.cpp, figure_4_4() in frame_rates.cpp, figure_4_5() in tree_memory.cpp.
-#define BIHIVE_DECLARE(name, id, section, title) ExperimentCode name();
+/// Add steps and data: figure_4_1() in scenes.cpp, figure_4_2() in recursion_depths.cpp, figure_4_3() in
+/// small_trees.cpp, section_d() in one_leaf.cpp, table_4_2() in tree_statistics.cpp, figure_4_4() in frame_rates.cpp,
+/// figure_4_5() in tree_memory.cpp.
+#define BIHIVE_DECLARE(name, id, section, title) void name(Experiment& experiment);
 BIHIVE_THESIS_EXPERIMENTS(BIHIVE_DECLARE)
 #undef BIHIVE_DECLARE
-std::vector<Experiment> all_experiments();
 
 }  // namespace bihive::thesis

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <optional>
 
-#include "bihive/base/parallel.h"
 #include "bihive/base/write_file.h"
 #include "bihive/thesis/figure_costs.h"
 #include "bihive/thesis/frame_rates_report.h"
@@ -21,7 +20,6 @@
 namespace bihive::thesis {
 namespace {
 
-constexpr const char *kBalanceStep = "balance", *kBruteForceStep = "brute_force";
 // A quick run counts the rays of every kQuickStride-th row and column. Other seeds and variations of the picture are
 // counted more coarsely.
 constexpr int kQuickStride = 4, kOtherStride = 4, kQuickOtherStride = 8;
@@ -41,37 +39,23 @@ std::string times_step(const TimedProgram& program, std::int64_t scenario, std::
   return fmt::format("{}-scenario{}-spheres{}", program.key, scenario, spheres);
 }
 
-// What the results depend on, and to what it is changed to see how much.
-struct Variation {
-  const char *key, *what, *usual, *other;
-  void (*change)(FrameRatePlan&);
-};
-const std::vector<Variation>& variations() {
-  static const std::vector<Variation> kAll{
-      {"square", "The picture's format", "1136 x 640", "640 x 640",
-       [](FrameRatePlan& plan) { plan.width_px = plan.height_px; }},
-      {"portrait", "The picture's format", "1136 x 640", "640 x 1136",
-       [](FrameRatePlan& plan) { std::swap(plan.width_px, plan.height_px); }},
-      {"near", "The angle along the shorter side", "30 degrees", "27.8 degrees",
-       [](FrameRatePlan& plan) { plan.fov_deg = 27.8; }},
-      {"small", "The spheres' radius", "1", "0.5", [](FrameRatePlan& plan) { plan.radius = 0.5; }},
-      {"large", "The spheres' radius", "1", "2", [](FrameRatePlan& plan) { plan.radius = 2; }}};
-  return kAll;
+// Rows of values.json: an assumption on which the results depend, and to what it is changed to see how much.
+Json variations(const Experiment& experiment) {
+  return experiment.values.document().value("variations", Json::array());
 }
 
-// The plan of the rays that a step counts, in one scenario or in all.
-FrameRatePlan plan_of(const StepContext& context, std::optional<std::int64_t> scenario) {
-  FrameRatePlan plan = cli::value_or_fail(FrameRatePlan::from_values(context.values.stated()));
-  if (scenario) plan.scenarios = {*scenario};
-  plan.seed = context.settings.seed;
-  plan.threads = context.settings.threads;
+FrameRatePlan plan_of(const Experiment& experiment) {
+  FrameRatePlan plan = cli::value_or_fail(FrameRatePlan::from_values(experiment.values.stated()));
+  plan.seed = experiment.settings.seed;
+  plan.threads = experiment.settings.threads;
   return plan;
 }
 
 // [{"scenario", "spheres", "max_prims", "inner", "leaves", "tests"}], or null if cancelled.
-Json count_rays(const StepContext& context, const FrameRatePlan& plan, int stride, int quick_stride) {
-  const Result<FigureWork> work = counted_figure(plan, context.settings.quick ? quick_stride : stride, &context.cancel);
-  if (context.cancel.cancelled()) return {};
+Json count_rays(const Experiment& experiment, const FrameRatePlan& plan, int stride, int quick_stride) {
+  const Result<FigureWork> work =
+      counted_figure(plan, experiment.settings.quick ? quick_stride : stride, &experiment.cancel);
+  if (experiment.cancel.cancelled()) return {};
   Json rows = Json::array();
   for (const auto& [configuration, trees] : cli::value_or_fail(work))
     for (const auto& [max_prims, one] : trees)
@@ -86,57 +70,14 @@ Json count_rays(const StepContext& context, const FrameRatePlan& plan, int strid
 
 void add_work(const Json& rows, FigureWork& work) {
   for (const Json& row : rows)
-    work[{row["scenario"].get<std::int64_t>(), row["spheres"].get<std::int64_t>()}]
-        [row["max_prims"].get<std::int64_t>()] = {row["inner"].get<double>(), row["leaves"].get<double>(),
-                                                  row["tests"].get<double>()};
+    work[{row["scenario"], row["spheres"]}][row["max_prims"]] = {row["inner"], row["leaves"], row["tests"]};
 }
 
-std::vector<Step> steps_of(const Settings& settings, const Values& values) {
-  cli::value_or_fail(FrameRatePlan::from_values(values.stated()));  // every number is in range
-  const std::vector<std::int64_t> scenarios = values.integers("scenarios"), counts = values.integers("spheres_list");
-  const std::vector<std::int64_t> max_prims = values.integers("max_prims_list");
-  std::vector<Step> steps;
-  steps.reserve(2 * scenarios.size());
-  for (const std::int64_t scenario : scenarios)
-    steps.push_back({counts_step(scenario), settings.quick ? 0.5 : 8, [scenario](StepContext& context) {
-                       FrameRatePlan plan = plan_of(context, scenario);
-                       for (const std::int64_t beyond : context.values.integers("max_prims_beyond"))
-                         plan.max_prims.push_back(beyond);
-                       plan.max_prims.push_back(kUnlimited);
-                       return count_rays(context, plan, 1, kQuickStride);
-                     }});
-  for (const std::int64_t scenario : scenarios)
-    steps.push_back({seeds_step(scenario), settings.quick ? 0.3 : 20, [scenario](StepContext& context) {
-                       Json seeds = Json::array();
-                       FrameRatePlan plan = plan_of(context, scenario);
-                       for (plan.seed = 1; plan.seed <= (context.settings.quick ? kQuickSeeds : kSeeds); ++plan.seed)
-                         seeds.push_back(count_rays(context, plan, kOtherStride, kQuickOtherStride));
-                       return seeds;
-                     }});
-  for (const Variation& variation : variations())
-    steps.push_back({variation.key, settings.quick ? 0.2 : 2, [variation](StepContext& context) {
-                       FrameRatePlan plan = plan_of(context, std::nullopt);
-                       variation.change(plan);
-                       return count_rays(context, plan, kOtherStride, kQuickOtherStride);
-                     }});
-  steps.push_back({kBalanceStep, 0.3, [](StepContext& context) {
-                     const Values& of = context.values;
-                     return measure_reasons(context, {of.integers("scenarios"),
-                                                      of.integers("spheres_list"),
-                                                      {of.integer("winner.max_prims")},
-                                                      context.settings.quick ? 10 : 100});
-                   }});
-  double all = 0;
-  for (const std::int64_t spheres : counts) all += static_cast<double>(spheres) + 100;
-  for (const TimedProgram& program : timed_programs())
-    for (const std::int64_t scenario : scenarios)
-      for (const std::int64_t spheres : counts)
-        steps.push_back({times_step(program, scenario, spheres),
-                         program.weight / (settings.quick ? 20.0 : 1.0) * (static_cast<double>(spheres) + 100) / all /
-                             static_cast<double>(scenarios.size()),
-                         [=](StepContext& context) { return program.measure(context, scenario, spheres); }});
-  steps.push_back({kBruteForceStep, 1, measure_brute_force});
-  return steps;
+Json count_seeds(const Experiment& experiment, FrameRatePlan plan) {
+  Json seeds = Json::array();
+  for (plan.seed = 1; plan.seed <= (experiment.settings.quick ? kQuickSeeds : kSeeds); ++plan.seed)
+    seeds.push_back(count_rays(experiment, plan, kOtherStride, kQuickOtherStride));
+  return seeds;
 }
 
 std::string ranges_text(const std::vector<CostRange>& ranges) {
@@ -150,33 +91,29 @@ std::string ranges_text(const std::vector<CostRange>& ranges) {
 
 class FigureData {
  public:
-  explicit FigureData(const DataContext& context)
-      : context_(context),
-        values_(context.values),
-        scenarios_(values_.integers("scenarios")),
-        counts_(values_.integers("spheres_list")),
-        max_prims_(values_.integers("max_prims_list")),
+  explicit FigureData(const Experiment& experiment)
+      : experiment_(experiment),
+        values_(experiment.values),
+        plan_(plan_of(experiment)),
         pattern_(cli::value_or_fail(stated_pattern(values_.stated()))) {
-    for (const std::int64_t scenario : scenarios_)
-      if (const Json* const rows = context.result(counts_step(scenario))) {
+    for (const std::int64_t scenario : plan_.scenarios)
+      if (const Json* const rows = experiment.result(counts_step(scenario))) {
         add_work(*rows, work_);
         for (const Json& row : *rows) data_["counts"].push_back(row);
       }
-    complete_ = work_.size() == scenarios_.size() * counts_.size();
   }
 
   Json all() {
-    if (complete_) {
+    if (work_.size() == plan_.scenarios.size() * plan_.spheres.size()) {
       collect_seeds();
-      fit_programs();
+      for (const TimedProgram& program : timed_programs()) fit(program);
       add_diagram();
       add_leaf_costs();
       add_variations();
       add_claims();
     }
-    add_rates();
-    add_brute_force();
-    add_balance();
+    if (const Json* const times = experiment_.result("brute_force")) add_brute_force(*times);
+    if (const Json* const rows = experiment_.result("balance")) add_balance(*rows);
     add_lost_bars();
     return std::move(data_);
   }
@@ -184,8 +121,8 @@ class FigureData {
  private:
   // One figure for each seed that was counted. A scenario without random numbers is the same with every seed.
   void collect_seeds() {
-    for (const std::int64_t scenario : scenarios_) {
-      const Json* const result = context_.result(seeds_step(scenario));
+    for (const std::int64_t scenario : plan_.scenarios) {
+      const Json* const result = experiment_.result(seeds_step(scenario));
       if (result == nullptr) return seeds_.clear();
       seeds_.resize(result->size());
       for (std::size_t seed = 0; seed < seeds_.size(); ++seed) add_work((*result)[seed], seeds_[seed]);
@@ -193,60 +130,65 @@ class FigureData {
     data_["seeds"] = seeds_.size();
   }
 
-  // Costs from each program's own times.
-  void fit_programs() {
-    for (const TimedProgram& program : timed_programs()) {
-      EngineTimes times;
-      double pixels = 0, fixed_ms = 0;
-      std::string gpu;
-      for (const std::int64_t scenario : scenarios_)
-        for (const std::int64_t spheres : counts_) {
-          const Json* const result = context_.result(times_step(program, scenario, spheres));
-          if (result == nullptr) continue;
-          if (result->contains("missing")) {
-            data_["missing_shader"] = (*result)["missing"];
-            continue;
-          }
-          times[{scenario, spheres}] = times_of(*result);
-          pixels = result->at("width_px").get<double>() * result->at("height_px").get<double>();
-          data_["pixels_that_differ"] = std::max<std::int64_t>(data_.value("pixels_that_differ", std::int64_t{0}),
-                                                               result->value("pixels_that_differ", std::int64_t{0}));
-          gpu = result->value("gpu", "");
-          if (!gpu.empty()) fixed_ms = median(result->at("one_sphere_ms").get<std::vector<double>>());
-        }
-      if (times.size() != work_.size()) continue;
-      const bool on_all_threads = std::string(program.key) == "reference";
-      const int threads = context_.settings.threads > 0 ? context_.settings.threads : hardware_threads();
-      const double ns_per_ms = 1e6 / pixels * (on_all_threads ? threads : 1);
-      const FittedCosts fitted = fit_costs(work_, times, max_prims_, ns_per_ms);
-      times_[program.key] = std::move(times);
-      if (fitted.frames == 0) continue;
-      // Software that takes the place of a graphics processor is none.
-      const bool software = is_software(gpu);
-      const StepCosts costs = fitted.costs();
-      Json row{{"key", program.key},
-               {"name", program.name + std::string(software ? " in software, no graphics processor" : "")},
-               {"gpu", gpu},
-               {"software", software},
-               {"fixed_ns", fitted.fixed_ns},
-               {"inner_ns", fitted.inner_ns},
-               {"leaf_ns", fitted.leaf_ns},
-               {"test_ns", fitted.test_ns},
-               {"inner_per_test", costs.inner},
-               {"inner_per_test_error", fitted.inner_error},
-               {"leaf_per_inner", costs.leaf},
-               {"leaf_per_inner_error", fitted.leaf_error},
-               {"rms_percent", 100 * fitted.rms},
-               {"frames", fitted.frames},
-               {"wins", wins_of(work_, pattern_.max_prims, max_prims_, costs.inner, costs.leaf)}};
-      if (fixed_ms > 0) row["one_sphere_ms"] = fixed_ms;
-      data_["fits"].push_back(std::move(row));
-      fits_.push_back({program.key, data_["fits"].back()["name"].get<std::string>(), fitted});
+  // Rates and costs from a program's own times.
+  void fit(const TimedProgram& program) {
+    EngineTimes times;
+    Json last;
+    for (const auto& [configuration, trees] : work_) {
+      const Json* const result = experiment_.result(times_step(program, configuration.first, configuration.second));
+      if (result == nullptr) return;
+      if (result->contains("missing")) {
+        data_["missing_shader"] = (*result)["missing"];
+        return;
+      }
+      last = *result;
+      times[configuration] = times_of(last);
+      const std::int64_t most = data_.value("pixels_that_differ", 0), here = last.value("pixels_that_differ", 0);
+      data_["pixels_that_differ"] = std::max(most, here);
     }
+    add_rates(program, times);
+    const int threads = experiment_.settings.threads > 0 ? experiment_.settings.threads : hardware_threads();
+    const double pixels = last["width_px"].get<double>() * last["height_px"].get<double>();
+    const double ns_per_ms = 1e6 / pixels * (std::string(program.key) == "reference" ? threads : 1);
+    const FittedCosts fitted = fit_costs(work_, times, ns_per_ms);
+    if (fitted.frames == 0) return;
+    // Software that takes the place of a graphics processor is none.
+    const std::string gpu = last.value("gpu", "");
+    const bool software = is_software(gpu);
+    const std::string name = program.name + std::string(software ? " in software, no graphics processor" : "");
+    Json row{{"key", program.key}, {"name", name}, {"gpu", gpu}, {"software", software}};
+    for (const auto& [cost, value] : fitted.named()) row[cost] = value;
+    row.update({{"rms_percent", 100 * fitted.rms},
+                {"frames", fitted.frames},
+                {"wins", wins_of(work_, pattern_, fitted.costs())}});
+    if (!gpu.empty()) row["one_sphere_ms"] = median(last.at("one_sphere_ms").get<std::vector<double>>());
+    data_["fits"].push_back(std::move(row));
+    fits_.push_back({program.key, name, fitted});
   }
 
-  void add_diagram() {
-    CostDiagram diagram = cost_diagram(work_, pattern_, max_prims_, seeds_);
+  // Frames per second, without verdicts, and the thesis program's as charts like the text's.
+  void add_rates(const TimedProgram& program, const EngineTimes& times) {
+    Json rows = Json::array();
+    for (const auto& [configuration, one] : times) {
+      Json trees = Json::array();
+      for (const auto& [prims, ms] : one.trees)
+        trees.push_back({{"tree", tree_name(prims)}, {"fps", frames_per_second(ms)}});
+      rows.push_back({{"scenario", configuration.first},
+                      {"spheres", configuration.second},
+                      {"brute_fps", frames_per_second(one.brute)},
+                      {"trees", std::move(trees)},
+                      {"gain_percent", one.gain_percent()}});
+    }
+    data_["rates"].push_back(
+        {{"key", program.key}, {"trees", plan_.max_prims}, {"rows", std::move(rows)}, {"name", program.name}});
+    if (&program != &timed_programs().front()) return;
+    for (const std::int64_t scenario : plan_.scenarios)
+      write(fmt::format("scenario{}.svg", scenario),
+            bar_chart(frame_rate_bars(scenario, plan_.spheres, plan_.max_prims, times)));
+  }
+
+  void add_diagram() const {
+    CostDiagram diagram = cost_diagram(work_, pattern_, seeds_);
     for (const auto& [key, name, fitted] : fits_)
       diagram.points.push_back({name.substr(0, name.find(',')), fitted.costs().inner, fitted.costs().leaf,
                                 fitted.inner_error, fitted.leaf_error});
@@ -261,14 +203,14 @@ class FigureData {
   }
 
   void write(const std::string& file, const std::string& text) const {
-    if (const Status status = write_file(context_.folder + "/" + file, text); !status) cli::fail(status.error());
+    cli::value_or_fail(write_file(experiment_.folder + "/" + file, text));
   }
 
   void add_leaf_costs() {
     for (const double leaf : kLeafCosts) {
-      const WinsByCost found = wins_by_cost(work_, pattern_, max_prims_, leaf);
+      const WinsByCost found = wins_by_cost(work_, pattern_, leaf);
       const auto with = std::count_if(seeds_.begin(), seeds_.end(), [&](const FigureWork& seed) {
-        return !wins_by_cost(seed, pattern_, max_prims_, leaf).pattern.empty();
+        return !wins_by_cost(seed, pattern_, leaf).pattern.empty();
       });
       Json ranges = Json::array();
       for (const CostRange& range : found.pattern)
@@ -280,7 +222,7 @@ class FigureData {
                                      {"pattern", std::move(ranges)},
                                      {"seeds_with", with}});
     }
-    const WinsByCost free = wins_by_cost(work_, pattern_, max_prims_, 0);
+    const WinsByCost free = wins_by_cost(work_, pattern_, 0);
     const bool same_number = static_cast<std::int64_t>(work_.size()) == values_.integer("winner.configurations");
     data_["possible"] = {{"wins", same_number && !free.stated.empty() ? pattern_.wins : free.most},
                          {"where", ranges_text(free.stated)},
@@ -289,33 +231,36 @@ class FigureData {
   }
 
   void add_variations() {
-    for (const Variation& variation : variations()) {
-      const Json* const rows = context_.result(variation.key);
+    for (const Json& variation : variations(experiment_)) {
+      const Json* const rows = experiment_.result(variation["key"]);
       if (rows == nullptr) continue;
       FigureWork work;
       add_work(*rows, work);
-      const WinsByCost found = wins_by_cost(work, pattern_, max_prims_, 0);
-      data_["variations"].push_back({{"what", variation.what},
-                                     {"usual", variation.usual},
-                                     {"other", variation.other},
+      const WinsByCost found = wins_by_cost(work, pattern_, 0);
+      data_["variations"].push_back({{"what", variation["what"]},
+                                     {"usual", variation["usual"]},
+                                     {"other", variation["other"]},
                                      {"most_wins", found.most},
                                      {"pattern_text", ranges_text(found.pattern)}});
     }
   }
 
+  Json findings_at(const Json& quantities) const { return judge(values_, {{"at", {{"text", quantities}}}}); }
+  static std::int64_t agreeing(const Json& findings) {
+    return std::count_if(findings.begin(), findings.end(),
+                         [](const Json& each) { return each["verdict"] == "agrees"; });
+  }
+
   // The asked costs; else the costs within the pattern that suit most of the text's claims, the lowest of equal ones.
   std::optional<StepCosts> chosen_costs() const {
-    const std::vector<double>& asked = context_.settings.costs;
+    const std::vector<double>& asked = experiment_.settings.costs;
     if (asked.size() == 3) return StepCosts{asked[0], asked[1], asked[2]};
     std::optional<StepCosts> best;
     std::int64_t most = -1;
-    for (const CostRange& range : wins_by_cost(work_, pattern_, max_prims_, 0).pattern)
+    for (const CostRange& range : wins_by_cost(work_, pattern_, 0).pattern)
       for (int i = 0; i < kTries && std::isfinite(range.high); ++i) {
         const StepCosts costs{range.low + (range.high - range.low) * (i + 0.5) / kTries, 0, 1};
-        const std::vector<Finding> findings =
-            judge(values_, {{"at", {{"text", quantities_at(work_, costs, values_)}}}});
-        const auto agree = std::count_if(findings.begin(), findings.end(),
-                                         [](const Finding& each) { return each.verdict == Verdict::agrees; });
+        const std::int64_t agree = agreeing(findings_at(quantities_at(work_, pattern_, costs, values_)));
         if (agree <= most) continue;
         best = costs;
         most = agree;
@@ -327,90 +272,50 @@ class FigureData {
   void add_claims() {
     const std::optional<StepCosts> costs = chosen_costs();
     if (!costs) return;
-    data_["at"]["text"] = quantities_at(work_, *costs, values_);
-    Json head = Json::array();
+    data_["at"]["text"] = quantities_at(work_, pattern_, *costs, values_);
+    const Json findings = findings_at(data_["at"]["text"]);
+    Json programs = Json::array(), rows = Json::array();
+    for (Json finding : findings) {
+      finding.update(words_of(finding));
+      finding["elsewhere"] = Json::array();
+      rows.push_back(std::move(finding));
+    }
     for (const auto& [key, name, fitted] : fits_) {
-      data_["at"][key] = quantities_at(work_, fitted.costs(), values_);
-      head.push_back(name);
+      programs.push_back(name);
+      data_["at"][key] = quantities_at(work_, pattern_, fitted.costs(), values_);
+      const Json there = findings_at(data_["at"][key]);
+      for (std::size_t i = 0; i < there.size(); ++i)
+        rows[i]["elsewhere"].push_back({{"program", name}, {"ours", there[i]["ours"]}});
     }
-    Json rows = Json::array();
-    std::int64_t agree = 0;
-    for (const Finding& finding : judge(values_, {{"at", {{"text", data_["at"]["text"]}}}})) {
-      agree += finding.verdict == Verdict::agrees ? 1 : 0;
-      const std::string of = values_.document()["values"][finding.name]["of"].get<std::string>();
-      Json row{{"claim", finding.claim},
-               {"row", finding.row},
-               {"expected", finding.expected},
-               {"ours", finding.ours},
-               {"css_class", words_of(finding.verdict, finding.kind).css_class},
-               {"sign", words_of(finding.verdict, finding.kind).sign},
-               {"elsewhere", Json::array()}};
-      for (const auto& [key, name, fitted] : fits_)
-        for (const Finding& there : judge_on(values_, finding.name, data_, "at." + key + of.substr(of.find('.', 3))))
-          row["elsewhere"].push_back({{"program", name}, {"ours", there.ours}});
-      rows.push_back(std::move(row));
-    }
-    data_["claims_at_costs"] = {{"inner", costs->inner},
-                                {"leaf", costs->leaf},
-                                {"fixed", costs->fixed},
-                                {"asked", !context_.settings.costs.empty()},
-                                {"agree", agree},
-                                {"all", rows.size()},
-                                {"programs", std::move(head)},
-                                {"rows", std::move(rows)}};
-  }
-
-  // Frames per second, without verdicts, and the thesis program's as charts like the text's.
-  void add_rates() {
-    for (const auto& [key, times] : times_) {
-      Json table{{"key", key}, {"trees", max_prims_}, {"rows", Json::array()}};
-      for (const TimedProgram& program : timed_programs())
-        if (key == program.key) table["name"] = program.name;
-      for (const auto& [configuration, one] : times) {
-        Json trees = Json::array();
-        for (const auto& [prims, ms] : one.trees)
-          trees.push_back({{"tree", tree_name(prims)}, {"fps", frames_per_second(ms)}});
-        table["rows"].push_back({{"scenario", configuration.first},
-                                 {"spheres", configuration.second},
-                                 {"brute_fps", frames_per_second(one.brute)},
-                                 {"trees", std::move(trees)},
-                                 {"gain_percent", one.gain_percent()}});
-      }
-      data_["rates"].push_back(std::move(table));
-      if (key != timed_programs().front().key) continue;
-      for (const std::int64_t scenario : scenarios_)
-        write(fmt::format("scenario{}.svg", scenario),
-              bar_chart(frame_rate_bars(scenario, counts_, max_prims_, times)));
-    }
+    data_["claims_at_costs"] = {{"inner", costs->inner},           {"leaf", costs->leaf},
+                                {"fixed", costs->fixed},           {"asked", !experiment_.settings.costs.empty()},
+                                {"agree", agreeing(findings)},     {"all", rows.size()},
+                                {"programs", std::move(programs)}, {"rows", std::move(rows)}};
   }
 
   // Brute force in the scenarios and with all spheres at one place: the slowest over the fastest.
-  void add_brute_force() {
-    const Json* const result = context_.result(kBruteForceStep);
-    if (result == nullptr) return;
+  void add_brute_force(const Json& result) {
     double most = 0, most_with_one_place = 0;
-    for (const auto& [name, times] : result->items()) {
+    for (const Json& times : result) {
       std::vector<double> ms;
-      const auto ratio = [&] {
-        return *std::max_element(ms.begin(), ms.end()) / *std::min_element(ms.begin(), ms.end());
+      const auto ratio = [&ms] {
+        const auto [least, greatest] = std::minmax_element(ms.begin(), ms.end());
+        return *greatest / *least;
       };
-      for (const std::int64_t scenario : scenarios_)
-        ms.push_back(times.at(fmt::format("scenario{}", scenario)).get<double>());
+      for (const std::int64_t scenario : plan_.scenarios) ms.push_back(times.at(fmt::format("scenario{}", scenario)));
       most = std::max(most, ratio());
-      ms.push_back(times.at("one_place").get<double>());
+      ms.push_back(times.at("one_place"));
       most_with_one_place = std::max(most_with_one_place, ratio());
     }
-    data_["brute_force"] = {{"scenarios_ratio", most}, {"one_place_ratio", most_with_one_place}, {"ms", *result}};
+    data_["brute_force"] = {{"scenarios_ratio", most}, {"one_place_ratio", most_with_one_place}, {"ms", result}};
   }
 
   // The text's reasons for Scenario 3: how much the leaves of the scenarios deviate.
-  void add_balance() {
-    const Json* const balance = context_.result(kBalanceStep);
-    if (balance == nullptr) return;
-    data_["balance"] = *balance;
-    for (const Json& row : *balance)
+  void add_balance(const Json& rows) {
+    data_["balance"] = rows;
+    for (const Json& row : rows)
       for (const auto& [name, of] : {std::pair{"deviation", "spheres_per_leaf_sd"}, {"imbalance", "depth_sd"}})
-        data_[name][fmt::format("spheres{}", row["spheres"].get<std::int64_t>())][row["scenario"].dump()] = row[of];
+        data_[name]["spheres" + row["spheres"].dump()][row["scenario"].dump()] = row[of];
   }
 
   // What the lost bars must have been, by arithmetic on the text's own numbers.
@@ -436,22 +341,60 @@ class FigureData {
     FittedCosts costs;
   };
 
-  const DataContext& context_;
+  const Experiment& experiment_;
   const Values& values_;
-  const std::vector<std::int64_t> scenarios_, counts_, max_prims_;
+  const FrameRatePlan plan_;
   const WinPattern pattern_;
   FigureWork work_;
-  bool complete_ = false;
   std::vector<FigureWork> seeds_;
-  std::map<std::string, EngineTimes> times_;
   std::vector<Fit> fits_;
   Json data_ = Json::object();
 };
 
 }  // namespace
 
-ExperimentCode figure_4_4() {
-  return {steps_of, [](const DataContext& context) { return FigureData(context).all(); }};
+void figure_4_4(Experiment& experiment) {
+  const FrameRatePlan plan = plan_of(experiment);
+  for (const std::int64_t scenario : plan.scenarios) {
+    // The text's trees, and trees of larger leaves, up to one leaf.
+    FrameRatePlan counted = plan;
+    counted.scenarios = {scenario};
+    for (const std::int64_t more : experiment.values.integers("max_prims_beyond")) counted.max_prims.push_back(more);
+    counted.max_prims.push_back(kUnlimited);
+    experiment.add(counts_step(scenario), 0.5, 8,
+                   [&experiment, counted] { return count_rays(experiment, counted, 1, kQuickStride); });
+  }
+  for (const std::int64_t scenario : plan.scenarios) {
+    FrameRatePlan counted = plan;
+    counted.scenarios = {scenario};
+    experiment.add(seeds_step(scenario), 0.3, 20, [&experiment, counted] { return count_seeds(experiment, counted); });
+  }
+  for (const Json& variation : variations(experiment)) {
+    FrameRatePlan changed = plan;
+    changed.width_px = variation.value("width_px", plan.width_px);
+    changed.height_px = variation.value("height_px", plan.height_px);
+    changed.fov_deg = variation.value("fov_deg", plan.fov_deg);
+    changed.radius = variation.value("radius", plan.radius);
+    experiment.add(variation["key"], 0.2, 2,
+                   [&experiment, changed] { return count_rays(experiment, changed, kOtherStride, kQuickOtherStride); });
+  }
+  experiment.add("balance", 0.3, 0.3, [&experiment] {
+    const Values& values = experiment.values;
+    return measure_reasons(experiment, values.integers("spheres_list"), {values.integer("winner.max_prims")},
+                           experiment.settings.quick ? 10 : 100);
+  });
+  double all = 0;
+  for (const std::int64_t spheres : plan.spheres) all += static_cast<double>(spheres) + 100;
+  for (const TimedProgram& program : timed_programs())
+    for (const std::int64_t scenario : plan.scenarios)
+      for (const std::int64_t spheres : plan.spheres) {
+        const double weight =
+            program.weight * (static_cast<double>(spheres) + 100) / all / static_cast<double>(plan.scenarios.size());
+        experiment.add(times_step(program, scenario, spheres), weight / 20, weight,
+                       [&, scenario, spheres] { return program.measure(experiment, scenario, spheres); });
+      }
+  experiment.add("brute_force", 1, 1, [&experiment] { return measure_brute_force(experiment); });
+  experiment.make_data = [&experiment] { return FigureData(experiment).all(); };
 }
 
 }  // namespace bihive::thesis

@@ -7,123 +7,103 @@
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/gl/egl_context.h"
-#include "bihive/gl/gl_renderer.h"
-#include "bihive/scene/camera.h"
 #include "bihive/thesis/frame_rates.h"
 #include "bihive/thesis/thesis_program.h"
-#include "processor_time.h"
+#include "pictures.h"
+#include "statistics.h"
 
 namespace bihive::thesis {
 namespace {
 
-// Rounds that count; one before them warms up.
-constexpr int kRounds = 5, kQuickRounds = 3;
 // Pictures have a part of the width and height: the time of a ray does not depend on how many there are. On a graphics
 // processor it does, so its frames are whole in a full run.
 constexpr int kDivisor = 2, kQuickDivisor = 4, kQuickReferenceDivisor = 6;
 
-struct Size {
-  int width, height;
-};
-Size size_of(const StepContext& context, int divisor) {
-  const auto side = [&](const char* name) {
-    return static_cast<int>(std::clamp<std::int64_t>(context.values.integer(name) / divisor, 1, 65535));
-  };
-  return {side("width_px"), side("height_px")};
+// Rounds that count.
+int rounds_of(const Experiment& experiment) {
+  return experiment.settings.quick ? 3 : 5;
 }
 
-int rounds_of(const StepContext& context) {
-  return context.settings.quick ? kQuickRounds : kRounds;
+FrameRatePlan plan_of(const Experiment& experiment, int divisor, int quick_divisor) {
+  FrameRatePlan plan = cli::value_or_fail(FrameRatePlan::from_values(experiment.values.stated()))
+                           .smaller(experiment.settings.quick ? quick_divisor : divisor);
+  plan.seed = experiment.settings.seed;
+  plan.threads = experiment.settings.threads;
+  plan.rounds = rounds_of(experiment);
+  return plan;
 }
 
-std::int64_t pixels_that_differ(const std::vector<std::int32_t>& ids, const Scene& scene, const Tree& tree, Size size) {
-  const PixelRays pixels(scene.camera, size.width, size.height);
-  std::int64_t differ = 0;
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) {
-      const Hit hit = closest_hit(tree, scene.spheres, pixels.at(x + 0.5, y + 0.5));
-      const auto pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
-      differ += (hit.found() ? hit.sphere_id : -1) != ids[pixel] ? 1 : 0;
-    }
-  return differ;
+Json measured(const FrameRatePlan& plan, Json times) {
+  return {{"width_px", plan.width_px}, {"height_px", plan.height_px}, {"frame_ms", std::move(times)}};
 }
 
-Json measure_program(const StepContext& context, std::int64_t scenario, std::int64_t spheres) {
-  const Scene scene = context.values.scene(scenario, spheres, context.settings.seed);
-  const Size size = size_of(context, context.settings.quick ? kQuickDivisor : kDivisor);
+Json measure_program(const Experiment& experiment, std::int64_t scenario, std::int64_t spheres) {
+  const FrameRatePlan plan = plan_of(experiment, kDivisor, kQuickDivisor);
+  const Scene scene = cli::value_or_fail(plan.scene(scenario, spheres));
   // A tree of each MAX_PRIMS, and brute force, which needs none.
-  std::map<std::int64_t, ThesisProgram> programs;
-  std::map<std::int64_t, Tree> trees;
-  for (const std::int64_t prims : context.values.integers("max_prims_list")) {
-    trees[prims] = build_reference_tree(scene.spheres, {prims, kUnlimited});
-    programs.emplace(prims, ThesisProgram(scene, trees[prims]));
-  }
-
-  Json times = {{"brute", Json::array()}};
-  std::int64_t differ = 0;
   std::vector<std::int32_t> ids;
-  for (int round = -1; round < rounds_of(context); ++round) {
-    const auto measure = [&](const std::string& name, const auto& draw) {
-      const double before_ms = thread_ms();
-      draw();
-      if (round >= 0) times[name].push_back(thread_ms() - before_ms);
-    };
-    measure("brute", [&] { programs.begin()->second.draw_by_brute_force(size.width, size.height, ids); });
-    for (const auto& each : programs) {  // clang 14 does not capture bindings
-      measure(fmt::format("max_prims{}", each.first), [&] { each.second.draw_by_tree(size.width, size.height, ids); });
-      if (round < 0) differ = std::max(differ, pixels_that_differ(ids, scene, trees[each.first], size));
-    }
-    if (context.cancel.cancelled()) return {};
+  std::map<std::int64_t, Tree> trees;
+  std::map<std::int64_t, ThesisProgram> programs;
+  Contestants contestants{{"brute", [&] { programs.begin()->second.draw(plan.width_px, plan.height_px, false, ids); }}};
+  for (const std::int64_t prims : plan.max_prims) {
+    trees[prims] = build_reference_tree(scene.spheres, {prims, kUnlimited});
+    const ThesisProgram* const program = &programs.emplace(prims, ThesisProgram(scene, trees[prims])).first->second;
+    contestants.emplace_back(fmt::format("max_prims{}", prims),
+                             [&, program] { program->draw(plan.width_px, plan.height_px, true, ids); });
   }
-  return {{"width_px", size.width},
-          {"height_px", size.height},
-          {"pixels_that_differ", differ},
-          {"frame_ms", std::move(times)}};
+  Json times = times_in_turns(experiment, rounds_of(experiment), contestants);
+  if (times.is_null()) return {};
+
+  std::int64_t most = 0;
+  for (const auto& [prims, program] : programs) {
+    program.draw(plan.width_px, plan.height_px, true, ids);
+    std::int64_t differ = 0;
+    for_each_ray(scene.camera, plan.width_px, plan.height_px,
+                 [&, &tree = trees[prims]](std::size_t pixel, const Ray& ray) {
+                   const Hit hit = closest_hit(tree, scene.spheres, ray);
+                   differ += (hit.found() ? hit.sphere_id : -1) != ids[pixel] ? 1 : 0;
+                 });
+    most = std::max(most, differ);
+  }
+  Json result = measured(plan, std::move(times));
+  result["pixels_that_differ"] = most;
+  return result;
 }
 
-Json measure_contest(const StepContext& context, std::int64_t scenario, std::int64_t spheres, Size size,
-                     GlRenderer* gl) {
-  FrameRatePlan plan = cli::value_or_fail(FrameRatePlan::from_values(context.values.stated()));
-  plan.seed = context.settings.seed;
-  plan.threads = context.settings.threads;
-  plan.rounds = rounds_of(context);
-  plan.width_px = size.width;
-  plan.height_px = size.height;
+// One configuration; null if cancelled.
+Json measure_frames(const Experiment& experiment, FrameRatePlan plan, std::int64_t scenario, std::int64_t spheres,
+                    GlRenderer* gl) {
+  plan.scenarios = {scenario};
+  plan.spheres = {spheres};
   FrameEngine engine;
   engine.gl = gl;
-  FrameContest contest = cli::value_or_fail(FrameContest::of_trees(plan, engine, scenario, spheres));
-  while (!contest.finished()) {
-    const Status status = contest.step(&context.cancel);
-    if (context.cancel.cancelled()) return {};
-    if (status) continue;
-    if (gl != nullptr) cli::fail_environment(status.error());
-    cli::fail(status.error());
+  FrameRateRun run(plan, engine);
+  while (!run.finished()) {
+    const Status status = run.step(&experiment.cancel);
+    if (experiment.cancel.cancelled()) return {};
+    if (!status && gl != nullptr) cli::fail_environment(status.error());
+    cli::value_or_fail(status);
   }
   Json times = Json::object();
-  for (const MeasuredRate& rate : contest.rates())
+  for (const MeasuredRate& rate : run.rates())
     times[rate.max_prims ? fmt::format("max_prims{}", *rate.max_prims) : "brute"] = rate.frame_ms;
-  return {{"width_px", size.width}, {"height_px", size.height}, {"frame_ms", std::move(times)}};
+  return measured(plan, std::move(times));
 }
 
-Json measure_reference(const StepContext& context, std::int64_t scenario, std::int64_t spheres) {
-  return measure_contest(context, scenario, spheres,
-                         size_of(context, context.settings.quick ? kQuickReferenceDivisor : kDivisor), nullptr);
+Json measure_reference(const Experiment& experiment, std::int64_t scenario, std::int64_t spheres) {
+  return measure_frames(experiment, plan_of(experiment, kDivisor, kQuickReferenceDivisor), scenario, spheres, nullptr);
 }
 
-Json measure_shader(const StepContext& context, std::int64_t scenario, std::int64_t spheres) {
+Json measure_shader(const Experiment& experiment, std::int64_t scenario, std::int64_t spheres) {
   const Result<EglContext> egl = EglContext::create();
   if (!egl) return {{"missing", egl.error().message}};
   Result<GlRenderer> renderer = GlRenderer::create(egl->functions());
   if (!renderer) return {{"missing", renderer.error().message}};
-  const Size size = size_of(context, context.settings.quick                 ? kQuickDivisor
-                                     : is_software(renderer->description()) ? kDivisor
-                                                                            : 1);
-  Json result = measure_contest(context, scenario, spheres, size, &*renderer);
-  if (result.is_null()) return {};
-  // What a frame costs whatever is in it: one sphere, and no tree.
-  const Json almost_empty = measure_contest(context, scenario, 1, size, &*renderer);
-  if (almost_empty.is_null()) return {};
+  const FrameRatePlan plan = plan_of(experiment, is_software(renderer->description()) ? kDivisor : 1, kQuickDivisor);
+  Json result = measure_frames(experiment, plan, scenario, spheres, &*renderer);
+  // The cost of a frame whatever is in it: one sphere, and no tree.
+  const Json almost_empty = measure_frames(experiment, plan, scenario, 1, &*renderer);
+  if (result.is_null() || almost_empty.is_null()) return {};
   result["one_sphere_ms"] = almost_empty["frame_ms"]["brute"];
   result["gpu"] = renderer->description();
   return result;
@@ -143,29 +123,25 @@ bool is_software(const std::string& gpu) {
          gpu.find("SwiftShader") != std::string::npos;
 }
 
-Json measure_brute_force(const StepContext& context) {
-  const Size size = size_of(context, kQuickDivisor);
+Json measure_brute_force(const Experiment& experiment) {
+  const FrameRatePlan plan = plan_of(experiment, kQuickDivisor, kQuickDivisor);
   Json result = Json::object();
-  for (const std::int64_t count : context.values.integers("spheres_list")) {
-    std::vector<std::pair<std::string, Scene>> scenes;
-    for (const std::int64_t scenario : context.values.integers("scenarios"))
-      scenes.emplace_back(fmt::format("scenario{}", scenario),
-                          context.values.scene(scenario, count, context.settings.seed));
-    scenes.emplace_back("one_place", scenes.front().second);
-    const std::vector<double> zero(static_cast<std::size_t>(count), 0.0);
-    const std::vector<double> radii(static_cast<std::size_t>(count), context.values.number("radius"));
-    scenes.back().second.spheres = cli::value_or_fail(SphereSet::from_world(zero, zero, zero, radii));
-
-    Json& shortest = result[fmt::format("spheres{}", count)];
+  for (const std::int64_t count : plan.spheres) {
     std::vector<std::int32_t> ids;
-    for (int round = 0; round <= rounds_of(context) && !context.cancel.cancelled(); ++round)
-      for (const auto& [name, scene] : scenes) {
-        const ThesisProgram program(scene, build_reference_tree(scene.spheres, {kUnlimited, kUnlimited}));
-        const double before = thread_ms();
-        program.draw_by_brute_force(size.width, size.height, ids);
-        const double ms = thread_ms() - before;
-        shortest[name] = round == 0 ? ms : std::min(ms, shortest[name].get<double>());
-      }
+    Contestants contestants;
+    const auto add = [&](const std::string& name, const Scene& scene) {
+      const ThesisProgram program(scene, build_reference_tree(scene.spheres, {kUnlimited, kUnlimited}));
+      contestants.emplace_back(name, [&, program] { program.draw(plan.width_px, plan.height_px, false, ids); });
+    };
+    Scene scene;
+    for (const std::int64_t scenario : plan.scenarios)
+      add(fmt::format("scenario{}", scenario), scene = cli::value_or_fail(plan.scene(scenario, count)));
+    const std::vector<double> zero(static_cast<std::size_t>(count), 0.0), radii(zero.size(), plan.radius);
+    scene.spheres = cli::value_or_fail(SphereSet::from_world(zero, zero, zero, radii));
+    add("one_place", scene);
+    const Json times = times_in_turns(experiment, 2 * rounds_of(experiment), contestants);
+    for (const auto& [name, ms] : times.items())
+      result[fmt::format("spheres{}", count)][name] = *std::min_element(ms.begin(), ms.end());
   }
   return result;
 }

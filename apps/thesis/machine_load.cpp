@@ -2,52 +2,54 @@
 
 #include <fmt/format.h>
 #include <sched.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 
 namespace bihive::thesis {
 namespace {
 
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double own_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 // The processors that this program may use; other processors' work does not disturb it.
-int allowed_processors(cpu_set_t& set) {
+cpu_set_t allowed_processors() {
+  cpu_set_t set;
   CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof(set), &set) != 0) return 0;
-  return CPU_COUNT(&set);
+  if (sched_getaffinity(0, sizeof(set), &set) != 0) CPU_ZERO(&set);
+  return set;
 }
 
 // Seconds of work of the allowed processors, by Linux's own books; negative if there are none.
 double busy_seconds() {
-  cpu_set_t allowed;
-  if (allowed_processors(allowed) == 0) return -1;
-  const double ticks = static_cast<double>(sysconf(_SC_CLK_TCK));
+  const cpu_set_t allowed = allowed_processors();
   std::ifstream file("/proc/stat");
-  double busy = 0;
+  double ticks = 0;
   bool found = false;
   for (std::string line; std::getline(file, line);) {
     if (line.rfind("cpu", 0) != 0 || line.size() < 4 || line[3] < '0' || line[3] > '9') continue;
+    // Columns: user, nice, system, idle, waiting, irq, softirq, steal.
     std::istringstream fields(line.substr(3));
-    int processor = 0;
-    double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, irq = 0, softirq = 0, steal = 0;
-    fields >> processor >> user >> nice >> system >> idle >> waiting >> irq >> softirq >> steal;
-    if (fields.fail() || !CPU_ISSET(static_cast<std::size_t>(processor), &allowed)) continue;
-    busy += (user + nice + system + irq + softirq + steal) / ticks;
+    std::size_t processor = 0;
+    fields >> processor;
+    double work = 0, column = 0;
+    for (int i = 0; i < 8 && fields >> column; ++i) work += i == 3 || i == 4 ? 0 : column;
+    if (fields.fail() || !CPU_ISSET(processor, &allowed)) continue;
+    ticks += work;
     found = true;
   }
-  return found ? busy : -1;
-}
-
-double own_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return found ? ticks / static_cast<double>(sysconf(_SC_CLK_TCK)) : -1;
 }
 
 }  // namespace
@@ -69,28 +71,23 @@ std::string MachineLoad::text() const {
       100 * others, 100 * most_others);
 }
 
-LoadWatch::Times LoadWatch::now() {
-  Times times;
-  times.wall = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  times.busy = busy_seconds();
-  times.own = own_seconds();
-  times.known = times.busy >= 0;
-  return times;
+nlohmann::ordered_json MachineLoad::json() const {
+  using Json = nlohmann::ordered_json;
+  return {{"seconds", seconds},
+          {"others", known ? Json(others) : Json()},
+          {"most_others", known ? Json(most_others) : Json()},
+          {"busy", busy()}};
 }
 
-LoadWatch::LoadWatch() : start_(now()) {
-  cpu_set_t allowed;
-  processors_ = allowed_processors(allowed);
-}
+LoadWatch::LoadWatch() : wall_(wall_seconds()), busy_(busy_seconds()), own_(own_seconds()) {}
 
 MachineLoad LoadWatch::so_far() const {
-  const Times end = now();
   MachineLoad load;
-  load.seconds = end.wall - start_.wall;
-  load.known = start_.known && end.known && processors_ > 0;
-  const double all = load.seconds * processors_;
-  if (load.known && all > 0)
-    load.others = std::clamp(((end.busy - start_.busy) - (end.own - start_.own)) / all, 0.0, 1.0);
+  load.seconds = wall_seconds() - wall_;
+  const cpu_set_t allowed = allowed_processors();
+  const double all = load.seconds * CPU_COUNT(&allowed), busy = busy_seconds();
+  load.known = busy_ >= 0 && busy >= 0;
+  if (load.known && all > 0) load.others = std::clamp((busy - busy_ - (own_seconds() - own_)) / all, 0.0, 1.0);
   // The books count in hundredths of a second: a shorter step says nothing.
   load.most_others = load.seconds > 1 ? load.others : 0;
   return load;

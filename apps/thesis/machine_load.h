@@ -15,13 +15,12 @@ struct MachineLoad {
 
   /// Both together.
   void add(const MachineLoad& part);
-  /// Rates that were measured meanwhile are not to be trusted.
-  bool busy() const { return known && most_others > kBusy; }
+  /// Rates that were measured meanwhile are not to be trusted: more than a twentieth in one of the parts.
+  bool busy() const { return known && most_others > 0.05; }
   /// "0.4 % (at most 1.2 % in a step)".
   std::string text() const;
-
-  /// Beyond this share in one of the parts a machine counts as busy.
-  static constexpr double kBusy = 0.05;
+  /// The form of results.json, with null where a share is unknown.
+  nlohmann::ordered_json json() const;
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MachineLoad, seconds, others, known, most_others)
 
@@ -32,14 +31,7 @@ class LoadWatch {
   MachineLoad so_far() const;
 
  private:
-  struct Times {
-    double wall = 0, busy = 0, own = 0;  // seconds; busy and own are summed over processors
-    bool known = false;
-  };
-  static Times now();
-
-  Times start_;
-  int processors_;
+  double wall_, busy_, own_;  // seconds; the processors' work is summed over those that this program may use
 };
 
 }  // namespace bihive::thesis

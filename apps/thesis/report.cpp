@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <kainjow/mustache.hpp>
-#include <string_view>
 
+#include "bihive/base/readable.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/html_text.h"
-#include "statistics.h"
+#include "claims.h"
 #include "templates.h"
 
 namespace bihive::thesis {
@@ -17,17 +17,9 @@ namespace {
 namespace must = kainjow::mustache;
 using Data = must::data;
 
-// A PNG file begins with 16 bytes of signature and chunk header, then width and height in big-endian order.
-constexpr std::size_t kPngWidthAt = 16, kPngHeightAt = 20;
 #define BIHIVE_PAIR(letter, title) {letter, title},
 constexpr std::pair<const char*, const char*> kSections[] = {BIHIVE_THESIS_SECTIONS(BIHIVE_PAIR)};
 #undef BIHIVE_PAIR
-
-std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
 
 // `caption` is HTML already.
 std::string figure_html(const std::string& folder, const std::string& file, const std::string& caption) {
@@ -35,13 +27,10 @@ std::string figure_html(const std::string& folder, const std::string& file, cons
   std::string content;
   if (!bytes)
     content = "<div class=\"absent\">This picture has not been made yet.</div>";
-  else if (file.size() > 4 && file.compare(file.size() - 4, 4, ".svg") == 0)
+  else if (file.ends_with(".svg"))
     content = bytes->substr(std::min(bytes->size(), bytes->find("<svg")));
-  else if (bytes->size() < kPngHeightAt + 4)
-    content = "<div class=\"absent\">This is no PNG file: " + escape_html(file) + "</div>";
   else
-    content = fmt::format("<img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
-                          base64(*bytes), big_endian(*bytes, kPngWidthAt), big_endian(*bytes, kPngHeightAt), caption);
+    content = fmt::format("<img src=\"data:image/png;base64,{}\" alt=\"{}\">", base64(*bytes), caption);
   return "<figure>" + content + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
@@ -109,129 +98,86 @@ std::string filled(std::string_view page, const Json& view, const std::string& f
   return parsed.render(data);
 }
 
-std::string_view template_of(const std::string& experiment) {
-#define BIHIVE_TEMPLATE(name, id, section, title) \
-  if (experiment == id) return thesis_template_##name();
-  BIHIVE_THESIS_EXPERIMENTS(BIHIVE_TEMPLATE)
-#undef BIHIVE_TEMPLATE
-  return {};
-}
-
-Json finding_json(const Finding& finding) {
-  return {{"name", finding.name},
-          {"claim", finding.claim},
-          {"row", finding.row},
-          {"kind", name_of(finding.kind)},
-          {"expected", finding.expected},
-          {"ours", finding.ours},
-          {"verdict", name_of(finding.verdict)}};
-}
-
-Json words_json(const Words& words) {
-  return {{"words", words.words}, {"sign", words.sign}, {"css_class", words.css_class}};
-}
-
 // What a template of an experiment sees.
-Json view_of(const ReportPart& part, const Report& report) {
+Json view_of(const Experiment& part) {
   Json view = part.data;
-  view["quick"] = report.settings.quick;
-  view["seed"] = report.settings.seed;
-  for (const Finding& finding : part.findings) {
-    Json row = finding_json(finding);
-    row.update(words_json(words_of(finding.verdict, finding.kind)));
-    if (finding.row.empty()) row["row"] = finding.claim;
+  view["quick"] = part.settings.quick;
+  view["seed"] = part.settings.seed;
+  for (Json row : part.findings) {
+    row.update(words_of(row));
+    if (row["row"] == "") row["row"] = row["claim"];
     view["findings_list"].push_back(std::move(row));
   }
   // What no claim says, but what the run is made with.
-  for (const auto& [name, entry] : part.values->document()["values"].items())
+  for (const auto& [name, entry] : part.values.document()["values"].items())
     if (!entry.contains("claim"))
       view["choices"].push_back({{"name", name},
-                                 {"value", part.values->printed(name)},
-                                 {"kind", name_of(part.values->kind(name))},
+                                 {"value", part.values.printed(name)},
+                                 {"kind", entry["kind"]},
                                  {"sentence", entry["sentence"]}});
   return view;
 }
 
-// How many claims have each verdict.
-std::vector<std::pair<Words, int>> counts_of(const std::vector<ReportPart>& parts) {
-  std::vector<std::pair<Words, int>> counts;
-  for (const ReportPart& part : parts)
-    for (const Claim& claim : part.claims) {
-      const auto found = std::find_if(counts.begin(), counts.end(), [&](const auto& each) {
-        return std::string_view(each.first.words) == claim.words.words;
-      });
-      if (found == counts.end())
-        counts.emplace_back(claim.words, 1);
-      else
-        ++found->second;
+// How many claims have each verdict: words_of(), with a "count".
+Json counts_of(const Report& report) {
+  Json counts = Json::array();
+  for (const Experiment& part : report.parts)
+    for (const Json& claim : part.claims) {
+      auto found =
+          std::find_if(counts.begin(), counts.end(), [&](const Json& each) { return each["words"] == claim["words"]; });
+      if (found == counts.end()) {
+        counts.push_back(words_of(claim["verdict"].get<std::string>()));
+        found = counts.end() - 1;
+      }
+      (*found)["count"] = found->value("count", 0) + 1;
     }
   return counts;
 }
 
-Json claim_json(const Claim& claim) {
-  return {{"section", claim.section},
-          {"claim", claim.claim},
-          {"experiment", claim.experiment},
-          {"verdict", claim.verdict},
-          {"found", claim.found}};
-}
-
-Json load_json(const MachineLoad& load) {
-  return {{"seconds", load.seconds},
-          {"others", load.known ? Json(load.others) : Json()},
-          {"most_others", load.known ? Json(load.most_others) : Json()},
-          {"busy", load.busy()}};
-}
-
 }  // namespace
 
-std::string summary_of(const std::vector<ReportPart>& parts) {
+MachineLoad Report::load() const {
+  MachineLoad all;
+  for (const Experiment& part : parts) all.add(part.load);
+  return all;
+}
+
+std::string summary_of(const Report& report) {
   std::string text;
-  for (const auto& [words, count] : counts_of(parts))
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, words.words);
+  for (const Json& one : counts_of(report))
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", one["count"].get<int>(), one["words"].get<std::string>());
   return text;
 }
 
 std::string report_html(const Report& report, const std::string& folder) {
+  const MachineLoad load = report.load();
   Json view = report.about;
   view.update({{"style", std::string(thesis_template_css())},
-               {"load", report.load.text()},
-               {"busy", report.load.busy()},
+               {"load", load.text()},
+               {"busy", load.busy()},
                {"quick", report.settings.quick},
                {"seed", report.settings.seed},
                {"threads", report.settings.threads > 0 ? std::to_string(report.settings.threads) : "all"},
                {"devices", report.devices},
                {"has_runs", report.devices.contains("runs")},
-               {"has_shown", report.devices.contains("shown")}});
-  if (!report.against.is_null()) view["against"] = report.against;
-  for (const auto& [words, count] : counts_of(report.parts)) {
-    Json one = words_json(words);
-    one["count"] = count;
-    view["counts"].push_back(std::move(one));
-  }
+               {"has_shown", report.devices.contains("shown")},
+               {"against", report.against},
+               {"counts", counts_of(report)}});
   for (const auto& [letter, title] : kSections) {
     Json rows = Json::array();
-    for (const ReportPart& part : report.parts)
-      for (const Claim& claim : part.claims) {
-        if (claim.section != letter) continue;
-        Json row = claim_json(claim);
-        row.update(words_json(claim.words));
-        row["sentence"] = claim.sentence;
-        rows.push_back(std::move(row));
-      }
+    for (const Experiment& part : report.parts)
+      for (const Json& claim : part.claims)
+        if (claim["section"] == letter) rows.push_back(claim);
     if (!rows.empty()) view["sections"].push_back({{"letter", letter}, {"title", title}, {"rows", std::move(rows)}});
   }
-  for (const ReportPart& part : report.parts) {
-    std::string key = part.experiment->id;
+  for (const Experiment& part : report.parts) {
+    std::string key = part.id;
     std::replace_if(
         key.begin(), key.end(), [](char c) { return c == '-' || c == '.'; }, '_');
     view["of"][key] = part.data;
-    Json shown{{"id", part.experiment->id},
-               {"title", part.experiment->title},
-               {"body", filled(template_of(part.experiment->id), view_of(part, report), folder)}};
-    if (!part.missing_steps.empty()) {
-      shown["missing"] = {{"count", part.missing_steps.size()},
-                          {"steps", fmt::format("{}", fmt::join(part.missing_steps, ", "))}};
+    Json shown{{"id", part.id}, {"title", part.title}, {"body", filled(part.page, view_of(part), folder)}};
+    if (const std::vector<std::string> missing = part.missing_steps(); !missing.empty()) {
+      shown["missing"] = {{"count", missing.size()}, {"steps", fmt::format("{}", fmt::join(missing, ", "))}};
       view["incomplete"]["parts"].push_back(shown);
     }
     view["experiments"].push_back(std::move(shown));
@@ -242,22 +188,24 @@ std::string report_html(const Report& report, const std::string& folder) {
 Json results_json(const Report& report) {
   Json experiments = Json::array(), claims = Json::array();
   bool complete = true;
-  for (const ReportPart& part : report.parts) {
-    complete = complete && part.missing_steps.empty();
-    Json findings = Json::array();
-    for (const Finding& finding : part.findings) findings.push_back(finding_json(finding));
-    experiments.push_back({{"id", part.experiment->id},
-                           {"title", part.experiment->title},
-                           {"missing_steps", part.missing_steps},
-                           {"load", load_json(part.load)},
-                           {"findings", std::move(findings)},
+  for (const Experiment& part : report.parts) {
+    const std::vector<std::string> missing = part.missing_steps();
+    complete = complete && missing.empty();
+    experiments.push_back({{"id", part.id},
+                           {"title", part.title},
+                           {"missing_steps", missing},
+                           {"load", part.load.json()},
+                           {"findings", part.findings},
                            {"data", part.data}});
-    for (const Claim& claim : part.claims) claims.push_back(claim_json(claim));
+    for (const Json& claim : part.claims)
+      for (Json& one = claims.emplace_back();
+           const char* const key : {"section", "claim", "experiment", "verdict", "found"})
+        one[key] = claim[key];
   }
   const Settings& settings = report.settings;
   Json results{{"bihive_results", 3}};
   results.update(report.about);
-  results.update({{"load", load_json(report.load)},
+  results.update({{"load", report.load().json()},
                   {"settings", {{"quick", settings.quick}, {"seed", settings.seed}, {"threads", settings.threads}}},
                   {"complete", complete},
                   {"claims", std::move(claims)},

@@ -8,35 +8,38 @@
 //   {{> findings}}      the experiment's findings as a table
 #pragma once
 
+#include <list>
 #include <string>
 #include <vector>
 
-#include "claims.h"
-#include "machine_load.h"
+#include "experiment.h"
 
 namespace bihive::thesis {
 
-/// An experiment in the report.
-struct ReportPart {
-  const Experiment* experiment;
-  const Values* values;
-  Json data;
-  std::vector<Finding> findings;
-  std::vector<Claim> claims;
-  std::vector<std::string> missing_steps;  ///< empty: complete
-  MachineLoad load;                        ///< of its steps
-};
-
 struct Report {
-  Settings settings;
+  const Settings& settings;
+  std::list<Experiment> parts = {};  ///< those to be shown; their steps refer to them
   /// {"version", "commit", "command" (that makes this report), "compiler" (and the instruction set that vectors use),
   /// "machine" (processor and threads), "date" (ISO 8601)}
-  Json about;
-  MachineLoad load;  ///< of all steps
-  std::vector<ReportPart> parts;
+  Json about = {};
   Json devices = Json::object();  ///< devices_data()
-  Json against;                   ///< compared_with(); null: there is no older run
+  Json against = {};              ///< compared_with(); null: there is no older run
+
+  MachineLoad load() const;  ///< of all steps
 };
+
+/// Measurements of other devices, in files saved by the page's "Run the thesis on this device" and, for the window, by
+/// scripts/shown_frames: {"runs": [...], "shown": [...]}; a part without a file is left out. Runs are beside what the
+/// text states of its phone in the report. Fails if a file is neither.
+Json devices_data(const std::vector<std::string>& files, const Values& figure_4_4);
+
+/// An older run from its results.json: {"file", "version", "commit", "machine", "date", "findings": {"experiment
+/// name": {"ours", "verdict"}}}. Fails if the file is none.
+Json read_older_run(const std::string& file);
+/// Which findings have another verdict? {"file", "version", "commit", "machine", "date", "same", "changed", "moved",
+/// "fresh", "gone", "rows": [{"experiment", "name", "claim", "changed": "verdict" or "value", "then", "now",
+/// "then_ours", "now_ours"}]}
+Json compared_with(Json older, const std::list<Experiment>& parts);
 
 /// Pictures are read from `folder` and embedded as data, charts inline.
 std::string report_html(const Report& report, const std::string& folder);
@@ -45,6 +48,6 @@ std::string report_html(const Report& report, const std::string& folder);
 Json results_json(const Report& report);
 
 /// A line for the terminal: "24 reproduced, 12 set as stated, ...".
-std::string summary_of(const std::vector<ReportPart>& parts);
+std::string summary_of(const Report& report);
 
 }  // namespace bihive::thesis

@@ -14,7 +14,6 @@
 namespace bihive::thesis {
 namespace {
 
-constexpr int kQuickDivisor = 4;
 // Each sphere of the regular grid shares its x with at least this many others; random spheres hardly ever share it with
 // one.
 constexpr int kRegular = 8;
@@ -22,11 +21,12 @@ constexpr int kRegular = 8;
 constexpr double kRounding = 4e-4;
 
 // The number of spheres that lie wholly inside the four sides of the picture.
-std::int64_t spheres_in_view(const Scene& scene, cli::PictureSize size) {
-  const PixelRays rays(scene.camera, size.width_px, size.height_px);
-  const auto direction = [&](int x, int y) { return to_double(rays.at(x, y).direction); };
-  const std::array<Vec3d, 4> corners{direction(0, 0), direction(size.width_px, 0),
-                                     direction(size.width_px, size.height_px), direction(0, size.height_px)};
+std::int64_t spheres_in_view(const Scene& scene, const RenderSettings& picture) {
+  const int width = picture.width_px, height = picture.height_px;
+  const PixelRays rays(scene.camera, width, height);
+  std::array<Vec3d, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    corners[i] = to_double(rays.at(i == 1 || i == 2 ? width : 0, i >= 2 ? height : 0).direction);
   std::int64_t inside = 0;
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
     bool wholly = true;
@@ -87,19 +87,6 @@ double spacing_difference(const SphereSet& spheres, const Ids& ids) {
   return most - least;
 }
 
-// Those that stand in rows, and the others.
-struct Halves {
-  Ids rows, clustered;
-};
-Halves halves_of(const SphereSet& spheres, const Ids& all) {
-  std::map<float, int> rows;
-  for (const float x : spheres.x()) ++rows[x];
-  Halves halves;
-  for (const std::int64_t id : all)
-    (rows[spheres.x()[static_cast<std::size_t>(id)]] < kRegular ? halves.clustered : halves.rows).push_back(id);
-  return halves;
-}
-
 Json material_facts(const Material& material) {
   return {{"colour", numbers_of(material.colour)}, {"ambient", material.ambient},
           {"diffuse", material.diffuse},           {"reflective", material.reflective},
@@ -108,83 +95,66 @@ Json material_facts(const Material& material) {
 }
 
 Json scene_facts(const Scene& scene) {
-  return {
-      {"camera", {{"eye", numbers_of(scene.camera.eye)}, {"needed_fov_deg", needed_fov_deg(scene)}}},
-      {"lights", scene.lights.size()},
-      {"light",
-       {{"position", numbers_of(scene.lights.at(0).position)}, {"colour", numbers_of(scene.lights.at(0).colour)}}},
-      {"plane", {{"point", numbers_of(scene.plane->plane.point)}, {"normal", numbers_of(scene.plane->plane.normal)}}},
-      {"red", material_facts(material_of(scene, 0))},
-      {"transparent", material_facts(material_of(scene, 1))}};
+  const PointLight& light = scene.lights.at(0);
+  const Plane& plane = scene.plane->plane;
+  return {{"camera", {{"eye", numbers_of(scene.camera.eye)}, {"needed_fov_deg", needed_fov_deg(scene)}}},
+          {"lights", scene.lights.size()},
+          {"light", {{"position", numbers_of(light.position)}, {"colour", numbers_of(light.colour)}}},
+          {"plane", {{"point", numbers_of(plane.point)}, {"normal", numbers_of(plane.normal)}}},
+          {"red", material_facts(material_of(scene, 0))},
+          {"transparent", material_facts(material_of(scene, 1))}};
 }
 
-Json draw_scenario(const StepContext& context, std::int64_t number) {
+Json draw_scenario(const Experiment& experiment, std::int64_t number, const std::string& name) {
   // Make the scene, and draw it.
-  const Values& values = context.values;
-  const Scene scene = values.scene(number, values.integer("spheres"), context.settings.seed);
-  const Tracer tracer = cli::value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
-  const cli::PictureSize size = picture_size(context.settings, values, kQuickDivisor);
-  RenderSettings settings = picture_settings(context, scene, size, View::shaded);
+  const Values& values = experiment.values;
+  const Scene scene = values.scene(number, values.integer("spheres"), experiment.settings.seed);
+  const SphereSet& spheres = scene.spheres;
+  const Tracer tracer = cli::value_or_fail(Tracer::build(spheres, Engine::automatic));
+  RenderSettings settings = picture_settings(experiment, scene, View::shaded);
   settings.recursion = static_cast<int>(std::clamp<std::int64_t>(values.integer("recursion"), 1, 16));
-  const std::optional<Image> image = draw(context, scene, tracer, settings);
+  const std::optional<Image> image = draw(experiment, scene, tracer, settings);
   if (!image) return {};
 
-  // What the text says of its spheres.
-  const SphereSet::Bounds bounds = scene.spheres.bounds();
-  Ids all(static_cast<std::size_t>(scene.spheres.size()));
+  // What the text says of its spheres: all of them, those that stand in rows, and the others.
+  Ids all(static_cast<std::size_t>(spheres.size())), in_rows, clustered;
   std::iota(all.begin(), all.end(), 0);
-  const Halves halves = halves_of(scene.spheres, all);
+  std::map<float, int> rows;
+  for (const float x : spheres.x()) ++rows[x];
+  for (const std::int64_t id : all)
+    (rows[spheres.x()[static_cast<std::size_t>(id)]] < kRegular ? clustered : in_rows).push_back(id);
+  const SphereSet::Bounds bounds = spheres.bounds();
   return {{"number", number},
-          {"picture", write_picture(context, fmt::format("scenario{}.png", number), *image)},
-          {"spheres", scene.spheres.size()},
-          {"in_view", spheres_in_view(scene, size)},
+          {"picture", write_picture(experiment, name + ".png", *image)},
+          {"spheres", spheres.size()},
+          {"in_view", spheres_in_view(scene, settings)},
           {"extent",
            {std::min({bounds.lo.x, bounds.lo.y, bounds.lo.z}), std::max({bounds.hi.x, bounds.hi.y, bounds.hi.z})}},
-          {"coinciding", coinciding_spheres(scene.spheres)},
-          {"spacing_difference", spacing_difference(scene.spheres, all)},
-          {"corners", occupied_corners(scene.spheres, all, values)},
-          {"clustered_share", static_cast<double>(halves.clustered.size()) / static_cast<double>(all.size())},
-          {"clustered_corners", occupied_corners(scene.spheres, halves.clustered, values)},
-          {"rows_spacing_difference", spacing_difference(scene.spheres, halves.rows)},
+          {"coinciding", coinciding_spheres(spheres)},
+          {"spacing_difference", spacing_difference(spheres, all)},
+          {"corners", occupied_corners(spheres, all, values)},
+          {"clustered_share", static_cast<double>(clustered.size()) / static_cast<double>(all.size())},
+          {"clustered_corners", occupied_corners(spheres, clustered, values)},
+          {"rows_spacing_difference", spacing_difference(spheres, in_rows)},
           {"scene", scene_facts(scene)}};
-}
-
-std::string step_name(std::int64_t scenario) {
-  return fmt::format("scenario{}", scenario);
-}
-
-std::vector<Step> steps_of(const Settings& settings, const Values& values) {
-  std::vector<Step> steps;
-  for (const std::int64_t number : values.integers("scenarios"))
-    steps.push_back({step_name(number), settings.quick ? 0.5 : 3.0,
-                     [number](StepContext& context) { return draw_scenario(context, number); }});
-  return steps;
-}
-
-Json data_of(const DataContext& context) {
-  Json data = Json::object();
-  for (const std::int64_t number : context.values.integers("scenarios"))
-    if (const Json* const result = context.result(step_name(number))) {
-      data["scene"] = result->at("scene");
-      Json& scenario = data["scenarios"][step_name(number)] = *result;
-      scenario.erase("scene");
-    }
-  return data;
 }
 
 }  // namespace
 
-std::int64_t coinciding_spheres(const SphereSet& spheres) {
-  std::set<std::array<double, 3>> places;
-  for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    const Vec3d centre = spheres.centre(id);
-    places.insert({centre.x, centre.y, centre.z});
+void figure_4_1(Experiment& experiment) {
+  for (const std::int64_t number : experiment.values.integers("scenarios")) {
+    const std::string name = fmt::format("scenario{}", number);
+    experiment.add(name, 0.5, 3, [&experiment, number, name] { return draw_scenario(experiment, number, name); });
   }
-  return spheres.size() - static_cast<std::int64_t>(places.size());
-}
-
-ExperimentCode figure_4_1() {
-  return {steps_of, data_of};
+  experiment.make_data = [&experiment] {
+    Json data = Json::object();
+    for (const auto& [name, result] : experiment.finished()) {
+      data["scene"] = result->at("scene");
+      data["scenarios"][name] = *result;
+      data["scenarios"][name].erase("scene");
+    }
+    return data;
+  };
 }
 
 }  // namespace bihive::thesis

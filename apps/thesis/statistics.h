@@ -1,11 +1,13 @@
-// Spreads of repeated values, as JSON and as numbers, and how the thesis rounds what it prints.
+// Repeated measurements: their spreads, over seeds and over rounds.
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "bihive/base/readable.h"
+#include "bihive/base/parallel.h"
 #include "bihive/math/quartiles.h"
 #include "experiment.h"
 
@@ -30,21 +32,21 @@ inline Json quartiles_json(const std::vector<double>& values) {
   return {{"lower", all.lower}, {"median", all.median}, {"upper", all.upper}};
 }
 
-/// Half a unit of the last digit of a printed number: "4,095" 0.5, "87.51%" 0.005.
-inline double print_rounding(const std::string& printed) {
-  const std::size_t point = printed.find('.');
-  double unit = 1;
-  if (point != std::string::npos)
-    for (std::size_t i = point + 1; i < printed.size() && printed[i] >= '0' && printed[i] <= '9'; ++i) unit /= 10;
-  return unit / 2;
+/// The results of `of` for the seeds 1, 2, ..., whatever --seed says. The grid of Scenario 1 has no chance in it, and
+/// one seed. Only the first call may fail.
+template <class Of>
+auto over_seeds(const Experiment& experiment, std::int64_t scenario, std::int64_t seeds, const Of& of) {
+  std::vector<decltype(of(std::uint64_t{1}))> found{of(1)};
+  if (scenario_of(scenario) != Scenario::grid) found.resize(static_cast<std::size_t>(seeds), found.front());
+  parallel_for(experiment.settings.threads, static_cast<std::int64_t>(found.size()) - 1, [&](std::int64_t i) {
+    if (!experiment.cancel.cancelled()) found[static_cast<std::size_t>(i + 1)] = of(static_cast<std::uint64_t>(i + 2));
+  });
+  return found;
 }
 
-/// Within three standard deviations; without deviation, within print rounding. If our value has no deviation and the
-/// printed one is whole, the numbers must be equal.
-inline bool inside_three_sd(double stated, const std::string& printed, const Spread& ours) {
-  if (print_rounding(printed) == 0.5 && ours.sd == 0) return stated == ours.mean;
-  // Slightly more than the rounding itself, because 0.005 is no binary number.
-  return std::abs(stated - ours.mean) <= 3 * ours.sd + print_rounding(printed) * (1 + 1e-9);
-}
+/// {name: milliseconds of this thread's processor time, one per round}, in turns, so that a machine that slows down
+/// favours none: every other round runs backwards. A first round warms up and does not count. Null if cancelled.
+using Contestants = std::vector<std::pair<std::string, std::function<void()>>>;
+Json times_in_turns(const Experiment& experiment, int rounds, const Contestants& contestants);
 
 }  // namespace bihive::thesis

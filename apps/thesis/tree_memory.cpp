@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "bihive/base/parallel.h"
 #include "bihive/base/write_file.h"
 #include "bihive/bih/memory.h"
 #include "bihive/bih/reference_builder.h"
@@ -12,163 +10,144 @@
 #include "bihive/bih/validate.h"
 #include "bihive/image/svg_chart.h"
 #include "statistics.h"
+#include "tree_reasons.h"
 
 namespace bihive::thesis {
 namespace {
 
 // The seeds 1, 2, ... for mean and standard deviation.
 constexpr std::int64_t kSeeds = 100, kQuickSeeds = 20;
-constexpr const char* kRadiusStep = "radius";
 
-std::string step_name(std::int64_t scenario) {
-  return fmt::format("scenario{}", scenario);
-}
-
-double counted_bytes(const Values& values, const Tree& tree, std::int64_t spheres) {
+double counted_bytes(const Values& values, const Tree& tree) {
   const TreeStatistics s = tree_statistics(tree);
   return values.number("node_bytes") * static_cast<double>(s.inner_nodes + s.leaves) +
-         values.number("index_bytes") * static_cast<double>(spheres) + values.number("aabb_bytes");
+         values.number("index_bytes") * static_cast<double>(s.spheres) + values.number("aabb_bytes");
 }
 
-Json measure_tree(const StepContext& context, std::int64_t scenario, std::int64_t count, std::int64_t max_prims) {
-  // Predict before anything is built.
-  const Values& values = context.values;
+Json measure_tree(const Experiment& experiment, std::int64_t scenario, std::int64_t count, std::int64_t max_prims) {
+  const Values& values = experiment.values;
   const BuildParameters build{max_prims, values.limit("max_depth")};
   const MemoryPrediction predicted = predict_tree_memory(count, build);
-  const Tree tree = build_reference_tree(values.scene(scenario, count, context.settings.seed).spheres, build);
-
-  // Many seeds. The grid of Scenario 1 has none.
-  const std::int64_t wanted = context.settings.quick ? kQuickSeeds : kSeeds;
-  std::vector<double> bytes(static_cast<std::size_t>(scenario_of(scenario) == Scenario::grid ? 1 : wanted));
-  parallel_for(context.settings.threads, static_cast<std::int64_t>(bytes.size()), [&](std::int64_t i) {
-    if (context.cancel.cancelled()) return;
-    const SphereSet set = values.scene(scenario, count, static_cast<std::uint64_t>(i + 1)).spheres;
-    bytes[static_cast<std::size_t>(i)] = counted_bytes(values, build_reference_tree(set, build), count);
-  });
-  const Spread spread = spread_of(bytes);
+  const auto tree_of = [&](std::uint64_t seed) {
+    return build_reference_tree(values.scene(scenario, count, seed).spheres, build);
+  };
+  const Tree tree = tree_of(experiment.settings.seed);
+  const std::vector<double> bytes =
+      over_seeds(experiment, scenario, experiment.settings.quick ? kQuickSeeds : kSeeds,
+                 [&](std::uint64_t seed) { return counted_bytes(values, tree_of(seed)); });
   const auto range = [](const MemoryPrediction::Range& of) { return Json{of.low, of.high}; };
   return {{"scenario", scenario},
           {"spheres", count},
           {"max_prims", max_prims},
           {"predicted_compact_bytes", range(predicted.compact_bytes)},
           {"predicted_allocated_bytes", range(predicted.allocated_bytes)},
-          {"compact_bytes", counted_bytes(values, tree, count)},
+          {"compact_bytes", counted_bytes(values, tree)},
           {"allocated_bytes", tree.allocated_bytes()},
           {"depth_avg", tree_statistics(tree).depth.avg},
           {"seeds", bytes.size()},
-          {"mean", spread.mean},
-          {"sd", spread.sd}};
+          {"mean", spread_of(bytes).mean},
+          {"sd", spread_of(bytes).sd}};
 }
 
-Json measure_scenario(const StepContext& context, std::int64_t scenario) {
+Json measure_scenario(const Experiment& experiment, std::int64_t scenario) {
   Json trees = Json::array();
-  for (const std::int64_t count : context.values.integers("spheres_list"))
-    for (const std::int64_t max_prims : context.values.integers("max_prims_list")) {
-      if (context.cancel.cancelled()) return {};
-      trees.push_back(measure_tree(context, scenario, count, max_prims));
+  for (const std::int64_t count : experiment.values.integers("spheres_list"))
+    for (const std::int64_t max_prims : experiment.values.integers("max_prims_list")) {
+      if (experiment.cancel.cancelled()) return {};
+      trees.push_back(measure_tree(experiment, scenario, count, max_prims));
     }
   return trees;
 }
 
 // Trees of this section's radius and of section E's, in all scenarios: nodes, overlaps, and whether they are right.
-Json compare_radii(const StepContext& context) {
-  const Values& values = context.values;
+Json compare_radii(const Experiment& experiment) {
+  const Values& values = experiment.values;
   Json rows = Json::array();
   for (const std::int64_t scenario : values.integers("scenarios"))
     for (const char* const radius : {"radius", "other_radius"}) {
       const ScenarioParameters parameters{values.integers("spheres_list").back(),
-                                          static_cast<float>(values.number(radius)), context.settings.seed};
+                                          static_cast<float>(values.number(radius)), experiment.settings.seed};
       const SphereSet spheres = cli::value_or_fail(scenario_spheres(scenario_of(scenario), parameters));
       const Tree tree = build_reference_tree(spheres, {values.integers("max_prims_list").front(), kUnlimited});
       const TreeStatistics statistics = tree_statistics(tree);
-      std::int64_t splits = 0, overlaps = 0;
-      for (const Node& node : tree.nodes) {
-        if (node.is_leaf() || node.kind != NodeKind::split) continue;
-        ++splits;
-        overlaps += node.left_clip > node.right_clip ? 1 : 0;
-      }
       rows.push_back({{"scenario", scenario},
                       {"radius", values.number(radius)},
                       {"inner_nodes", statistics.inner_nodes},
                       {"leaves", statistics.leaves},
-                      {"bytes", counted_bytes(values, tree, parameters.count)},
-                      {"overlap_percent", 100.0 * static_cast<double>(overlaps) / std::max<double>(1, splits)},
+                      {"bytes", counted_bytes(values, tree)},
+                      {"overlap_percent", overlap_percent(tree)},
                       {"right", static_cast<bool>(validate_tree(tree, spheres))}});
-      if (context.cancel.cancelled()) return {};
+      if (experiment.cancel.cancelled()) return {};
     }
   return rows;
 }
 
-std::vector<Step> steps_of(const Settings& settings, const Values& values) {
-  std::vector<Step> steps;
-  for (const std::int64_t scenario : values.integers("scenarios"))
-    steps.push_back({step_name(scenario), settings.quick ? 0.5 : 2,
-                     [scenario](StepContext& context) { return measure_scenario(context, scenario); }});
-  steps.push_back({kRadiusStep, 0.3, compare_radii});
-  return steps;
-}
-
 // As in the thesis: one series for each MAX_PRIMS over the numbers of spheres.
-void draw_chart(const DataContext& context, std::int64_t scenario, const Json& trees) {
-  ChartData data{fmt::format("Scenario {}: memory by the text's rule", scenario), "spheres", "kB", {}, {}, false};
-  for (const std::int64_t count : context.values.integers("spheres_list"))
-    data.categories.push_back(std::to_string(count));
-  for (const std::int64_t max_prims : context.values.integers("max_prims_list")) {
-    Series series{fmt::format("MAX_PRIMS {}", max_prims), {}};
+void draw_chart(const Experiment& experiment, const std::string& name, std::int64_t scenario, const Json& trees) {
+  ChartData chart{fmt::format("Scenario {}: memory by the text's rule", scenario), "spheres", "kB", {}, {}, false};
+  for (const std::int64_t count : experiment.values.integers("spheres_list"))
+    chart.categories.push_back(std::to_string(count));
+  for (const std::int64_t max_prims : experiment.values.integers("max_prims_list")) {
+    Series& series = chart.series.emplace_back(Series{fmt::format("MAX_PRIMS {}", max_prims), {}});
     for (const Json& tree : trees)
       if (tree["max_prims"] == max_prims) series.values.push_back(tree["compact_bytes"].get<double>() / 1000);
-    data.series.push_back(std::move(series));
   }
-  const std::string file = fmt::format("{}/scenario{}.svg", context.folder, scenario);
-  if (const Status status = write_file(file, bar_chart(data)); !status) cli::fail(status.error());
+  cli::value_or_fail(write_file(experiment.folder + "/" + name + ".svg", bar_chart(chart)));
 }
 
-Json data_of(const DataContext& context) {
-  // How often memory or depth grows, or stays equal, from one MAX_PRIMS to the next.
-  Json data = Json::object();
-  std::int64_t rises = 0, not_shallower = 0, missed = 0;
-  for (const std::int64_t scenario : context.values.integers("scenarios")) {
-    const Json* const trees = context.result(step_name(scenario));
-    if (trees == nullptr) continue;
-    draw_chart(context, scenario, *trees);
-    const Json* before = nullptr;
-    for (const Json& tree : *trees) {
-      if (before != nullptr && (*before)["spheres"] == tree["spheres"]) {
-        rises += tree["mean"] >= (*before)["mean"] ? 1 : 0;
-        not_shallower += tree["depth_avg"] >= (*before)["depth_avg"] ? 1 : 0;
-      }
-      before = &tree;
-      for (const char* const bytes : {"compact_bytes", "allocated_bytes"}) {
-        const Json& range = tree[std::string("predicted_") + bytes];
-        missed += tree[bytes] >= range[0] && tree[bytes] <= range[1] ? 0 : 1;
-      }
-      data["trees"].push_back(tree);
+// How often memory or depth grows, or stays equal, from one MAX_PRIMS to the next; predictions that do not hold.
+void add_trees(const Json& trees, Json& data) {
+  std::int64_t rises = data.value("rises_with_max_prims", 0), not_shallower = data.value("not_shallower", 0),
+               missed = data.value("missed_predictions", 0);
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const Json& tree = trees[i];
+    data["trees"].push_back(tree);
+    for (const std::string bytes : {"compact_bytes", "allocated_bytes"}) {
+      const Json& range = tree["predicted_" + bytes];
+      missed += tree[bytes] < range[0] || tree[bytes] > range[1];
     }
+    if (i == 0 || trees[i - 1]["spheres"] != tree["spheres"]) continue;
+    rises += tree["mean"] >= trees[i - 1]["mean"];
+    not_shallower += tree["depth_avg"] >= trees[i - 1]["depth_avg"];
   }
-  if (data.contains("trees")) {
-    data["not_shallower"] = not_shallower;
-    data["rises_with_max_prims"] = rises;
-    data["missed_predictions"] = missed;
+  data["not_shallower"] = not_shallower;
+  data["rises_with_max_prims"] = rises;
+  data["missed_predictions"] = missed;
+}
+
+void add_radii(const Json& radii, Json& data) {
+  std::int64_t wrong = 0;
+  double most = 0;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    wrong += radii[i]["right"] == false;
+    if (i % 2 == 0) continue;
+    const double small = radii[i - 1]["overlap_percent"], large = radii[i]["overlap_percent"];
+    most = std::max(most, large - small);
   }
-  if (const Json* const radii = context.result(kRadiusStep)) {
-    std::int64_t wrong = 0;
-    double most = 0;
-    for (std::size_t i = 0; i + 1 < radii->size(); i += 2) {
-      const auto share = [&](std::size_t at) { return (*radii)[at]["overlap_percent"].get<double>(); };
-      most = std::max(most, share(i + 1) - share(i));
-    }
-    for (const Json& row : *radii) wrong += row["right"].get<bool>() ? 0 : 1;
-    data["radii"] = *radii;
-    data["overlap_growth_percent"] = most;
-    data["wrong_trees"] = wrong;
-  }
-  return data;
+  data["radii"] = radii;
+  data["overlap_growth_percent"] = most;
+  data["wrong_trees"] = wrong;
 }
 
 }  // namespace
 
-ExperimentCode figure_4_5() {
-  return {steps_of, data_of};
+void figure_4_5(Experiment& experiment) {
+  for (const std::int64_t scenario : experiment.values.integers("scenarios"))
+    experiment.add(fmt::format("scenario{}", scenario), 0.5, 2,
+                   [&experiment, scenario] { return measure_scenario(experiment, scenario); });
+  experiment.add("radius", 0.3, 0.3, [&experiment] { return compare_radii(experiment); });
+  experiment.make_data = [&experiment] {
+    Json data = Json::object();
+    for (const auto& [name, result] : experiment.finished()) {
+      if (name == "radius") {
+        add_radii(*result, data);
+        continue;
+      }
+      draw_chart(experiment, name, result->at(0)["scenario"], *result);
+      add_trees(*result, data);
+    }
+    return data;
+  };
 }
 
 }  // namespace bihive::thesis

@@ -11,6 +11,9 @@
 namespace bihive::thesis {
 namespace {
 
+// Space that no node of these levels covers is looked at down to here.
+constexpr std::size_t kVoidLevels = 10;
+
 // The part of space that a node is responsible for, in stored units.
 struct Region {
   std::array<double, 3> lo, hi;
@@ -24,49 +27,33 @@ struct Region {
   }
 };
 
-// The volume of the union of boxes, exactly: slab by slab along x, strip by strip along y, intervals along z.
-double volume_of_union(const std::vector<Region>& boxes) {
-  const auto planes = [](const std::vector<const Region*>& of, std::size_t axis) {
-    std::set<double> all;
-    for (const Region* box : of) all.insert({box->lo[axis], box->hi[axis]});
-    return std::vector<double>(all.begin(), all.end());
-  };
-  const auto across = [](const std::vector<const Region*>& of, std::size_t axis, double low, double high) {
-    std::vector<const Region*> found;
-    for (const Region* box : of)
-      if (box->lo[axis] <= low && box->hi[axis] >= high) found.push_back(box);
-    return found;
-  };
-  std::vector<const Region*> all;
-  all.reserve(boxes.size());
-  for (const Region& box : boxes) all.push_back(&box);
+// The volume of the union of boxes, exactly: slab by slab along this axis, and each slab so along the next one.
+double volume_of_union(const std::vector<Region>& boxes, std::size_t axis = 0) {
+  if (axis == 3) return 1;
+  std::set<double> planes;
+  for (const Region& box : boxes) planes.insert({box.lo[axis], box.hi[axis]});
   double volume = 0;
-  const std::vector<double> x = planes(all, 0);
-  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    const std::vector<const Region*> slab = across(all, 0, x[i], x[i + 1]);
-    const std::vector<double> y = planes(slab, 1);
-    for (std::size_t j = 0; j + 1 < y.size(); ++j) {
-      std::vector<const Region*> strip = across(slab, 1, y[j], y[j + 1]);
-      std::sort(strip.begin(), strip.end(), [](const Region* a, const Region* b) { return a->lo[2] < b->lo[2]; });
-      double covered = 0, end = -1e300;
-      for (const Region* box : strip) {
-        covered += std::max(0.0, box->hi[2] - std::max(end, box->lo[2]));
-        end = std::max(end, box->hi[2]);
-      }
-      volume += (x[i + 1] - x[i]) * (y[j + 1] - y[j]) * covered;
-    }
+  std::vector<Region> slab;
+  for (auto low = planes.begin(); low != planes.end() && std::next(low) != planes.end(); ++low) {
+    const double high = *std::next(low);
+    slab.clear();
+    for (const Region& box : boxes)
+      if (box.lo[axis] <= *low && box.hi[axis] >= high) slab.push_back(box);
+    if (!slab.empty()) volume += (high - *low) * volume_of_union(slab, axis + 1);
   }
   return volume;
 }
 
-// Space that no node of these levels covers is looked at down to here.
-constexpr std::size_t kVoidLevels = 10;
-
-struct TreeFacts {
-  std::vector<double> spheres, depths;  // of the leaves
-  double overlaps = 0, gaps = 0, splits = 0;
-  std::vector<double> void_percent;  // by level, of the root's box: what no node of the level covers, and no leaf above
-};
+template <class Holds>
+double percent_of_splits(const Tree& tree, const Holds& holds) {
+  double splits = 0, held = 0;
+  for (const Node& node : tree.nodes) {
+    if (node.kind != NodeKind::split) continue;
+    ++splits;
+    held += holds(node) ? 1 : 0;
+  }
+  return splits > 0 ? 100 * held / splits : 0;
+}
 
 struct Pending {
   std::int64_t node;
@@ -74,11 +61,11 @@ struct Pending {
   Region region;
 };
 
-TreeFacts facts_of(const Tree& tree) {
-  TreeFacts facts;
+Json reasons_of(const Tree& tree) {
+  std::vector<double> spheres, depths;  // of the leaves
   const auto leaf = [&](std::int64_t count, std::size_t depth) {
-    facts.spheres.push_back(static_cast<double>(count));
-    facts.depths.push_back(static_cast<double>(depth));
+    spheres.push_back(static_cast<double>(count));
+    depths.push_back(static_cast<double>(depth));
   };
   const Vec3d lo = to_double(tree.aabb.lo), hi = to_double(tree.aabb.hi);
   const Region root{{lo.x, lo.y, lo.z}, {hi.x, hi.y, hi.z}};
@@ -96,70 +83,65 @@ TreeFacts facts_of(const Tree& tree) {
       continue;
     }
     const std::size_t axis = node.split_axis;
-    const double low = region.lo[axis], high = region.hi[axis];
+    const Region left = region.between(axis, region.lo[axis], node.left_clip);
+    const Region right = region.between(axis, node.right_clip, region.hi[axis]);
     if (node.kind == NodeKind::split) {
-      ++facts.splits;
-      if (node.left_clip > node.right_clip) ++facts.overlaps;
-      if (node.left_clip < node.right_clip) ++facts.gaps;
-      pending.push_back({node.right_child(), depth + 1, region.between(axis, node.right_clip, high)});
-      pending.push_back({node.left_child(), depth + 1, region.between(axis, low, node.left_clip)});
-    } else {
-      // A one-sided node has an empty leaf beside its child.
-      if (node.kind != NodeKind::clip) leaf(0, depth + 1);
-      const Region child = node.kind == NodeKind::clip       ? region.between(axis, node.left_clip, node.right_clip)
-                           : node.kind == NodeKind::one_left ? region.between(axis, low, node.left_clip)
-                                                             : region.between(axis, node.right_clip, high);
-      pending.push_back({node.first, depth + 1, child});
+      pending.push_back({node.right_child(), depth + 1, right});
+      pending.push_back({node.left_child(), depth + 1, left});
+      continue;
     }
+    // A one-sided node has an empty leaf beside its child.
+    if (node.kind != NodeKind::clip) leaf(0, depth + 1);
+    const Region child = node.kind == NodeKind::clip       ? region.between(axis, node.left_clip, node.right_clip)
+                         : node.kind == NodeKind::one_left ? left
+                                                           : right;
+    pending.push_back({node.first, depth + 1, child});
   }
+  Json reasons{{"spheres_per_leaf", spread_of(spheres).mean},
+               {"spheres_per_leaf_sd", spread_of(spheres).sd},
+               {"depth_sd", spread_of(depths).sd},
+               {"overlap_percent", overlap_percent(tree)},
+               {"gap_percent", percent_of_splits(tree, [](const Node& n) { return n.left_clip < n.right_clip; })},
+               {"void_percent", 0}};
   for (const std::vector<Region>& level : levels)
-    facts.void_percent.push_back(100 * (1 - volume_of_union(level) / root.volume()));
-  return facts;
+    reasons["void_percent_by_level"].push_back(100 * (1 - volume_of_union(level) / root.volume()));
+  reasons["void_percent"] = reasons["void_percent_by_level"].back();
+  return reasons;
 }
 
-Json measure_tree(const StepContext& context, std::int64_t scenario, std::int64_t spheres, std::int64_t max_prims,
-                  std::int64_t seeds) {
-  std::vector<double> mean, sd, overlap, gap, depth, coinciding;
-  std::vector<std::vector<double>> by_level;
-  for (std::int64_t seed = 1; seed <= seeds && !context.cancel.cancelled(); ++seed) {
-    const SphereSet set = context.values.scene(scenario, spheres, static_cast<std::uint64_t>(seed)).spheres;
-    const TreeFacts facts = facts_of(build_reference_tree(set, {max_prims, kUnlimited}));
-    mean.push_back(spread_of(facts.spheres).mean);
-    sd.push_back(spread_of(facts.spheres).sd);
-    depth.push_back(spread_of(facts.depths).sd);
-    overlap.push_back(facts.splits > 0 ? 100 * facts.overlaps / facts.splits : 0);
-    gap.push_back(facts.splits > 0 ? 100 * facts.gaps / facts.splits : 0);
-    coinciding.push_back(static_cast<double>(coinciding_spheres(set)));
-    by_level.resize(facts.void_percent.size());
-    for (std::size_t level = 0; level < by_level.size(); ++level) by_level[level].push_back(facts.void_percent[level]);
+// Number by number.
+Json means_of(const std::vector<Json>& all) {
+  Json means = all.front().flatten();
+  for (const auto& [path, value] : means.items()) {
+    std::vector<double> sample;
+    for (const Json& one : all) sample.push_back(one.at(Json::json_pointer(path)).get<double>());
+    value = spread_of(sample).mean;
   }
-  const auto middle = [](const std::vector<double>& values) { return spread_of(values).mean; };
-  Json levels = Json::array();
-  for (const std::vector<double>& level : by_level) levels.push_back(middle(level));
-  return {{"scenario", scenario},
-          {"spheres", spheres},
-          {"max_prims", max_prims},
-          {"seeds", seeds},
-          {"spheres_per_leaf", middle(mean)},
-          {"spheres_per_leaf_sd", middle(sd)},
-          {"depth_sd", middle(depth)},
-          {"overlap_percent", middle(overlap)},
-          {"gap_percent", middle(gap)},
-          {"void_percent", middle(by_level.back())},
-          {"void_percent_by_level", std::move(levels)},
-          {"coinciding", middle(coinciding)}};
+  return means.unflatten();
 }
 
 }  // namespace
 
-Json measure_reasons(const StepContext& context, const ReasonTrees& trees) {
+double overlap_percent(const Tree& tree) {
+  return percent_of_splits(tree, [](const Node& node) { return node.left_clip > node.right_clip; });
+}
+
+Json measure_reasons(const Experiment& experiment, const std::vector<std::int64_t>& spheres,
+                     const std::vector<std::int64_t>& max_prims, std::int64_t seeds) {
   Json rows = Json::array();
-  for (const std::int64_t scenario : trees.scenarios)
-    for (const std::int64_t spheres : trees.spheres)
-      for (const std::int64_t max_prims : trees.max_prims) {
-        rows.push_back(measure_tree(context, scenario, spheres, max_prims,
-                                    scenario_of(scenario) == Scenario::grid ? 1 : trees.seeds));
-        if (context.cancel.cancelled()) return {};
+  for (const std::int64_t scenario : experiment.values.integers("scenarios"))
+    for (const std::int64_t count : spheres)
+      for (const std::int64_t prims : max_prims) {
+        const std::vector<Json> all = over_seeds(experiment, scenario, seeds, [&](std::uint64_t seed) {
+          const SphereSet set = experiment.values.scene(scenario, count, seed).spheres;
+          Json reasons = reasons_of(build_reference_tree(set, {prims, kUnlimited}));
+          reasons["coinciding"] = coinciding_spheres(set);
+          return reasons;
+        });
+        if (experiment.cancel.cancelled()) return {};
+        Json row{{"scenario", scenario}, {"spheres", count}, {"max_prims", prims}, {"seeds", all.size()}};
+        row.update(means_of(all));
+        rows.push_back(std::move(row));
       }
   return rows;
 }

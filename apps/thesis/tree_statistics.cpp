@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include "bihive/base/parallel.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
-#include "processor_time.h"
 #include "statistics.h"
 #include "tree_reasons.h"
 
@@ -18,100 +16,87 @@ constexpr std::int64_t kSeeds = 400, kQuickSeeds = 40;
 // The number of means. The mean of the thesis's rounds is taken this often; the median of the means tolerates other
 // work on the machine.
 constexpr int kBuildMeans = 101, kQuickBuildMeans = 21;
-constexpr const char *kBuildTimesStep = "build_times", *kLevelsStep = "levels", *kReasonsStep = "reasons";
 
-// The table's rows: the name of the value, the words, and the number; shares are percent of all leaves.
-struct Row {
-  const char *key, *label;
-  double (*of)(const TreeStatistics& tree);
+// Scenario and MAX_PRIMS of a column of the table.
+struct Column {
+  std::int64_t scenario, max_prims;
+  std::string name(const char* format) const { return fmt::format(fmt::runtime(format), scenario, max_prims); }
+  std::string step() const { return name("scenario{}-max_prims{}"); }
+  std::string value() const { return name("scenario{}.max_prims{}"); }
+  std::string words() const { return name("Scenario {}, MAX_PRIMS {}"); }
 };
-double share(const TreeStatistics& tree, std::size_t spheres) {
-  return 100 * static_cast<double>(tree.leaves_with[spheres]) / static_cast<double>(tree.leaves);
+std::vector<Column> columns_of(const Values& values) {
+  std::vector<Column> columns;
+  for (const std::int64_t scenario : values.integers("scenarios"))
+    for (const std::int64_t max_prims : values.integers("max_prims_list")) columns.push_back({scenario, max_prims});
+  return columns;
 }
-constexpr Row kRows[] = {
-    {"inner_nodes", "Inner nodes", [](const TreeStatistics& tree) { return double(tree.inner_nodes); }},
-    {"leaves", "Leaves", [](const TreeStatistics& tree) { return double(tree.leaves); }},
-    {"spheres_per_leaf_min", "Spheres per leaf, min",
-     [](const TreeStatistics& tree) { return double(tree.spheres_per_leaf.min); }},
-    {"spheres_per_leaf_avg", "Spheres per leaf, avg",
-     [](const TreeStatistics& tree) { return tree.spheres_per_leaf.avg; }},
-    {"spheres_per_leaf_max", "Spheres per leaf, max",
-     [](const TreeStatistics& tree) { return double(tree.spheres_per_leaf.max); }},
-    {"depth_min", "Depth, min", [](const TreeStatistics& tree) { return double(tree.depth.min); }},
-    {"depth_avg", "Depth, avg", [](const TreeStatistics& tree) { return tree.depth.avg; }},
-    {"depth_max", "Depth, max", [](const TreeStatistics& tree) { return double(tree.depth.max); }},
-    {"share_with_0", "Leaves with N = 0, %", [](const TreeStatistics& tree) { return share(tree, 0); }},
-    {"share_with_1", "Leaves with N = 1, %", [](const TreeStatistics& tree) { return share(tree, 1); }},
-    {"share_with_2", "Leaves with N = 2, %", [](const TreeStatistics& tree) { return share(tree, 2); }},
-    {"share_with_3", "Leaves with N = 3, %", [](const TreeStatistics& tree) { return share(tree, 3); }},
-    {"share_with_4", "Leaves with N = 4, %", [](const TreeStatistics& tree) { return share(tree, 4); }},
-    {"share_with_more", "Leaves with N > 4, %", [](const TreeStatistics& tree) { return share(tree, 5); }},
-    {"optimized_nodes", "Optimized nodes", [](const TreeStatistics& tree) { return double(tree.optimized_nodes); }}};
 
 SphereSet spheres_of(const Values& values, std::int64_t scenario, std::uint64_t seed) {
   return values.scene(scenario, values.integer("spheres"), seed).spheres;
 }
 
-std::string column_step(std::int64_t scenario, std::int64_t max_prims) {
-  return fmt::format("scenario{}-max_prims{}", scenario, max_prims);
-}
-std::string key_of(std::int64_t scenario, std::int64_t max_prims) {
-  return fmt::format("Scenario {}, MAX_PRIMS {}", scenario, max_prims);
-}
-
-// {"this": a number per row, "rows": {row: {"mean", "sd"}}, "nodes": of each seed}
-Json count_trees(const StepContext& context, std::int64_t scenario, std::int64_t max_prims) {
-  const Values& values = context.values;
-  const BuildParameters build{max_prims, values.limit("max_depth")};
-  const auto statistics = [&](std::uint64_t seed) {
-    return tree_statistics(build_reference_tree(spheres_of(values, scenario, seed), build));
-  };
-  const TreeStatistics ours = statistics(context.settings.seed);
-
-  // The grid of Scenario 1 has no chance in it.
-  const std::int64_t wanted = context.settings.quick ? kQuickSeeds : kSeeds;
-  std::vector<TreeStatistics> trees(static_cast<std::size_t>(scenario_of(scenario) == Scenario::grid ? 1 : wanted));
-  parallel_for(context.settings.threads, static_cast<std::int64_t>(trees.size()), [&](std::int64_t i) {
-    if (!context.cancel.cancelled()) trees[static_cast<std::size_t>(i)] = statistics(static_cast<std::uint64_t>(i + 1));
-  });
-
-  Json result{{"seeds", trees.size()}};
-  for (const Row& row : kRows) {
-    std::vector<double> sample;
-    for (const TreeStatistics& tree : trees) sample.push_back(row.of(tree));
-    result["rows"][row.key] = spread_of(sample).json();
-    result["rows"][row.key]["this"] = row.of(ours);
+// The table's rows, by the names of their values; shares are percent of all leaves.
+Json rows_of(const TreeStatistics& tree) {
+  Json rows{{"inner_nodes", tree.inner_nodes}, {"leaves", tree.leaves}};
+  for (const auto& [name, of] : {std::pair{"spheres_per_leaf_", tree.spheres_per_leaf}, {"depth_", tree.depth}}) {
+    rows[std::string(name) + "min"] = of.min;
+    rows[std::string(name) + "avg"] = of.avg;
+    rows[std::string(name) + "max"] = of.max;
   }
-  for (const TreeStatistics& tree : trees) result["nodes"].push_back(tree.inner_nodes + tree.leaves);
+  constexpr const char* kShares[] = {"0", "1", "2", "3", "4", "more"};
+  for (std::size_t n = 0; n < tree.leaves_with.size(); ++n)
+    rows[std::string("share_with_") + kShares[n]] =
+        100 * static_cast<double>(tree.leaves_with[n]) / static_cast<double>(tree.leaves);
+  rows["optimized_nodes"] = tree.optimized_nodes;
+  return rows;
+}
+
+// {"rows": {row: {"mean", "sd", "this"}}, "seeds", "nodes": of each seed}
+Json count_trees(const Experiment& experiment, const Column& column) {
+  const Values& values = experiment.values;
+  const BuildParameters build{column.max_prims, values.limit("max_depth")};
+  const auto statistics = [&](std::uint64_t seed) {
+    return rows_of(tree_statistics(build_reference_tree(spheres_of(values, column.scenario, seed), build)));
+  };
+  const std::vector<Json> trees =
+      over_seeds(experiment, column.scenario, experiment.settings.quick ? kQuickSeeds : kSeeds, statistics);
+  Json result{{"seeds", trees.size()}};
+  const Json this_seed = statistics(experiment.settings.seed);
+  for (const auto& [row, ours] : this_seed.items()) {
+    std::vector<double> sample;
+    for (const Json& tree : trees) sample.push_back(tree[row]);
+    result["rows"][row] = spread_of(sample).json();
+    result["rows"][row]["this"] = ours.get<double>();
+  }
+  for (const Json& tree : trees)
+    result["nodes"].push_back(tree["inner_nodes"].get<std::int64_t>() + tree["leaves"].get<std::int64_t>());
   return result;
 }
 
-// All columns in turn, many times, so that a machine that slows down meanwhile favours none.
-Json time_builds(const StepContext& context) {
-  const Values& values = context.values;
+// All columns in turn: {column: [mean milliseconds of a build]}.
+Json time_builds(const Experiment& experiment) {
+  const Values& values = experiment.values;
   const std::int64_t rounds = values.integer("rounds");
-  if (rounds < 1) cli::fail({"/values/rounds: expected at least 1", "values.json", 0, 0, ""});
-  // The first turn warms everything up and does not count.
-  Json means = Json::object();
-  for (int turn = -1; turn < (context.settings.quick ? kQuickBuildMeans : kBuildMeans); ++turn)
-    for (const std::int64_t scenario : values.integers("scenarios"))
-      for (const std::int64_t max_prims : values.integers("max_prims_list")) {
-        if (context.cancel.cancelled()) return {};
-        const SphereSet spheres = spheres_of(values, scenario, context.settings.seed);
-        const double before = thread_ms();
-        for (std::int64_t round = 0; round < rounds; ++round)
-          build_reference_tree(spheres, {max_prims, values.limit("max_depth")});
-        if (turn >= 0)
-          means[key_of(scenario, max_prims)].push_back((thread_ms() - before) / static_cast<double>(rounds));
-      }
+  if (rounds < 1) fail_value("rounds", "expected at least 1");
+  Contestants contestants;
+  for (const Column& column : columns_of(values))
+    contestants.emplace_back(column.words(), [&values, rounds, column,
+                                              spheres = spheres_of(values, column.scenario, experiment.settings.seed)] {
+      for (std::int64_t round = 0; round < rounds; ++round)
+        build_reference_tree(spheres, {column.max_prims, values.limit("max_depth")});
+    });
+  Json means = times_in_turns(experiment, experiment.settings.quick ? kQuickBuildMeans : kBuildMeans, contestants);
+  for (Json& column : means)
+    for (Json& ms : column) ms = ms.get<double>() / static_cast<double>(rounds);
   return means;
 }
 
 // One level less after the other, down to the root alone.
-Json remove_levels(const StepContext& context) {
-  const SphereSet spheres =
-      spheres_of(context.values, context.values.integer("balanced.scenario"), context.settings.seed);
-  BuildParameters build{context.values.integers("max_prims_list").front(), kUnlimited};
+Json remove_levels(const Experiment& experiment) {
+  const Values& values = experiment.values;
+  const SphereSet spheres = spheres_of(values, values.integer("balanced.scenario"), experiment.settings.seed);
+  BuildParameters build{values.integers("max_prims_list").front(), kUnlimited};
   Json levels = Json::array();
   std::int64_t depth = tree_statistics(build_reference_tree(spheres, build)).depth.max;
   for (; depth >= 1; --depth) {
@@ -125,46 +110,25 @@ Json remove_levels(const StepContext& context) {
   return levels;
 }
 
-std::vector<Step> steps_of(const Settings& settings, const Values& values) {
-  std::vector<Step> steps;
-  for (const std::int64_t scenario : values.integers("scenarios"))
-    for (const std::int64_t max_prims : values.integers("max_prims_list"))
-      steps.push_back({column_step(scenario, max_prims),
-                       scenario_of(scenario) == Scenario::grid ? 0.1 : (settings.quick ? 0.3 : 2.0),
-                       [=](StepContext& context) { return count_trees(context, scenario, max_prims); }});
-  steps.push_back({kBuildTimesStep, settings.quick ? 0.5 : 2.5, time_builds});
-  steps.push_back({kLevelsStep, 0.1, remove_levels});
-  steps.push_back({kReasonsStep, 0.5, [](StepContext& context) {
-                     const Values& of = context.values;
-                     return measure_reasons(context, {of.integers("scenarios"),
-                                                      {of.integer("spheres")},
-                                                      of.integers("max_prims_list"),
-                                                      context.settings.quick ? 3 : 20});
-                   }});
-  return steps;
-}
-
 class TableData {
  public:
-  explicit TableData(const DataContext& context)
-      : context_(context),
-        values_(context.values),
+  explicit TableData(const Experiment& experiment)
+      : experiment_(experiment),
+        values_(experiment.values),
+        columns_(columns_of(values_)),
         scenarios_(values_.integers("scenarios")),
         max_prims_(values_.integers("max_prims_list")) {}
 
   Json all() {
-    bool complete = true;
-    for (const std::int64_t scenario : scenarios_)
-      for (const std::int64_t prims : max_prims_) complete = add_column(scenario, prims) && complete;
-    add_rows();
-    if (complete) {
+    add_columns();
+    if (std::all_of(columns_.begin(), columns_.end(), [this](const Column& each) { return result(each) != nullptr; })) {
       add_reductions();
       add_sizes();
       add_contradictions();
     }
-    if (context_.result(kBuildTimesStep) != nullptr) add_builds();
-    if (context_.result(kLevelsStep) != nullptr) add_levels();
-    if (const Json* const reasons = context_.result(kReasonsStep)) {
+    if (const Json* const means = experiment_.result("build_times")) add_builds(*means);
+    if (const Json* const levels = experiment_.result("levels")) add_levels(*levels);
+    if (const Json* const reasons = experiment_.result("reasons")) {
       data_["reasons"] = *reasons;
       for (const Json& row : *reasons)
         if (row["max_prims"] == max_prims_.front())
@@ -175,44 +139,36 @@ class TableData {
   }
 
  private:
-  const Json& spread(std::int64_t scenario, std::int64_t prims, const char* row) {
-    return data_[fmt::format("scenario{}", scenario)][fmt::format("max_prims{}", prims)][row];
-  }
-  double mean(std::int64_t scenario, std::int64_t prims, const char* row) {
-    return spread(scenario, prims, row)["mean"].get<double>();
-  }
+  const Json* result(const Column& column) const { return experiment_.result(column.step()); }
+  double mean(const Column& column, const char* row) const { return result(column)->at("rows")[row]["mean"]; }
 
-  bool add_column(std::int64_t scenario, std::int64_t prims) {
-    const Json* const result = context_.result(column_step(scenario, prims));
-    if (result == nullptr) return false;
-    data_[fmt::format("scenario{}", scenario)][fmt::format("max_prims{}", prims)] = result->at("rows");
-    data_["seeds"] = std::max(data_.value("seeds", std::int64_t{0}), result->at("seeds").get<std::int64_t>());
-    return true;
-  }
-
-  // For the report: the printed numbers with ours below.
-  void add_rows() {
-    for (const auto& [key, label, of] : kRows) {
-      Json row{{"label", label}, {"cells", Json::array()}};
-      for (const std::int64_t scenario : scenarios_)
-        for (const std::int64_t prims : max_prims_) {
-          const std::string name = fmt::format("scenario{}.max_prims{}.{}", scenario, prims, key);
-          if (context_.result(column_step(scenario, prims)) == nullptr || !values_.has(name)) continue;
-          const Json& ours = spread(scenario, prims, key);
-          row["cells"].push_back({{"column", fmt::format("Scenario {}, MAX_PRIMS {}", scenario, prims)},
-                                  {"printed", values_.printed(name)},
-                                  {"mean", fmt::format("{:.{}f}", ours["mean"].get<double>(),
-                                                       print_rounding(values_.printed(name)) < 0.5 ? 2 : 1)},
-                                  {"sd", fmt::format("{:.2g}", ours["sd"].get<double>())}});
+  // The means by column; and for the report row by row, the printed numbers with ours below.
+  void add_columns() {
+    for (const Column& column : columns_)
+      if (const Json* const counted = result(column)) {
+        const Json& rows = counted->at("rows");
+        data_[fmt::format("scenario{}", column.scenario)][fmt::format("max_prims{}", column.max_prims)] = rows;
+        data_["seeds"] = std::max(data_.value("seeds", std::int64_t{0}), counted->at("seeds").get<std::int64_t>());
+        for (const auto& [key, ours] : rows.items()) {
+          const std::string value = column.value() + "." + key;
+          if (!values_.has(value)) continue;
+          const std::string printed = values_.printed(value);
+          const int decimals = printed.find('.') != std::string::npos ? 2 : 1;
+          table_[key].push_back({{"column", column.words()},
+                                 {"printed", printed},
+                                 {"mean", fmt::format("{:.{}f}", ours["mean"].get<double>(), decimals)},
+                                 {"sd", fmt::format("{:.2g}", ours["sd"].get<double>())}});
         }
-      data_["table"].push_back(std::move(row));
-    }
+      }
+    const Json labels = values_.document().value("rows", Json::object());
+    for (const auto& [key, cells] : table_.items())
+      data_["table"].push_back({{"label", labels.value(key, key)}, {"cells", cells}});
   }
 
   void add_reductions() {
     for (const std::int64_t scenario : scenarios_) {
-      const auto before = context_.result(column_step(scenario, max_prims_.front()))->at("nodes");
-      const auto after = context_.result(column_step(scenario, max_prims_.back()))->at("nodes");
+      const Json &before = result({scenario, max_prims_.front()})->at("nodes"),
+                 &after = result({scenario, max_prims_.back()})->at("nodes");
       std::vector<double> sample;
       for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
         sample.push_back(100 * (1 - after[i].get<double>() / before[i].get<double>()));
@@ -223,65 +179,53 @@ class TableData {
 
   // The MAX_PRIMS whose tree is ahead in each scenario; 0 if none is.
   template <class Of>
-  std::int64_t ahead_everywhere(const Of& of) {
-    for (const std::int64_t prims : max_prims_) {
-      bool ahead = true;
-      for (const std::int64_t scenario : scenarios_)
-        for (const std::int64_t other : max_prims_)
-          ahead = ahead && (other == prims || of(scenario, prims) > of(scenario, other));
-      if (ahead) return prims;
-    }
+  std::int64_t ahead_everywhere(const Of& of) const {
+    for (const std::int64_t prims : max_prims_)
+      if (std::all_of(columns_.begin(), columns_.end(), [&](const Column& other) {
+            return other.max_prims == prims || of(Column{other.scenario, prims}) > of(other);
+          }))
+        return prims;
     return 0;
   }
 
   void add_sizes() {
-    double most = 0;
-    for (const std::int64_t scenario : scenarios_) {
-      for (const std::int64_t prims : max_prims_)
-        data_["most_optimized"][key_of(scenario, prims)] = mean(scenario, prims, "optimized_nodes");
-      most = std::max(most, mean(scenario, max_prims_.front(), "spheres_per_leaf_max"));
+    const std::int64_t none = values_.integer("none_optimized.scenario");
+    double most = 0, optimized = 0;
+    for (const Column& column : columns_) {
+      const double here = mean(column, "optimized_nodes");
+      data_["most_optimized"][column.words()] = here;
+      if (column.scenario == none) optimized += here;
+      if (column.max_prims == max_prims_.front()) most = std::max(most, mean(column, "spheres_per_leaf_max"));
     }
     data_["leaf_each"] = most;
-    const std::int64_t none = values_.integer("none_optimized.scenario");
-    double optimized = 0;
-    for (const std::int64_t prims : max_prims_) optimized += mean(none, prims, "optimized_nodes");
     data_["none_optimized"] = optimized;
-    data_["largest_trees"] = ahead_everywhere([this](std::int64_t scenario, std::int64_t prims) {
-      return mean(scenario, prims, "inner_nodes") + mean(scenario, prims, "leaves");
-    });
-    data_["shallower"] = ahead_everywhere(
-        [this](std::int64_t scenario, std::int64_t prims) { return -mean(scenario, prims, "depth_avg"); });
+    data_["largest_trees"] =
+        ahead_everywhere([this](const Column& of) { return mean(of, "inner_nodes") + mean(of, "leaves"); });
+    data_["shallower"] = ahead_everywhere([this](const Column& of) { return -mean(of, "depth_avg"); });
   }
 
   // A tree has an empty leaf exactly when its smallest leaf has 0 spheres; the text's columns say both.
   void add_contradictions() {
-    std::int64_t contradictions = 0;
-    for (const std::int64_t scenario : scenarios_)
-      for (const std::int64_t prims : max_prims_) {
-        const std::string name = fmt::format("scenario{}.max_prims{}", scenario, prims);
-        const bool smallest_is_0 = values_.number(name + ".spheres_per_leaf_min") == 0;
-        contradictions += smallest_is_0 != (values_.number(name + ".share_with_0") > 0) ? 1 : 0;
-      }
-    data_["contradictions"] = contradictions;
+    data_["contradictions"] = std::count_if(columns_.begin(), columns_.end(), [this](const Column& column) {
+      return (values_.number(column.value() + ".spheres_per_leaf_min") == 0) !=
+             (values_.number(column.value() + ".share_with_0") > 0);
+    });
   }
 
-  void add_builds() {
-    const Json& means = *context_.result(kBuildTimesStep);
-    const auto of = [&](std::int64_t scenario, std::int64_t prims) {
-      return means.at(key_of(scenario, prims)).get<std::vector<double>>();
-    };
+  void add_builds(const Json& means) {
+    const auto of = [&](const Column& column) { return means.at(column.words()).get<std::vector<double>>(); };
+    for (const Column& column : columns_) {
+      const Json ours = data_["build"]["ms"][column.words()] = quartiles_json(of(column));
+      const double stated = values_.number("build_ms." + column.value());
+      Json row{{"scenario", column.scenario}, {"max_prims", column.max_prims}, {"stated", stated}};
+      row.update(ours);
+      row["ratio"] = ours["median"].get<double>() / stated;
+      data_["build"]["rows"].push_back(std::move(row));
+    }
+    // Round by round: the part of the first configuration's time that the last saves, and the speed-up.
     double least = 1e9;
     for (const std::int64_t scenario : scenarios_) {
-      for (const std::int64_t prims : max_prims_) {
-        const Json ours = data_["build"]["ms"][key_of(scenario, prims)] = quartiles_json(of(scenario, prims));
-        const double stated = values_.number(fmt::format("build_ms.scenario{}.max_prims{}", scenario, prims));
-        Json row{{"scenario", scenario}, {"max_prims", prims}, {"stated", stated}};
-        row.update(ours);
-        row["ratio"] = ours["median"].get<double>() / stated;
-        data_["build"]["rows"].push_back(std::move(row));
-      }
-      // Seed by seed: the part of the first configuration's time that the last saves, and the speed-up.
-      const std::vector<double> first = of(scenario, max_prims_.front()), last = of(scenario, max_prims_.back());
+      const std::vector<double> first = of({scenario, max_prims_.front()}), last = of({scenario, max_prims_.back()});
       std::vector<double> gains, speed_ups;
       for (std::size_t i = 0; i < std::min(first.size(), last.size()); ++i) {
         gains.push_back(100 * (1 - last[i] / first[i]));
@@ -294,13 +238,12 @@ class TableData {
     }
   }
 
-  void add_levels() {
-    const Json& levels = *context_.result(kLevelsStep);
+  void add_levels(const Json& levels) {
     data_["levels"] = levels;
     std::int64_t uneven = 0;
     double factor = 0;
     for (std::size_t i = 0; i < levels.size(); ++i) {
-      uneven += levels[i]["even"].get<bool>() ? 0 : 1;
+      uneven += levels[i]["even"] == false;
       if (i == 0) continue;
       const double here = levels[i]["max"].get<double>() / levels[i - 1]["max"].get<double>();
       factor = i == 1 || factor == here ? here : -1;
@@ -309,16 +252,29 @@ class TableData {
     data_["uneven_levels"] = uneven;
   }
 
-  const DataContext& context_;
+  const Experiment& experiment_;
   const Values& values_;
+  const std::vector<Column> columns_;
   const std::vector<std::int64_t> scenarios_, max_prims_;
-  Json data_ = Json::object();
+  Json data_ = Json::object(), table_ = Json::object();
 };
 
 }  // namespace
 
-ExperimentCode table_4_2() {
-  return {steps_of, [](const DataContext& context) { return TableData(context).all(); }};
+void table_4_2(Experiment& experiment) {
+  for (const Column& column : columns_of(experiment.values)) {
+    const bool grid = scenario_of(column.scenario) == Scenario::grid;
+    experiment.add(column.step(), grid ? 0.1 : 0.3, grid ? 0.1 : 2,
+                   [&experiment, column] { return count_trees(experiment, column); });
+  }
+  experiment.add("build_times", 0.5, 2.5, [&experiment] { return time_builds(experiment); });
+  experiment.add("levels", 0.1, 0.1, [&experiment] { return remove_levels(experiment); });
+  experiment.add("reasons", 0.5, 0.5, [&experiment] {
+    const Values& values = experiment.values;
+    return measure_reasons(experiment, {values.integer("spheres")}, values.integers("max_prims_list"),
+                           experiment.settings.quick ? 3 : 20);
+  });
+  experiment.make_data = [&experiment] { return TableData(experiment).all(); };
 }
 
 }  // namespace bihive::thesis

@@ -13,9 +13,12 @@
 
 namespace bihive::thesis {
 
+using Json = nlohmann::ordered_json;
+
 class Values {
  public:
-  Values(const std::string& bytes, const std::string& file);
+  /// Reads folder/<experiment>/values.json if a folder is given and has that file, else the built-in text.
+  Values(const std::string& experiment, std::string_view builtin, const std::string& folder);
 
   bool has(const std::string& name) const { return stated_.has(name); }
   double number(const std::string& name) const { return cli::value_or_fail(stated_.number(name)); }
@@ -23,26 +26,28 @@ class Values {
   std::vector<double> numbers(const std::string& name) const { return cli::value_or_fail(stated_.numbers(name)); }
   /// Whole numbers above 0.
   std::vector<std::int64_t> integers(const std::string& name) const;
-  std::string printed(const std::string& name) const { return cli::value_or_fail(stated_.printed(name)); }
-  ValueKind kind(const std::string& name) const { return cli::value_or_fail(stated_.kind(name)); }
-  const StatedValues& stated() const { return stated_; }
-  /// The whole file: "values", each with its claim if it has one, and "remarks": claims without a comparison.
-  const nlohmann::ordered_json& document() const { return document_; }
-
   /// A limit of a tree: 0 stands for infinity.
   std::int64_t limit(const std::string& name) const;
+  /// A side of a picture in pixels, 1 to 65535; `divisor`: of a smaller one.
+  int side(const std::string& name, int divisor = 1) const;
+  std::string printed(const std::string& name) const { return cli::value_or_fail(stated_.value(name)).printed; }
+  const StatedValues& stated() const { return stated_; }
+  /// The whole file: "values", each with its claim if it has one, and "remarks": claims without a comparison.
+  const Json& document() const { return document_; }
+
   /// The scene of a scenario with so many spheres, of the value "radius". Fails if there is no such scenario.
   Scene scene(std::int64_t scenario, std::int64_t spheres, std::uint64_t seed) const;
 
  private:
   StatedValues stated_;
-  nlohmann::ordered_json document_;
+  Json document_;
 };
 
 /// The scenario with that number. Fails if there is none.
 Scenario scenario_of(std::int64_t number);
 
-/// The values of folder/<experiment>/values.json if a folder is given and has that file, else the built-in ones.
-Values load_values(const std::string& experiment, const std::string& folder);
+[[noreturn]] inline void fail_value(const std::string& name, const std::string& fault) {
+  cli::fail({"/values/" + name + ": " + fault, "values.json", 0, 0, ""});
+}
 
 }  // namespace bihive::thesis

@@ -2,10 +2,9 @@
 
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
 #include <chrono>
-#include <fstream>
 
+#include "../shared/processor_name.h"
 #include "bihive/simd/target.h"
 #include "bihive/thesis/builtin_values.h"
 #include "bihive/thesis/shown_frames.h"
@@ -17,13 +16,6 @@ namespace {
 
 double clock_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::string processor_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(std::min(line.size(), line.find(':') + 2));
-  return "unknown processor";
 }
 
 // The driver that draws the window: a software one takes time from the frames.

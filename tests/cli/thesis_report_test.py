@@ -137,14 +137,14 @@ class Report(ProgramTest):
     def test_it_says_on_which_machine_and_how_it_was_made(self):
         self.succeed("thesis", "figure-4.5", "--quick", "--seed", "3", "--out", "out")
         results, report = self.results("out"), self.report("out")
-        self.assertEqual(results["command"], "bihive thesis figure-4.5 --out out --quick --seed 3")
+        self.assertEqual(results["command"], "bihive thesis figure-4.5 --quick --seed 3 --out out")
         self.assertRegex(results["compiler"], r"^(gcc|clang) \d+.*; vectors: \w+$")
         for text in [results["command"], results["compiler"], results["machine"]]:
             self.assertIn(text.replace("&", "&amp;"), report)
         self.assertIn("Efficient Ray Tracing for Mobile Devices", report)
         self.assertNotIn("as in the thesis", report)
         self.succeed("thesis", "figure-4.5", "--quick", "--out", "a user's out")
-        self.assertEqual(self.results("a user's out")["command"], r"bihive thesis figure-4.5 --out 'a user'\''s out' --quick")
+        self.assertEqual(self.results("a user's out")["command"], r"bihive thesis figure-4.5 --quick --out 'a user'\''s out'")
 
     def with_load(self, others):
         """A report whose steps were measured beside so much other work."""

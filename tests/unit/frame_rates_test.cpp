@@ -101,14 +101,13 @@ TEST(FrameRateRun, EndsWithAnError) {
   EXPECT_TRUE(run.rates().empty());
 }
 
-TEST(FrameContest, EndsWhereItIsCancelled) {
-  Result<FrameContest> contest = FrameContest::of_trees(small_plan(), {}, 1, 64);
-  ASSERT_TRUE(contest) << contest.error().to_string();
+TEST(FrameRateRun, EndsWhereItIsCancelled) {
+  FrameRateRun run(small_plan(), {});
   CancelToken cancel;
-  ASSERT_TRUE(contest->step(&cancel));
+  ASSERT_TRUE(run.step(&cancel));
   cancel.cancel();
-  EXPECT_FALSE(contest->step(&cancel));
-  EXPECT_TRUE(contest->finished());
+  EXPECT_FALSE(run.step(&cancel));
+  EXPECT_TRUE(run.finished());
 }
 
 TEST(ConfigurationTimes, GainByTheTreeOfTheMedianRound) {

@@ -19,6 +19,7 @@ ShownFramesPlan small_plan() {
   ShownFramesPlan plan;
   plan.scenarios = {1, 3};
   plan.spheres = {64};
+  plan.max_prims = {8};
   plan.width_px = 48;
   plan.height_px = 27;
   plan.threads = 1;
@@ -34,7 +35,7 @@ TEST(ShownFrames, AreTheThesis) {
   ASSERT_TRUE(plan) << plan.error().to_string();
   EXPECT_EQ(plan->width_px, 1136);
   EXPECT_EQ(plan->height_px, 640);
-  EXPECT_EQ(plan->max_prims, 8);
+  EXPECT_EQ(plan->max_prims, std::vector<std::int64_t>{8});
   EXPECT_EQ(plan->recursion, 1);
   ShownFramesPlan quick = *plan;
   quick.measure_for(0.1);

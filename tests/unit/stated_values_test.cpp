@@ -32,18 +32,18 @@ TEST(StatedValues, GivesNumbersListsAndPrint) {
   EXPECT_EQ(values->integer("a").value(), 4095);
   EXPECT_EQ(values->integers("a").value(), std::vector<std::int64_t>{4095});
   EXPECT_EQ(values->numbers("b").value(), (std::vector<double>{1, 2.5}));
-  EXPECT_EQ(values->printed("a").value(), "4,095");
-  EXPECT_EQ(values->printed("b").value(), "[1,2.5]");
-  EXPECT_EQ(values->printed("c").value(), "7") << "what is printed is out of date";
-  EXPECT_EQ(values->printed("d").value(), "did not vary");
-  EXPECT_EQ(values->sentence("a").value(), "s");
+  EXPECT_EQ(values->value("a")->printed, "4,095");
+  EXPECT_EQ(values->value("b")->printed, "[1,2.5]");
+  EXPECT_EQ(values->value("c")->printed, "7") << "what is printed is out of date";
+  EXPECT_EQ(values->value("d")->printed, "did not vary");
+  EXPECT_EQ(values->value("a")->sentence, "s");
   EXPECT_FALSE(values->has("e"));
-  EXPECT_EQ(values->kind("a").value(), ValueKind::stated);
-  EXPECT_EQ(values->kind("b").value(), ValueKind::inferred);
-  EXPECT_EQ(values->kind("c").value(), ValueKind::own_check);
-  EXPECT_EQ(values->kind("d").value(), ValueKind::set);
-  EXPECT_EQ(values->kind("f").value(), ValueKind::fitted);
-  EXPECT_EQ(values->printed("f").value(), "only rises");
+  EXPECT_EQ(values->value("a")->kind, "stated");
+  EXPECT_EQ(values->value("b")->kind, "inferred");
+  EXPECT_EQ(values->value("c")->kind, "own_check");
+  EXPECT_EQ(values->value("d")->kind, "set");
+  EXPECT_EQ(values->value("f")->kind, "fitted");
+  EXPECT_EQ(values->value("f")->printed, "only rises");
   EXPECT_EQ(values->numbers("f").error().to_string(), "file.json: /values/f/value: expected numbers");
 }
 
@@ -81,14 +81,14 @@ TEST(StatedValues, BuiltinOnesSayWhoseTheyAre) {
     ASSERT_TRUE(values) << message_of(values);
     for (const std::string name : {"width_px", "height_px"}) {
       if (values->has(name)) {
-        EXPECT_EQ(values->kind(name).value(), ValueKind::inferred);
+        EXPECT_EQ(values->value(name)->kind, "inferred");
       }
     }
   }
   const auto memory = StatedValues::parse(builtin_values_figure_4_5(), "values.json");
-  EXPECT_EQ(memory->kind("node_bytes").value(), ValueKind::inferred);
-  EXPECT_EQ(memory->kind("wrong_trees").value(), ValueKind::own_check);
-  EXPECT_EQ(memory->kind("radius").value(), ValueKind::set);
+  EXPECT_EQ(memory->value("node_bytes")->kind, "inferred");
+  EXPECT_EQ(memory->value("wrong_trees")->kind, "own_check");
+  EXPECT_EQ(memory->value("radius")->kind, "set");
 }
 
 }  // namespace

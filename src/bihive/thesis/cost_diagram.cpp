@@ -17,18 +17,6 @@ constexpr double kPlotWidth = kWidth - kLeft - kRight;
 constexpr double kCharacter = 6.6;  // mean width of a character of 12 units
 constexpr double kMarker = 4.2;
 
-constexpr const char* kStyle =
-    "<style>.bihive-costs{--paper:#fff;color:#1b1b1b;background:var(--paper);font:12px system-ui,sans-serif}"
-    ".bihive-costs text{fill:currentColor}.bihive-costs .on-deep{fill:#fff}.bihive-costs .on-pale{fill:#1b1b1b}"
-    ".bihive-costs .strong{font-weight:600;font-size:13px}"
-    ".bihive-costs .axis{stroke:currentColor;fill:none}"
-    ".bihive-costs .pattern{stroke:#d55e00;stroke-width:2.4;fill:none}"
-    ".bihive-costs .share{stroke:#d55e00;stroke-width:1.6;fill:none;stroke-dasharray:4 3}"
-    ".bihive-costs .point{stroke:#1b1b1b;stroke-width:1.2;fill:#fff}"
-    ".bihive-costs .error{stroke:#1b1b1b;stroke-width:1.2}"
-    ".bihive-costs .halo{stroke:#fff;stroke-width:3;paint-order:stroke;fill:#1b1b1b}"
-    "@media(prefers-color-scheme:dark){.bihive-costs{--paper:#16181c;color:#e6e6e6}}</style>";
-
 // From pale to deep blue, in equal steps of sRGB.
 std::string colour_of(int wins, int most) {
   const double part = most == 0 ? 0 : static_cast<double>(wins) / most;
@@ -56,8 +44,8 @@ class Diagram {
     legend();
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bihive-costs\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
-        "aria-label=\"{}\">{}{}</svg>\n",
-        kWidth, height_, escape_html(data_.title), kStyle, body_);
+        "aria-label=\"{}\"><style>{}</style>{}</svg>\n",
+        kWidth, height_, escape_html(data_.title), cost_diagram_style(), body_);
   }
 
  private:
@@ -134,25 +122,28 @@ class Diagram {
 
   // At the edge, with its numbers, where it lies outside.
   void mark(const CostPoint& point) {
-    const double inner = std::clamp(point.inner, data_.inner.front(), data_.inner.back());
-    const double leaf = std::clamp(point.leaf, data_.leaf.front(), data_.leaf.back());
-    const double x = x_of(inner), y = y_of(leaf);
-    const bool outside = inner != point.inner || leaf != point.leaf;
-    if (!outside) {
-      const double left = x_of(std::max(point.inner - point.inner_error, data_.inner.front()));
-      const double right = x_of(std::min(point.inner + point.inner_error, data_.inner.back()));
-      const double low = y_of(std::max(point.leaf - point.leaf_error, data_.leaf.front()));
-      const double high = y_of(std::min(point.leaf + point.leaf_error, data_.leaf.back()));
-      body_ += fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>", left, y, right,
-                           x, low, high);
-    }
+    const auto inner_within = [this](double inner) {
+      return x_of(std::clamp(inner, data_.inner.front(), data_.inner.back()));
+    };
+    const auto leaf_within = [this](double leaf) {
+      return y_of(std::clamp(leaf, data_.leaf.front(), data_.leaf.back()));
+    };
+    const double x = inner_within(point.inner), y = leaf_within(point.leaf);
+    const bool outside = x != x_of(point.inner) || y != y_of(point.leaf);
+    if (!outside)
+      body_ +=
+          fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>",
+                      inner_within(point.inner - point.inner_error), y, inner_within(point.inner + point.inner_error),
+                      x, leaf_within(point.leaf - point.leaf_error), leaf_within(point.leaf + point.leaf_error));
     const std::string numbers = fmt::format("{:.2f}, {:.2f}", point.inner, point.leaf);
     body_ += fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {}</title></circle>",
                          x, y, kMarker, escape_html(point.name), numbers);
+
+    // Its name: below other names that stand there already, and near the axis above them.
     const std::string name = outside ? point.name + " (" + numbers + ")" : point.name;
-    const bool to_the_left = x + 8 + kCharacter * static_cast<double>(name.size()) > kWidth - kRight;
-    // Below other names that stand there already, and near the axis above them.
-    const double width = kCharacter * static_cast<double>(name.size()), left = to_the_left ? x - 8 - width : x + 8;
+    const double width = kCharacter * static_cast<double>(name.size());
+    const bool to_the_left = x + 8 + width > kWidth - kRight;
+    const double left = to_the_left ? x - 8 - width : x + 8;
     double base = std::max(y - 6, kTop + 12);
     const double step = base + kLine > kTop + kPlotHeight ? -kLine : kLine;
     for (const Name& other : names_)

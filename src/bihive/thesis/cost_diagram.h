@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace bihive {
@@ -30,6 +31,7 @@ struct CostDiagram {
 /// An SVG text: colours for wins, an outline around the pattern, a dashed one where half of the seeds have it, a point
 /// with error bars for each engine.
 std::string cost_diagram_svg(const CostDiagram& diagram);
+std::string_view cost_diagram_style();  ///< its CSS: thesis/figure-4.4/costs.css
 
 /// A line for each cell: inner_node_per_sphere_test,leaf_per_inner_node,wins,pattern,share_of_seeds.
 std::string cost_diagram_csv(const CostDiagram& diagram);

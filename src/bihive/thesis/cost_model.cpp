@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "bihive/math/quartiles.h"
@@ -15,22 +14,29 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Two sums of costs that differ by rounding alone are equal.
 constexpr double kRounding = 1e-12;
 
-double nodes_of(const RayWork& work, double leaf) {
-  return work.inner + leaf * work.leaves;
+bool is_fastest(const WorkByTree& trees, std::int64_t max_prims, const WinPattern& pattern, const StepCosts& costs) {
+  const auto mine = trees.find(max_prims);
+  if (mine == trees.end()) return false;  // it was not counted
+  const StepCosts of_tree{costs.inner, costs.leaf, 0};
+  return std::all_of(pattern.among.begin(), pattern.among.end(), [&](std::int64_t other) {
+    const auto found = trees.find(other);
+    return found == trees.end() || of_tree.of(mine->second) <= of_tree.of(found->second) * (1 + kRounding);
+  });
 }
 
-// All costs of an inner node at which two trees of a configuration are equal, from low to high; first 0.
-std::vector<double> changes_of(const FigureWork& work, const std::vector<std::int64_t>& among, double leaf) {
+// All costs of an inner node at which two trees of a configuration are equal; first 0.
+std::set<double> changes_of(const FigureWork& work, const WinPattern& pattern, double leaf) {
   std::set<double> found{0};
   for (const auto& [configuration, trees] : work)
-    for (const std::int64_t a : among)
-      for (const std::int64_t b : among) {
+    for (const std::int64_t a : pattern.among)
+      for (const std::int64_t b : pattern.among) {
         if (trees.count(a) == 0 || trees.count(b) == 0) continue;
-        const double nodes = nodes_of(trees.at(b), leaf) - nodes_of(trees.at(a), leaf);
-        const double cost = (trees.at(a).tests - trees.at(b).tests) / nodes;
+        const RayWork &one = trees.at(a), &other = trees.at(b);
+        const double nodes = other.inner + leaf * other.leaves - (one.inner + leaf * one.leaves);
+        const double cost = (one.tests - other.tests) / nodes;
         if (nodes != 0 && cost > 0 && std::isfinite(cost)) found.insert(cost);
       }
-  return {found.begin(), found.end()};
+  return found;
 }
 
 // Appends, and joins what touches the last one.
@@ -46,29 +52,21 @@ constexpr std::size_t kUnknowns = 4;
 using Row = std::array<double, kUnknowns>;
 using Matrix = std::array<Row, kUnknowns>;
 
-// The inverse of the rows and columns that are in use; the others stay 0. Nothing if it is singular.
-std::optional<Matrix> inverse(Matrix a, const std::array<bool, kUnknowns>& used) {
-  Matrix result{};
-  for (std::size_t i = 0; i < kUnknowns; ++i) {
-    result[i][i] = used[i] ? 1 : 0;
-    for (std::size_t j = 0; j < kUnknowns; ++j)
-      if (!used[i] || !used[j]) a[i][j] = i == j ? 1 : 0;
-  }
-  // Gauss and Jordan; the matrix is symmetric and positive, so the diagonal serves as pivot.
+// By Gauss and Jordan; the matrix is symmetric and positive, so the diagonal serves as pivot. False if it is singular.
+bool invert(Matrix a, Matrix& result) {
   for (std::size_t pivot = 0; pivot < kUnknowns; ++pivot) {
-    if (!(std::abs(a[pivot][pivot]) > 1e-14)) return std::nullopt;
+    if (!(std::abs(a[pivot][pivot]) > 1e-14)) return false;
     const double scale = 1 / a[pivot][pivot];
     for (std::size_t j = 0; j < kUnknowns; ++j) a[pivot][j] *= scale, result[pivot][j] *= scale;
     for (std::size_t i = 0; i < kUnknowns; ++i) {
-      if (i == pivot) continue;
-      const double factor = a[i][pivot];
+      const double factor = i == pivot ? 0 : a[i][pivot];
       for (std::size_t j = 0; j < kUnknowns; ++j) {
         a[i][j] -= factor * a[pivot][j];
         result[i][j] -= factor * result[pivot][j];
       }
     }
   }
-  return result;
+  return true;
 }
 
 struct Solution {
@@ -76,6 +74,34 @@ struct Solution {
   Matrix covariance{};  // without the variance of a frame
   double residual = kInfinity;
 };
+
+// The best one with these costs alone; the others are 0. An infinite residual: there is none without a negative cost.
+Solution solve(const std::vector<Row>& rows, const std::array<bool, kUnknowns>& used) {
+  Solution one;
+  Matrix normal{};
+  Row right{};
+  for (std::size_t i = 0; i < kUnknowns; ++i) {
+    one.covariance[i][i] = used[i] ? 1 : 0;
+    normal[i][i] = used[i] ? 0 : 1;
+    if (!used[i]) continue;
+    for (const Row& row : rows) {
+      right[i] += row[i];
+      for (std::size_t j = 0; j < kUnknowns; ++j) normal[i][j] += used[j] ? row[i] * row[j] : 0;
+    }
+  }
+  if (!invert(normal, one.covariance)) return {};
+  for (std::size_t i = 0; i < kUnknowns; ++i) {
+    for (std::size_t j = 0; j < kUnknowns; ++j) one.cost[i] += one.covariance[i][j] * right[j];
+    if (one.cost[i] < 0) return {};
+  }
+  one.residual = 0;
+  for (const Row& row : rows) {
+    double sum = -1;
+    for (std::size_t i = 0; i < kUnknowns; ++i) sum += row[i] * one.cost[i];
+    one.residual += sum * sum;
+  }
+  return one;
+}
 
 }  // namespace
 
@@ -94,63 +120,44 @@ double ConfigurationTimes::gain_percent() const {
   return 100 * (frames_per_second(trees.at(fastest())) / frames_per_second(brute) - 1);
 }
 
-CostRange fastest_range(const WorkByTree& trees, std::int64_t max_prims, const std::vector<std::int64_t>& among,
-                        double leaf) {
-  CostRange range;
-  if (trees.count(max_prims) == 0) return {0, -1};  // it was not counted
-  const RayWork& mine = trees.at(max_prims);
-  for (const std::int64_t other : among) {
-    if (other == max_prims || trees.count(other) == 0) continue;
-    // mine.tests + cost * my nodes <= other.tests + cost * the other's nodes
-    const double nodes = nodes_of(trees.at(other), leaf) - nodes_of(mine, leaf);
-    const double tests = mine.tests - trees.at(other).tests;
-    if (nodes > 0)
-      range.low = std::max(range.low, tests / nodes);
-    else if (nodes < 0)
-      range.high = std::min(range.high, tests / nodes);
-    else if (tests > 0)
-      range.high = -1;
-  }
-  return range;
+std::int64_t wins_of(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs) {
+  return std::count_if(work.begin(), work.end(),
+                       [&](const auto& each) { return is_fastest(each.second, pattern.max_prims, pattern, costs); });
 }
 
-std::int64_t wins_of(const FigureWork& work, std::int64_t max_prims, const std::vector<std::int64_t>& among,
-                     double inner, double leaf) {
-  const StepCosts costs{inner, leaf, 0};
-  std::int64_t wins = 0;
-  for (const auto& [configuration, trees] : work) {
-    double least = kInfinity;
-    for (const std::int64_t other : among)
-      if (const auto found = trees.find(other); found != trees.end()) least = std::min(least, costs.of(found->second));
-    const auto mine = trees.find(max_prims);
-    if (mine != trees.end() && costs.of(mine->second) <= least * (1 + kRounding)) ++wins;
-  }
-  return wins;
+bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs) {
+  const auto exception = work.find(pattern.exception);
+  return wins_of(work, pattern, costs) == pattern.wins && exception != work.end() &&
+         is_fastest(exception->second, pattern.exception_max_prims, pattern, costs);
 }
 
-WinsByCost wins_by_cost(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& among,
-                        double leaf) {
-  CostRange of_exception{0, -1};
-  if (const auto found = work.find(pattern.exception); found != work.end())
-    of_exception = fastest_range(found->second, pattern.exception_max_prims, among, leaf);
-
+WinsByCost wins_by_cost(const FigureWork& work, const WinPattern& pattern, double leaf) {
   WinsByCost result;
-  const std::vector<double> changes = changes_of(work, among, leaf);
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    const bool last = i + 1 == changes.size();
-    const CostRange between{changes[i], last ? kInfinity : changes[i + 1]};
-    const double inside = last ? 2 * changes[i] + 1 : changes[i] + (changes[i + 1] - changes[i]) / 2;
-    const std::int64_t wins = wins_of(work, pattern.max_prims, among, inside, leaf);
+  const std::set<double> changes = changes_of(work, pattern, leaf);
+  for (auto change = changes.begin(); change != changes.end(); ++change) {
+    const bool last = std::next(change) == changes.end();
+    const CostRange between{*change, last ? kInfinity : *std::next(change)};
+    const StepCosts inside{last ? 2 * between.low + 1 : between.low + (between.high - between.low) / 2, leaf, 0};
+    const std::int64_t wins = wins_of(work, pattern, inside);
     result.most = std::max(result.most, wins);
-    if (wins != pattern.wins) continue;
-    append(result.stated, between);
-    if (of_exception.holds(inside)) append(result.pattern, between);
+    if (wins == pattern.wins) append(result.stated, between);
+    if (pattern_holds(work, pattern, inside)) append(result.pattern, between);
   }
   return result;
 }
 
-FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, const std::vector<std::int64_t>& among,
-                      double ns_per_ms) {
+std::vector<std::pair<const char*, double>> FittedCosts::named() const {
+  return {{"fixed_ns", fixed_ns},
+          {"inner_ns", inner_ns},
+          {"leaf_ns", leaf_ns},
+          {"test_ns", test_ns},
+          {"inner_per_test", costs().inner},
+          {"inner_per_test_error", inner_error},
+          {"leaf_per_inner", costs().leaf},
+          {"leaf_per_inner_error", leaf_error}};
+}
+
+FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, double ns_per_ms) {
   // A row for each frame: the work of a ray over its time, so that the sum of costs should be 1.
   std::vector<Row> rows;
   const auto add = [&](const RayWork& one, const std::vector<double>& rounds) {
@@ -162,42 +169,18 @@ FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, const st
     if (counted == work.end()) continue;
     add({0, 0, static_cast<double>(configuration.second)}, measured.brute);
     for (const auto& [max_prims, rounds] : measured.trees)
-      if (std::find(among.begin(), among.end(), max_prims) != among.end() && counted->second.count(max_prims) > 0)
-        add(counted->second.at(max_prims), rounds);
+      if (counted->second.count(max_prims) > 0) add(counted->second.at(max_prims), rounds);
   }
-  FittedCosts fitted;
-  if (rows.size() < 2 * kUnknowns) return fitted;
+  if (rows.size() < 2 * kUnknowns) return {};
 
   // The best solution without a negative cost: each set of costs that are not 0 is tried.
   Solution best;
   for (unsigned set = 1; set < (1U << kUnknowns); ++set) {
-    std::array<bool, kUnknowns> used{};
-    for (std::size_t i = 0; i < kUnknowns; ++i) used[i] = ((set >> i) & 1U) != 0;
-    Matrix normal{};
-    Row right{};
-    for (const Row& row : rows)
-      for (std::size_t i = 0; i < kUnknowns; ++i) {
-        right[i] += row[i];
-        for (std::size_t j = 0; j < kUnknowns; ++j) normal[i][j] += row[i] * row[j];
-      }
-    const std::optional<Matrix> inverted = inverse(normal, used);
-    if (!inverted) continue;
-    Solution one;
-    one.covariance = *inverted;
-    for (std::size_t i = 0; i < kUnknowns; ++i)
-      for (std::size_t j = 0; j < kUnknowns; ++j)
-        if (used[i] && used[j]) one.cost[i] += (*inverted)[i][j] * right[j];
-    if (std::any_of(one.cost.begin(), one.cost.end(), [](double cost) { return cost < 0; })) continue;
-    one.residual = 0;
-    for (const Row& row : rows) {
-      double sum = -1;
-      for (std::size_t i = 0; i < kUnknowns; ++i) sum += row[i] * one.cost[i];
-      one.residual += sum * sum;
-    }
+    const Solution one = solve(rows, {(set & 1U) != 0, (set & 2U) != 0, (set & 4U) != 0, (set & 8U) != 0});
     if (one.residual < best.residual) best = one;
   }
   const auto [fixed, inner, leaf, test] = best.cost;
-  if (!(test > 0)) return fitted;
+  if (!(test > 0)) return {};
 
   // Errors of the two ratios, to first order.
   const double variance = best.residual / static_cast<double>(rows.size() - kUnknowns);
@@ -208,9 +191,8 @@ FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, const st
                             2 * a / b * best.covariance[above][below];
     return std::sqrt(std::max(0.0, relative * variance)) / b;
   };
-  fitted = {fixed, inner, leaf, test, ratio_error(1, 3), ratio_error(2, 1), 0, rows.size()};
-  fitted.rms = std::sqrt(best.residual / static_cast<double>(rows.size()));
-  return fitted;
+  const double rms = std::sqrt(best.residual / static_cast<double>(rows.size()));
+  return {fixed, inner, leaf, test, ratio_error(1, 3), ratio_error(2, 1), rms, rows.size()};
 }
 
 }  // namespace bihive

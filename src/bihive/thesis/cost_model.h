@@ -48,36 +48,33 @@ using EngineTimes = std::map<Configuration, ConfigurationTimes>;
 /// Frames per second by the median of the rounds.
 double frames_per_second(const std::vector<double>& frame_ms);
 
-/// From low to high; empty if low > high.
-struct CostRange {
-  double low = 0, high = std::numeric_limits<double>::infinity();
-  bool holds(double cost) const { return low <= cost && cost <= high; }
-};
-
-/// The costs of an inner node at which a tree is the fastest of `among`, where a leaf costs `leaf` inner nodes.
-CostRange fastest_range(const WorkByTree& trees, std::int64_t max_prims, const std::vector<std::int64_t>& among,
-                        double leaf);
-
-/// The number of configurations that a tree wins, ties included.
-std::int64_t wins_of(const FigureWork& work, std::int64_t max_prims, const std::vector<std::int64_t>& among,
-                     double inner, double leaf);
-
 /// The text's pattern: one MAX_PRIMS wins exactly so many configurations, and another one wins a certain configuration.
 struct WinPattern {
   std::int64_t max_prims = 0, wins = 0;
   Configuration exception;
   std::int64_t exception_max_prims = 0;
+  std::vector<std::int64_t> among;  ///< the MAX_PRIMS that compete
 };
 
-/// How one MAX_PRIMS fares at a leaf's cost, over all costs of an inner node. The bounds are exact: between two costs
-/// at which two trees are equal nothing changes.
+/// The number of configurations that the pattern's tree wins, ties included. The fixed part does not matter.
+std::int64_t wins_of(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs);
+
+/// Whether the whole pattern holds.
+bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs);
+
+/// From low to high.
+struct CostRange {
+  double low = 0, high = std::numeric_limits<double>::infinity();
+};
+
+/// How the pattern's tree fares at a leaf's cost, over all costs of an inner node. The bounds are exact: between two
+/// costs at which two trees are equal nothing changes.
 struct WinsByCost {
   std::int64_t most = 0;           ///< configurations won at most
   std::vector<CostRange> stated;   ///< where it wins as many as the pattern says
   std::vector<CostRange> pattern;  ///< where the whole pattern holds
 };
-WinsByCost wins_by_cost(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& among,
-                        double leaf);
+WinsByCost wins_by_cost(const FigureWork& work, const WinPattern& pattern, double leaf);
 
 /// Costs fitted to measured frames by least squares of the relative error, none of them negative.
 struct FittedCosts {
@@ -87,10 +84,13 @@ struct FittedCosts {
   std::size_t frames = 0;
 
   StepCosts costs() const { return {inner_ns / test_ns, inner_ns > 0 ? leaf_ns / inner_ns : 0, fixed_ns / test_ns}; }
+  /// As JSON names them: "fixed_ns", "inner_ns", "leaf_ns", "test_ns", "inner_per_test", "leaf_per_inner", and both
+  /// with
+  /// "_error".
+  std::vector<std::pair<const char*, double>> named() const;
 };
 /// `ns_per_ms`: nanoseconds per ray and thread that a millisecond of a frame's time stands for. Nothing fits (`frames`
 /// is 0) with fewer than eight frames, or where a sphere test costs nothing.
-FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, const std::vector<std::int64_t>& among,
-                      double ns_per_ms);
+FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, double ns_per_ms);
 
 }  // namespace bihive

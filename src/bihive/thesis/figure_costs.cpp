@@ -41,25 +41,17 @@ RayWork counted_work(const Scene& scene, const Tree& tree, const FrameRatePlan& 
   return {sum.inner / rays, sum.leaves / rays, sum.tests / rays};
 }
 
-// Whether the whole pattern holds at these costs.
-bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
-                   double inner, double leaf) {
-  if (wins_of(work, pattern.max_prims, max_prims, inner, leaf) != pattern.wins) return false;
-  const auto found = work.find(pattern.exception);
-  return found != work.end() && fastest_range(found->second, pattern.exception_max_prims, max_prims, leaf).holds(inner);
-}
-
 }  // namespace
 
 Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel) {
   FigureWork work;
   for (const std::int64_t scenario : plan.scenarios)
     for (const std::int64_t spheres : plan.spheres) {
-      const Result<std::shared_ptr<const Scene>> scene = plan.scene(scenario, spheres);
+      const Result<Scene> scene = plan.scene(scenario, spheres);
       if (!scene) return scene.error();
       for (const std::int64_t max_prims : plan.max_prims)
-        work[{scenario, spheres}][std::min(max_prims, spheres)] = counted_work(
-            **scene, build_reference_tree((*scene)->spheres, {max_prims, kUnlimited}), plan, stride, cancel);
+        work[{scenario, spheres}][std::min(max_prims, spheres)] =
+            counted_work(*scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), plan, stride, cancel);
       if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
     }
   return work;
@@ -75,14 +67,14 @@ Result<WinPattern> stated_pattern(const StatedValues& values) {
     if (!value) return value.error();
     *number = *value;
   }
-  const Result<std::vector<std::int64_t>> max_prims = values.integers("max_prims_list");
-  if (!max_prims) return max_prims.error();
-  pattern.exception_max_prims = max_prims->back();
+  Result<std::vector<std::int64_t>> among = values.integers("max_prims_list");
+  if (!among) return among.error();
+  pattern.exception_max_prims = among->back();
+  pattern.among = std::move(*among);
   return pattern;
 }
 
-CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
-                         const std::vector<FigureWork>& seeds) {
+CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<FigureWork>& seeds) {
   const std::string winner = tree_name(pattern.max_prims);
   CostDiagram diagram;
   diagram.title = fmt::format("Configurations won by {}", winner);
@@ -97,12 +89,12 @@ CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, cons
   for (int i = 0; i < kRows; ++i) diagram.leaf.push_back(kMostLeaf * i / (kRows - 1));
   for (const double leaf : diagram.leaf)
     for (const double inner : diagram.inner) {
-      diagram.wins.push_back(static_cast<int>(wins_of(work, pattern.max_prims, max_prims, inner, leaf)));
-      diagram.pattern.push_back(pattern_holds(work, pattern, max_prims, inner, leaf));
+      const StepCosts costs{inner, leaf, 0};
+      diagram.wins.push_back(static_cast<int>(wins_of(work, pattern, costs)));
+      diagram.pattern.push_back(pattern_holds(work, pattern, costs));
       if (seeds.empty()) continue;
-      const auto with = std::count_if(seeds.begin(), seeds.end(), [&, inner = inner, leaf = leaf](const auto& seed) {
-        return pattern_holds(seed, pattern, max_prims, inner, leaf);
-      });
+      const auto with = std::count_if(seeds.begin(), seeds.end(),
+                                      [&](const FigureWork& seed) { return pattern_holds(seed, pattern, costs); });
       diagram.share.push_back(static_cast<double>(with) / static_cast<double>(seeds.size()));
     }
   return diagram;

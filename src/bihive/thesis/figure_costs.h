@@ -22,7 +22,6 @@ Result<WinPattern> stated_pattern(const StatedValues& values);
 
 /// The diagram without points: an inner node from 1/4 to 16 sphere tests, a leaf from 0 to 1 inner node. `seeds`: the
 /// same work with other seeds, for the share that has the pattern.
-CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<std::int64_t>& max_prims,
-                         const std::vector<FigureWork>& seeds);
+CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<FigureWork>& seeds);
 
 }  // namespace bihive

@@ -2,8 +2,8 @@
 // figure-4.4` and the page's "Run the thesis on this device" are this one experiment.
 //
 // A frame is the shaded view of primary rays. It is the same for all contestants; only the search for hits differs. The
-// contestants take turns, round by round. The first round warms up and does not count. The measurement goes in small
-// steps, so that its caller can show progress and stop it.
+// contestants of a configuration take turns, round by round. The first round warms up and does not count. The
+// measurement goes in small steps, so that its caller can show progress and stop it.
 #pragma once
 
 #include <algorithm>
@@ -40,22 +40,20 @@ struct FrameRatePlan {
 
   /// The thesis's plan, from the values of Figure 4.4. Error: a value is missing there.
   static Result<FrameRatePlan> from_values(const StatedValues& values);
+  /// A part of the width and height.
+  FrameRatePlan smaller(int divisor) const;
   /// A quarter of the width and height and a single round: seconds instead of minutes, and rougher numbers.
   FrameRatePlan quickly() const;
-
   /// The largest pictures, a whole part of this plan's in width and height, with which the whole run takes about
   /// `seconds` or less on this engine; at least an eighth. A few small frames by brute force are measured for that.
   /// Then the run ends also on a slow graphics processor.
   Result<FrameRatePlan> within(double seconds, const FrameEngine& engine) const;
 
   /// Error: there is no such scenario.
-  Result<std::shared_ptr<const Scene>> scene(std::int64_t scenario, std::int64_t count) const;
+  Result<Scene> scene(std::int64_t scenario, std::int64_t count) const;
+  RenderSettings settings(const Scene& scene) const;
   int configurations() const;
 };
-
-/// An estimate of the time of a frame, in units of its own. Brute force: in proportion to the number of spheres. A
-/// tree: a smaller share of that, and a constant.
-double frame_cost(std::int64_t spheres, bool tree);
 
 /// An engine with a tree, and its brute force: the same code without a tree, or with one leaf if it cannot do without.
 struct FrameEngine {
@@ -68,49 +66,14 @@ struct FrameEngine {
 /// One configuration's times.
 struct MeasuredRate {
   std::int64_t scenario = 0, spheres = 0;
-  std::optional<std::int64_t> max_prims;  ///< unset: brute force
-  std::vector<double> frame_ms;           ///< one for each round
+  std::optional<std::int64_t> max_prims = {};  ///< unset: brute force
+  std::vector<double> frame_ms = {};           ///< one for each round
 };
 
 /// The same times by configuration.
 EngineTimes times_of(const std::vector<MeasuredRate>& rates);
 
-/// Contestants that draw in turn. The engine's renderer must outlive the contest.
-class FrameContest {
- public:
-  /// Brute force and a tree of each MAX_PRIMS on the same spheres.
-  static Result<FrameContest> of_trees(const FrameRatePlan& plan, const FrameEngine& engine, std::int64_t scenario,
-                                       std::int64_t spheres);
-
-  /// Runs one round of one contestant. An Error ends the contest; one of them says "cancelled".
-  Status step(const CancelToken* cancel = nullptr);
-  bool finished() const { return round_ > plan_.rounds; }
-  /// The configuration that step() measures next; the last one after the end.
-  const MeasuredRate& next() const { return rates_[std::min(contestant_, rates_.size() - 1)]; }
-  /// One for each contestant, with the rounds so far.
-  const std::vector<MeasuredRate>& rates() const { return rates_; }
-
- private:
-  struct Contestant {
-    std::shared_ptr<const Scene> scene;
-    Tracer tracer;  // of the scene's spheres
-  };
-
-  FrameContest(const FrameRatePlan& plan, const FrameEngine& engine) : plan_(plan), engine_(engine) {}
-  Status add(std::shared_ptr<const Scene> scene, std::int64_t scenario, std::optional<std::int64_t> max_prims);
-  Result<double> frame_ms(const Contestant& contestant, const CancelToken* cancel);
-  Status draw_frame(const Contestant& contestant, const RenderSettings& settings, const CancelToken* cancel);
-
-  FrameRatePlan plan_;
-  FrameEngine engine_;
-  std::vector<Contestant> contestants_;
-  std::vector<MeasuredRate> rates_;  // a contestant each
-  std::size_t contestant_ = 0;
-  int round_ = 0;  // 0 warms up
-  Film film_;
-};
-
-/// The contests of a whole plan, one after the other.
+/// The configurations of a plan, one after the other. The engine's renderer must outlive the run.
 class FrameRateRun {
  public:
   FrameRateRun(FrameRatePlan plan, const FrameEngine& engine);
@@ -122,11 +85,12 @@ class FrameRateRun {
   /// Counts the rounds of an earlier run of the same plan before its own. Both are finished.
   void put_after(const FrameRateRun& earlier);
 
-  /// Runs one round of one configuration. Does nothing after finished(). After an Error the run is over.
-  Status step();
+  /// Runs one round of one contestant. Does nothing after finished(). After an Error the run is over; one of them says
+  /// "cancelled".
+  Status step(const CancelToken* cancel = nullptr);
 
   bool finished() const { return finished_; }
-  double done() const;          ///< 0 to 1, a share of the whole time
+  double done() const { return finished_ ? 1 : done_cost_ / all_cost_; }  ///< 0 to 1, a share of the whole time
   double seconds_left() const;  ///< estimated from this run's rounds so far; 0 before the first
   const FrameRatePlan& plan() const { return plan_; }
   /// The complete ones, in the order of scenarios, spheres, brute force before trees.
@@ -136,16 +100,28 @@ class FrameRateRun {
   std::int64_t spheres() const { return plan_.spheres[count_]; }
 
  private:
-  Status measure();
+  std::vector<MeasuredRate> new_group() const;
+  Status build_trees();
+  Status measure(const CancelToken* cancel);
+  Status draw_frame(const RenderSettings& settings, const CancelToken* cancel);
+  Result<double> frame_ms(const CancelToken* cancel);
   void go_on();
 
   FrameRatePlan plan_;
   FrameEngine engine_;
-  std::size_t scenario_ = 0, count_ = 0;  // the contest: positions in the plan
-  std::optional<FrameContest> contest_;
+  std::size_t scenario_ = 0, count_ = 0;  // the group's configuration: positions in the plan
   bool finished_ = false;
   std::vector<MeasuredRate> rates_;
-  double done_cost_ = 0, all_cost_ = 0;
+
+  // The contestants of a configuration: brute force and a tree of each MAX_PRIMS.
+  std::shared_ptr<const Scene> scene_;
+  std::vector<Tracer> tracers_;  // of the scene's spheres; empty: they are yet to be built
+  std::vector<MeasuredRate> group_;
+  std::size_t contestant_ = 0;
+  int round_ = 0;  // 0 warms up
+  Film film_;
+
+  double all_cost_, done_cost_ = 0;
   double resumed_cost_ = 0;  // of done_cost_: measured by an earlier run
   double spent_ms_ = 0;      // by this one
 };

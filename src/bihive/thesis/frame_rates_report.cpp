@@ -22,17 +22,8 @@ std::optional<double> stated_number(const StatedValues& values, const std::strin
   return number ? std::optional(*number) : std::nullopt;
 }
 
-// The stated frame rate of brute force (without max_prims) or of a tree. The thesis says that brute force does not
-// depend on the scenario.
-std::optional<double> stated_fps(const StatedValues& values, std::int64_t scenario, std::int64_t spheres,
-                                 std::optional<std::int64_t> max_prims) {
-  if (!max_prims) return stated_number(values, fmt::format("brute.fps.spheres{}", spheres));
-  const auto is = [&](const char* name, std::int64_t wanted) {
-    return stated_number(values, fmt::format("best.{}", name)) == static_cast<double>(wanted);
-  };
-  if (is("scenario", scenario) && is("spheres", spheres) && is("max_prims", *max_prims))
-    return stated_number(values, "best.fps");
-  return std::nullopt;
+bool has_values(const Series& series) {
+  return std::any_of(series.values.begin(), series.values.end(), [](const auto& value) { return value.has_value(); });
 }
 
 // Least, greatest and mean gain of each scenario, as the thesis names them; only for scenarios without missing groups.
@@ -62,31 +53,26 @@ std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, con
 
 // Empty if the scenario has no measurement.
 std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, std::int64_t scenario) {
-  const EngineTimes times = times_of(run.rates());
-  const std::vector<std::int64_t>&counts = run.plan().spheres, &max_prims = run.plan().max_prims;
-  if (std::none_of(counts.begin(), counts.end(), [&](std::int64_t count) {
-        return times.count({scenario, count}) > 0;
-      }))
-    return "";
-  ChartData chart = frame_rate_bars(scenario, counts, max_prims, times);
+  const FrameRatePlan& plan = run.plan();
+  ChartData chart = frame_rate_bars(scenario, plan.spheres, plan.max_prims, times_of(run.rates()));
+  if (!has_values(chart.series.front())) return "";
   chart.logarithmic = true;
 
-  // Add the thesis's values, if it states any. A smaller picture has other rates.
-  const auto is_side = [&](const char* name, int px) { return stated_number(stated, name) == static_cast<double>(px); };
-  if (!is_side("width_px", run.plan().width_px) || !is_side("height_px", run.plan().height_px)) return bar_chart(chart);
-  Series stated_brute{fmt::format("BF, {}", kStatedDevice), {}}, stated_tree{fmt::format("BIH, {}", kStatedDevice), {}};
-  for (const std::int64_t spheres : counts) {
-    stated_brute.values.push_back(stated_fps(stated, scenario, spheres, std::nullopt));
-    stated_tree.values.emplace_back();
-    for (const std::int64_t each : max_prims)
-      if (const auto fps = stated_fps(stated, scenario, spheres, each)) {
-        stated_tree.values.back() = fps;
-        stated_tree.name = fmt::format("{}, {}", tree_name(each), kStatedDevice);
-      }
+  // Add the thesis's values, if it states any. It says that brute force does not depend on the scenario. A smaller
+  // picture has other rates.
+  const auto is = [&](const char* name, std::int64_t wanted) {
+    return stated_number(stated, name) == static_cast<double>(wanted);
+  };
+  if (!is("width_px", plan.width_px) || !is("height_px", plan.height_px)) return bar_chart(chart);
+  Series brute{fmt::format("BF, {}", kStatedDevice), {}};
+  Series tree{fmt::format("BIH {}, {}", stated_number(stated, "best.max_prims").value_or(0), kStatedDevice), {}};
+  for (const std::int64_t spheres : plan.spheres) {
+    const bool best = is("best.scenario", scenario) && is("best.spheres", spheres);
+    brute.values.push_back(stated_number(stated, fmt::format("brute.fps.spheres{}", spheres)));
+    tree.values.push_back(best ? stated_number(stated, "best.fps") : std::nullopt);
   }
-  for (Series* series : {&stated_brute, &stated_tree})
-    if (std::any_of(series->values.begin(), series->values.end(), [](const auto& value) { return value.has_value(); }))
-      chart.series.push_back(*series);
+  for (const Series* series : {&brute, &tree})
+    if (has_values(*series)) chart.series.push_back(*series);
   return bar_chart(chart);
 }
 
@@ -124,22 +110,19 @@ double drift_of(const std::vector<MeasuredRate>& rates) {
 Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues& values, int threads) {
   // Every fourth row and column says enough of means. The picture is the thesis's, whatever the size of the run's.
   constexpr int kStride = 4;
-  const FrameRatePlan& plan = run.plan();
-  Result<FrameRatePlan> whole = FrameRatePlan::from_values(values);
+  const Result<FrameRatePlan> whole = FrameRatePlan::from_values(values);
   if (!whole) return whole.error();
   const Result<WinPattern> pattern = stated_pattern(values);
   if (!pattern) return pattern.error();
-  FrameRatePlan counted = plan;
+  FrameRatePlan counted = run.plan();
+  const double pixels = static_cast<double>(counted.width_px) * counted.height_px;
   counted.width_px = whole->width_px;
   counted.height_px = whole->height_px;
   Result<FigureWork> work = counted_figure(counted, kStride);
   if (!work) return work.error();
   MeasuredCosts costs{std::move(*work), *pattern, {}, 0};
-  const double pixels = static_cast<double>(plan.width_px) * plan.height_px;
-  costs.fitted = fit_costs(costs.work, times_of(run.rates()), plan.max_prims, 1e6 / pixels * threads);
-  if (costs.fitted.frames == 0) return costs;
-  const StepCosts steps = costs.fitted.costs();
-  costs.wins = wins_of(costs.work, pattern->max_prims, plan.max_prims, steps.inner, steps.leaf);
+  costs.fitted = fit_costs(costs.work, times_of(run.rates()), 1e6 / pixels * threads);
+  if (costs.fitted.frames > 0) costs.wins = wins_of(costs.work, costs.pattern, costs.fitted.costs());
   return costs;
 }
 
@@ -171,19 +154,12 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
                              {"max_prims", times.fastest()},
                              {"percent", times.gain_percent()}});
   if (costs != nullptr && costs->fitted.frames > 0) {
-    const FittedCosts& fitted = costs->fitted;
-    json["costs"] = {{"fixed_ns", fitted.fixed_ns},
-                     {"inner_ns", fitted.inner_ns},
-                     {"leaf_ns", fitted.leaf_ns},
-                     {"test_ns", fitted.test_ns},
-                     {"inner_per_test", fitted.costs().inner},
-                     {"inner_per_test_error", fitted.inner_error},
-                     {"leaf_per_inner", fitted.costs().leaf},
-                     {"leaf_per_inner_error", fitted.leaf_error},
-                     {"rms", fitted.rms},
-                     {"winner", tree_name(costs->pattern.max_prims)},
-                     {"wins", costs->wins},
-                     {"configurations", costs->work.size()}};
+    ordered_json& row = json["costs"];
+    for (const auto& [name, value] : costs->fitted.named()) row[name] = value;
+    row.update({{"rms", costs->fitted.rms},
+                {"winner", tree_name(costs->pattern.max_prims)},
+                {"wins", costs->wins},
+                {"configurations", costs->work.size()}});
   }
   json["stated"] = ordered_json::object();
   const ordered_json stated = *json_from_text<ordered_json>(values.text());
@@ -208,8 +184,8 @@ std::optional<SavedFrameRates> saved_frame_rates(const std::string& json) {
       MeasuredRate rate{one.at("scenario").get<std::int64_t>(), one.at("spheres").get<std::int64_t>(), std::nullopt,
                         one.at("frame_ms").get<std::vector<double>>()};
       if (!one.at("max_prims").is_null()) rate.max_prims = one.at("max_prims").get<std::int64_t>();
-      for (const double ms : rate.frame_ms)
-        if (!(ms > 0)) return std::nullopt;
+      const bool timed = std::all_of(rate.frame_ms.begin(), rate.frame_ms.end(), [](double ms) { return ms > 0; });
+      if (!timed || rate.frame_ms.empty() || rate.max_prims.value_or(1) < 1) return std::nullopt;
       saved.rates.push_back(std::move(rate));
     }
   } catch (const ordered_json::exception&) {
@@ -223,7 +199,7 @@ std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const State
                                             const std::string& here, const MeasuredCosts* costs) {
   std::vector<std::string> charts;
   if (costs != nullptr && costs->fitted.frames > 0) {
-    CostDiagram diagram = cost_diagram(costs->work, costs->pattern, run.plan().max_prims, {});
+    CostDiagram diagram = cost_diagram(costs->work, costs->pattern, {});
     const FittedCosts& fitted = costs->fitted;
     diagram.points = {{here, fitted.costs().inner, fitted.costs().leaf, fitted.inner_error, fitted.leaf_error}};
     charts.push_back(cost_diagram_svg(diagram));

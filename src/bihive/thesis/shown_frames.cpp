@@ -7,8 +7,6 @@
 #include "bihive/base/parallel.h"
 #include "bihive/math/elementary.h"
 #include "bihive/render/renderer.h"
-#include "bihive/scene/generators.h"
-#include "bihive/thesis/frame_rates.h"
 
 namespace bihive {
 namespace {
@@ -25,18 +23,12 @@ Camera turned(const Camera& camera, double turns) {
 }  // namespace
 
 Result<ShownFramesPlan> ShownFramesPlan::from_values(const StatedValues& values) {
-  Result<FrameRatePlan> rates = FrameRatePlan::from_values(values);
-  if (!rates) return rates.error();
+  const Result<FrameRatePlan> figure = FrameRatePlan::from_values(values);
+  if (!figure) return figure.error();
   const Result<std::int64_t> best = values.integer("winner.max_prims");
   if (!best) return best.error();
-  ShownFramesPlan plan;
-  plan.scenarios = std::move(rates->scenarios);
-  plan.spheres = std::move(rates->spheres);
-  plan.max_prims = *best;
-  plan.radius = rates->radius;
-  plan.width_px = rates->width_px;
-  plan.height_px = rates->height_px;
-  plan.recursion = rates->recursion;
+  ShownFramesPlan plan{*figure};
+  plan.max_prims = {*best};
   return plan;
 }
 
@@ -49,7 +41,7 @@ ShownFrames::ShownFrames(ShownFramesPlan plan) : plan_(std::move(plan)) {
   for (const std::int64_t scenario : plan_.scenarios)
     for (const std::int64_t spheres : plan_.spheres)
       for (const std::optional<std::int64_t>& max_prims :
-           {std::optional<std::int64_t>(), std::optional(plan_.max_prims)})
+           {std::optional<std::int64_t>(), std::optional(plan_.max_prims.front())})
         for (const bool turning : {false, true}) rates_.push_back({scenario, spheres, max_prims, turning, 0, 0});
 }
 
@@ -57,9 +49,7 @@ ShownFrames::ShownFrames(ShownFramesPlan plan) : plan_(std::move(plan)) {
 Status ShownFrames::prepare() {
   if (prepared_ == next_) return Done{};
   const ShownRate& rate = rates_[next_];
-  if (rate.scenario < 1 || rate.scenario > 3) return Error{"there are the scenarios 1, 2 and 3", "", 0, 0, ""};
-  Result<Scene> scene = scenario_scene(static_cast<Scenario>(rate.scenario),
-                                       {rate.spheres, static_cast<float>(plan_.radius), plan_.seed});
+  Result<Scene> scene = plan_.scene(rate.scenario, rate.spheres);
   if (!scene) return scene.error();
   // The tracer refers to the spheres of the scene where it stays.
   tracer_.reset();
@@ -83,11 +73,7 @@ Result<const Image*> ShownFrames::draw() {
     return status.error();
   }
   Scene& scene = *scene_;
-  RenderSettings settings = settings_from(scene.picture);
-  settings.width_px = plan_.width_px;
-  settings.height_px = plan_.height_px;
-  settings.recursion = plan_.recursion;
-  settings.threads = plan_.threads;
+  const RenderSettings settings = plan_.settings(scene);
   const Camera at_rest = scene.camera;
   if (rates_[next_].turning) scene.camera = turned(at_rest, turned_);
   Result<Rendered> rendered = render(scene, *tracer_, settings, {}, nullptr, std::move(film_));

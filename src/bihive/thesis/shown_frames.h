@@ -11,30 +11,20 @@
 #include <string>
 #include <vector>
 
-#include "bihive/base/result.h"
-#include "bihive/image/film.h"
 #include "bihive/image/image.h"
-#include "bihive/render/tracer.h"
-#include "bihive/scene/scene.h"
-#include "bihive/thesis/stated_values.h"
+#include "bihive/thesis/frame_rates.h"
 
 namespace bihive {
 
-struct ShownFramesPlan {
-  std::vector<std::int64_t> scenarios, spheres;
-  std::int64_t max_prims = 8;  ///< of the text's tree
-  double radius = 1;
-  std::uint64_t seed = 1;
-  int width_px = 0, height_px = 0;
-  int recursion = 1;
-  int threads = 0;               ///< 0: all
+/// The figure's plan without its rounds. Of MAX_PRIMS it has the one that the text calls the best.
+struct ShownFramesPlan : FrameRatePlan {
   double seconds = 2;            ///< of one measurement, at least: the last frame ends it; > 0
   double warm_up_seconds = 0.3;  ///< before it; these frames do not count
 
   /// Measures for so many seconds, and warms up no longer than that.
   void measure_for(double each_seconds);
 
-  /// The thesis's configurations, with the MAX_PRIMS that the text calls the best. Error: a value is missing.
+  /// The thesis's configurations. Error: a value is missing.
   static Result<ShownFramesPlan> from_values(const StatedValues& values);
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -23,17 +24,7 @@ bool is_value(const json& value) {
          std::all_of(value.begin(), value.end(), [](const json& item) { return item.is_number(); });
 }
 
-constexpr std::pair<ValueKind, const char*> kKinds[] = {{ValueKind::stated, "stated"},
-                                                        {ValueKind::set, "set"},
-                                                        {ValueKind::fitted, "fitted"},
-                                                        {ValueKind::inferred, "inferred"},
-                                                        {ValueKind::own_check, "own_check"}};
-
-std::optional<ValueKind> kind_named(const json& name) {
-  for (const auto& [kind, word] : kKinds)
-    if (name == word) return kind;
-  return std::nullopt;
-}
+constexpr const char* kKinds[] = {"stated", "set", "fitted", "inferred", "own_check"};
 
 bool is_whole(double number) {
   return number == std::floor(number) && std::abs(number) <= kMostWhole;
@@ -50,10 +41,6 @@ std::optional<double> number_in_print(std::string printed) {
 }
 
 }  // namespace
-
-const char* name_of(ValueKind kind) {
-  return kKinds[static_cast<std::size_t>(kind)].second;
-}
 
 Error StatedValues::error_at(const std::string& place, const std::string& expected) const {
   return {place + ": expected " + expected, file_, 0, 0, ""};
@@ -73,82 +60,57 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
       return stated.error_at("/values/" + name + "/value", "a number, a list of numbers, or a text");
     if (!entry.contains("sentence") || !entry["sentence"].is_string())
       return stated.error_at("/values/" + name + "/sentence", "the sentence that it comes from");
-    const std::optional<ValueKind> kind = kind_named(entry.value("kind", json()));
-    if (!kind)
+    const json kind = entry.value("kind", json());
+    if (std::find(std::begin(kKinds), std::end(kKinds), kind) == std::end(kKinds))
       return stated.error_at("/values/" + name + "/kind", R"("stated", "set", "fitted", "inferred" or "own_check")");
     const json& value = entry["value"];
-    const bool is_list = !value.is_number(), is_printed = entry.contains("printed") && entry["printed"].is_string();
-    std::vector<double> numbers;
-    if (value.is_array()) numbers = value.get<std::vector<double>>();
-    if (value.is_number()) numbers = {value.get<double>()};
-    stated.values_[name] = {std::move(numbers),
-                            is_list,
-                            value.is_string() ? value.get<std::string>() : value.dump(),
-                            is_printed ? entry["printed"].get<std::string>() : "",
-                            entry["sentence"].get<std::string>(),
-                            *kind};
+    StatedValue& one = stated.values_[name];
+    one.is_list = value.is_array();
+    if (value.is_array()) one.numbers = value.get<std::vector<double>>();
+    if (value.is_number()) one.numbers = {value.get<double>()};
+    one.printed = entry.contains("printed") && entry["printed"].is_string() ? entry["printed"].get<std::string>() : "";
+    // If only the value was changed, the printed number is out of date.
+    const std::optional<double> number = number_in_print(one.printed);
+    if (one.printed.empty() || (number && (!value.is_number() || *number != value)))
+      one.printed = value.is_string() ? value.get<std::string>() : value.dump();
+    one.sentence = entry["sentence"].get<std::string>();
+    one.kind = kind.get<std::string>();
   }
   return stated;
 }
 
-Result<const StatedValues::Value*> StatedValues::find(const std::string& name) const {
+Result<StatedValue> StatedValues::value(const std::string& name) const {
   const auto found = values_.find(name);
   if (found == values_.end()) return error_at("/values/" + name, "a value of this name");
-  return &found->second;
-}
-
-Result<double> StatedValues::number(const std::string& name) const {
-  const Result<const Value*> value = find(name);
-  if (!value) return value.error();
-  if ((*value)->is_list) return error_at("/values/" + name + "/value", "one number");
-  return (*value)->numbers.front();
-}
-
-Result<std::int64_t> StatedValues::integer(const std::string& name) const {
-  const Result<double> value = number(name);
-  if (!value) return value.error();
-  if (!is_whole(*value)) return error_at("/values/" + name + "/value", "a whole number");
-  return static_cast<std::int64_t>(*value);
+  return found->second;
 }
 
 Result<std::vector<double>> StatedValues::numbers(const std::string& name) const {
-  const Result<const Value*> value = find(name);
-  if (!value) return value.error();
-  if ((*value)->numbers.empty()) return error_at("/values/" + name + "/value", "numbers");
-  return (*value)->numbers;
+  Result<StatedValue> one = value(name);
+  if (!one) return one.error();
+  if (one->numbers.empty()) return error_at("/values/" + name + "/value", "numbers");
+  return std::move(one->numbers);
+}
+
+Result<double> StatedValues::number(const std::string& name) const {
+  const Result<StatedValue> one = value(name);
+  if (!one) return one.error();
+  if (one->is_list || one->numbers.empty()) return error_at("/values/" + name + "/value", "one number");
+  return one->numbers.front();
+}
+
+Result<std::int64_t> StatedValues::integer(const std::string& name) const {
+  const Result<double> one = number(name);
+  if (!one) return one.error();
+  if (!is_whole(*one)) return error_at("/values/" + name + "/value", "a whole number");
+  return static_cast<std::int64_t>(*one);
 }
 
 Result<std::vector<std::int64_t>> StatedValues::integers(const std::string& name) const {
-  const Result<const Value*> value = find(name);
-  if (!value) return value.error();
-  std::vector<std::int64_t> whole;
-  for (const double number : (*value)->numbers) {
-    if (!is_whole(number)) return error_at("/values/" + name, "whole numbers");
-    whole.push_back(static_cast<std::int64_t>(number));
-  }
-  return whole;
-}
-
-Result<std::string> StatedValues::printed(const std::string& name) const {
-  const Result<const Value*> value = find(name);
-  if (!value) return value.error();
-  const auto& [numbers, is_list, text, printed, sentence, kind] = **value;
-  if (printed.empty()) return text;
-  // If only the value was changed, the printed number is out of date.
-  const std::optional<double> number = number_in_print(printed);
-  return number && (is_list || numbers.front() != *number) ? text : printed;
-}
-
-Result<std::string> StatedValues::sentence(const std::string& name) const {
-  const Result<const Value*> value = find(name);
-  if (!value) return value.error();
-  return (*value)->sentence;
-}
-
-Result<ValueKind> StatedValues::kind(const std::string& name) const {
-  const Result<const Value*> value = find(name);
-  if (!value) return value.error();
-  return (*value)->kind;
+  const Result<std::vector<double>> all = numbers(name);
+  if (!all) return all.error();
+  if (!std::all_of(all->begin(), all->end(), is_whole)) return error_at("/values/" + name, "whole numbers");
+  return std::vector<std::int64_t>(all->begin(), all->end());
 }
 
 }  // namespace bihive

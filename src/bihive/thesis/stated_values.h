@@ -13,22 +13,26 @@
 
 namespace bihive {
 
-/// Whose value it is. Only what is compared with `stated` can reproduce the thesis, or differ from it.
-enum class ValueKind {
-  stated,    ///< the text says it, of an outcome
-  set,       ///< the text says it, and our scenes are made with it: it can only be copied well or badly
-  fitted,    ///< the text says it, and something of ours was made to suit it: the builder, sizes, costs
-  inferred,  ///< the text is silent or vague: we conclude, choose or read it so, for the reason that stands beside it
-  own_check  ///< a result of ours that another implementation or an argument of ours must confirm
+/// One value of an experiment.
+struct StatedValue {
+  std::vector<double> numbers;  ///< a single number is a list of one; a text has none
+  bool is_list = false;
+  std::string printed;  ///< as the thesis prints it: "printed", unless that is another number; else the value as JSON
+  std::string sentence;
+  /// Whose value it is. Only what is compared with "stated" can reproduce the thesis, or differ from it.
+  ///  - "stated": the text says it, of an outcome
+  ///  - "set": the text says it, and our scenes are made with it; it can only be copied well or badly
+  ///  - "fitted": the text says it, and something of ours was made to suit it: the builder, sizes, costs
+  ///  - "inferred": the text is silent or vague; we conclude, choose or read it so, for the reason beside it
+  ///  - "own_check": a result of ours that another implementation or an argument of ours must confirm
+  std::string kind;
 };
-/// "stated", "set", "fitted", "inferred", "own_check".
-const char* name_of(ValueKind kind);
 
 /// One experiment's values. Document:
 ///   {"experiment": "table-4.2",
 ///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
 ///                                                    "sentence": "Nodes Internal 4,095 ..."}, ...}}
-/// "value" is a number, a list of numbers, or a text. "kind" is one of ValueKind's names. "printed" is optional.
+/// "value" is a number, a list of numbers, or a text. "kind" is one of the five above. "printed" is optional.
 /// "sentence" quotes the text, or gives the reasoning where the value is not the text's. Other members are not looked
 /// at.
 class StatedValues {
@@ -38,29 +42,18 @@ class StatedValues {
 
   bool has(const std::string& name) const { return values_.count(name) != 0; }
   // Error, with file and place: there is no such value, or it is no number, list of numbers, whole number.
+  Result<StatedValue> value(const std::string& name) const;
   Result<double> number(const std::string& name) const;
   Result<std::int64_t> integer(const std::string& name) const;
-  Result<std::vector<double>> numbers(const std::string& name) const;  ///< a single number is a list of one
+  Result<std::vector<double>> numbers(const std::string& name) const;
   Result<std::vector<std::int64_t>> integers(const std::string& name) const;
-  /// As the thesis prints it: "printed", else the value; also where "printed" is another number than the value.
-  Result<std::string> printed(const std::string& name) const;
-  Result<std::string> sentence(const std::string& name) const;
-  Result<ValueKind> kind(const std::string& name) const;
   const std::string& text() const { return text_; }  ///< the document as it was read
 
  private:
-  struct Value {
-    std::vector<double> numbers;
-    bool is_list;
-    std::string text, printed, sentence;  // the value as JSON; printed: empty where it is not said
-    ValueKind kind;
-  };
-
   Error error_at(const std::string& place, const std::string& expected) const;
-  Result<const Value*> find(const std::string& name) const;
 
   std::string file_, text_;
-  std::map<std::string, Value> values_;
+  std::map<std::string, StatedValue> values_;
 };
 
 }  // namespace bihive

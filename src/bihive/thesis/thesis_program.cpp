@@ -23,14 +23,11 @@ struct Part {
 
 ThesisProgram::ThesisProgram(const Scene& scene, const Tree& tree) : camera_(scene.camera) {
   const SphereSet& set = scene.spheres;
-  for (std::int64_t id = 0; id < set.size(); ++id) {
+  for (const std::int64_t id : tree.sphere_ids) {
     const Vec3d centre = set.centre(id);
     spheres_.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z),
                         static_cast<float>(set.radius(id))});
-  }
-  for (const std::int64_t id : tree.sphere_ids) {
-    in_leaf_order_.push_back(spheres_[static_cast<std::size_t>(id)]);
-    leaf_ids_.push_back(static_cast<std::int32_t>(id));
+    ids_.push_back(static_cast<std::int32_t>(id));
   }
   // A clip node has one child between two planes, a one-sided node one child beyond one plane: both become splits of
   // which a plane lets everything or nothing through.
@@ -54,8 +51,8 @@ ThesisProgram::ThesisProgram(const Scene& scene, const Tree& tree) : camera_(sce
 }
 
 // The perpendicular form, in binary32.
-inline void ThesisProgram::test(const ProgramRay& ray, std::size_t sphere, std::int32_t id, Nearest& nearest) const {
-  const Sphere& s = id < 0 ? spheres_[sphere] : in_leaf_order_[sphere];
+inline void ThesisProgram::test(const ProgramRay& ray, std::size_t sphere, Nearest& nearest) const {
+  const Sphere& s = spheres_[sphere];
   const float x = s.x - ray.origin[0], y = s.y - ray.origin[1], z = s.z - ray.origin[2];
   const float middle = x * ray.direction[0] + y * ray.direction[1] + z * ray.direction[2];
   const float px = x - middle * ray.direction[0], py = y - middle * ray.direction[1],
@@ -64,13 +61,12 @@ inline void ThesisProgram::test(const ProgramRay& ray, std::size_t sphere, std::
   if (square < 0) return;
   const float half = std::sqrt(square);
   const float t = middle - half >= 0 ? middle - half : middle + half;
-  const std::int32_t of_sphere = id < 0 ? static_cast<std::int32_t>(sphere) : id;
-  if (t >= 0 && (t < nearest.t || (t == nearest.t && of_sphere < nearest.id))) nearest = {t, of_sphere};
+  if (t >= 0 && (t < nearest.t || (t == nearest.t && ids_[sphere] < nearest.id))) nearest = {t, ids_[sphere]};
 }
 
 std::int32_t ThesisProgram::closest_by_brute_force(const ProgramRay& ray) const {
   Nearest nearest{kNever, -1};
-  for (std::size_t i = 0; i < spheres_.size(); ++i) test(ray, i, -1, nearest);
+  for (std::size_t i = 0; i < spheres_.size(); ++i) test(ray, i, nearest);
   return nearest.id;
 }
 
@@ -109,7 +105,7 @@ std::int32_t ThesisProgram::closest_by_tree(const ProgramRay& ray) const {
     if (node.leaf) {
       // Test every sphere of the leaf.
       for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-        test(ray, static_cast<std::size_t>(i), leaf_ids_[static_cast<std::size_t>(i)], nearest);
+        test(ray, static_cast<std::size_t>(i), nearest);
     } else if (node.split) {
       // Go to the near child; the other one waits.
       const bool left_is_near = over[node.axis] > 0;
@@ -133,8 +129,7 @@ std::int32_t ThesisProgram::closest_by_tree(const ProgramRay& ray) const {
   }
 }
 
-template <class Closest>
-void ThesisProgram::draw(int width, int height, std::vector<std::int32_t>& ids, const Closest& closest) const {
+void ThesisProgram::draw(int width, int height, bool by_tree, std::vector<std::int32_t>& ids) const {
   const PixelRays pixels(camera_, width, height);
   ids.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   std::size_t at = 0;
@@ -144,18 +139,11 @@ void ThesisProgram::draw(int width, int height, std::vector<std::int32_t>& ids, 
       const auto dx = static_cast<float>(ray.direction.x), dy = static_cast<float>(ray.direction.y),
                  dz = static_cast<float>(ray.direction.z);
       const float scale = 1 / std::sqrt(dx * dx + dy * dy + dz * dz);
-      ids[at++] = closest(ProgramRay{
+      const ProgramRay one{
           {static_cast<float>(ray.origin.x), static_cast<float>(ray.origin.y), static_cast<float>(ray.origin.z)},
-          {dx * scale, dy * scale, dz * scale}});
+          {dx * scale, dy * scale, dz * scale}};
+      ids[at++] = by_tree ? closest_by_tree(one) : closest_by_brute_force(one);
     }
-}
-
-void ThesisProgram::draw_by_tree(int width, int height, std::vector<std::int32_t>& ids) const {
-  draw(width, height, ids, [this](const ProgramRay& ray) { return closest_by_tree(ray); });
-}
-
-void ThesisProgram::draw_by_brute_force(int width, int height, std::vector<std::int32_t>& ids) const {
-  draw(width, height, ids, [this](const ProgramRay& ray) { return closest_by_brute_force(ray); });
 }
 
 }  // namespace bihive

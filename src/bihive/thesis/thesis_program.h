@@ -19,8 +19,7 @@ class ThesisProgram {
 
   /// The nearest sphere of each pixel, -1 where there is none: by the tree, or by testing every sphere. Row by row from
   /// the top, `width * height` of them.
-  void draw_by_tree(int width, int height, std::vector<std::int32_t>& ids) const;
-  void draw_by_brute_force(int width, int height, std::vector<std::int32_t>& ids) const;
+  void draw(int width, int height, bool by_tree, std::vector<std::int32_t>& ids) const;
 
  private:
   struct Sphere {
@@ -40,15 +39,13 @@ class ThesisProgram {
     std::int32_t id;
   };
 
-  void test(const ProgramRay& ray, std::size_t sphere, std::int32_t id, Nearest& nearest) const;
+  void test(const ProgramRay& ray, std::size_t sphere, Nearest& nearest) const;
   std::int32_t closest_by_tree(const ProgramRay& ray) const;
   std::int32_t closest_by_brute_force(const ProgramRay& ray) const;
-  template <class Closest>
-  void draw(int width, int height, std::vector<std::int32_t>& ids, const Closest& closest) const;
 
   Camera camera_;
-  std::vector<Sphere> spheres_, in_leaf_order_;
-  std::vector<std::int32_t> leaf_ids_;
+  std::vector<Sphere> spheres_;  // in leaf order
+  std::vector<std::int32_t> ids_;
   std::vector<ProgramNode> nodes_;
   float lo_[3], hi_[3];
 };
