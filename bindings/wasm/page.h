@@ -28,8 +28,8 @@ class Page {
   /// A file there, and its trajectory, or an empty text. Both must stay until the next scene is loaded: frames are read
   /// when they are wanted.
   std::string load(const std::string& name, const std::string& trajectory, const std::string& how);
-  /// `count` 0: the scenario's own number of spheres. Of `how` the radii count: the rest is for files, and may come from
-  /// the page's address.
+  /// `count` 0: the scenario's own number of spheres. Of `how` the radii count: the rest is for files, and may come
+  /// from the page's address.
   std::string load_built_in(const std::string& name, double count, const std::string& how);
 
   // The player of a file with several frames. Times are of any steady clock, in milliseconds.
