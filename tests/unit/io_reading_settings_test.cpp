@@ -70,6 +70,9 @@ TEST(ReadingSettings, TravelAsJson) {
   EXPECT_EQ(reading_from_json(R"({"radius": 0.25})")->options().radius, 0.25);
   EXPECT_EQ(reading_from_json(R"({"radius": true})").error().message,
             "radius: expected a number from 0 to 3.4028234663852886e+38, found \"true\"");
+  EXPECT_TRUE(reading_from_json(R"({"recenter": true})")->options().recenter);
+  EXPECT_EQ(reading_from_json(R"({"recenter": false})").error().message,
+            "recenter: expected no value, or true, found \"false\"");
   for (const char* const text : {"", "[]", "{\"radios\": \"1\"}", "{\"frame\": []}"})
     EXPECT_FALSE(reading_from_json(text)) << text;
 }

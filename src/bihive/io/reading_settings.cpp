@@ -149,6 +149,8 @@ const ReadingSetting* reading_setting(std::string_view id) {
 Status GivenReading::take(std::string_view id, const std::string& text) {
   const ReadingSetting* const row = reading_setting(id);
   if (row == nullptr) return Error{"there is no setting of reading \"" + std::string(id) + "\"", "", 0, 0, ""};
+  if (row->value_name.empty() && !text.empty() && text != "true")
+    return Error{"expected no value, or true, found \"" + text + "\"", "", 0, 0, "leave it out to switch it off"};
   if (has(id)) return Error{"is given more than once", "", 0, 0, ""};
   for (const auto& [other, value] : given_)
     if (other->excludes == id || row->excludes == other->id)

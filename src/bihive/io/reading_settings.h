@@ -24,7 +24,7 @@ struct ReadingSetting {
   /// Works where ranks read chunks of a file each; if not, one rank reads all of it.
   bool with_chunks = false;
   std::string_view excludes = "";  ///< another setting's id
-  /// From the text of a command line; that of a flag is empty. Error: the expected and the found text.
+  /// From the text of a command line; that of a flag is empty or "true". Error: the expected and the found text.
   Status (*take)(ReadOptions& options, const std::string& text) = nullptr;
   /// For reports: a key, and the value that `options` have, as JSON.
   std::string_view report = "";  ///< empty: `id`
@@ -42,7 +42,7 @@ const ReadingSetting* reading_setting(std::string_view id);
 /// The settings that somebody has given, and nothing else: that one is given is known, also where it changes nothing.
 class GivenReading {
  public:
-  /// Errors: of the row; a setting that is unknown, given before, or excluded by another one.
+  /// Error: an unknown id, a setting given twice, one that another excludes, or a value out of range.
   Status take(std::string_view id, const std::string& text);
   /// The frame to read, in place of what was given; below 0: not given.
   void set_frame(std::int64_t frame);
