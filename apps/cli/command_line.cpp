@@ -5,6 +5,7 @@
 #include <array>
 
 #include "bihive/base/parse_number.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/io/known_formats.h"
 #include "bihive/io/reading_settings.h"
@@ -240,9 +241,7 @@ void add_json_flag(CLI::App& app, bool& json) {
 void fail_with_option(const std::string& what, const std::string& advice) {
   const std::size_t end = what.starts_with("--") ? what.find_first_of(": ") : 0;
   if (end == 0 || end == std::string::npos) return;
-  std::string id = what.substr(2, end - 2);
-  std::replace(id.begin(), id.end(), '-', '_');
-  fail_setting(id, what.substr(end), advice);
+  fail_setting(setting_of_option(what.substr(0, end)), what.substr(end), advice);
 }
 
 // A sub-command whose help ends in two examples. A call of it sets `request` to `options`.

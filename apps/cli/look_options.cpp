@@ -32,16 +32,10 @@ std::size_t colourings_of(const std::vector<Look>& looks) {
   return count;
 }
 
-// "radius-scale" as "radius_scale".
-std::string id_of(std::string name) {
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
 }  // namespace
 
 void LookOptions::add(LookAction action, const std::string& name) {
-  const std::string setting = id_of(name);
+  const std::string setting = setting_of_option(name);
   if (!has_current_) {
     has_current_ = true;
     current_ = looks.size();
@@ -92,7 +86,7 @@ Status LookOptions::set_nan_colour(const std::string& text) {
 
 void LookOptions::hide_word(const std::string& option, const std::string& word) {
   looks.push_back({word, {SetShown{false}}});
-  of_look.push_back(id_of(option.substr(2)));
+  of_look.push_back(setting_of_option(option));
   rows.push_back({word, "hide", ""});
   words.push_back(option);
   if (!has_current_) return;

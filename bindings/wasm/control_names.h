@@ -1,4 +1,4 @@
-// What the page calls a setting: the label of its control.
+// Names of settings in the page's messages: the labels of their controls.
 #pragma once
 
 #include <string>

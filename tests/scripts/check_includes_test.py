@@ -154,6 +154,7 @@ class CheckIncludes(unittest.TestCase):
         path = "src/bihive/base/a.cpp"
         self.one_offence({path: 'return Error{"no cell", name, 0, 0, "give one with --cell-vectors"};\n'}, "setting_name()")
         self.one_offence({path: 'text += "; --recenter makes it finer";\n'}, "setting_name()")
+        self.one_offence({path: 'return bad("--title: what it wants");\n'}, "setting_name()")
         for line in ("// with --frame 3\n", "if (line == \"a b\") --line_;\n", "\"try 'ase convert --frame 3'\"\n", '"a b{--paper:#fff}"\n'):
             self.assertEqual(self.offences({path: line}), [], line)
         self.assertEqual(self.offences({"apps/cli/main.cpp": '"see --help for more"\n'}), [])

@@ -20,6 +20,8 @@ TEST(SettingName, IsTheIdUntilAProgramSaysOtherwise) {
 TEST(SettingName, AnOptionHasHyphensAndAnArgumentStays) {
   EXPECT_EQ(option_of_setting("radius_scale"), "--radius-scale");
   EXPECT_EQ(option_of_setting("EXPRESSION"), "EXPRESSION");
+  EXPECT_EQ(setting_of_option("--radius-scale"), "radius_scale");
+  EXPECT_EQ(setting_of_option("colour-by"), "colour_by");
 }
 
 }  // namespace

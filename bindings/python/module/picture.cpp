@@ -61,14 +61,13 @@ struct Picture {
 
 // The options that are for files: an array has been read already. Its frame is for titles.
 void refuse_for_arrays(const cli::InputOptions& options) {
-  const auto refuse = [](bool given, const char* argument, const char* hint) {
+  const auto refuse = [](bool given, std::string_view argument, const char* hint) {
     if (given) cli::fail_setting(argument, " is for files, and these spheres are in memory", hint);
   };
   refuse(options.count.has_value(), "count", "leave it out");
   refuse(options.seed.has_value(), "seed", "leave it out");
   for (const auto& [row, text] : options.reading.all())
-    refuse(row->id != "frame" && row->id != "replicate", std::string(row->id).c_str(),
-           "give it to read, or to Spheres");
+    refuse(row->id != "frame" && row->id != "replicate", row->id, "give it to read, or to Spheres");
 }
 
 cli::Input input_of(const Spheres& spheres, const cli::RenderOptions& options, const Style& style) {

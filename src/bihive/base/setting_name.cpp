@@ -26,6 +26,13 @@ std::string option_of_setting(std::string_view id) {
   return option;
 }
 
+std::string setting_of_option(std::string_view option) {
+  if (option.starts_with("--")) option.remove_prefix(2);
+  std::string id(option);
+  std::replace(id.begin(), id.end(), '-', '_');
+  return id;
+}
+
 void name_settings_by(std::string (*name)(std::string_view id)) {
   name_of_setting.store(name, std::memory_order_relaxed);
 }

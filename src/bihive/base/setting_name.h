@@ -1,5 +1,5 @@
-// The names of settings in messages. The library knows a setting by its id, "radius_scale"; a command line calls it
-// "--radius-scale", a window by the label of its control.
+// Names of settings in messages. The library knows a setting by its id, "radius_scale"; command lines name options,
+// windows the labels of their controls.
 #pragma once
 
 #include <string>
@@ -7,11 +7,15 @@
 
 namespace bihive {
 
-/// What the running program calls the setting with this id: the id itself, unless name_settings_by() said otherwise.
+/// The name of a setting in this program's messages: its id, unless name_settings_by() was called.
 std::string setting_name(std::string_view id);
 
-/// "--radius-scale". An id in capitals is that of an argument without an option, and stays: "EXPRESSION".
+/// The option of a setting: two hyphens, and the id with hyphens for underscores. An id in capitals is that of a
+/// positional argument ("EXPRESSION"), and is returned unchanged.
 std::string option_of_setting(std::string_view id);
+
+/// The inverse; the leading hyphens may be missing.
+std::string setting_of_option(std::string_view option);
 
 /// For main() of a program, before it calls anything else.
 void name_settings_by(std::string (*name)(std::string_view id));
