@@ -1,7 +1,7 @@
 # The functions that declare tests. A file tests/KIND/SUBJECT_test.* is the ctest entry KIND.SUBJECT with the label KIND; the
 # C++ files of a kind are one program, KIND_tests, and an entry runs the tests of its file alone (tests/test_main.cpp).
 #
-# What is special about a file stands in the file, in lines `// ctest: ...` (Python: `# ctest: ...`), which CMake reads when it
+# Properties of a test stand in its file, in lines `// ctest: ...` (Python: `# ctest: ...`), which CMake reads when it
 # is run, as scripts/test and scripts/check do:
 #   inlined          its code is compiled into whoever calls it: as users compile it, in the program inlined_tests
 #   kernel [PATTERN] also where an instruction set is emulated (tests/targets), there without the tests of this pattern

@@ -116,7 +116,7 @@ Json draw_scenario(const Experiment& experiment, std::int64_t number, const std:
   const std::optional<Image> image = draw(experiment, scene, tracer, settings);
   if (!image) return {};
 
-  // What the text says of its spheres: all of them, those that stand in rows, and the others.
+  // The text describes three sets: all spheres, those in rows, and the others.
   Ids all(static_cast<std::size_t>(spheres.size())), in_rows, clustered;
   std::iota(all.begin(), all.end(), 0);
   std::map<float, int> rows;

@@ -62,7 +62,7 @@ struct Pending {
 };
 
 Json reasons_of(const Tree& tree) {
-  std::vector<double> spheres, depths;  // of the leaves
+  std::vector<double> spheres, depths;  // one per leaf
   const auto leaf = [&](std::int64_t count, std::size_t depth) {
     spheres.push_back(static_cast<double>(count));
     depths.push_back(static_cast<double>(depth));

@@ -14,7 +14,7 @@ using cli::value_or_fail;
 
 Values::Values(const std::string& experiment, std::string_view builtin, const std::string& folder) {
   std::string file = folder + "/" + experiment + "/values.json";
-  // A folder need not hold every experiment. What it holds must be readable.
+  // A folder may lack experiments, but a file that exists must be readable.
   const bool own = !folder.empty() && (access(file.c_str(), F_OK) == 0 || errno != ENOENT);
   if (!own) file = "thesis/" + experiment + "/values.json";
   const std::string bytes = own ? value_or_fail(read_file(file)) : std::string(builtin);

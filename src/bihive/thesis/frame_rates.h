@@ -115,7 +115,7 @@ class FrameRateRun {
 
   // The contestants of a configuration: brute force and a tree of each MAX_PRIMS.
   std::shared_ptr<const Scene> scene_;
-  std::vector<Tracer> tracers_;  // of the scene's spheres; empty: they are yet to be built
+  std::vector<Tracer> tracers_;  // one per contestant; empty until the group is built
   std::vector<MeasuredRate> group_;
   std::size_t contestant_ = 0;
   int round_ = 0;  // 0 warms up
