@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "bihive/job/failure.h"
 #include "bihive/scene/framing.h"
-#include "support/failure.h"
 #include "synthetic.h"
 
 namespace bihive::bench {
@@ -27,7 +27,7 @@ SphereSet copies(const SphereSet& one) {
       r.push_back(one.radius(id));
     }
   }
-  return cli::value_or_fail(SphereSet::from_world(x, y, z, r));
+  return value_or_fail(SphereSet::from_world(x, y, z, r));
 }
 
 }  // namespace
@@ -51,10 +51,10 @@ BenchScene load_bench_scene(const BenchOptions& options) {
   }
 
   // A molecule, or any input of bihive.
-  cli::InputOptions wanted = options.input;
+  InputOptions wanted = options.input;
   const bool molecule = name == "mol" || name == "mol5";
   if (molecule) wanted.input = options.molecule.empty() ? "demo" : options.molecule;
-  cli::Input input = cli::load_input(wanted);
+  Input input = load_input(wanted);
   bench.scene = std::move(input.scene);
   bench.description = name;
   if (molecule) bench.description += options.molecule.empty() ? " (PDB entry 1HPV)" : " (" + options.molecule + ")";

@@ -5,42 +5,42 @@
 #include <new>
 
 #include "bench_scene.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
 #include "measure.h"
 #include "options.h"
 #include "report.h"
-#include "support/failure.h"
-#include "support/messages.h"
 
 namespace bihive::bench {
 namespace {
 
 int run(int argc, const char* const* argv) {
   try {
-    cli::name_settings_as_options();
+    name_settings_as_options();
     const ParsedOptions parsed = parse_options(argc, argv);
     if (parsed.text) {
-      cli::print(*parsed.text);
-      cli::finish_output();
-      return cli::kSuccess;
+      print(*parsed.text);
+      finish_output();
+      return kSuccess;
     }
     const BenchOptions& options = parsed.options;
     Status status = options.target.empty() ? check_target_environment() : use_target(options.target);
-    if (!status) cli::fail_usage(status.error().message, status.error().hint);
+    if (!status) fail_usage(status.error().message, status.error().hint);
     const BenchScene scene = load_bench_scene(options);
     const Measured measured = measure(scene, options);
-    cli::print(options.json ? json_report(measured, options) : text_report(measured, options));
-    cli::finish_output();
-    return cli::kSuccess;
-  } catch (const cli::Failure& failure) {
-    cli::say_error(failure.error.to_string());
+    print(options.json ? json_report(measured, options) : text_report(measured, options));
+    finish_output();
+    return kSuccess;
+  } catch (const Failure& failure) {
+    say_error(failure.error.to_string());
     return failure.code;
   } catch (const std::bad_alloc&) {
-    cli::say_error("not enough memory");
+    say_error("not enough memory");
   } catch (const std::exception& error) {
-    cli::say_error(error.what());
+    say_error(error.what());
   }
-  return cli::kBadInput;
+  return kBadInput;
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
+#include "bihive/job/failure.h"
 #include "bihive/math/quartiles.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
 #include "frames/frame.h"
 #include "memory.h"
 #include "peers/embree.h"
-#include "support/failure.h"
 #include "tiles.h"
 
 namespace bihive::bench {
@@ -43,7 +43,7 @@ struct Built {
 
 std::shared_ptr<const WideTree> build(WideBuilder& builder, const SphereSet& spheres, int threads) {
   auto tree = builder.build(spheres, {}, threads);
-  if (!tree) cli::fail(tree.error());
+  if (!tree) fail(tree.error());
   return std::move(*tree);
 }
 
@@ -248,7 +248,7 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
 FrameResult measure_frame(const BenchScene& bench, const BenchOptions& options) {
   const RenderSettings settings = whole_picture(static_cast<int>(options.threads), picture_side_px(options.rays));
   const Tracer tracer =
-      cli::value_or_fail(Tracer::build(bench.scene.spheres, Engine::wide, {}, static_cast<int>(options.threads)));
+      value_or_fail(Tracer::build(bench.scene.spheres, Engine::wide, {}, static_cast<int>(options.threads)));
   FrameTimes warm, times;
   add_frame(bench.scene, tracer, settings, warm);
   for (std::int64_t rep = 0; rep < options.reps; ++rep) add_frame(bench.scene, tracer, settings, times);
@@ -267,7 +267,7 @@ Measured measure(const BenchScene& bench, const BenchOptions& options) {
   std::unique_ptr<Embree> peer;
   if (options.embree) {
     auto started = Embree::start(bench.scene.spheres, static_cast<int>(options.threads), measured.target);
-    if (!started) throw cli::Failure{cli::kEnvironment, started.error()};
+    if (!started) throw Failure{kEnvironment, started.error()};
     peer = std::move(*started);
     measured.peer_version = Embree::version();
   }

@@ -4,10 +4,11 @@
 #include <algorithm>
 
 #include "bihive/base/parse_number.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/bih/tree.h"
-#include "parameter_options.h"
-#include "support/failure.h"
-#include "support/values.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/picture_options.h"
+#include "bihive/job/values.h"
 
 namespace bihive::bench {
 namespace {
@@ -52,7 +53,7 @@ std::vector<std::string> words_of_only() {
 }
 
 void add_input(CLI::App& app, BenchOptions& options) {
-  cli::InputOptions& input = options.input;
+  InputOptions& input = options.input;
   app.add_option("INPUT", input.input,
                  "A file or a built-in name as in bihive, or a scene of the benchmark:\n"
                  "s1, s2, s3, mol, u1e5, mol5, c1e6, u1e6, u1e7 (uN: N = 1e3 to 1e8 uniform spheres)")
@@ -60,9 +61,20 @@ void add_input(CLI::App& app, BenchOptions& options) {
       ->required();
   app.add_option("--molecule", options.molecule, "Scenes mol and mol5: the molecule (bundled: PDB entry 1HPV)")
       ->type_name("FILE");
-  add_integer(app, "--count", input.count, 1, kUnlimited, "Scenarios: how many spheres (4096)");
-  add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", cli::seed_from);
-  for (const char* const id : {"radius", "radius_scale", "recenter", "frame"}) cli::add_reading(app, id, input.reading);
+  for (const RequestOption<InputOptions>& row : input_options()) {
+    static constexpr std::string_view kOfBenchmark[] = {"count", "seed", "radius", "radius_scale", "recenter", "frame"};
+    if (std::find(std::begin(kOfBenchmark), std::end(kOfBenchmark), row.id) == std::end(kOfBenchmark)) continue;
+    const std::string name = option_of_setting(row.id);
+    const auto take = [&row, &input, name](const std::string& text) {
+      if (const Status status = row.take(input, text); !status)
+        throw CLI::ValidationError(name, status.error().message);
+    };
+    if (row.value_name.empty())
+      app.add_flag_callback(
+          name, [take] { take(""); }, row.help);
+    else
+      app.add_option_function<std::string>(name, take, row.help)->type_name(row.value_name);
+  }
 }
 
 }  // namespace
@@ -105,13 +117,13 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     parsed.text = app.help();
     return parsed;
   } catch (const CLI::ParseError& error) {
-    cli::fail_usage(error.what(), "see bihive-bench --help");
+    fail_usage(error.what(), "see bihive-bench --help");
   }
 
   options.embree = peer == "embree";
   if (options.embree && (options.target == "scalar" || options.target == "neon"))
-    cli::fail_usage("--target " + options.target + ": Embree cannot be restricted to it",
-                    "leave out --peer, or choose avx512, avx2 or sse4");
+    fail_usage("--target " + options.target + ": Embree cannot be restricted to it",
+               "leave out --peer, or choose avx512, avx2 or sse4");
   const auto asked = [&](std::string_view name) {
     return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
   };

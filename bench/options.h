@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/input.h"
 #include "kinds.h"
-#include "support/input.h"
 
 namespace bihive::bench {
 
 struct BenchOptions {
-  cli::InputOptions input;  ///< input.input may also be a bench scene's name (bench_scene.h)
-  std::string molecule;     ///< file of the scenes mol and mol5; empty: the bundled molecule
-  bool embree = false;      ///< measure Embree beside us
+  InputOptions input;    ///< input.input may also be a bench scene's name (bench_scene.h)
+  std::string molecule;  ///< file of the scenes mol and mol5; empty: the bundled molecule
+  bool embree = false;   ///< measure Embree beside us
   std::int64_t threads = 1;
   std::vector<Kind> kinds;  ///< in the order of kKinds
   bool build = true, frame = true;

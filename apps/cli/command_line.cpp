@@ -8,27 +8,18 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/io/known_formats.h"
-#include "bihive/io/reading_settings.h"
-#include "bihive/scene/element_colours.h"
-#include "bihive/scene/look_text.h"
-#include "bihive/scene/named_materials.h"
-#include "bihive/scene/style.h"
-#include "bihive/settings/parameter_text.h"
+#include "bihive/job/failure.h"
 #include "commands/names.h"
 #include "film/film_plan.h"
-#include "parameter_options.h"
+#include "request_options.h"
 #include "server/addresses.h"
-#include "support/failure.h"
 #include "words/given_options.h"
 #include "words/short_help.h"
 
 namespace bihive::cli {
 namespace {
 
-constexpr double kLargestFloat = 3.4028234663852886e38;
 constexpr std::int64_t kMostThreads = 4096;
-constexpr double kMostZoom = 1e6;
-constexpr double kMostDotsPerInch = 1e6;
 constexpr std::int64_t kLargestPort = 65535;
 
 // An option with one value of its own syntax: `parse` turns the text into a Result.
@@ -50,20 +41,6 @@ CLI::Option* add_integer(CLI::App& app, const std::string& name, Target& target,
                    [min, max](const std::string& text) { return whole_number_from_text(text, min, max); });
 }
 
-template <class Target>
-CLI::Option* add_number(CLI::App& app, const std::string& name, Target& target, double max, const std::string& type,
-                        const std::string& help) {
-  return add_value(app, name, target, type, help,
-                   [max](const std::string& text) { return number_from_text(text, 0, max); });
-}
-
-template <class T>
-std::string list_of(const Names<T>& names) {
-  std::string list;
-  for (const auto& [name, value] : names) list += (list.empty() ? "" : "|") + name;
-  return list;
-}
-
 template <class Target, class T>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, Target& target, const Names<T>& names,
                         const std::string& help) {
@@ -71,166 +48,47 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Target& target, 
                    [&names](const std::string& text) { return choice_from(text, names); });
 }
 
-// An option that may occur again: `take` gets each text, in the order of the command line.
-template <class Take>
-void add_repeatable(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
-                    Take take) {
-  const auto taken = [name, take](const std::string& text) {
-    if (const Status status = take(text); !status) throw CLI::ValidationError(name, status.error().to_string());
-  };
-  app.add_option_function<std::string>(name, taken, help)->type_name(type)->trigger_on_parse();
-}
-
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& target, const std::string& help) {
   return app.add_option(name, target, help)->type_name("FILE")->required();
 }
 
 void add_generator_options(CLI::App& app, InputOptions& input) {
-  add_integer(app, "--count", input.count, 1, kUnlimited, "Scenarios: how many spheres (4096)");
-  add_value(app, "--seed", input.seed, "S", "Scenarios: the seed of their random numbers (1)", seed_from);
+  for (const char* const id : {"count", "seed"}) add_input_option(app, id, input);
 }
 
-// `alone`: no other word without an option follows INPUT.
-void add_input(CLI::App& app, InputOptions& input, bool alone = true) {
-  app.add_option("INPUT", input.input,
+InputOptions& input_of(InputOptions& input) {
+  return input;
+}
+InputOptions& input_of(PictureRequest& request) {
+  return request.input;
+}
+const auto& rows_for(const InputOptions&) {
+  return input_options();
+}
+const auto& rows_for(const PictureRequest&) {
+  return picture_options();
+}
+
+// `alone`: no other word without an option follows INPUT. `Request`: of an input, or of a picture.
+template <class Request>
+void add_input(CLI::App& app, Request& request, bool alone = true) {
+  app.add_option("INPUT", input_of(request).input,
                  in_lines("A file (" + names_of_formats(FormatsThat::hold_spheres) +
                           ", or scene JSON) or a built-in name: scenario1, scenario2, scenario3, four-spheres, demo; "
                           "- is the standard input"))
       ->type_name("")
       ->required();
-  add_reading(app, "trajectory", input.reading, alone ? "TRAJECTORY," : "");
+  for (const RequestOption<Request>& row : rows_for(request))
+    if (row.id == "trajectory") add_option_of(app, row, request, alone ? "TRAJECTORY," : "");
 }
 
-void add_input_options(CLI::App& app, InputOptions& input, bool with_radius_scale = true) {
-  add_generator_options(app, input);
-  for (const ReadingSetting& row : reading_settings())
-    if (row.id != "trajectory" && (with_radius_scale || row.id != "radius_scale"))
-      add_reading(app, row.id, input.reading);
+void add_input_options(CLI::App& app, InputOptions& input) {
+  for (const RequestOption<InputOptions>& row : input_options())
+    if (row.id != "trajectory") add_option_of(app, row, input);
 }
 
 void add_tree_options(CLI::App& app, TreeParameters& tree) {
-  add_value(app, "--max-prims", tree.max_prims, "N|unlimited",
-            "Most spheres of a leaf (the engine's choice; reference: 8)", limit_from);
-  add_value(app, "--max-depth", tree.max_depth, "N|unlimited",
-            "Most levels of the tree (the engine's choice; reference: unlimited)", limit_from);
-}
-
-void add_thread_options(CLI::App& app, TreeParameters& tree, std::int64_t& threads) {
-  add_tree_options(app, tree);
-  add_integer(app, "--threads", threads, 0, kMostThreads, "Threads (0: as many as the machine runs at once)");
-}
-
-void add_style_options(CLI::App& app, StyleOptions& look) {
-  add_value(app, "--style", look.name, "NAME|FILE", "The look: see bihive styles (files: default)",
-            [](const std::string& text) -> Result<std::string> { return text; });
-  add_repeatable(app, "--light", "PRESET|SPEC",
-                 "The lights (the style's or the scene's): " + list_of(light_presets()) +
-                     ",\nfrom:RIGHT,UP,TOWARDS[:COLOUR[:STRENGTH[:DEG]]] around the camera, or\n"
-                     "at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]] in the world; repeatable",
-                 [&look](const std::string& text) {
-                   look.light_words.push_back(text);
-                   return add_light(text, look.lights);
-                 });
-}
-
-void add_labels(CLI::App& app, Overrides& chosen, LabelOptions& labels, bool of_window) {
-  add_parameters(app, ParameterGroup::labels, chosen, of_window);
-  app.add_option("--title-values", labels.title_values,
-                 "CSV: a row for each frame, from 0; the first line names the columns: {NAME}")
-      ->type_name("FILE");
-  app.add_flag("--no-labels", labels.none, "None of the labels that the scene file or the style asks for");
-}
-
-// Options whose order matters: each is taken when the command line reaches it, and may occur again.
-void add_looks(CLI::App& app, LookOptions& looks, InputOptions& input, Overrides& chosen) {
-  const auto add = [&app](const std::string& name, const std::string& type, const std::string& help, auto take) {
-    add_repeatable(app, name, type, help, take);
-  };
-  const auto add_flag = [&app](const std::string& name, const std::string& help, auto take) {
-    app.add_flag_function(
-           name, [take](std::int64_t) { take(); }, help)
-        ->trigger_on_parse();
-  };
-  add("--select", "EXPR", "The options below are for these spheres alone (docs/selections.md); repeatable",
-      [&looks](const std::string& text) { return looks.select(text), Status(Done{}); });
-  add_flag("--hide", "Hide them from every ray", [&looks] { looks.show(false); });
-  add_flag("--show", "Show them again", [&looks] { looks.show(true); });
-  add("--colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1",
-      [&looks](const std::string& text) { return looks.act("colour", text); });
-  add("--colour-by", "ATTR[:MAP[:MIN,MAX[:log]]]", "Colour them by an attribute; MAP: " + std::string(kColourMapNames),
-      [&looks](const std::string& text) { return looks.act("colour-by", text); });
-  add("--nan-colour", "COLOUR", "--colour-by: colour of unknown numbers (grey)",
-      [&looks](const std::string& text) { return looks.set_nan_colour(text); });
-  add("--opacity", "F", "Their opacity, 0 (clear) to 1",
-      [&looks](const std::string& text) { return looks.act("opacity", text); });
-  add("--material", list_of(named_materials()), "Their material (the style's)",
-      [&looks](const std::string& text) { return looks.act("material", text); });
-  add("--radius-scale", "F", "Behind a --select: multiply their radii. Before: files, every radius",
-      [&looks, &input](const std::string& text) -> Status {
-        if (looks.selected) return looks.act("radius-scale", text);
-        if (input.reading.has("radius_scale")) return Error{"is given more than once before a --select", "", 0, 0, ""};
-        return input.reading.take("radius_scale", text);
-      });
-  add("--outline", "PX", "Behind a --select: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)",
-      [&looks, &chosen](const std::string& text) -> Status {
-        const Result<LookAction> action = look_action_from_text("outline", text);
-        if (!action) return action.error();
-        if (looks.selected) return looks.act("outline", text);
-        if (chosen.has("outline_px")) return Error{"is given more than once before a --select", "", 0, 0, ""};
-        chosen.set("outline_px", std::get<SetOutline>(*action).width_px);
-        return Done{};
-      });
-  add("--crease", "ATTR", "Lines between those that touch and differ in it: --crease chain",
-      [&looks](const std::string& text) { return looks.act("crease", text); });
-  add("--clip", "plane:NX,NY,NZ,D|box:X0,Y0,Z0,X1,Y1,Z1|sphere:X,Y,Z,R",
-      "Cut them open: n.x > D, the box or the sphere is taken away; repeatable",
-      [&looks](const std::string& text) { return looks.act("clip", text); });
-  app.add_option("--element-colours", looks.element_colours,
-                 "Colours of elements: a name, or a file with lines 'C #909090' (the style's)")
-      ->type_name("soft|jmol|cpk|FILE");
-  add_flag("--no-hydrogens", "Hide hydrogen", [&looks] { looks.hide_word("--no-hydrogens", "hydrogen"); });
-  add_flag("--no-water", "Hide water", [&looks] { looks.hide_word("--no-water", "water"); });
-}
-
-void add_background(CLI::App& app, std::optional<std::string>& background) {
-  add_value(app, "--background", background, "COLOUR",
-            "A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)",
-            [](const std::string& text) -> Result<std::string> {
-              if (text == kNoBackground) return text;
-              const Result<Vec3d> colour = colour_from(text, Transfer::none);
-              if (!colour) return colour.error();
-              return text;
-            });
-}
-
-void add_projection(CLI::App& app, std::optional<double>& fov_deg, std::optional<Projection>& projection) {
-  add_value(app, "--fov", fov_deg, "DEG", "Angle along the shorter side (30)",
-            [](const std::string& text) { return number_from_text(text, 0, 180, /*open=*/true); });
-  add_choice(app, "--projection", projection, kProjections,
-             "orthographic: equal spheres look equally large at any distance (perspective)");
-}
-
-void add_lens(CLI::App& app, std::optional<double>& aperture, std::optional<Focus>& focus) {
-  add_number(app, "--aperture", aperture, kLargestFloat, "R",
-             "Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)");
-  add_value(app, "--focus", focus, "D|auto|EXPR",
-            "With an aperture: the distance that is sharp, in world units, or the spheres that are,\n"
-            "such as 'resname LIG' or 'index 12' (auto: where the camera looks at)",
-            focus_from);
-}
-
-void add_samples(CLI::App& app, Overrides& chosen, std::int64_t most) {
-  const auto take = [&chosen, most](const std::string& text) {
-    const Result<std::int64_t> samples = samples_from(text, most);
-    if (!samples) throw CLI::ValidationError("--samples", samples.error().message);
-    chosen.set("samples_auto", *samples == kAutomaticSamples);
-    if (*samples != kAutomaticSamples) chosen.set("samples_per_pixel", *samples);
-  };
-  app.add_option_function<std::string>("--samples", take,
-                                       "Samples per pixel, 1 to " + std::to_string(most) +
-                                           " (files: 4, thesis scenes: 1, with --aperture 64);\n"
-                                           "auto: 4, and 16 on edges")
-      ->type_name("N|auto");
+  for (const RequestOption<TreeParameters>& row : tree_options()) add_option_of(app, row, tree);
 }
 
 void add_json_flag(CLI::App& app, bool& json) {
@@ -259,55 +117,19 @@ void begin_theme(CLI::App& command, const std::string& heading) {
   command.option_defaults()->group(heading);
 }
 
-// The options that decide how a picture looks, for commands that draw one or many.
-void add_picture_options(CLI::App& command, RenderOptions& options) {
-  begin_theme(command, "Picture");
-  const auto take_size = [&chosen = options.picture](const std::string& text) {
-    const Result<PictureSize> size = size_from(text);
-    if (!size) throw CLI::ValidationError("--size", size.error().message);
-    chosen.set("width_px", size->width_px);
-    chosen.set("height_px", size->height_px);
-  };
-  command.add_option_function<std::string>("--size", take_size, "Pixels (1280x720)")->type_name("WxH");
-  add_value(command, "--crop", options.crop, "X0,Y0,X1,Y1",
-            "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",
-            crop_from);
-  add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
-  add_samples(command, options.picture, kMostSamplesPerPixel);
-  add_parameters(command, ParameterGroup::picture, options.picture, /*of_window=*/false);
-  add_background(command, options.background);
-  add_value(command, "--bits", options.bits, "8|16", "Bits of each number in the picture (8)", bits_from);
-  add_value(command, "--dpi", options.dots_per_inch, "N", "Pixels an inch in print, as a note in the picture",
-            [](const std::string& text) { return number_from_text(text, 0, kMostDotsPerInch, /*open=*/true); });
-  begin_theme(command, "Style and light");
-  add_style_options(command, options.style);
-  for (const ParameterGroup group : {ParameterGroup::light, ParameterGroup::lines, ParameterGroup::tone})
-    add_parameters(command, group, options.picture, /*of_window=*/false);
-  begin_theme(command, "Camera");
-  add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
-  add_value(command, "--eye", options.eye, "X,Y,Z", "Where the camera is", vector_from);
-  add_value(command, "--look-at", options.look_at, "X,Y,Z", "The middle of the picture", vector_from);
-  add_value(command, "--up", options.up, "X,Y,Z", "What is up in the picture", vector_from);
-  add_projection(command, options.fov_deg, options.projection);
-  add_value(command, "--turn", options.turn, "AZ,EL[,ROLL]",
-            "Degrees: the camera goes AZ to the right and EL up around what it\n"
-            "looks at; the picture turns ROLL counter-clockwise",
-            turn_from);
-  add_value(command, "--zoom", options.zoom, "F", "Draw everything F times as large (1)",
-            [](const std::string& text) { return number_from_text(text, 0, kMostZoom, /*open=*/true); });
-  add_lens(command, options.aperture, options.focus);
-  begin_theme(command, "Engine");
-  add_choice(command, "--engine", options.engine, kRenderEngines,
-             "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same");
-  add_thread_options(command, options.tree, options.threads);
-  add_json_flag(command, options.json);
-  begin_theme(command, "Reading");
-  add_input_options(command, options.input, /*with_radius_scale=*/false);
-  begin_theme(command, "Spheres");
-  add_looks(command, options.looks, options.input, options.picture);
-  begin_theme(command, "Labels and cell");
-  add_parameters(command, ParameterGroup::cell, options.picture, /*of_window=*/false);
-  add_labels(command, options.picture, options.labels, /*of_window=*/false);
+// The options that decide how a picture looks, for commands that draw one or many. `without`: ids of some.
+void add_options_by_theme(CLI::App& command, RenderOptions& options, std::vector<std::string_view> without = {}) {
+  static constexpr std::pair<OptionTheme, const char*> kThemes[] = {
+      {OptionTheme::picture, "Picture"},       {OptionTheme::style, "Style and light"},
+      {OptionTheme::camera, "Camera"},         {OptionTheme::engine, "Engine"},
+      {OptionTheme::reading, "Reading"},       {OptionTheme::spheres, "Spheres"},
+      {OptionTheme::labels, "Labels and cell"}};
+  without.push_back("trajectory");  // stands beside INPUT
+  for (const auto& [theme, heading] : kThemes) {
+    begin_theme(command, heading);
+    add_picture_options(command, theme, options, /*of_window=*/false, without);
+    if (theme == OptionTheme::engine) add_json_flag(command, options.json);
+  }
   begin_theme(command, "Other options");
 }
 
@@ -315,21 +137,18 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   CLI::App& command = add_command(
       app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
       "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
-  add_input(command, options.input);
+  add_input<PictureRequest>(command, options);
   add_path(command, "-o,--output", options.output,
            "The picture: PNG, or OpenEXR (.exr); - writes a PNG to the standard\noutput");
   add_value(command, "--layers", options.layers, "L,L...",
             ".exr: what it holds: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
-  add_picture_options(command, options);
+  add_options_by_theme(command, options);
   command
       .add_option("--film", options.film,
                   "Draw a picture of this film (bihive film), with its options and camera:\nFILE.json")
       ->type_name("FILE");
   add_integer(command, "--picture", options.picture_of_film, 0, kUnlimited,
               "--film: which one of its pictures, from 0; or name its frame by --frame");
-  command.parse_complete_callback([&options, &command] {
-    for (const CLI::Option* option : command.parse_order()) options.given.push_back(option->get_name());
-  });
 }
 
 void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {
@@ -341,7 +160,7 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
     request = options;
   });
   RenderOptions& picture = options.picture;
-  add_input(command, picture.input);
+  add_input<PictureRequest>(command, picture);
   command.get_option("INPUT")->required(false);
   add_path(command, "-o,--output", picture.output,
            "The film: .mp4, .mov, .mkv or .webm by the program ffmpeg; .y4m; or PNG files:\nrun/%05d.png");
@@ -365,8 +184,7 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
   add_value(command, "--shard", options.shard, "i/N",
             "Draw every N-th picture from number i on; another command joins all N", shard_from);
   command.add_flag("--join", options.join, "Join the shards of the film -o, without INPUT");
-  add_picture_options(command, picture);
-  command.remove_option(command.get_option("--frame"));
+  add_options_by_theme(command, picture, {"frame"});
 }
 
 void add_view(CLI::App& app, ViewOptions& options, Request& request) {
@@ -374,24 +192,14 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
       add_command(app, "view", "Look at it in a window: turn it, switch views, engines and trees",
                   "bihive view data/1hpv.pdb --view-from left",
                   "bihive view scenario2 --engine gpu --max-prims 1 --view traversal", options, request);
-  add_input(command, options.input);
+  add_input<PictureRequest>(command, options);
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
-  add_choice(command, "--engine", options.engine, kViewerEngines, "What draws (cpu)");
-  add_style_options(command, options.style);
-  for (const ParameterGroup group : {ParameterGroup::light, ParameterGroup::lines, ParameterGroup::tone})
-    add_parameters(command, group, options.picture, /*of_window=*/true);
-  add_background(command, options.background);
-  add_choice(command, "--view", options.view, kViews, "What the picture shows (shaded)");
-  add_samples(command, options.picture, kMostSamples);
-  add_parameters(command, ParameterGroup::picture, options.picture, /*of_window=*/true);
-  add_choice(command, "--view-from", options.view_from, kSides, "Show the whole set from this side (files: front)");
-  add_projection(command, options.fov_deg, options.projection);
-  add_lens(command, options.aperture, options.focus);
-  add_tree_options(command, options.tree);
-  add_input_options(command, options.input, /*with_radius_scale=*/false);
-  add_looks(command, options.looks, options.input, options.picture);
-  add_parameters(command, ParameterGroup::cell, options.picture, /*of_window=*/true);
-  add_labels(command, options.picture, options.labels, /*of_window=*/true);
+  add_choice(command, "--engine", options.window_engine, kViewerEngines, "What draws (cpu)");
+  static const RequestOption<PictureRequest> samples = samples_option(kMostSamples);
+  add_option_of<PictureRequest>(command, samples, options);
+  for (const OptionTheme theme : {OptionTheme::style, OptionTheme::picture, OptionTheme::camera, OptionTheme::engine,
+                                  OptionTheme::reading, OptionTheme::spheres, OptionTheme::labels})
+    add_picture_options(command, theme, options, /*of_window=*/true, {"size", "engine", "samples", "trajectory"});
   command.add_option("--screenshot", options.screenshot, "Write the settled window into a PNG, and end")
       ->type_name("FILE");
 }
@@ -426,7 +234,9 @@ void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
   command.add_flag("--any", options.any, "Whether anything is hit: id 0 or -1, t 0 or inf");
   command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
   add_choice(command, "--engine", options.engine, kEngines, "What answers the rays (auto); all give the same bits");
-  add_thread_options(command, options.tree, options.threads);
+  add_tree_options(command, options.tree);
+  add_integer(command, "--threads", options.threads, 0, kMostThreads,
+              "Threads (0: as many as the machine runs at once)");
   add_input_options(command, options.input);
 }
 
@@ -438,7 +248,7 @@ void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
       ->type_name("")
       ->required();
   add_generator_options(command, options.input);
-  add_reading(command, "radius", options.input.reading);
+  add_input_option(command, "radius", options.input);
   add_path(command, "-o,--output", options.output,
            ".npy: x, y, z, r as float32 (n, 4); .json: a scene file;\n- writes a scene file to the standard output");
 }
@@ -711,19 +521,6 @@ Request parse_command_line(int argc, const char* const* argv, const Describe& de
   for (const std::string& word : of_film) words.push_back(word.c_str());
   words.insert(words.end(), argv + 2, argv + argc);
   return parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/true, {});
-}
-
-std::vector<OptionForm> options_of_command(const std::string& command) {
-  std::vector<OptionForm> forms;
-  const auto read = [&forms, &command](const CLI::App& app, const std::vector<std::string>&) {
-    for (const CLI::Option* option : app.get_subcommand(command)->get_options())
-      for (const std::string& name : option->get_lnames())
-        forms.push_back({name, option->get_items_expected_max() > 0 ? option->get_type_name() : ""});
-    return std::string();
-  };
-  const std::array words{"bihive", "describe"};
-  parse_words(static_cast<int>(words.size()), words.data(), /*with_film=*/false, read);
-  return forms;
 }
 
 }  // namespace bihive::cli

@@ -30,12 +30,4 @@ using Describe = std::function<std::string(const CLI::App& app, const std::vecto
 /// such command: only the program knows the words of all experiments.
 Request parse_command_line(int argc, const char* const* argv, const Describe& describe = {});
 
-/// An option as callers see it who have keywords instead of a command line.
-struct OptionForm {
-  std::string name;   ///< "light-points"
-  std::string value;  ///< the name of its value in --help; empty: a switch
-};
-/// The options of a command, in the order of --help.
-std::vector<OptionForm> options_of_command(const std::string& command);
-
 }  // namespace bihive::cli

@@ -11,12 +11,12 @@
 #include "../shared/last_line.h"
 #include "bihive/base/memory.h"
 #include "bihive/base/parallel.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
 #include "film/film_sink.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 #include "support/sibling_program.h"
 #include "words/read_program_words.h"
 
@@ -121,5 +121,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception&) {
     bihive::say_no_memory();
   }
-  return bihive::cli::kBadInput;
+  return bihive::kBadInput;
 }

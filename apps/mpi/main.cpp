@@ -18,14 +18,14 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "bihive/base/version.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
 #include "mpi_communicator.h"
 #include "patience.h"
 #include "rank_watch.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 
 namespace bihive::mpi {
 namespace {
@@ -63,7 +63,7 @@ int threads_of_rank(const MpiCommunicator& ranks) {
 
 void check_film(const FilmOptions& options) {
   if (options.shard || options.join)
-    cli::fail_usage("--shard and --join are what bihive-mpi does by itself", "leave them out, or use bihive film");
+    fail_usage("--shard and --join are what bihive-mpi does by itself", "leave them out, or use bihive film");
 }
 
 std::uint64_t hash_of(const std::vector<std::string>& texts) {
@@ -83,7 +83,7 @@ void agree_on_arguments(MpiCommunicator& ranks, const std::vector<const char*>& 
 
 void run_request(MpiCommunicator& ranks, cli::Request request) {
   if (ranks.distributes() && std::holds_alternative<FilmOptions>(request))
-    cli::fail_usage("--distribute is for one picture", "draw a film with all spheres on each rank");
+    fail_usage("--distribute is for one picture", "draw a film with all spheres on each rank");
   if (RenderOptions* const render = std::get_if<RenderOptions>(&request)) {
     if (render->threads == 0) render->threads = threads_of_rank(ranks);
     cli::run_render(*render);
@@ -107,9 +107,9 @@ void run_request(MpiCommunicator& ranks, cli::Request request) {
     for (const Bytes& one : done_by_ranks) joined.of_shards.add(ByteReader(one).take<cli::FilmTimes>());
     cli::run_film(joined);
   } else if (const cli::HelpText* const help = std::get_if<cli::HelpText>(&request)) {
-    cli::print(help->asked_for ? help->text : kHelp);
+    print(help->asked_for ? help->text : kHelp);
   } else {
-    cli::fail_usage("bihive-mpi has render and film", "bihive has the other commands");
+    fail_usage("bihive-mpi has render and film", "bihive has the other commands");
   }
 }
 
@@ -119,38 +119,38 @@ bool is_distribute(const char* argument) {
 
 // Why this rank fails; nothing: it does not.
 struct Said {
-  int code = cli::kSuccess;
+  int code = kSuccess;
   std::string text, shown;
 };
 
 Said run(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
   try {
     cli::handle_signals();
-    cli::name_settings_as_options();
+    name_settings_as_options();
     agree_on_arguments(ranks, arguments);
-    if (const Status status = check_target_environment(); !status) throw cli::Failure{cli::kBadUsage, status.error()};
+    if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
     // The program's own option is none of bihive's.
     std::vector<const char*> others = arguments;
     std::erase_if(others, is_distribute);
     const std::string first = others.size() > 1 ? others[1] : "";
-    if (others.size() < 2) return {cli::kBadUsage, "", kHelp};
+    if (others.size() < 2) return {kBadUsage, "", kHelp};
     if (first == "--help" || first == "--help-all" || first == "-h") {
-      cli::print(kHelp);
+      print(kHelp);
     } else {
       run_request(ranks, cli::parse_command_line(static_cast<int>(others.size()), others.data()));
     }
-    cli::finish_output();
+    finish_output();
     return {};
-  } catch (const cli::Failure& failure) {
+  } catch (const Failure& failure) {
     return {failure.code, failure.error.to_string(), failure.shown};
   } catch (const cli::OtherRankFailed& other) {
     return {other.code, "", ""};
   } catch (const std::exception& error) {
     // It may have come in the middle of a picture, where the other ranks wait for this one: MPI ends them.
     const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-    cli::say_error(is_memory ? kNoMemory : error.what());
-    MPI_Abort(MPI_COMM_WORLD, cli::kBadInput);
-    return {cli::kBadInput, "", ""};
+    say_error(is_memory ? kNoMemory : error.what());
+    MPI_Abort(MPI_COMM_WORLD, kBadInput);
+    return {kBadInput, "", ""};
   }
 }
 
@@ -160,19 +160,19 @@ int run_ranks(const std::vector<const char*>& arguments) {
   MpiCommunicator ranks(MPI_COMM_WORLD, distributes, MpiCommunicator::Counting::shared);
   cli::set_communicator(&ranks);
   std::vector<std::string> unsaid;
-  if (ranks.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return cli::kBadInput;
-  if (ranks.rank() == 0) cli::show_progress_in_lines();
+  if (ranks.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr) return kBadInput;
+  if (ranks.rank() == 0) show_progress_in_lines();
   Said said;
   {
     // Rank 0 warns for all.
-    std::optional<cli::CollectedWarnings> collected;
+    std::optional<CollectedWarnings> collected;
     if (ranks.rank() != 0) collected.emplace(unsaid);
     said = run(ranks, arguments);
   }
   const int code = ranks.end_with(said.code);
   if (ranks.speaks()) {
-    if (!said.text.empty()) cli::say_error(said.text);
-    cli::say_lines(said.shown);
+    if (!said.text.empty()) say_error(said.text);
+    say_lines(said.shown);
   }
   cli::set_communicator(nullptr);
   return code;
@@ -192,8 +192,8 @@ int main(int argc, char** argv) {
   using namespace bihive;  // NOLINT(google-build-using-namespace): of this function alone
   const std::optional<int> patience_s = mpi::patience_from_environment();
   if (!patience_s) {
-    cli::say_error("BIHIVE_MPI_PATIENCE must be seconds, or 0 to wait for ever");
-    return cli::kBadUsage;
+    say_error("BIHIVE_MPI_PATIENCE must be seconds, or 0 to wait for ever");
+    return kBadUsage;
   }
   int provided = 0;
   {
@@ -201,9 +201,9 @@ int main(int argc, char** argv) {
     const mpi::WaitLimit limit(*patience_s * 3 / 2, "started this program");
     MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);
   }
-  int code = cli::kEnvironment;
+  int code = kEnvironment;
   if (provided < MPI_THREAD_SERIALIZED) {
-    cli::say_error("this MPI takes calls from the main thread alone");
+    say_error("this MPI takes calls from the main thread alone");
   } else {
     // Another MPI leaves nobody to watch.
     const mpi::RankWatch watch(provided < MPI_THREAD_MULTIPLE ? 0 : *patience_s);

@@ -4,10 +4,10 @@
 #include <exception>
 #include <utility>
 
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "mpi_messages.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 
 namespace bihive::mpi {
 namespace {
@@ -264,8 +264,8 @@ void MpiChannel::answer_questions() {
       send({question.rank, kAnswer, question.number, answer_(question.bytes)});
     } catch (const std::exception& error) {
       // Somebody waits for the answer: MPI ends all ranks.
-      cli::say_error(error.what());
-      MPI_Abort(MPI_COMM_WORLD, cli::kBadInput);
+      say_error(error.what());
+      MPI_Abort(MPI_COMM_WORLD, kBadInput);
     }
   }
 }

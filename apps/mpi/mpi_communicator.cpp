@@ -89,11 +89,11 @@ void MpiCommunicator::agree(const std::vector<cli::Fingerprint>& seen) {
   std::string differs;
   for (std::size_t i = 0; i < seen.size() && differs.empty(); ++i)
     if (seen[i].hash != wanted[i]) differs = seen[i].what;
-  const int code = share(differs.empty() ? 0 : cli::kBadInput);
+  const int code = share(differs.empty() ? 0 : kBadInput);
   if (code == 0) return;
   if (differs.empty()) throw cli::OtherRankFailed{code};
-  cli::fail({differs + " of rank " + std::to_string(rank_) + " is not that of rank 0", "", 0, 0,
-             "give all ranks the same program and the same words"});
+  fail({differs + " of rank " + std::to_string(rank_) + " is not that of rank 0", "", 0, 0,
+        "give all ranks the same program and the same words"});
 }
 
 void MpiCommunicator::begin_picture() {

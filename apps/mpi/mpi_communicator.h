@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
+#include "bihive/job/failure.h"
 #include "shared_counter.h"
 #include "support/communicator.h"
-#include "support/failure.h"
 
 namespace bihive::mpi {
 

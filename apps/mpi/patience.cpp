@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "support/failure.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 
 namespace bihive::mpi {
 namespace {
@@ -28,9 +28,9 @@ std::optional<int> patience_from_environment() {
 }
 
 void give_up(const std::string& error) {
-  cli::say_error(error);
+  say_error(error);
   cli::remove_unfinished();
-  _exit(cli::kEnvironment);
+  _exit(kEnvironment);
 }
 
 bool Ticks::wait() {

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <string>
 
-#include "support/failure.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 
 namespace bihive::mpi {
 namespace {
@@ -88,11 +88,11 @@ void RankWatch::take_leave() {
 
 void RankWatch::end_all() const {
   const int silent = (rank_ + size_ - 1) % size_;
-  cli::say_error("rank " + std::to_string(silent) + " has been silent for " + std::to_string(patience_s_) +
-                 " s: it was stopped, hangs, or is another program; " + kMorePatience);
+  say_error("rank " + std::to_string(silent) + " has been silent for " + std::to_string(patience_s_) +
+            " s: it was stopped, hangs, or is another program; " + kMorePatience);
   cli::remove_unfinished();
-  MPI_Abort(MPI_COMM_WORLD, cli::kEnvironment);
-  _exit(cli::kEnvironment);
+  MPI_Abort(MPI_COMM_WORLD, kEnvironment);
+  _exit(kEnvironment);
 }
 
 }  // namespace bihive::mpi

@@ -28,16 +28,15 @@ Json parse_run(const Json& document, const std::string& file) {
 }  // namespace
 
 Json read_older_run(const std::string& file) {
-  const Result<Json> parsed = json_from_text<Json>(cli::value_or_fail(read_file(file)), file);
+  const Result<Json> parsed = json_from_text<Json>(value_or_fail(read_file(file)), file);
   const Json document = parsed ? *parsed : Json();
   const auto format = document.is_object() ? document.find("bihive_results") : document.end();
   if (format == document.end() || *format != 3 || !document.contains("experiments"))
-    cli::fail(
-        {"expected results.json of bihive thesis, format 3", file, 0, 0, "make one with bihive thesis all --out DIR"});
+    fail({"expected results.json of bihive thesis, format 3", file, 0, 0, "make one with bihive thesis all --out DIR"});
   try {
     return parse_run(document, file);
   } catch (const Json::exception& error) {
-    cli::fail({std::string("it is not as docs/results.schema.json says: ") + error.what(), file, 0, 0, ""});
+    fail({std::string("it is not as docs/results.schema.json says: ") + error.what(), file, 0, 0, ""});
   }
 }
 

@@ -164,7 +164,7 @@ const char* compared(const std::string& is, const Json& quantity, const Json& en
   // A map of quantities: which is the highest, the lowest; their order from the highest to the lowest.
   if (is == "highest" || is == "lowest") return extreme(quantity, keys_in(value).front(), is == "highest");
   if (is == "in order") return verdict_if(by_size(quantity) == keys_in(value));
-  cli::fail({"/values: there is no comparison \"" + is + "\" of such a quantity", "values.json", 0, 0, ""});
+  fail({"/values: there is no comparison \"" + is + "\" of such a quantity", "values.json", 0, 0, ""});
 }
 
 std::string expected_text(const Json& entry, const std::string& is, const std::string& printed) {
@@ -218,7 +218,7 @@ Json judge(const Values& values, const Json& data) {
 }
 
 Json words_of(const std::string& verdict) {
-  static const Json kWords = cli::value_or_fail(json_from_text<Json>(thesis_template_verdicts(), "verdicts.json"));
+  static const Json kWords = value_or_fail(json_from_text<Json>(thesis_template_verdicts(), "verdicts.json"));
   for (const char* const of_all_kinds : {kUndecided, kInconsistent})
     if (verdict.ends_with(of_all_kinds)) return kWords.at(of_all_kinds);
   return kWords.at(verdict);

@@ -14,8 +14,8 @@ namespace bihive::thesis {
 namespace {
 
 [[noreturn]] void fail_device(const std::string& file, const std::string& what) {
-  cli::fail({"expected a run of the thesis as the page saves it: " + what, file, 0, 0,
-             "open the page on the device, choose \"Run the thesis on this device\", then \"Save JSON\""});
+  fail({"expected a run of the thesis as the page saves it: " + what, file, 0, 0,
+        "open the page on the device, choose \"Run the thesis on this device\", then \"Save JSON\""});
 }
 
 Json::other_error wrong(const char* what) {
@@ -127,7 +127,7 @@ Json devices_data(const std::vector<std::string>& files, const Values& figure_4_
   Json data = Json::object();
   for (const std::string& file : files) {
     // Each file is read once: it may be a pipe.
-    const Result<Json> document = json_from_text<Json>(cli::value_or_fail(read_file(file)));
+    const Result<Json> document = json_from_text<Json>(value_or_fail(read_file(file)));
     if (!document) fail_device(file, document.error().message);
     try {
       add_document(*document, figure_4_4, data);

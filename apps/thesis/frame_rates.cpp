@@ -45,7 +45,7 @@ Json variations(const Experiment& experiment) {
 }
 
 FrameRatePlan plan_of(const Experiment& experiment) {
-  FrameRatePlan plan = cli::value_or_fail(FrameRatePlan::from_values(experiment.values.stated()));
+  FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(experiment.values.stated()));
   plan.seed = experiment.settings.seed;
   plan.threads = experiment.settings.threads;
   return plan;
@@ -57,7 +57,7 @@ Json count_rays(const Experiment& experiment, const FrameRatePlan& plan, int str
       counted_figure(plan, experiment.settings.quick ? quick_stride : stride, &experiment.cancel);
   if (experiment.cancel.cancelled()) return {};
   Json rows = Json::array();
-  for (const auto& [configuration, trees] : cli::value_or_fail(work))
+  for (const auto& [configuration, trees] : value_or_fail(work))
     for (const auto& [max_prims, one] : trees)
       rows.push_back({{"scenario", configuration.first},
                       {"spheres", configuration.second},
@@ -95,7 +95,7 @@ class FigureData {
       : experiment_(experiment),
         values_(experiment.values),
         plan_(plan_of(experiment)),
-        pattern_(cli::value_or_fail(stated_pattern(values_.stated()))) {
+        pattern_(value_or_fail(stated_pattern(values_.stated()))) {
     for (const std::int64_t scenario : plan_.scenarios)
       if (const Json* const rows = experiment.result(counts_step(scenario))) {
         add_work(*rows, work_);
@@ -203,7 +203,7 @@ class FigureData {
   }
 
   void write(const std::string& file, const std::string& text) const {
-    cli::value_or_fail(write_file(experiment_.folder + "/" + file, text));
+    value_or_fail(write_file(experiment_.folder + "/" + file, text));
   }
 
   void add_leaf_costs() {

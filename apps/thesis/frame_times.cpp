@@ -25,7 +25,7 @@ int rounds_of(const Experiment& experiment) {
 }
 
 FrameRatePlan plan_of(const Experiment& experiment, int divisor, int quick_divisor) {
-  FrameRatePlan plan = cli::value_or_fail(FrameRatePlan::from_values(experiment.values.stated()))
+  FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(experiment.values.stated()))
                            .smaller(experiment.settings.quick ? quick_divisor : divisor);
   plan.seed = experiment.settings.seed;
   plan.threads = experiment.settings.threads;
@@ -39,7 +39,7 @@ Json measured(const FrameRatePlan& plan, Json times) {
 
 Json measure_program(const Experiment& experiment, std::int64_t scenario, std::int64_t spheres) {
   const FrameRatePlan plan = plan_of(experiment, kDivisor, kQuickDivisor);
-  const Scene scene = cli::value_or_fail(plan.scene(scenario, spheres));
+  const Scene scene = value_or_fail(plan.scene(scenario, spheres));
   // A tree of each MAX_PRIMS, and brute force, which needs none.
   std::vector<std::int32_t> ids;
   std::map<std::int64_t, Tree> trees;
@@ -81,8 +81,8 @@ Json measure_frames(const Experiment& experiment, FrameRatePlan plan, std::int64
   while (!run.finished()) {
     const Status status = run.step(&experiment.cancel);
     if (experiment.cancel.cancelled()) return {};
-    if (!status && gl != nullptr) cli::fail_environment(status.error());
-    cli::value_or_fail(status);
+    if (!status && gl != nullptr) fail_environment(status.error());
+    value_or_fail(status);
   }
   Json times = Json::object();
   for (const MeasuredRate& rate : run.rates())
@@ -135,9 +135,9 @@ Json measure_brute_force(const Experiment& experiment) {
     };
     Scene scene;
     for (const std::int64_t scenario : plan.scenarios)
-      add(fmt::format("scenario{}", scenario), scene = cli::value_or_fail(plan.scene(scenario, count)));
+      add(fmt::format("scenario{}", scenario), scene = value_or_fail(plan.scene(scenario, count)));
     const std::vector<double> zero(static_cast<std::size_t>(count), 0.0), radii(zero.size(), plan.radius);
-    scene.spheres = cli::value_or_fail(SphereSet::from_world(zero, zero, zero, radii));
+    scene.spheres = value_or_fail(SphereSet::from_world(zero, zero, zero, radii));
     add("one_place", scene);
     const Json times = times_in_turns(experiment, 2 * rounds_of(experiment), contestants);
     for (const auto& [name, ms] : times.items())

@@ -18,6 +18,7 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
+#include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
 #include "bihive/thesis/builtin_values.h"
 #include "claims.h"
@@ -25,7 +26,6 @@
 #include "report.h"
 #include "steps.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
 #include "templates.h"
@@ -35,7 +35,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using cli::CancellableSection;
-using cli::fail;
 using cli::ThesisOptions;
 
 bool asks_for(const ThesisOptions& options, const std::string& experiment) {
@@ -64,7 +63,7 @@ void check_values(const ThesisOptions& options) {
   }
   if (!found)
     fail({"there are no values in it", options.values, 0, 0, "expected " + options.values + "/EXPERIMENT/values.json"});
-  if (!bundled.empty()) cli::warn(options.values + ": holds no values of " + bundled + "; the bundled ones are used");
+  if (!bundled.empty()) warn(options.values + ": holds no values of " + bundled + "; the bundled ones are used");
 }
 
 void add_experiments(const ThesisOptions& options, Report& report) {
@@ -113,19 +112,19 @@ std::string command_of(int argc, const char* const* argv) {
 void print_summary(const Report& report, const std::string& file) {
   for (const Experiment& part : report.parts)
     if (const std::size_t missing = part.missing_steps().size(); missing > 0)
-      cli::print(fmt::format("{}: {} steps missing\n", part.id, missing));
-  cli::print("Claims: " + summary_of(report) + ".\n");
+      print(fmt::format("{}: {} steps missing\n", part.id, missing));
+  print("Claims: " + summary_of(report) + ".\n");
   if (!report.against.is_null())
-    cli::print(fmt::format("Beside {}: {} findings are as they were, {} have another verdict, {} another value.\n",
-                           escaped(report.against["file"].get<std::string>()), report.against["same"].get<int>(),
-                           report.against["changed"].get<int>(), report.against["moved"].get<int>()));
-  cli::print(escaped(file) + "\n");
+    print(fmt::format("Beside {}: {} findings are as they were, {} have another verdict, {} another value.\n",
+                      escaped(report.against["file"].get<std::string>()), report.against["same"].get<int>(),
+                      report.against["changed"].get<int>(), report.against["moved"].get<int>()));
+  print(escaped(file) + "\n");
 }
 
 void run_thesis(const ThesisOptions& options, const std::string& command) {
   const Settings settings{options.quick, static_cast<int>(options.threads), options.seed, options.costs};
   check_values(options);
-  if (options.out == cli::kStandardStream) cli::fail_usage("--out names a folder, and - is none");
+  if (options.out == kStandardStream) fail_usage("--out names a folder, and - is none");
   if (fs::is_directory(options.out)) cli::check_outputs(cli::outputs_of(options), cli::inputs_of(options));
   // Other runs are read before the long work: a file that is none is told at once, and this run may write over it.
   Json older;
@@ -165,11 +164,11 @@ void run_thesis(const ThesisOptions& options, const std::string& command) {
   const Json json = results_json(report);
   const std::string text = json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
   const std::string file = options.out + "/report.html";
-  cli::value_or_fail(write_file(options.out + "/results.json", text));
-  cli::value_or_fail(write_file(file, report_html(report, options.out)));
+  value_or_fail(write_file(options.out + "/results.json", text));
+  value_or_fail(write_file(file, report_html(report, options.out)));
   CancellableSection::leave_if_cancelled();
   if (options.json)
-    cli::print(text);
+    print(text);
   else
     print_summary(report, file);
 }
@@ -183,24 +182,24 @@ __attribute__((section(".preinit_array"), used)) void (*const kFirst)() = prepar
 int run(int argc, const char* const* argv) {
   try {
     cli::handle_signals();
-    cli::name_settings_as_options();
-    if (const Status status = check_target_environment(); !status) throw cli::Failure{cli::kBadUsage, status.error()};
+    name_settings_as_options();
+    if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
     const cli::Request request = cli::parse_command_line(argc, argv);
     const auto* const options = std::get_if<ThesisOptions>(&request);
-    if (options == nullptr) cli::fail_usage("this program is started by `bihive thesis`");
+    if (options == nullptr) fail_usage("this program is started by `bihive thesis`");
     run_thesis(*options, command_of(argc, argv));
-    cli::finish_output();
-    return cli::kSuccess;
-  } catch (const cli::Failure& failure) {
-    cli::say_error(failure.error.to_string());
-    cli::say_lines(failure.shown);
+    finish_output();
+    return kSuccess;
+  } catch (const Failure& failure) {
+    say_error(failure.error.to_string());
+    say_lines(failure.shown);
     return failure.code;
   } catch (const std::bad_alloc&) {
     say_no_memory();
   } catch (const std::exception& error) {
-    cli::say_error(error.what());
+    say_error(error.what());
   }
-  return cli::kBadInput;
+  return kBadInput;
 }
 
 }  // namespace
@@ -212,5 +211,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception&) {
     bihive::say_no_memory();
   }
-  return bihive::cli::kBadInput;
+  return bihive::kBadInput;
 }

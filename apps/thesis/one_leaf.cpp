@@ -55,10 +55,10 @@ Json time_one_leaf(const Experiment& experiment) {
   const Values& values = experiment.values;
   const Scene scene = values.scene(values.integer("scenario"), values.integer("spheres"), experiment.settings.seed);
   const auto tree_of = [&](std::int64_t max_prims) {
-    return cli::value_or_fail(Tracer::build(scene.spheres, Engine::reference, BuildParameters{max_prims, kUnlimited}));
+    return value_or_fail(Tracer::build(scene.spheres, Engine::reference, BuildParameters{max_prims, kUnlimited}));
   };
   const Tracer one_leaf = tree_of(kUnlimited), leaf_each = tree_of(1);
-  const Tracer brute = cli::value_or_fail(Tracer::build(scene.spheres, Engine::brute));
+  const Tracer brute = value_or_fail(Tracer::build(scene.spheres, Engine::brute));
 
   Json result = Json::object();
   for (const Shape& shape : kShapes) {

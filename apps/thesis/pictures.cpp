@@ -24,14 +24,14 @@ std::optional<Image> draw(const Experiment& experiment, const Scene& scene, cons
                           const RenderSettings& settings, std::int64_t* rays) {
   const Result<Rendered> rendered = render(scene, tracer, settings, {}, &experiment.cancel);
   if (experiment.cancel.cancelled()) return std::nullopt;
-  if (!rendered) cli::fail(rendered.error());
+  if (!rendered) fail(rendered.error());
   if (rays != nullptr) *rays = rendered->rays.primary + rendered->rays.reflected + rendered->rays.transmitted;
   return image_from_film(rendered->film, settings.view, scene.picture.transfer);
 }
 
 Json write_picture(const Experiment& experiment, const std::string& name, const Image& image) {
   const PngText text{{"Software", "bihive " + std::string(version())}};
-  cli::value_or_fail(write_png(experiment.folder + "/" + name, image, text));
+  value_or_fail(write_png(experiment.folder + "/" + name, image, text));
   std::set<std::array<std::uint8_t, 3>> colours;
   for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
     colours.insert({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});

@@ -33,7 +33,7 @@ Json transparent_sphere(const Scene& scene, const Tracer& tracer, const Image& i
 
 struct Drawing {
   Scene scene = four_spheres_scene();
-  Tracer tracer = cli::value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
+  Tracer tracer = value_or_fail(Tracer::build(scene.spheres, Engine::automatic));
   RenderSettings settings;
   Drawing(const Experiment& experiment, View view, std::int64_t depth)
       : settings(picture_settings(experiment, scene, view)) {

@@ -94,7 +94,7 @@ std::string filled(std::string_view page, const Json& view, const std::string& f
   data.set("findings", must::partial{[] { return std::string(thesis_template_findings()); }});
   must::mustache parsed{std::string(page)};
   parsed.set_custom_escape([](const std::string& text) { return escape_html(text); });
-  if (!parsed.is_valid()) cli::fail({"a template of the report: " + parsed.error_message(), "", 0, 0, ""});
+  if (!parsed.is_valid()) fail({"a template of the report: " + parsed.error_message(), "", 0, 0, ""});
   return parsed.render(data);
 }
 

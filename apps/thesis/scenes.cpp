@@ -110,7 +110,7 @@ Json draw_scenario(const Experiment& experiment, std::int64_t number, const std:
   const Values& values = experiment.values;
   const Scene scene = values.scene(number, values.integer("spheres"), experiment.settings.seed);
   const SphereSet& spheres = scene.spheres;
-  const Tracer tracer = cli::value_or_fail(Tracer::build(spheres, Engine::automatic));
+  const Tracer tracer = value_or_fail(Tracer::build(spheres, Engine::automatic));
   RenderSettings settings = picture_settings(experiment, scene, View::shaded);
   settings.recursion = static_cast<int>(std::clamp<std::int64_t>(values.integer("recursion"), 1, 16));
   const std::optional<Image> image = draw(experiment, scene, tracer, settings);

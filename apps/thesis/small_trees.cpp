@@ -52,7 +52,7 @@ std::optional<SmallTree> draw_traversal(const Experiment& experiment, const std:
   const Values& values = experiment.values;
   auto made = std::make_unique<const Scene>(scene_of(experiment));
   const Scene& scene = *made;
-  Tracer tracer = cli::value_or_fail(
+  Tracer tracer = value_or_fail(
       Tracer::build(scene.spheres, Engine::reference,
                     BuildParameters{values.limit(letter + ".max_prims"), values.limit(letter + ".max_depth")}));
   const RenderSettings settings = picture_settings(experiment, scene, View::traversal);

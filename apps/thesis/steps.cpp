@@ -7,7 +7,7 @@
 #include "bihive/base/json_text.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
-#include "support/messages.h"
+#include "bihive/job/messages.h"
 
 namespace bihive::thesis {
 namespace {
@@ -39,7 +39,7 @@ bool is_readable(Experiment& experiment, const std::string& out) {
   try {
     experiment.make_data();
   } catch (const Json::exception&) {
-    cli::warn(out + "/steps/" + experiment.id + ": holds what this program did not write; the steps are run again");
+    warn(out + "/steps/" + experiment.id + ": holds what this program did not write; the steps are run again");
     return false;
   }
   return std::all_of(experiment.results.begin(), experiment.results.end(),
@@ -52,7 +52,7 @@ void make_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))
-    cli::fail({"the folder cannot be made: " + (error ? error.message() : "a file is in its place"), folder, 0, 0, ""});
+    fail({"the folder cannot be made: " + (error ? error.message() : "a file is in its place"), folder, 0, 0, ""});
 }
 
 void load_results(Experiment& experiment, const std::string& out) {
@@ -77,7 +77,7 @@ void load_results(Experiment& experiment, const std::string& out) {
 }
 
 void run_steps(std::list<Experiment>& experiments, const std::string& out) {
-  cli::Progress progress("thesis");
+  Progress progress("thesis");
   double all = 0, done = 0;
   for (const Experiment& experiment : experiments)
     for (const Step& step : experiment.steps)
@@ -96,7 +96,7 @@ void run_steps(std::list<Experiment>& experiments, const std::string& out) {
       if (experiment.cancel.cancelled()) return;
       const MachineLoad load = watch.so_far();
       const Json document{{"key", key}, {"load", nlohmann::json(load)}, {"result", result}};
-      cli::value_or_fail(write_file(path_of(experiment, step.name, out), document.dump(1) + "\n"));
+      value_or_fail(write_file(path_of(experiment, step.name, out), document.dump(1) + "\n"));
       experiment.results.emplace(step.name, std::move(result));
       experiment.load.add(load);
       done += step.weight;

@@ -67,7 +67,7 @@ Json compare_radii(const Experiment& experiment) {
     for (const char* const radius : {"radius", "other_radius"}) {
       const ScenarioParameters parameters{values.integers("spheres_list").back(),
                                           static_cast<float>(values.number(radius)), experiment.settings.seed};
-      const SphereSet spheres = cli::value_or_fail(scenario_spheres(scenario_of(scenario), parameters));
+      const SphereSet spheres = value_or_fail(scenario_spheres(scenario_of(scenario), parameters));
       const Tree tree = build_reference_tree(spheres, {values.integers("max_prims_list").front(), kUnlimited});
       const TreeStatistics statistics = tree_statistics(tree);
       rows.push_back({{"scenario", scenario},
@@ -92,7 +92,7 @@ void draw_chart(const Experiment& experiment, const std::string& name, std::int6
     for (const Json& tree : trees)
       if (tree["max_prims"] == max_prims) series.values.push_back(tree["compact_bytes"].get<double>() / 1000);
   }
-  cli::value_or_fail(write_file(experiment.folder + "/" + name + ".svg", bar_chart(chart)));
+  value_or_fail(write_file(experiment.folder + "/" + name + ".svg", bar_chart(chart)));
 }
 
 // How often memory or depth grows, or stays equal, from one MAX_PRIMS to the next; predictions that do not hold.

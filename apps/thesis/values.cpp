@@ -10,8 +10,6 @@
 
 namespace bihive::thesis {
 
-using cli::value_or_fail;
-
 Values::Values(const std::string& experiment, std::string_view builtin, const std::string& folder) {
   std::string file = folder + "/" + experiment + "/values.json";
   // A folder may lack experiments, but a file that exists must be readable.
@@ -48,7 +46,7 @@ Scene Values::scene(std::int64_t scenario, std::int64_t spheres, std::uint64_t s
 
 Scenario scenario_of(std::int64_t number) {
   if (number < 1 || number > 3)
-    cli::fail({"there is no scenario " + std::to_string(number), "values.json", 0, 0, "take 1, 2 or 3"});
+    fail({"there is no scenario " + std::to_string(number), "values.json", 0, 0, "take 1, 2 or 3"});
   return static_cast<Scenario>(number);
 }
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bihive/bih/tree.h"
+#include "bihive/job/failure.h"
 #include "bihive/scene/generators.h"
 #include "bihive/thesis/stated_values.h"
-#include "support/failure.h"
 
 namespace bihive::thesis {
 
@@ -21,16 +21,16 @@ class Values {
   Values(const std::string& experiment, std::string_view builtin, const std::string& folder);
 
   bool has(const std::string& name) const { return stated_.has(name); }
-  double number(const std::string& name) const { return cli::value_or_fail(stated_.number(name)); }
-  std::int64_t integer(const std::string& name) const { return cli::value_or_fail(stated_.integer(name)); }
-  std::vector<double> numbers(const std::string& name) const { return cli::value_or_fail(stated_.numbers(name)); }
+  double number(const std::string& name) const { return value_or_fail(stated_.number(name)); }
+  std::int64_t integer(const std::string& name) const { return value_or_fail(stated_.integer(name)); }
+  std::vector<double> numbers(const std::string& name) const { return value_or_fail(stated_.numbers(name)); }
   /// Whole numbers above 0.
   std::vector<std::int64_t> integers(const std::string& name) const;
   /// A limit of a tree: 0 stands for infinity.
   std::int64_t limit(const std::string& name) const;
   /// A side of a picture in pixels, 1 to 65535; `divisor`: of a smaller one.
   int side(const std::string& name, int divisor = 1) const;
-  std::string printed(const std::string& name) const { return cli::value_or_fail(stated_.value(name)).printed; }
+  std::string printed(const std::string& name) const { return value_or_fail(stated_.value(name)).printed; }
   const StatedValues& stated() const { return stated_; }
   /// The whole file: "values", each with its claim if it has one, and "remarks": claims without a comparison.
   const Json& document() const { return document_; }
@@ -47,7 +47,7 @@ class Values {
 Scenario scenario_of(std::int64_t number);
 
 [[noreturn]] inline void fail_value(const std::string& name, const std::string& fault) {
-  cli::fail({"/values/" + name + ": " + fault, "values.json", 0, 0, ""});
+  fail({"/values/" + name + ": " + fault, "values.json", 0, 0, ""});
 }
 
 }  // namespace bihive::thesis

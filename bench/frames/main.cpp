@@ -16,6 +16,8 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/math/quartiles.h"
 #include "bihive/math/rng.h"
 #include "bihive/scene/camera_lights.h"
@@ -27,8 +29,6 @@
 #include "bihive/wide/wide_builder.h"
 #include "frames/frame.h"
 #include "peers/tachyon.h"
-#include "support/failure.h"
-#include "support/messages.h"
 #include "synthetic.h"
 
 namespace bihive::bench {
@@ -54,20 +54,20 @@ ordered_json counts(const RenderCounts& rays) {
 ordered_json beside_tachyon(const Scene& scene, const RenderSettings& settings, const std::string& name,
                             const Wish& wish) {
   const std::string file = wish.folder + "/" + name;
-  const Tachyon tachyon = cli::value_or_fail(Tachyon::start(scene, settings, file + ".dat"));
-  cli::value_or_fail(tachyon.render_ms(file + "_tachyon.png"));
+  const Tachyon tachyon = value_or_fail(Tachyon::start(scene, settings, file + ".dat"));
+  value_or_fail(tachyon.render_ms(file + "_tachyon.png"));
   const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
   FrameTimes ours, warm;
   std::vector<double> theirs;
   add_frame(scene, tracer, settings, warm);
   for (int i = 0; i < wish.repetitions; ++i) {
     add_frame(scene, tracer, settings, ours);
-    theirs.push_back(cli::value_or_fail(tachyon.render_ms()));
+    theirs.push_back(value_or_fail(tachyon.render_ms()));
   }
   const Image image =
       image_from_film(render(scene, tracer, settings).value().film, settings.view, scene.picture.transfer);
-  const std::string png = cli::value_or_fail(encode_png(image, {}));
-  if (const Status status = write_file(file + "_bihive.png", png); !status) cli::fail(status.error());
+  const std::string png = value_or_fail(encode_png(image, {}));
+  if (const Status status = write_file(file + "_bihive.png", png); !status) fail(status.error());
   return {{"spheres", scene.spheres.size()},        {"rays", counts(ours.rays)}, {"build_ms", tracer.build_ms()},
           {"render_ms", ours.render_ms()},          {"all_ms", ours.all_ms()},   {"tachyon_ms", median(theirs)},
           {"ratio", median(theirs) / ours.all_ms()}};
@@ -82,8 +82,8 @@ ordered_json pictures(const Wish& wish) {
 
 // The scene of a file in a style, as bihive gives it to any file.
 LoadedScene file_in_style(const std::string& path, const Style& style) {
-  const std::string bytes = cli::value_or_fail(read_file(path));
-  return cli::value_or_fail(load_scene(bytes, path, ReadOptions{}, LooksOfFile::apply, &style));
+  const std::string bytes = value_or_fail(read_file(path));
+  return value_or_fail(load_scene(bytes, path, ReadOptions{}, LooksOfFile::apply, &style));
 }
 
 // The settings of a picture of the scene, which gets a camera before it, and the lights of the style around that.
@@ -174,7 +174,7 @@ ordered_json rebuild(const Wish& wish) {
       const SphereSet moved = SphereSet::from_world(x, y, z, r).value();
       const double ms = set_timer.elapsed_ms();
       const Timer build_timer;
-      const auto tree = cli::value_or_fail(builder.build(moved, {}, wish.threads));
+      const auto tree = value_or_fail(builder.build(moved, {}, wish.threads));
       if (frame == 0) {
         first_ms = build_timer.elapsed_ms();
         continue;
@@ -197,10 +197,10 @@ int run(int argc, const char* const* argv) {
   const bool known = (what == "pictures" && argc == 5) || ((what == "occlusion" || what == "film") && argc == 6) ||
                      ((what == "thesis" || what == "rebuild") && argc == 4);
   if (!known || wish.threads < 1 || wish.repetitions < 1) {
-    cli::say_error(
+    say_error(
         "usage: bihive-frames pictures THREADS REPETITIONS FOLDER | occlusion|film THREADS REPETITIONS FOLDER FILE | "
         "thesis|rebuild THREADS REPETITIONS");
-    return cli::kBadUsage;
+    return kBadUsage;
   }
   try {
     const ordered_json json = what == "pictures"    ? pictures(wish)
@@ -208,11 +208,11 @@ int run(int argc, const char* const* argv) {
                               : what == "film"      ? film(wish)
                               : what == "thesis"    ? thesis(wish)
                                                     : rebuild(wish);
-    cli::print(json.dump(2) + "\n");
-    cli::finish_output();
-    return cli::kSuccess;
-  } catch (const cli::Failure& failure) {
-    cli::say_error(failure.error.to_string());
+    print(json.dump(2) + "\n");
+    finish_output();
+    return kSuccess;
+  } catch (const Failure& failure) {
+    say_error(failure.error.to_string());
     return failure.code;
   }
 }

@@ -11,17 +11,17 @@
 #include <numeric>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "bihive/base/timer.h"
+#include "bihive/job/choose_look.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/picture_options.h"
+#include "bihive/job/prepare_picture.h"
 #include "bihive/render/picture_tiles.h"
 #include "bihive/render/renderer.h"
 #include "bihive/spread/ranks_in_process.h"
-#include "command_line.h"
-#include "commands/render_steps.h"
-#include "support/failure.h"
-#include "support/messages.h"
 
 namespace bihive::bench {
 namespace {
@@ -152,7 +152,7 @@ class SimulatedPicture {
     drawer.channel->begin(times.ready(thread));
     RenderSettings of_tile = settings_;
     of_tile.crop = pixels;
-    const Film drawn = cli::value_or_fail(render(drawer.artist->scene(), drawer.artist->tracer(), of_tile)).film;
+    const Film drawn = value_or_fail(render(drawer.artist->scene(), drawer.artist->tracer(), of_tile)).film;
     times.core += drawer.channel->own_ms();
     times.threads[thread] = drawer.channel->now_ms();
     const Tile all = drawn_pixels(settings_);
@@ -193,7 +193,7 @@ auto each(int ranks, const Of& of) {
 ordered_json measure(const Scene& scene, const RenderSettings& settings, const TreeParameters& parameters, int count,
                      const Network& network, const Film& expected) {
   const std::unique_ptr<RanksInProcess> ranks =
-      cli::value_or_fail(RanksInProcess::make(scene, settings, parameters, count, FirstSpheres::in_order));
+      value_or_fail(RanksInProcess::make(scene, settings, parameters, count, FirstSpheres::in_order));
   SimulatedPicture picture(*ranks, settings, network);
   Film film;
   film.resize(expected.width, expected.height, !expected.coverage.empty());
@@ -229,7 +229,7 @@ std::vector<int> counts_in(const std::string& words) {
   for (std::size_t begin = 0; begin <= words.size();) {
     const std::size_t end = std::min(words.find(',', begin), words.size());
     const int count = std::atoi(words.substr(begin, end - begin).c_str());
-    if (count < 1 || count > 1 << 16) cli::fail_usage("no number of ranks: " + words, "give numbers as 1,16,1024");
+    if (count < 1 || count > 1 << 16) fail_usage("no number of ranks: " + words, "give numbers as 1,16,1024");
     counts.push_back(count);
     begin = end + 1;
   }
@@ -239,39 +239,39 @@ std::vector<int> counts_in(const std::string& words) {
 double number_in(const std::string& word) {
   char* end = nullptr;
   const double number = std::strtod(word.c_str(), &end);
-  if (word.empty() || *end != '\0' || !(number >= 0)) cli::fail_usage("not a number: " + word, "see bench/README.md");
+  if (word.empty() || *end != '\0' || !(number >= 0)) fail_usage("not a number: " + word, "see bench/README.md");
   return number;
 }
 
-constexpr const char* kUsage = "bihive-ranks RANKS[,RANKS...] [--rate GBIT_PER_S] [--latency US] render INPUT ...";
+constexpr const char* kUsage =
+    "bihive-ranks RANKS[,RANKS...] [--rate GBIT_PER_S] [--latency US] render INPUT [options of bihive render]";
 
 void run(int argc, const char* const* argv) {
-  if (argc < 3) cli::fail_usage("too few words", kUsage);
+  if (argc < 3) fail_usage("too few words", kUsage);
   const std::vector<int> counts = counts_in(argv[1]);
   double gbit_per_s = 10, latency_us = 50;
   int at = 2;
   for (; at + 1 < argc && std::string(argv[at]) != "render"; at += 2) {
     const std::string option = argv[at];
-    if (option != "--rate" && option != "--latency") cli::fail_usage("no option " + option, kUsage);
+    if (option != "--rate" && option != "--latency") fail_usage("no option " + option, kUsage);
     (option == "--rate" ? gbit_per_s : latency_us) = number_in(argv[at + 1]);
   }
-  if (gbit_per_s == 0) cli::fail_usage("--rate 0: nothing would arrive", kUsage);
+  if (gbit_per_s == 0) fail_usage("--rate 0: nothing would arrive", kUsage);
   const Network network{8e-6 / gbit_per_s, latency_us / 1000};
-  std::vector<const char*> words{argv[0]};
-  words.insert(words.end(), argv + at, argv + argc);
-  const cli::Request request = cli::parse_command_line(static_cast<int>(words.size()), words.data());
-  const auto* const asked = std::get_if<cli::RenderOptions>(&request);
-  if (asked == nullptr) cli::fail_usage("bihive-ranks draws pictures", kUsage);
-  const cli::RenderOptions options = cli::with_film(*asked);
-  cli::PreparedPicture prepared = cli::prepare_render(options);
-  const Scene& scene = prepared.input.scene;
-  RenderSettings& settings = prepared.settings;
+  if (at + 1 >= argc) fail_usage("bihive-ranks draws pictures", kUsage);
+  PictureRequest request;
+  request.input.input = argv[at + 1];
+  take_words(request, {argv + at + 2, argv + argc});
+  Style style = choose_style(request.style);
+  Input input = load_input(request.input, LooksOfFile::keep, &style, !request.style.name.empty());
+  RenderSettings settings = prepare_picture(request, choose_engine(request), input);
+  const Scene& scene = input.scene;
   settings.threads = 1;
-  if (const Status status = SpreadScene::refusal(scene, settings); !status) cli::fail(status.error());
+  if (const Status status = SpreadScene::refusal(scene, settings); !status) fail(status.error());
 
   // One process with all spheres.
-  const Tracer tracer = cli::value_or_fail(Tracer::build(scene, Engine::wide, options.tree));
-  const Rendered expected = cli::value_or_fail(render(scene, tracer, settings));
+  const Tracer tracer = value_or_fail(Tracer::build(scene, Engine::wide, request.tree));
+  const Rendered expected = value_or_fail(render(scene, tracer, settings));
   ordered_json json = ordered_json::object();
   json["spheres"] = scene.spheres.size();
   json["render_ms"] = expected.render_ms;
@@ -279,7 +279,7 @@ void run(int argc, const char* const* argv) {
   json["latency_us"] = latency_us;
   json["simulated"] = ordered_json::array();
   for (const int count : counts)
-    json["simulated"].push_back(measure(scene, settings, options.tree, count, network, expected.film));
+    json["simulated"].push_back(measure(scene, settings, request.tree, count, network, expected.film));
   std::printf("%s\n", json.dump(1).c_str());
 }
 
@@ -288,13 +288,13 @@ void run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   try {
-    bihive::cli::name_settings_as_options();
+    bihive::name_settings_as_options();
     bihive::bench::run(argc, argv);
-  } catch (const bihive::cli::Failure& failure) {
-    bihive::cli::say_error(failure.error.to_string());
+  } catch (const bihive::Failure& failure) {
+    bihive::say_error(failure.error.to_string());
     return failure.code;
   } catch (const std::exception& error) {
-    bihive::cli::say_error(error.what());
+    bihive::say_error(error.what());
     return 1;
   }
   return 0;

@@ -140,7 +140,7 @@ class BenchTest(ProgramTest):
         return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=PATIENCE_S, cwd=self.folder)
 
     def test_simulated_ranks(self):
-        picture = ["render", "demo", "-o", "a.png", "--size", "64x48", "--style", "plain"]
+        picture = ["render", "demo", "--size", "64x48", "--style", "plain"]
         done = self.ranks("1,5", "--rate", "1", "--latency", "10", *picture)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         one, five = json.loads(done.stdout)["simulated"]

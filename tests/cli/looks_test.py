@@ -32,6 +32,9 @@ class Looks(ProgramTest):
         left, middle, right = self.middles("--hide", "--select", "x = 0", "--show")
         self.assertEqual([left, middle, right], [(0, 0, 0), all_three[1], (0, 0, 0)])
 
+    def test_a_switch_whose_value_is_false_is_off(self):
+        self.assertEqual(self.middles("--hide=false", "--no-water=false"), self.middles())
+
     def test_a_material_is_for_the_selection(self):
         before = self.middles("--colour", "red")
         flat = self.middles("--colour", "red", "--select", "part left", "--material", "flat")

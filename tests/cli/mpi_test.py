@@ -5,7 +5,6 @@
 import importlib.util
 import json
 import os
-import pathlib
 import random
 import re
 import subprocess
@@ -240,23 +239,6 @@ class Program(OnRanks):
             self.assertEqual(len(self.errors(done)), 1, done.stderr)
             self.assertIn("different files", self.errors(done)[0])
         self.assertFalse(os.path.exists(self.path("a.png")))
-
-
-class OptionsOfDistributedSpheres(ProgramTest):
-    def test_the_table_has_every_option_and_no_other(self):
-        """A new option is refused with --distribute until somebody says how it works there."""
-        shown = self.succeed("render", "--help-all")
-        options = set(re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", shown, re.MULTILINE)) - {"--help", "--help-all"}
-        # Parameters of pictures and settings of reading say it in their own tables.
-        options -= {row["option"] for row in json.loads(self.succeed("describe", "reading"))}
-        for row in json.loads(self.succeed("describe", "settings")):
-            if "option" in row:
-                self.assertNotEqual(row["ranks"], "refused", row["id"])
-                options -= {row["option"], row["option"].replace("--", "--no-", 1)}
-        source = pathlib.Path(os.environ["BIHIVE_SOURCE"]) / "apps/cli/commands/distributed_options.cpp"
-        table = re.findall(r'"(--[a-z-]+)"[,}]', source.read_text())
-        self.assertEqual(len(table), len(set(table)))
-        self.assertEqual(set(table), options)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 // The files from which bihive film goes on, of any bytes: the description, the codec in it, and the index of a
 // sequence. What is accepted is written and read again the same; all else is an error of one line.
+#include "bihive/job/failure.h"
 #include "film/codec_words.h"
 #include "film/film_plan.h"
 #include "film/picture_index.h"
 #include "read_and_check.h"
-#include "support/failure.h"
 
 namespace {
 
@@ -16,8 +16,8 @@ void check_plan(const std::string& text) {
   cli::FilmPlan plan;
   try {
     plan = cli::parse_film_plan(text, "film.json");
-  } catch (const cli::Failure& failure) {
-    fuzz::require(failure.code == cli::kBadInput);
+  } catch (const Failure& failure) {
+    fuzz::require(failure.code == kBadInput);
     return fuzz::check_error(failure.error);
   }
   const cli::FilmPlan::Asked& asked = plan.asked;

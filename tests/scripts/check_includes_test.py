@@ -104,6 +104,15 @@ class CheckIncludes(unittest.TestCase):
         }
         self.assertEqual(len(self.offences(files)), 1)
 
+    def test_headers_of_front_ends(self):
+        files = {"src/bihive/job/input.h": "#pragma once\n", "apps/cli/options.h": "#pragma once\n"}
+        for folder in ("bindings/python/module", "bench/ranks"):
+            self.assertEqual(self.offences({**files, f"{folder}/a.cpp": '#include "bihive/job/input.h"\n'}), [])
+            self.one_offence({**files, f"{folder}/a.cpp": '#include "options.h"\n'}, "is not a header of")
+            own = {f"{folder}/own.h": "#pragma once\n", f"{folder}/a.cpp": '#include "own.h"\n'}
+            self.assertEqual(self.offences({**files, **own}), [])
+        self.assertTrue(self.offences({**files, "src/bihive/render/a.cpp": '#include "bihive/job/input.h"\n'}))
+
     def one_offence(self, files, words):
         found = self.offences(files)
         self.assertEqual(len(found), 1, found)

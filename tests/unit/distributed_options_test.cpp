@@ -18,23 +18,23 @@ RenderOptions given(std::vector<std::string> names) {
 }
 
 TEST(DistributedOptions, OneThatNobodyAddedToTheTableIsRefusedByName) {
-  const Result<ReadingByRanks> reading = reading_by_ranks(given({"--size", "--brand-new", "--fog"}));
+  const Result<ReadingByRanks> reading = reading_by_ranks(given({"size", "brand_new", "fog"}));
   ASSERT_FALSE(reading);
-  EXPECT_NE(reading.error().message.find("--brand-new"), std::string::npos) << reading.error().message;
+  EXPECT_NE(reading.error().message.find("brand_new"), std::string::npos) << reading.error().message;
 }
 
 TEST(DistributedOptions, ThoseThatLookAtCentresAndRadiiTakeChunks) {
   EXPECT_EQ(reading_by_ranks(given({})).value(), ReadingByRanks::chunks);
-  EXPECT_EQ(reading_by_ranks(given({"INPUT", "--output", "--fog", "--radius"})).value(), ReadingByRanks::chunks);
+  EXPECT_EQ(reading_by_ranks(given({"fog", "no_shadows", "outline", "radius"})).value(), ReadingByRanks::chunks);
 }
 
 TEST(DistributedOptions, OneThatLooksAtMoreNeedsTheWholeSet) {
-  for (const char* const name : {"--select", "--columns", "--legend", "--replicate", "--cell", "--film"})
-    EXPECT_EQ(reading_by_ranks(given({"--fog", name, "--radius"})).value(), ReadingByRanks::whole) << name;
+  for (const char* const name : {"select", "columns", "legend", "replicate", "cell"})
+    EXPECT_EQ(reading_by_ranks(given({"fog", name, "radius"})).value(), ReadingByRanks::whole) << name;
 }
 
 TEST(DistributedOptions, SomeDependOnTheirValue) {
-  RenderOptions options = given({"--frame", "--focus"});
+  RenderOptions options = given({"frame", "focus"});
   options.input.reading.set_frame(0);
   options.focus = 2.5;
   EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::chunks);
@@ -43,6 +43,9 @@ TEST(DistributedOptions, SomeDependOnTheirValue) {
   options.focus.reset();
   options.input.reading.set_frame(1);
   EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
+  RenderOptions of_film = given({});
+  of_film.film = "run.mp4.json";
+  EXPECT_EQ(reading_by_ranks(of_film).value(), ReadingByRanks::whole);
 }
 
 }  // namespace

@@ -6,81 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "bihive/math/vec3.h"
+#include "bihive/job/picture_request.h"
 #include "bihive/render/layers.h"
-#include "bihive/render/renderer.h"
-#include "bihive/render/tracer.h"
-#include "bihive/scene/camera.h"
 #include "bihive/scene/frame_range.h"
-#include "bihive/scene/framing.h"
-#include "bihive/scene/light_text.h"
-#include "bihive/scene/turn.h"
-#include "bihive/settings/overrides.h"
 #include "bihive/thesis/experiments.h"
 #include "bihive/viewer/viewer_settings.h"
-#include "look_options.h"
-#include "support/input.h"
-#include "support/values.h"
 
 namespace bihive::cli {
 
-/// The engine that draws a picture: an engine of the CPU, or the graphics processor on the reference tree or on every
-/// sphere.
-enum class RenderEngine { automatic, wide, reference, brute, wide_brute, gpu, gpu_brute };
-
-/// The style of files and the lights.
-struct StyleOptions {
-  std::string name;                        ///< a name or a path; empty: the default one
-  LightChoice lights;                      ///< empty: the style's
-  std::vector<std::string> light_words{};  ///< the same as they were given
-};
-
-/// Options of labels that are not parameters of a picture.
-struct LabelOptions {
-  bool none = false;              ///< leave out those of the scene and its style
-  std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
-};
-
-/// The things that stay the same in all pictures of a film.
-struct FixedByFilm {
-  Camera camera;  ///< of this picture
-  ColourRange range_of_style;
-  std::vector<ColourRange> ranges_of_looks;
-};
-
-/// The word of --background for a transparent picture.
-inline const std::string kNoBackground = "none";
-
-/// Unset: the scene's value.
-struct RenderOptions {
-  InputOptions input;
-  LookOptions looks;
+/// A picture, and its file.
+struct RenderOptions : PictureRequest {
   std::string output;  ///< a path, or "-": the standard output
   std::optional<std::vector<Layer>> layers;
-  Overrides picture;         ///< of the parameters in settings/parameter.h
-  std::optional<Tile> crop;  ///< not yet compared with the size
-  View view = View::shaded;
-  RenderEngine engine = RenderEngine::automatic;
-  TreeParameters tree;
-  std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
-  StyleOptions style;
-  LabelOptions labels;
-  std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
-  std::optional<std::int64_t> bits;       ///< 8 or 16
-  double dots_per_inch = 0;               ///< 0: not said
-  std::optional<Vec3d> eye, look_at, up;
-  std::optional<double> fov_deg;
-  std::optional<ViewFrom> view_from;
-  std::optional<Projection> projection;
-  std::optional<Turn> turn;
-  std::optional<double> zoom;      ///< above 0
-  std::optional<double> aperture;  ///< world units, at least 0
-  std::optional<Focus> focus;      ///< world units, 0: where the camera looks at; or what is sharp
   bool json = false;
   std::string film;  ///< the file that describes a film, of which this is a picture; empty: none
   std::optional<std::int64_t> picture_of_film;  ///< from 0; unset: input.frame says it
-  std::optional<FixedByFilm> fixed;             ///< taken from the film
-  std::vector<std::string> given;               ///< the names of all options that were given: "--size"
 };
 void run_render(const RenderOptions& options);
 
@@ -142,22 +82,10 @@ struct StylesOptions {
 };
 void run_styles(const StylesOptions& options);
 
-/// Unset: the scene's value.
-struct ViewOptions {
-  InputOptions input;
+/// The window, and what it shows. Unset: the scene's value.
+struct ViewOptions : PictureRequest {
   std::optional<PictureSize> size;  ///< of the window
-  std::optional<ViewerEngine> engine;
-  View view = View::shaded;
-  Overrides picture;
-  TreeParameters tree;
-  std::optional<ViewFrom> view_from;
-  StyleOptions style;
-  LookOptions looks;
-  LabelOptions labels;
-  std::optional<std::string> background;
-  std::optional<double> fov_deg, aperture;
-  std::optional<Projection> projection;
-  std::optional<Focus> focus;
+  std::optional<ViewerEngine> window_engine;
   std::string screenshot;  ///< empty: none
 };
 /// Becomes bihive-view, the program with the window; returns only by a Failure.

@@ -7,16 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/io/write_spheres.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/selection.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/looks.h"
 #include "bihive/scene/scene_file.h"
 #include "commands/commands.h"
-#include "support/failure.h"
-#include "support/messages.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
-#include "support/selection.h"
 #include "support/write_together.h"
 
 namespace bihive::cli {

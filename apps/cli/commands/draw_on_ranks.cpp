@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
+#include "bihive/job/failure.h"
 #include "commands/tiles_in_order.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
 
 namespace bihive::cli {

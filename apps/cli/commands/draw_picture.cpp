@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/prepare_picture.h"
+#include "bihive/job/render_on_gpu.h"
 #include "bihive/render/memory.h"
-#include "commands/picture_settings.h"
-#include "commands/render_on_gpu.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
 
 namespace bihive::cli {

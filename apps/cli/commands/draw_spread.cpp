@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bihive/base/timer.h"
+#include "bihive/job/failure.h"
 #include "commands/tiles_in_order.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
 
 namespace bihive::cli {

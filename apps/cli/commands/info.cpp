@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/bih/memory.h"
+#include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
 #include "commands/commands.h"
-#include "support/messages.h"
 
 namespace bihive::cli {
 namespace {

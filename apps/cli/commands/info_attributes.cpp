@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/messages.h"
 #include "commands/commands.h"
-#include "support/messages.h"
 
 namespace bihive::cli {
 namespace {

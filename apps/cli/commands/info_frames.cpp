@@ -13,10 +13,10 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/io/frames.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "commands/commands.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 
 namespace bihive::cli {
 namespace {

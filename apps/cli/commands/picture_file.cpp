@@ -7,9 +7,10 @@
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/report_text.h"
 #include "bihive/render/draw_labels.h"
 #include "commands/commands.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
 #include "support/outputs.h"
 
@@ -127,23 +128,6 @@ class ExrFileOfRows : public PictureFile {
 };
 
 }  // namespace
-
-std::string latin1(const std::string& text) {
-  std::string converted;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    if (byte < 0x80) {
-      converted += text[i];
-    } else if ((byte == 0xC2 || byte == 0xC3) && (next & 0xC0) == 0x80) {
-      converted += static_cast<char>((byte << 6 & 0xC0) | (next & 0x3F));
-      ++i;
-    } else if ((byte & 0xC0) != 0x80) {
-      converted += '?';
-    }
-  }
-  return converted;
-}
 
 void check_picture_name(const std::string& output) {
   constexpr std::array kOthers{".jpg", ".jpeg", ".jpe",  ".jp2",  ".jxl",  ".ppm", ".pgm", ".pbm", ".pnm", ".pam",

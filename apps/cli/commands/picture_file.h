@@ -21,9 +21,6 @@ struct RenderOptions;
 /// Fails with kBadUsage if the output's name promises a format that is not written: .jpg, .tif, .svg.
 void check_picture_name(const std::string& output);
 
-/// UTF-8 as PNG's plain text, which knows Latin-1 only; other letters become question marks.
-std::string latin1(const std::string& text);
-
 /// Whether the output's name says so.
 bool is_exr(const std::string& output);
 

@@ -4,17 +4,17 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/base/timer.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/prepare_picture.h"
 #include "commands/commands.h"
 #include "commands/draw_on_ranks.h"
 #include "commands/draw_picture.h"
 #include "commands/picture_file.h"
-#include "commands/picture_settings.h"
 #include "commands/render_steps.h"
 #include "commands/share_picture.h"
 #include "support/communicator.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 #include "support/thread_reserve.h"
 
 namespace bihive::cli {

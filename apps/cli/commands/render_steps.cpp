@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
+#include "bihive/job/choose_look.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/prepare_picture.h"
 #include "bihive/simd/target.h"
-#include "commands/choose_look.h"
 #include "commands/names.h"
-#include "commands/picture_settings.h"
 #include "film/film_plan.h"
 #include "support/communicator.h"
-#include "support/failure.h"
-#include "support/messages.h"
 #include "support/outputs.h"
 #include "support/peak_memory.h"
 #include "support/request_files.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/choose_camera.h"
 #include "bihive/render/layers.h"
 #include "bihive/scene/render_settings.h"
-#include "commands/choose_camera.h"
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
 #include "commands/picture_file.h"

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "bihive/io/npy.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/scene/scene_file.h"
 #include "commands/commands.h"
-#include "support/failure.h"
-#include "support/messages.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
 #include "support/write_together.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bihive/job/messages.h"
+#include "bihive/job/selection.h"
 #include "commands/commands.h"
-#include "support/messages.h"
-#include "support/selection.h"
 
 namespace bihive::cli {
 namespace {

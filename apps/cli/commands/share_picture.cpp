@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "bihive/base/json_text.h"
+#include "bihive/job/prepare_picture.h"
 #include "bihive/spread/scene_bytes.h"
 #include "bihive/spread/spread_scene.h"
-#include "commands/picture_settings.h"
 
 namespace bihive::cli {
 

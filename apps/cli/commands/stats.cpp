@@ -4,12 +4,12 @@
 
 #include "bihive/base/timer.h"
 #include "bihive/bih/reference_builder.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/render/memory.h"
 #include "bihive/simd/target.h"
 #include "bihive/viewer/statistics_json.h"
 #include "commands/commands.h"
-#include "support/failure.h"
-#include "support/messages.h"
 
 namespace bihive::cli {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/scene/style.h"
 #include "commands/commands.h"
-#include "support/failure.h"
-#include "support/messages.h"
 
 namespace bihive::cli {
 

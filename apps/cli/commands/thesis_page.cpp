@@ -3,10 +3,10 @@
 
 #include "bihive/base/readable.h"
 #include "bihive/base/write_file.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "commands/commands.h"
 #include "server/page_files.h"
-#include "support/failure.h"
-#include "support/messages.h"
 #include "support/outputs.h"
 
 namespace bihive::cli {

@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "bihive/base/json_text.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/input.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/names.h"
 #include "bihive/scene/style.h"
@@ -14,8 +16,6 @@
 #include "commands/commands.h"
 #include "commands/names.h"
 #include "commands/picture_file.h"
-#include "support/failure.h"
-#include "support/input.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
 #include "support/sibling_program.h"
@@ -89,7 +89,7 @@ ordered_json request_of(const ViewOptions& options) {
   };
   ordered_json settings = ordered_json::object();
   settings["view"] = name_of(kViews, options.view);
-  if (options.engine) settings["engine"] = name_of(kViewerEngines, *options.engine);
+  if (options.window_engine) settings["engine"] = name_of(kViewerEngines, *options.window_engine);
   put_parameters(options, settings);
   put_camera(options, settings);
   if (options.tree.max_prims) settings["max_prims"] = limit(*options.tree.max_prims);
@@ -110,7 +110,7 @@ void check_style(const ViewOptions& options) {
 }  // namespace
 
 void run_view(const ViewOptions& options) {
-  if (options.engine == ViewerEngine::gpu && options.view == View::tree)
+  if (options.window_engine == ViewerEngine::gpu && options.view == View::tree)
     fail_usage("--view tree is drawn by the CPU, and --engine gpu is not",
                "leave --engine out, or choose --engine cpu");
   check_input_options(options.input);

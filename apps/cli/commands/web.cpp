@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "commands/commands.h"
 #include "server/addresses.h"
 #include "server/browser.h"
 #include "server/http_server.h"
 #include "server/page_files.h"
 #include "server/url.h"
-#include "support/failure.h"
-#include "support/messages.h"
 #include "support/outputs.h"
 
 namespace bihive::cli {

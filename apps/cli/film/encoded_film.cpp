@@ -15,12 +15,12 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/film/system_failure.h"
 #include "film/codec_words.h"
 #include "film/ffmpeg.h"
 #include "film/film_folder.h"
 #include "film/film_sink.h"
-#include "film/system_failure.h"
-#include "support/failure.h"
 
 namespace bihive::cli {
 namespace {

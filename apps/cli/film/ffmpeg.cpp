@@ -16,9 +16,9 @@
 #include <utility>
 
 #include "bihive/base/setting_name.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/film/system_failure.h"
 #include "commands/draw_picture.h"
-#include "film/system_failure.h"
-#include "support/failure.h"
 
 extern char** environ;
 

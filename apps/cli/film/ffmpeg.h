@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bihive/base/timer.h"
-#include "film/own_folder.h"
+#include "bihive/job/film/own_folder.h"
 #include "support/interrupt.h"
 
 namespace bihive::cli {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "bihive/base/place_file.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/film/system_failure.h"
 #include "film/picture_index.h"
-#include "film/system_failure.h"
-#include "support/failure.h"
 
 namespace bihive::cli {
 namespace {

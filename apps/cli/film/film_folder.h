@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/film/hidden_folder.h"
+#include "bihive/job/film/own_folder.h"
 #include "film/film_plan.h"
 #include "film/film_sink.h"
-#include "film/hidden_folder.h"
-#include "film/own_folder.h"
 #include "support/interrupt.h"
 
 namespace bihive::cli {

@@ -6,8 +6,8 @@
 
 #include "bihive/base/place_file.h"
 #include "bihive/base/write_file.h"
+#include "bihive/job/failure.h"
 #include "film/film_sink.h"
-#include "support/failure.h"
 #include "support/outputs.h"
 
 namespace bihive::cli {

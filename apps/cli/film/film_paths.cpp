@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "bihive/job/failure.h"
 #include "film/film_sink.h"
-#include "support/failure.h"
 
 namespace bihive::cli {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/report_text.h"
 #include "bihive/scene/names.h"
 #include "commands/names.h"
-#include "support/failure.h"
-#include "support/report_text.h"
 
 namespace bihive::cli {
 namespace {

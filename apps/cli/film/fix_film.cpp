@@ -12,12 +12,12 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/io/data_path.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/prepare_picture.h"
 #include "commands/names.h"
-#include "commands/picture_settings.h"
 #include "film/turning_camera.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 
 namespace bihive::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "bihive/base/write_file.h"
-#include "support/failure.h"
+#include "bihive/job/failure.h"
 #include "support/outputs.h"
 
 namespace bihive::cli {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bihive/io/frames.h"
+#include "bihive/job/input.h"
 #include "bihive/scene/style.h"
-#include "support/input.h"
 
 namespace bihive::cli {
 

@@ -10,14 +10,14 @@
 
 #include "bihive/base/setting_name.h"
 #include "bihive/base/timer.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/prepare_picture.h"
 #include "bihive/render/draw_labels.h"
 #include "commands/draw_on_ranks.h"
 #include "commands/draw_picture.h"
-#include "commands/picture_settings.h"
 #include "film/picture_queue.h"
-#include "support/failure.h"
 #include "support/interrupt.h"
-#include "support/messages.h"
 #include "support/thread_reserve.h"
 
 namespace bihive::cli {

@@ -6,7 +6,7 @@ namespace bihive::cli {
 namespace {
 
 constexpr std::string_view kHead = "bihive film index 1 ";
-constexpr std::string_view kName = "film.", kEnding = "index";
+constexpr std::string_view kIndexName = "film.", kIndexEnding = "index";
 constexpr int kHashDigits = 16;
 
 std::string hexadecimal(std::uint64_t number) {
@@ -83,17 +83,17 @@ std::optional<std::vector<IndexEntry>> index_entries(std::string_view text, std:
 }
 
 std::string index_name(const std::string& prefix, std::int64_t shard, std::int64_t shards) {
-  std::string name = prefix + std::string(kName);
+  std::string name = prefix + std::string(kIndexName);
   if (shards > 1) name += std::to_string(shard) + "-" + std::to_string(shards) + ".";
-  return name + std::string(kEnding);
+  return name + std::string(kIndexEnding);
 }
 
 bool is_index_name(const std::string& prefix, const std::string& name) {
-  const std::string begin = prefix + std::string(kName);
-  if (name.size() < begin.size() + kEnding.size() || name.compare(0, begin.size(), begin) != 0) return false;
+  const std::string begin = prefix + std::string(kIndexName);
+  if (name.size() < begin.size() + kIndexEnding.size() || name.compare(0, begin.size(), begin) != 0) return false;
   std::string_view rest = std::string_view(name).substr(begin.size());
-  if (rest.substr(rest.size() - kEnding.size()) != kEnding) return false;
-  rest.remove_suffix(kEnding.size());
+  if (rest.substr(rest.size() - kIndexEnding.size()) != kIndexEnding) return false;
+  rest.remove_suffix(kIndexEnding.size());
   if (rest.empty()) return true;
   if (rest.back() != '.') return false;
   rest.remove_suffix(1);

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "bihive/base/write_file.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/film/system_failure.h"
 #include "film/film_folder.h"
 #include "film/film_sink.h"
 #include "film/picture_index.h"
-#include "film/system_failure.h"
-#include "support/failure.h"
 
 namespace bihive::cli {
 namespace {

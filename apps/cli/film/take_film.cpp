@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "bihive/base/setting_name.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/input.h"
 #include "film/film_plan.h"
-#include "support/failure.h"
-#include "support/input.h"
 
 namespace bihive::cli {
 

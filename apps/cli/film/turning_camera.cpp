@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "bihive/job/failure.h"
 #include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/framing_cell.h"
-#include "support/failure.h"
 
 namespace bihive::cli {
 namespace {

@@ -1,10 +1,10 @@
 // The camera of a film that turns around its spheres.
 #pragma once
 
+#include "bihive/job/input.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/render_settings.h"
 #include "commands/commands.h"
-#include "support/input.h"
 
 namespace bihive::cli {
 

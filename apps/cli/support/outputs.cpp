@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "bihive/base/write_file.h"
-#include "support/failure.h"
-#include "support/messages.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 
 namespace bihive::cli {
 namespace {

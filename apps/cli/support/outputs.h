@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace bihive::cli {
+#include "bihive/job/input.h"
 
-/// The word for the standard input and the standard output.
-inline const std::string kStandardStream = "-";
+namespace bihive::cli {
 
 /// The path of an output: of "-" the standard output's.
 std::string output_path(const std::string& output);

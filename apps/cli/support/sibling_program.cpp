@@ -6,7 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "support/failure.h"
+#include "bihive/job/failure.h"
 
 namespace bihive::cli {
 

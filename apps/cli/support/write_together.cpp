@@ -3,7 +3,7 @@
 #include <deque>
 
 #include "bihive/base/write_file.h"
-#include "support/failure.h"
+#include "bihive/job/failure.h"
 #include "support/interrupt.h"
 
 namespace bihive::cli {

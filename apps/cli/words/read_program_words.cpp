@@ -5,12 +5,12 @@
 
 #include "bihive/base/version.h"
 #include "bihive/io/reading_settings.h"
+#include "bihive/job/failure.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/style.h"
 #include "bihive/viewer/viewer_json.h"
 #include "commands/commands.h"
-#include "support/failure.h"
 
 namespace bihive::cli {
 namespace {

@@ -330,7 +330,7 @@ def film(
     try:
         with Bar(progress if isinstance(progress, bool) else None, "filming"):
             for spheres in _frames_of(source, atoms, frames):
-                all_words = ["-o", "picture.png", *words, f"--frame={count}", "--", "spheres"]
+                all_words = [*words, f"--frame={count}", "--", "spheres"]
                 # The first frame is drawn once more, with the camera and the ranges that it gives to all.
                 like = like or draw(spheres, all_words, style_text(style), None, False)
                 picture = draw(spheres, all_words, style_text(style), like, False)

@@ -14,29 +14,25 @@ from ._checks import boolean, path_of, several, whole_text
 from ._errors import bad_argument, found
 
 # Options whose form differs from that of the command line.
-_ELSEWHERE = {"help", "help-all", "output", "layers", "film", "picture", "json", "select", "hide", "show", "light"}
+_ELSEWHERE = {"select", "hide", "show", "light"}
 # The options of a picture: their names, and the names of their values.
 _OPTIONS = {name: value for name, value in _bihive.options() if name not in _ELSEWHERE}
 
 
-def _python(names: Iterable[str]) -> list[str]:
-    return [name.replace("-", "_") for name in names]
-
-
 # Actions on spheres: of a Look, and of all spheres.
-ACTIONS = _python(name for name in _bihive.actions() if name not in _ELSEWHERE)
+ACTIONS = [name for name in (action.replace("-", "_") for action in _bihive.actions()) if name not in _ELSEWHERE]
 # True and False are --name and --no-name.
-SWITCHES = _python(name for name in _OPTIONS if "no-" + name in _OPTIONS)
+SWITCHES = [name for name in _OPTIONS if "no_" + name in _OPTIONS]
 # Given as True; False is the same as leaving it out.
 FLAGS = [
     name
-    for name in _python(name for name, value in _OPTIONS.items() if not value)
-    if name not in SWITCHES and name.removeprefix("no_") not in SWITCHES
+    for name, value in _OPTIONS.items()
+    if not value and name not in SWITCHES and name.removeprefix("no_") not in SWITCHES
 ]
 # Two or three numbers with an x between them.
-SIZES = _python(name for name, value in _OPTIONS.items() if value in ("WxH", "AxBxC"))
+SIZES = [name for name, value in _OPTIONS.items() if value in ("WxH", "AxBxC")]
 # One value each. A tuple stands for numbers between commas.
-ONE_VALUE = [name for name in _python(name for name, value in _OPTIONS.items() if value) if name not in SIZES + ACTIONS]
+ONE_VALUE = [name for name, value in _OPTIONS.items() if value and name not in SIZES + ACTIONS]
 _DEEPEST = 8  # of lists in lists
 
 
@@ -112,7 +108,7 @@ def words_of(options: Mapping[str, Any], allowed: Iterable[str] | None = None) -
         if name in FLAGS:
             words += ["--" + name.replace("_", "-")] if boolean(name, value) else []
         elif name in SWITCHES:
-            words.append(("--" if boolean(name, value) else "--no-") + name)
+            words.append(("--" if boolean(name, value) else "--no-") + name.replace("_", "-"))
         elif name in SIZES:
             words.append(option(name, value, "x"))
         elif name == "light":

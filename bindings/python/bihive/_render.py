@@ -111,5 +111,5 @@ def render(
         path = check_readable(spheres, "spheres")
     else:
         made = spheres_of(spheres)
-    all_words: list[Union[str, bytes]] = ["-o", "picture.png", *words, "--", os.fsencode(path) if path is not None else "spheres"]
+    all_words: list[Union[str, bytes]] = [*words, "--", os.fsencode(path) if path is not None else "spheres"]
     return draw(made, all_words, style_text(style), camera if isinstance(camera, Picture) else None, progress)

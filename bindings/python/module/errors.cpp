@@ -12,18 +12,18 @@ namespace py = pybind11;
 namespace bihive::python {
 namespace {
 
-const char* kind_of(cli::ExitCode code) {
+const char* kind_of(ExitCode code) {
   switch (code) {
-    case cli::kBadUsage:
+    case kBadUsage:
       return "usage";
-    case cli::kEnvironment:
+    case kEnvironment:
       return "missing";
     default:
       return "input";
   }
 }
 
-void raise(const cli::Failure& failure) {
+void raise(const Failure& failure) {
   const Error& error = failure.error;
   try {
     // Texts may hold bytes that are no UTF-8, of which Python makes no str; the name of a file has a way of its own.
@@ -45,7 +45,7 @@ void translate_failures() {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
-    } catch (const cli::Failure& failure) {
+    } catch (const Failure& failure) {
       raise(failure);
     }
   });

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "bihive/base/result.h"
-#include "support/failure.h"
+#include "bihive/job/failure.h"
 
 namespace bihive::python {
 
-/// From now on a cli::Failure that leaves a function of the module becomes the exception that bihive/_errors.py makes
+/// From now on a Failure that leaves a function of the module becomes the exception that bihive/_errors.py makes
 /// of it.
 void translate_failures();
 
@@ -20,7 +20,7 @@ std::vector<std::string> safe_texts(const std::vector<std::string>& texts);
 /// The value, or a Failure about an argument.
 template <class T>
 T value_of(Result<T> result) {
-  return cli::value_or_fail(std::move(result));
+  return value_or_fail(std::move(result));
 }
 
 }  // namespace bihive::python

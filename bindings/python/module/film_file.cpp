@@ -9,8 +9,8 @@
 #include <string>
 
 #include "bihive/base/place_file.h"
+#include "bihive/job/film/hidden_folder.h"
 #include "errors.h"
-#include "film/hidden_folder.h"
 
 namespace py = pybind11;
 
@@ -21,16 +21,14 @@ namespace {
 class FilmFile {
  public:
   explicit FilmFile(const std::string& output)
-      : output_(value_of(path_behind_links(output))),
-        around_(cli::folder_around(output_)),
-        parent_(cli::open_parent(around_)) {
-    cli::remove_leftovers(parent_.get(), around_);
-    hidden_.emplace(cli::make_hidden_folder(parent_.get(), around_, LOCK_EX));
+      : output_(value_of(path_behind_links(output))), around_(folder_around(output_)), parent_(open_parent(around_)) {
+    remove_leftovers(parent_.get(), around_);
+    hidden_.emplace(make_hidden_folder(parent_.get(), around_, LOCK_EX));
   }
   ~FilmFile() {
     try {
       leave();
-    } catch (const cli::Failure&) {
+    } catch (const Failure&) {
       // The next film removes it.
     }
   }
@@ -47,15 +45,15 @@ class FilmFile {
 
   void leave() {
     if (!hidden_) return;
-    cli::remove_own_files(hidden_->folder);
+    remove_own_files(hidden_->folder);
     unlinkat(parent_.get(), hidden_->name.c_str(), AT_REMOVEDIR);
     hidden_.reset();
   }
 
  private:
   std::string output_, around_;
-  cli::Descriptor parent_;
-  std::optional<cli::HiddenFolder> hidden_;
+  Descriptor parent_;
+  std::optional<HiddenFolder> hidden_;
 };
 
 }  // namespace

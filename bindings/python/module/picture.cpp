@@ -14,18 +14,17 @@
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
+#include "bihive/job/choose_look.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/prepare_picture.h"
+#include "bihive/job/render_on_gpu.h"
+#include "bihive/job/report_text.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/layers.h"
 #include "bihive/render/memory.h"
-#include "commands/choose_look.h"
-#include "commands/names.h"
-#include "commands/picture_file.h"
-#include "commands/picture_settings.h"
-#include "commands/render_on_gpu.h"
 #include "errors.h"
 #include "spheres.h"
-#include "support/failure.h"
-#include "support/messages.h"
 #include "waiting.h"
 
 namespace py = pybind11;
@@ -35,7 +34,7 @@ namespace {
 
 // A scene with its tracer, which refers to it: neither is moved.
 struct Drawing {
-  cli::Input input;
+  Input input;
   RenderSettings settings;
   std::optional<Tracer> tracer;
 };
@@ -56,13 +55,13 @@ struct Picture {
   double dots_per_inch = 0;
   std::string report;  // JSON
   std::vector<std::string> warnings;
-  std::optional<cli::FixedByFilm> fixed;  // for pictures like it; unset: it was unpickled
+  std::optional<FixedByFilm> fixed;  // for pictures like it; unset: it was unpickled
 };
 
 // The options that are for files: an array has been read already. Its frame is for titles.
-void refuse_for_arrays(const cli::InputOptions& options) {
+void refuse_for_arrays(const InputOptions& options) {
   const auto refuse = [](bool given, std::string_view argument, const char* hint) {
-    if (given) cli::fail_setting(argument, " is for files, and these spheres are in memory", hint);
+    if (given) fail_setting(argument, " is for files, and these spheres are in memory", hint);
   };
   refuse(options.count.has_value(), "count", "leave it out");
   refuse(options.seed.has_value(), "seed", "leave it out");
@@ -70,21 +69,20 @@ void refuse_for_arrays(const cli::InputOptions& options) {
     refuse(row->id != "frame" && row->id != "replicate", row->id, "give it to read, or to Spheres");
 }
 
-cli::Input input_of(const Spheres& spheres, const cli::RenderOptions& options, const Style& style) {
+Input input_of(const Spheres& spheres, const PictureRequest& options, const Style& style) {
   refuse_for_arrays(options.input);
-  if (spheres.file.spheres.empty())
-    cli::fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
+  if (spheres.file.spheres.empty()) fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
   SphereFile file = spheres.file;
   if (options.input.reading.has("replicate")) {
-    if (!file.spheres.cell()) cli::fail_setting("replicate", " needs a periodic cell", "give Spheres a cell");
+    if (!file.spheres.cell()) fail_setting("replicate", " needs a periodic cell", "give Spheres a cell");
     value_of(file.spheres.replicate(file.spheres.cell()->vectors, options.input.reading.options().replicate));
   }
   return scene_of_spheres(std::move(file), spheres.name, &style);
 }
 
 // A style that is not in a file comes as its text.
-Style style_of(const cli::RenderOptions& options, const std::string& style_text) {
-  if (style_text.empty()) return cli::choose_style(options.style);
+Style style_of(const PictureRequest& options, const std::string& style_text) {
+  if (style_text.empty()) return choose_style(options.style);
   return value_of(parse_style(style_text, "style"));
 }
 
@@ -97,14 +95,13 @@ nlohmann::ordered_json rays_json(const RenderCounts& rays) {
 }
 
 // The film by the engine, and what is reported of it.
-Rendered draw(const Drawing& drawing, cli::RenderEngine engine, Work& work) {
+Rendered draw(const Drawing& drawing, RenderEngine engine, Work& work) {
   const Tracer& tracer = *drawing.tracer;
   const auto progress = [&work](double done) { work.done.store(done, std::memory_order_relaxed); };
-  if (!cli::is_gpu(engine))
-    return value_of(render(drawing.input.scene, tracer, drawing.settings, progress, &work.cancel));
-  cli::GpuPicture picture = cli::render_on_gpu(drawing.input.scene, tracer.tree(), drawing.settings, [&](double done) {
+  if (!is_gpu(engine)) return value_of(render(drawing.input.scene, tracer, drawing.settings, progress, &work.cancel));
+  GpuPicture picture = render_on_gpu(drawing.input.scene, tracer.tree(), drawing.settings, [&](double done) {
     progress(done);
-    if (work.cancel.cancelled()) cli::fail({"cancelled", "", 0, 0, ""});
+    if (work.cancel.cancelled()) fail({"cancelled", "", 0, 0, ""});
   });
   Rendered rendered;
   rendered.film = std::move(picture.film);
@@ -113,31 +110,31 @@ Rendered draw(const Drawing& drawing, cli::RenderEngine engine, Work& work) {
   return rendered;
 }
 
-std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, cli::RenderOptions options,
+std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureRequest options,
                                       const std::string& style_text, const Picture* like, Work& work) {
   auto picture = std::make_shared<Picture>();
-  const cli::CollectedWarnings collected(picture->warnings);
+  const CollectedWarnings collected(picture->warnings);
 
   // Load the scene, and apply the options to it.
   if (like != nullptr && !like->fixed)
-    cli::fail_usage("camera: a picture that was unpickled has none", "render it again, or give eye and look_at");
+    fail_usage("camera: a picture that was unpickled has none", "render it again, or give eye and look_at");
   if (like != nullptr) options.fixed = like->fixed;
-  const cli::RenderEngine engine = cli::choose_engine(options);
+  const RenderEngine engine = choose_engine(options);
   Style style = style_of(options, style_text);
-  if (options.fixed) cli::fix_range(style, options.fixed->range_of_style);
+  if (options.fixed) fix_range(style, options.fixed->range_of_style);
   auto drawing = std::make_shared<Drawing>();
   const bool asked_for = !options.style.name.empty() || !style_text.empty();
   drawing->input = spheres != nullptr ? input_of(*spheres, options, style)
-                                      : cli::load_input(options.input, LooksOfFile::keep, &style, asked_for);
-  drawing->settings = cli::prepare_picture(options, engine, drawing->input);
+                                      : load_input(options.input, LooksOfFile::keep, &style, asked_for);
+  drawing->settings = prepare_picture(options, engine, drawing->input);
   const Scene& scene = drawing->input.scene;
   const RenderSettings& settings = drawing->settings;
   const Tile drawn = drawn_pixels(settings);
-  cli::check_memory_of(engine, drawing->input, options, settings);
+  check_memory_of(engine, drawing->input, options, settings);
   value_of(check_picture_memory(drawn.width(), drawn.height()));
 
   // Build and draw.
-  drawing->tracer = value_of(Tracer::build(scene, cli::structure_of(engine), options.tree, settings.threads));
+  drawing->tracer = value_of(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
   Rendered rendered = draw(*drawing, engine, work);
   const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
   picture->pixels =
@@ -145,9 +142,9 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, cli::RenderO
   draw_labels(picture->pixels, scene, settings, options.dots_per_inch);
 
   // Keep what is known of it.
-  const nlohmann::ordered_json described = cli::settings_json(options, settings, scene, {});
-  for (const auto& [name, value] : cli::text_of(scene, described)) {
-    picture->text.emplace_back(name, cli::latin1(value));
+  const nlohmann::ordered_json described = settings_json(options, settings, scene, {});
+  for (const auto& [name, value] : text_of(scene, described)) {
+    picture->text.emplace_back(name, latin1(value));
     picture->exr_text.emplace_back(name, value);
   }
   nlohmann::ordered_json report;
@@ -157,12 +154,12 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, cli::RenderO
   report["rays"] = rays_json(rendered.rays);
   report["build_ms"] = drawing->tracer->build_ms();
   report["render_ms"] = rendered.render_ms;
-  picture->report = cli::as_text(report, -1);
+  picture->report = as_text(report, -1);
   picture->dots_per_inch = options.dots_per_inch;
-  cli::FixedByFilm fixed{scene.camera, cli::range_of_style(drawing->input, options.looks),
-                         cli::ranges_of_looks(drawing->input, options.looks)};
-  cli::give_extent(fixed.range_of_style);
-  for (cli::ColourRange& range : fixed.ranges_of_looks) cli::give_extent(range);
+  FixedByFilm fixed{scene.camera, range_of_style(drawing->input, options.looks),
+                    ranges_of_looks(drawing->input, options.looks)};
+  give_extent(fixed.range_of_style);
+  for (ColourRange& range : fixed.ranges_of_looks) give_extent(range);
   picture->fixed = std::move(fixed);
   picture->light = std::make_shared<const Light>(Light{std::move(drawing), std::move(rendered.film)});
   return picture;
@@ -171,9 +168,7 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, cli::RenderO
 std::shared_ptr<Picture> render_picture(const std::shared_ptr<Spheres>& spheres, const std::vector<std::string>& words,
                                         const std::string& style_text, const Picture* like,
                                         const py::object& progress) {
-  std::vector<std::string> all{"render"};
-  all.insert(all.end(), words.begin(), words.end());
-  const auto options = std::get<cli::RenderOptions>(request_of(all));
+  const PictureRequest options = request_of(words);
   std::shared_ptr<Picture> picture;
   wait_for([&](Work& work) { picture = make_picture(spheres, options, style_text, like, work); }, progress);
   return picture;
@@ -191,13 +186,12 @@ py::array pixels_of(const py::object& self) {
 py::object layer_of(const Picture& picture, const std::string& name) {
   const std::shared_ptr<const Light> light = picture.light;
   if (light == nullptr)
-    cli::fail_usage("layer: this picture has its pixels alone, because it was unpickled or detached",
-                    "render it again");
+    fail_usage("layer: this picture has its pixels alone, because it was unpickled or detached", "render it again");
   const Drawing& drawing = *light->drawing;
   const Result<std::vector<Layer>> known = layers_from_text(name);
-  if (!known) cli::fail_usage("name: " + known.error().message, known.error().hint);
+  if (!known) fail_usage("name: " + known.error().message, known.error().hint);
   const std::vector<Layer>& layers = *known;
-  if (layers.size() != 1) cli::fail_usage("name: expected one layer, found \"" + name + "\"");
+  if (layers.size() != 1) fail_usage("name: expected one layer, found \"" + name + "\"");
   std::vector<Channel> channels;
   wait_for(
       [&](Work& work) {
@@ -226,17 +220,17 @@ py::object layer_of(const Picture& picture, const std::string& name) {
 void save_exr(const Picture& picture, const std::string& path, const std::string& names) {
   const std::shared_ptr<const Light> light = picture.light;
   if (light == nullptr)
-    cli::fail_usage("path: OpenEXR needs the light, and this picture has its pixels alone (unpickled or detached)",
-                    "render it again, or save a PNG");
+    fail_usage("path: OpenEXR needs the light, and this picture has its pixels alone (unpickled or detached)",
+               "render it again, or save a PNG");
   if (!can_write_exr())
-    cli::fail_environment(
+    fail_environment(
         {"this build of bihive has no OpenEXR", path, 0, 0, "install libopenexr-dev and build again, or save a PNG"});
   const Drawing& drawing = *light->drawing;
   const Result<std::vector<Layer>> known = layers_from_text(names);
-  if (!known) cli::fail_usage("layers: " + known.error().message, known.error().hint);
+  if (!known) fail_usage("layers: " + known.error().message, known.error().hint);
   const std::vector<Layer>& layers = *known;
   if (const Status status = check_layers(drawing.input.scene, layers); !status)
-    cli::fail_usage("layers: " + status.error().message, status.error().hint);
+    fail_usage("layers: " + status.error().message, status.error().hint);
   wait_for(
       [&](Work& work) {
         const RenderSettings& settings = drawing.settings;
@@ -275,7 +269,7 @@ std::shared_ptr<Picture> from_state(const py::tuple& state) {
   const auto bytes = state[4].cast<std::string>();
   pixels.bytes.assign(bytes.begin(), bytes.end());
   if (pixels.bytes.size() != pixels.row_bytes() * static_cast<std::size_t>(pixels.height))
-    cli::fail({"a pickled picture is damaged", "", 0, 0, "render it again"});
+    fail({"a pickled picture is damaged", "", 0, 0, "render it again"});
   for (const py::handle one : state[5].cast<py::list>()) {
     const auto pair = one.cast<py::tuple>();
     picture->text.emplace_back(pair[0].cast<std::string>(), pair[1].cast<std::string>());

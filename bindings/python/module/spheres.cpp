@@ -20,6 +20,8 @@
 #include "bihive/io/packed.h"
 #include "bihive/io/reading_settings.h"
 #include "bihive/io/write_spheres.h"
+#include "bihive/job/input.h"
+#include "bihive/job/selection.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/load_scene.h"
@@ -27,8 +29,6 @@
 #include "bihive/select/selection.h"
 #include "bihive/viewer/statistics_json.h"
 #include "errors.h"
-#include "support/input.h"
-#include "support/selection.h"
 #include "waiting.h"
 
 namespace py = pybind11;
@@ -54,7 +54,7 @@ std::vector<Vec3f> colours_from(const Array<float>& array) {
 }
 
 [[noreturn]] void fail_size(const std::string& name) {
-  cli::fail_usage(name + ": its shape is not that of the spheres");
+  fail_usage(name + ": its shape is not that of the spheres");
 }
 
 // `columns`: 0 for an array of one axis.
@@ -118,21 +118,19 @@ SphereFile without_scene(LoadedScene loaded) {
   return file;
 }
 
-SphereFile read_input_file(const cli::InputOptions& options) {
-  if (std::optional<cli::Input> generated = cli::generated_input(options)) return without_scene(std::move(*generated));
-  cli::check_input_options(options);
+SphereFile read_input_file(const InputOptions& options) {
+  if (std::optional<Input> generated = generated_input(options)) return without_scene(std::move(*generated));
+  check_input_options(options);
   const ReadOptions& reading = options.reading.options();
   if (options.input == "demo") return value_of(read_spheres_from_memory(bundled_molecule(), "demo", reading));
-  if (!cli::must_be_read_whole(options.input)) return value_of(read_spheres(options.input, reading));
-  const std::string bytes = value_of(unpack_if_packed(cli::read_input(options.input), options.input));
+  if (!must_be_read_whole(options.input)) return value_of(read_spheres(options.input, reading));
+  const std::string bytes = value_of(unpack_if_packed(read_input(options.input), options.input));
   if (!looks_like_scene(bytes)) return value_of(read_spheres_from_memory(bytes, options.input, reading));
   return without_scene(value_of(load_scene(bytes, options.input, reading)));
 }
 
 SharedSpheres read(const std::vector<std::string>& words) {
-  std::vector<std::string> all{"info"};
-  all.insert(all.end(), words.begin(), words.end());
-  const cli::InputOptions options = std::get<cli::InfoOptions>(request_of(all)).input;
+  const InputOptions options = request_of(words).input;
   auto made = std::make_shared<Spheres>();
   wait_for(
       [&](Work&) {
@@ -205,7 +203,7 @@ py::array_t<bool> select(const Spheres& spheres, const std::string& expression, 
   std::vector<std::uint8_t> mask;
   {
     const py::gil_scoped_release unlocked;
-    mask = cli::selected_or_fail(spheres.file.spheres, expression, name);
+    mask = selected_or_fail(spheres.file.spheres, expression, name);
   }
   py::array_t<bool> made(static_cast<py::ssize_t>(mask.size()));
   std::transform(mask.begin(), mask.end(), made.mutable_data(), [](std::uint8_t one) { return one != 0; });
@@ -214,9 +212,7 @@ py::array_t<bool> select(const Spheres& spheres, const std::string& expression, 
 
 // As `bihive stats --json` prints it.
 std::string statistics(const Spheres& spheres, const std::vector<std::string>& words) {
-  std::vector<std::string> all{"stats", "spheres"};
-  all.insert(all.end(), words.begin(), words.end());
-  const TreeParameters parameters = std::get<cli::StatsOptions>(request_of(all)).tree;
+  const TreeParameters parameters = request_of(words).tree;
   std::string text;
   wait_for(
       [&](Work&) {
@@ -278,16 +274,16 @@ py::tuple written(const Spheres& spheres, const std::string& format) {
 
 }  // namespace
 
-cli::Request request_of(const std::vector<std::string>& words) {
-  std::vector<const char*> arguments{"bihive"};
-  for (const std::string& word : words) arguments.push_back(word.c_str());
-  return cli::parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+PictureRequest request_of(const std::vector<std::string>& words) {
+  PictureRequest request;
+  take_words(request, words);
+  return request;
 }
 
-// Name and name of the value of each option of `bihive render`; "": a switch.
+// Id and name of the value of each option of a picture; "": a switch.
 std::vector<std::pair<std::string, std::string>> options_of_pictures() {
   std::vector<std::pair<std::string, std::string>> options;
-  for (const cli::OptionForm& form : cli::options_of_command("render")) options.emplace_back(form.name, form.value);
+  for (const RequestOption<PictureRequest>& row : picture_options()) options.emplace_back(row.id, row.value_name);
   return options;
 }
 
@@ -347,7 +343,7 @@ void bind_spheres(py::module_& module) {
     return std::array<double, 3>{light->x, light->y, light->z};
   });
   module.def("check_selection", [](const std::string& text) {
-    if (const Status status = check_selection(text); !status) cli::fail_selection("select", text, status.error());
+    if (const Status status = check_selection(text); !status) fail_selection("select", text, status.error());
   });
   module.def("atomic_number", [](const std::string& symbol) { return atomic_number(symbol); });
   module.def("element_symbol", element_symbol);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bihive/io/read_spheres.h"
-#include "command_line.h"
+#include "bihive/job/picture_options.h"
 
 namespace bihive::python {
 
@@ -19,8 +19,8 @@ struct Spheres {
 };
 using SharedSpheres = std::shared_ptr<const Spheres>;
 
-/// The request of a command line without the program's name.
-cli::Request request_of(const std::vector<std::string>& words);
+/// The request of words such as "--light-points=4"; job/picture_options.h.
+PictureRequest request_of(const std::vector<std::string>& words);
 
 /// Adds them to the module.
 void bind_spheres(pybind11::module_& module);

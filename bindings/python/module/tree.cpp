@@ -221,9 +221,9 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
 // `bihive trace` about tree, engine and threads.
 std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
                                     const std::vector<std::string>& words) {
-  std::vector<std::string> all{"trace", "spheres", "--rays", "rays", "--t", "t", "--id", "id"};
-  all.insert(all.end(), words.begin(), words.end());
-  const auto options = std::get<cli::TraceOptions>(request_of(all));
+  const PictureRequest options = request_of(words);
+  if (is_gpu(options.engine)) fail_setting("engine", ": a graphics processor answers no rays", "leave it out");
+  const Engine engine = structure_of(options.engine);
   auto tree = std::make_shared<RayTree>();
   tree->threads = static_cast<int>(options.threads);
   wait_for(
@@ -235,8 +235,8 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
           tree->spheres = std::move(some);
         }
         const SphereSet& set = tree->spheres->file.spheres;
-        value_of(check_tree_memory(set, options.engine, options.tree));
-        tree->tracer = value_of(Tracer::build(set, options.engine, options.tree, tree->threads));
+        value_of(check_tree_memory(set, engine, options.tree));
+        tree->tracer = value_of(Tracer::build(set, engine, options.tree, tree->threads));
       },
       py::none());
   return tree;
@@ -247,7 +247,7 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
 const WideTree& wide_tree_for(const RayTree& tree, const char* query) {
   const WideTree* const wide = tree.tracer->wide_tree();
   if (wide == nullptr || tree.tracer->has_images())
-    cli::fail_usage(std::string(query) + " needs the wide engine, and spheres without copies", "leave out engine");
+    fail_usage(std::string(query) + " needs the wide engine, and spheres without copies", "leave out engine");
   return *wide;
 }
 

@@ -13,6 +13,17 @@ namespace bihive {
 /// hide, show, colour, colour-by, opacity, material, radius-scale, outline, crease, clip: the options' names.
 const std::vector<std::string>& look_action_names();
 
+/// One action on selected spheres, as texts that the user may still have to mend.
+struct LookRow {
+  std::string select;  ///< docs/selections.md; empty: all
+  std::string action;  ///< one of look_action_names()
+  std::string value;   ///< as after the option; empty for hide and show
+
+  friend bool operator==(const LookRow& a, const LookRow& b) {
+    return a.select == b.select && a.action == b.action && a.value == b.value;
+  }
+};
+
 /// The action of that name. `value`: as behind the option; hide and show have none and ignore it. Error: there is no
 /// such action, or the value is none for it; the message says what was expected.
 Result<LookAction> look_action_from_text(std::string_view name, const std::string& value);

@@ -32,6 +32,14 @@ std::string name_of(const Names<T>& names, T value) {
   return "";
 }
 
+/// "perspective|orthographic".
+template <class T>
+std::string list_of(const Names<T>& names) {
+  std::string list;
+  for (const auto& [name, value] : names) list += (list.empty() ? "" : "|") + name;
+  return list;
+}
+
 /// The value of a name; null if it is not in the list.
 template <class T>
 const T* value_named(const Names<T>& names, std::string_view wanted) {

@@ -5,18 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "bihive/scene/look_text.h"
+
 namespace bihive {
-
-/// One action on selected spheres, as texts that the user may still have to mend.
-struct LookRow {
-  std::string select;  ///< docs/selections.md; empty: all
-  std::string action;  ///< one of look_action_names()
-  std::string value;   ///< as behind the option; empty for hide and show
-
-  friend bool operator==(const LookRow& a, const LookRow& b) {
-    return a.select == b.select && a.action == b.action && a.value == b.value;
-  }
-};
 
 /// Plain data; viewer/viewer_json.h turns it into JSON, for links and saved states.
 struct ViewerLook {

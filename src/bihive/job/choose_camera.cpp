@@ -1,0 +1,86 @@
+#include "bihive/job/choose_camera.h"
+
+#include "bihive/base/setting_name.h"
+#include "bihive/job/failure.h"
+#include "bihive/render/frame_picture.h"
+#include "bihive/scene/clips.h"
+#include "bihive/scene/focus.h"
+
+namespace bihive {
+namespace {
+
+bool parallel(Vec3d a, Vec3d b) {
+  return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
+}
+
+// A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
+Camera placed(const Camera& before, const Input& input, const PictureRequest& request, const WholeSet* whole) {
+  Camera camera = before;
+  const SphereSet::Bounds bounds = whole != nullptr ? whole->bounds : RemainingSpheres(input.scene).set().bounds();
+  if (request.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
+  camera.eye = request.eye.value_or(camera.eye);
+  camera.look_at = request.look_at.value_or(camera.look_at);
+  const Vec3d view = camera.look_at - camera.eye;
+  if (request.up)
+    camera.up = *request.up;
+  else if (parallel(camera.up, view))
+    camera.up = parallel({0, 1, 0}, view) ? Vec3d{0, 0, -1} : Vec3d{0, 1, 0};
+  return camera;
+}
+
+// A camera that shows everything under a tiny angle stands too far away for single precision.
+void refuse_bad(const Camera& camera, const PictureRequest& request) {
+  constexpr double kTinyAngle = 1e-3;
+  const Status status = check_camera(camera);
+  if (status) return;
+  if (request.fov_deg && *request.fov_deg < kTinyAngle && !request.eye)
+    fail_setting("fov", ": under so small an angle the camera would stand too far away", "choose a larger angle");
+  fail_usage(status.error().message, status.error().hint);
+}
+
+double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& camera) {
+  if (const double* const distance = std::get_if<double>(&wanted)) return *distance;
+  const Result<double> distance = focus_on(spheres, camera, std::get<std::string>(wanted));
+  if (!distance) fail_setting("focus", ": " + distance.error().message, distance.error().hint);
+  return *distance;
+}
+
+}  // namespace
+
+Camera choose_camera(const Input& input, const PictureRequest& request, const RenderSettings& settings,
+                     const WholeSet* whole) {
+  const bool user_places = request.eye || request.look_at || request.up;
+  if (user_places && request.view_from)
+    fail_setting("view_from", " and " + setting_name("eye") + ", " + setting_name("look_at") + " or " +
+                                  setting_name("up") + " contradict each other");
+
+  Camera camera = input.scene.camera;
+  camera.fov_deg = request.fov_deg.value_or(camera.fov_deg);
+  const Projection projection = request.projection.value_or(camera.projection);
+  const bool fitted = !input.has_camera || request.view_from;
+  if (fitted) {
+    // The fit is for the direction after the turn. A camera that the user places is turned below.
+    Side side = side_of(request.view_from.value_or(ViewFrom::front));
+    if (request.turn && !user_places) side = turned(side, *request.turn);
+    // From an eye of the user's own, the angle decides how much is seen.
+    const Lens lens{camera.fov_deg, request.eye ? Projection::perspective : projection};
+    camera = whole != nullptr ? whole->frame(input.scene, side, lens, settings)
+                              : frame_picture(input.scene, side, lens, settings, request.dots_per_inch);
+  } else if (request.fov_deg) {
+    camera.projection = Projection::perspective;
+  }
+  if (user_places) camera = placed(camera, input, request, whole);
+  refuse_bad(camera, request);
+  camera = with_projection(camera, projection);
+  if (request.turn && (user_places || !fitted)) camera = turned(camera, *request.turn);
+  camera = enlarged(camera, request.zoom.value_or(1));
+  camera.aperture = request.aperture.value_or(input.scene.camera.aperture);
+  camera.focus = request.focus ? focus_of(*request.focus, input.scene.spheres, camera) : input.scene.camera.focus;
+  if (request.focus && camera.aperture == 0)
+    fail_setting("focus", " changes nothing without an aperture",
+                 "give the radius of the lens by " + setting_name("aperture"));
+  refuse_bad(camera, request);
+  return camera;
+}
+
+}  // namespace bihive

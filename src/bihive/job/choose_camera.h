@@ -1,0 +1,28 @@
+// The camera of bihive render.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "bihive/job/input.h"
+#include "bihive/job/picture_request.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/framing.h"
+#include "bihive/scene/render_settings.h"
+
+namespace bihive {
+
+/// Facts about the whole set that a picture needs, for a process that holds a chunk of it (commands/render_spread.cpp).
+struct WholeSet {
+  std::int64_t count = 0;
+  SphereSet::Bounds bounds;  ///< of what clips leave
+  /// As frame_picture(). For all processes that have chunks, at the same time.
+  std::function<Camera(const Scene&, const Side&, const Lens&, const RenderSettings&)> frame;
+};
+
+/// The scene's own camera, or one that shows everything; the user's options replace parts of it. Fails with kBadUsage
+/// if the options contradict each other or the camera sees nothing. `whole`: null if the scene has all spheres.
+Camera choose_camera(const Input& input, const PictureRequest& request, const RenderSettings& settings,
+                     const WholeSet* whole = nullptr);
+
+}  // namespace bihive

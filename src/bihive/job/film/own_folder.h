@@ -1,0 +1,80 @@
+// A folder of a film, opened once: all later work goes through its descriptor and reaches this folder, whatever takes
+// its name meanwhile. Links in it are not followed, and files of other users are refused, for they may lead anywhere.
+#pragma once
+
+#include <sys/stat.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bihive/job/film/descriptor.h"
+
+namespace bihive {
+
+/// Permissions of new files, before the user's mask: those of an output, and of what bihive itself reads again.
+inline constexpr mode_t kOfOutputs = 0666, kOwnerWrites = 0644;
+
+/// The folder that stands around a path: "." for a name alone.
+std::string folder_around(const std::string& path);
+
+/// All functions fail with kBadInput.
+class OwnFolder {
+ public:
+  /// A folder that nobody else may write to. Nothing: there is none. Fails if it is a link, or if another user owns it
+  /// or may write to it.
+  static std::optional<OwnFolder> open_private(const std::string& path);
+  /// A folder of pictures, which may be shared with others. A link to it is followed if it belongs to this user or to
+  /// the owner of the folder where it stands.
+  static std::optional<OwnFolder> open_shared(const std::string& path);
+
+  int descriptor() const { return folder_.get(); }
+  const std::string& path() const { return path_; }
+  std::string path_of(const std::string& name) const { return path_ + "/" + name; }
+  void set_path(std::string path) { path_ = std::move(path); }
+
+  /// All names in it but "." and "..".
+  std::vector<std::string> names() const;
+  /// Whether something has the name, be it a link to nothing.
+  bool has(const std::string& name) const;
+
+  /// A file of this user, with no other name, that nobody else may write to; `flags` as of open(). Nothing: there is
+  /// none. With O_CREAT it is made for its owner alone.
+  std::optional<Descriptor> open_file(const std::string& name, int flags) const;
+  /// All bytes of such a file.
+  std::optional<std::string> read(const std::string& name) const;
+  /// A regular file of this user, to be read.
+  std::optional<Descriptor> open_picture(const std::string& name) const;
+
+  /// A new file with these bytes, flushed to the disk; `mode` as of open(). False: the name is taken.
+  bool write_new(const std::string& name, std::string_view bytes, mode_t mode) const;
+  /// The same, and nobody sees the file before it is whole, however the program ends.
+  bool place_new(const std::string& name, std::string_view bytes, mode_t mode) const;
+
+  void rename(const std::string& from, const std::string& to) const;
+  /// No matter whether it succeeds.
+  void remove(const std::string& name) const;
+
+ private:
+  OwnFolder(Descriptor folder, std::string path) : folder_(std::move(folder)), path_(std::move(path)) {}
+  bool is_ours(const struct stat& info) const;
+  void check_is_private() const;
+
+  Descriptor folder_;
+  std::string path_;
+  bool is_private_ = false;
+};
+
+/// 16 hexadecimal digits that nobody can guess.
+std::string random_digits();
+
+/// Writes everything. 0, or the errno of the failure.
+int write_whole(int file, std::string_view bytes);
+
+/// Flushes a file to the disk. 0, or the errno of the failure.
+int flush_to_disk(int file);
+
+}  // namespace bihive

@@ -1,0 +1,526 @@
+#include "bihive/job/picture_options.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bihive/base/near_name.h"
+#include "bihive/base/parse_number.h"
+#include "bihive/base/setting_name.h"
+#include "bihive/job/failure.h"
+#include "bihive/scene/look_text.h"
+#include "bihive/scene/named_materials.h"
+#include "bihive/settings/parameter_text.h"
+
+namespace bihive {
+namespace {
+
+using Row = RequestOption<PictureRequest>;
+using Rows = std::vector<Row>;
+using Take = decltype(Row::take);
+constexpr ParameterRanks kChunks = ParameterRanks::chunks, kWhole = ParameterRanks::whole;
+
+constexpr double kLargestFloat = 3.4028234663852886e38;
+constexpr std::int64_t kMostThreads = 4096;
+constexpr double kMostZoom = 1e6;
+constexpr double kMostDotsPerInch = 1e6;
+constexpr const char* kTwice = "is given more than once before a select";
+
+// The parsed text becomes the value of a member.
+template <class Request, class Owner, class Member, class Parse>
+auto into(Member Owner::*member, Parse parse) {
+  return [member, parse](Request& request, const std::string& text) -> Status {
+    auto value = parse(text);
+    if (!value) return value.error();
+    request.*member = *std::move(value);
+    return Done{};
+  };
+}
+template <class Member, class Parse>
+Take into(Member PictureRequest::*member, Parse parse) {
+  return into<PictureRequest, PictureRequest>(member, parse);
+}
+
+template <class T>
+auto choice(const Names<T>& names) {
+  return [&names](const std::string& text) { return choice_from(text, names); };
+}
+
+// A row of what a request has, as one of the request.
+template <class Part>
+Row of_part(const RequestOption<Part>& row, Part PictureRequest::*part) {
+  return {
+      .id = row.id,
+      .value_name = row.value_name,
+      .help = row.help,
+      .theme = row.theme,
+      .ranks = row.ranks,
+      .in_window = row.in_window,
+      .repeatable = row.repeatable,
+      .excludes = row.excludes,
+      .take = [&row, part](PictureRequest& request, const std::string& text) { return row.take(request.*part, text); }};
+}
+
+std::string with_usual(const Parameter& parameter) {
+  std::string help(parameter.help);
+  if (!parameter.usual.empty()) help += " (" + std::string(parameter.usual) + ")";
+  if (!parameter.implies.empty() && parameter_named(parameter.implies)->has_option)
+    help += "; implies " + option_of(*parameter_named(parameter.implies));
+  return help;
+}
+
+// "light_points" of the parameter with that id, and "no_..." where there is one.
+void add_parameter(Rows& rows, const Parameter& parameter, OptionTheme theme) {
+  const std::string id = setting_of_option(option_of(parameter));
+  Row row{.id = id,
+          .value_name = std::string(parameter.names.empty() ? parameter.value_name : parameter.names),
+          .help = with_usual(parameter),
+          .theme = theme,
+          .ranks = parameter.ranks,
+          .in_window = parameter.in_window};
+  if (parameter.kind != ParameterKind::flag) {
+    row.take = [&parameter](PictureRequest& request, const std::string& text) -> Status {
+      Result<SettingValue> value = value_from_text(parameter, text);
+      if (!value) return value.error();
+      request.picture.set(parameter.id, std::move(*value));
+      return Done{};
+    };
+    rows.push_back(std::move(row));
+    return;
+  }
+  const auto set = [&parameter](bool on) {
+    return [&parameter, on](PictureRequest& request, const std::string&) -> Status {
+      request.picture.set(parameter.id, on);
+      return Done{};
+    };
+  };
+  row.value_name.clear();
+  row.take = set(true);
+  rows.push_back(row);
+  if (!parameter.has_no_option) return;
+  Row off = row;
+  off.id = "no_" + id;
+  off.help = "Switches " + option_of(parameter) + " off";
+  off.take = set(false);
+  off.excludes = {id};
+  // An option that implies a switch excludes the one that turns it off.
+  for (const Parameter& other : picture_parameters())
+    if (other.implies == parameter.id) off.excludes.push_back(setting_of_option(option_of(other)));
+  rows.push_back(std::move(off));
+}
+
+void add_parameters(Rows& rows, ParameterGroup group, OptionTheme theme) {
+  for (const Parameter& parameter : picture_parameters())
+    if (parameter.group == group && parameter.has_option) add_parameter(rows, parameter, theme);
+}
+
+void add_picture(Rows& rows) {
+  rows.insert(
+      rows.end(),
+      {{.id = "size",
+        .value_name = "WxH",
+        .help = "Pixels (1280x720)",
+        .ranks = kChunks,
+        .take = [](PictureRequest& request, const std::string& text) -> Status {
+          const Result<PictureSize> size = size_from(text);
+          if (!size) return size.error();
+          request.picture.set("width_px", size->width_px);
+          request.picture.set("height_px", size->height_px);
+          return Done{};
+        }},
+       {.id = "crop",
+        .value_name = "X0,Y0,X1,Y1",
+        .help = "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",
+        .ranks = kChunks,
+        .in_window = false,
+        .take = into(&PictureRequest::crop, crop_from)},
+       {.id = "view",
+        .value_name = list_of(kViews),
+        .help = "What the picture shows (shaded)",
+        .ranks = kChunks,
+        .take = into(&PictureRequest::view, choice(kViews))},
+       samples_option(kMostSamplesPerPixel)});
+  add_parameters(rows, ParameterGroup::picture, OptionTheme::picture);
+  rows.insert(rows.end(), {{.id = "background",
+                            .value_name = "COLOUR",
+                            .help = "A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)",
+                            .ranks = kChunks,
+                            .take = into(&PictureRequest::background,
+                                         [](const std::string& text) -> Result<std::string> {
+                                           if (text == kNoBackground) return text;
+                                           const Result<Vec3d> colour = colour_from(text, Transfer::none);
+                                           if (!colour) return colour.error();
+                                           return text;
+                                         })},
+                           {.id = "bits",
+                            .value_name = "8|16",
+                            .help = "Bits of each number in the picture (8)",
+                            .ranks = kChunks,
+                            .in_window = false,
+                            .take = into(&PictureRequest::bits, bits_from)},
+                           {.id = "dpi",
+                            .value_name = "N",
+                            .help = "Pixels an inch in print, as a note in the picture",
+                            .ranks = kChunks,
+                            .in_window = false,
+                            .take = into(&PictureRequest::dots_per_inch, [](const std::string& text) {
+                              return number_from_text(text, 0, kMostDotsPerInch, /*open=*/true);
+                            })}});
+}
+
+void add_style(Rows& rows) {
+  constexpr OptionTheme kTheme = OptionTheme::style;
+  rows.insert(rows.end(), {{.id = "style",
+                            .value_name = "NAME|FILE",
+                            .help = "The look: see bihive styles (files: default)",
+                            .theme = kTheme,
+                            .ranks = kChunks,
+                            .take = [](PictureRequest& request, const std::string& text) -> Status {
+                              request.style.name = text;
+                              return Done{};
+                            }},
+                           {.id = "light",
+                            .value_name = "PRESET|SPEC",
+                            .help = "The lights (the style's or the scene's): " + list_of(light_presets()) +
+                                    ",\nfrom:RIGHT,UP,TOWARDS[:COLOUR[:STRENGTH[:DEG]]] around the camera, or\n"
+                                    "at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]] in the world; repeatable",
+                            .theme = kTheme,
+                            .ranks = kChunks,
+                            .repeatable = true,
+                            .take = [](PictureRequest& request, const std::string& text) {
+                              request.style.light_words.push_back(text);
+                              return add_light(text, request.style.lights);
+                            }}});
+  for (const ParameterGroup group : {ParameterGroup::light, ParameterGroup::lines, ParameterGroup::tone})
+    add_parameters(rows, group, kTheme);
+}
+
+void add_camera(Rows& rows) {
+  constexpr OptionTheme kTheme = OptionTheme::camera;
+  rows.insert(
+      rows.end(),
+      {{.id = "view_from",
+        .value_name = list_of(kSides),
+        .help = "Show the whole set from this side (files: front)",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .take = into(&PictureRequest::view_from, choice(kSides))},
+       {.id = "eye",
+        .value_name = "X,Y,Z",
+        .help = "Where the camera is",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .in_window = false,
+        .take = into(&PictureRequest::eye, vector_from)},
+       {.id = "look_at",
+        .value_name = "X,Y,Z",
+        .help = "The middle of the picture",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .in_window = false,
+        .take = into(&PictureRequest::look_at, vector_from)},
+       {.id = "up",
+        .value_name = "X,Y,Z",
+        .help = "What is up in the picture",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .in_window = false,
+        .take = into(&PictureRequest::up, vector_from)},
+       {.id = "fov",
+        .value_name = "DEG",
+        .help = "Angle along the shorter side (30)",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .take = into(&PictureRequest::fov_deg,
+                     [](const std::string& text) { return number_from_text(text, 0, 180, /*open=*/true); })},
+       {.id = "projection",
+        .value_name = list_of(kProjections),
+        .help = "orthographic: equal spheres look equally large at any distance (perspective)",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .take = into(&PictureRequest::projection, choice(kProjections))},
+       {.id = "turn",
+        .value_name = "AZ,EL[,ROLL]",
+        .help = "Degrees: the camera goes AZ to the right and EL up around what it\n"
+                "looks at; the picture turns ROLL counter-clockwise",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .in_window = false,
+        .take = into(&PictureRequest::turn, turn_from)},
+       {.id = "zoom",
+        .value_name = "F",
+        .help = "Draw everything F times as large (1)",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .in_window = false,
+        .take = into(&PictureRequest::zoom,
+                     [](const std::string& text) { return number_from_text(text, 0, kMostZoom, /*open=*/true); })},
+       {.id = "aperture",
+        .value_name = "R",
+        .help = "Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .take = into(&PictureRequest::aperture,
+                     [](const std::string& text) { return number_from_text(text, 0, kLargestFloat); })},
+       {.id = "focus",
+        .value_name = "D|auto|EXPR",
+        .help = "With an aperture: the distance that is sharp, in world units, or the spheres that are,\n"
+                "such as 'resname LIG' or 'index 12' (auto: where the camera looks at)",
+        .theme = kTheme,
+        .ranks = kChunks,
+        .take = into(&PictureRequest::focus, focus_from)}});
+}
+
+void add_engine(Rows& rows) {
+  rows.push_back({.id = "engine",
+                  .value_name = list_of(kRenderEngines),
+                  .help = "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same",
+                  .theme = OptionTheme::engine,
+                  .ranks = kChunks,
+                  .take = into(&PictureRequest::engine, choice(kRenderEngines))});
+  for (const RequestOption<TreeParameters>& row : tree_options()) rows.push_back(of_part(row, &PictureRequest::tree));
+  rows.push_back({.id = "threads",
+                  .value_name = "N",
+                  .help = "Threads (0: as many as the machine runs at once)",
+                  .theme = OptionTheme::engine,
+                  .ranks = kChunks,
+                  .in_window = false,
+                  .take = into(&PictureRequest::threads,
+                               [](const std::string& text) { return whole_number_from_text(text, 0, kMostThreads); })});
+}
+
+// An action on the spheres of the last `select`, or on all. `of_all`: what the option means before any.
+Row action(const std::string& id, const std::string& value_name, const std::string& help, Take of_all = {}) {
+  return {.id = id,
+          .value_name = value_name,
+          .help = help,
+          .theme = OptionTheme::spheres,
+          .ranks = kWhole,
+          .repeatable = true,
+          .take = [id, of_all](PictureRequest& request, const std::string& text) -> Status {
+            if (of_all && !request.looks.selected) return of_all(request, text);
+            return request.looks.act(option_of_setting(id).substr(2), text);
+          }};
+}
+
+// A switch among the actions.
+template <class Act>
+Row action_switch(const std::string& id, const std::string& help, Act act) {
+  return {.id = id,
+          .help = help,
+          .theme = OptionTheme::spheres,
+          .ranks = kWhole,
+          .repeatable = true,
+          .take = [act](PictureRequest& request, const std::string&) -> Status { return act(request.looks), Done{}; }};
+}
+
+void add_spheres(Rows& rows) {
+  const Take scale_all = [](PictureRequest& request, const std::string& text) -> Status {
+    if (request.input.reading.has("radius_scale")) return Error{kTwice, "", 0, 0, ""};
+    return request.input.reading.take("radius_scale", text);
+  };
+  const Take outline_all = [](PictureRequest& request, const std::string& text) -> Status {
+    const Result<LookAction> width = look_action_from_text("outline", text);
+    if (!width) return width.error();
+    if (request.picture.has("outline_px")) return Error{kTwice, "", 0, 0, ""};
+    request.picture.set("outline_px", std::get<SetOutline>(*width).width_px);
+    return Done{};
+  };
+  Row select =
+      action("select", "EXPR", "The options below are for these spheres alone (docs/selections.md); repeatable");
+  select.take = [](PictureRequest& request, const std::string& text) -> Status {
+    return request.looks.select(text), Done{};
+  };
+  rows.insert(rows.end(),
+              {std::move(select),
+               action_switch("hide", "Hide them from every ray", [](LookOptions& looks) { looks.show(false); }),
+               action_switch("show", "Show them again", [](LookOptions& looks) { looks.show(true); }),
+               action("colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1"),
+               action("colour_by", "ATTR[:MAP[:MIN,MAX[:log]]]",
+                      "Colour them by an attribute; MAP: " + std::string(kColourMapNames))});
+  Row nan_colour =
+      action("nan_colour", "COLOUR", "Colour of unknown numbers in the attribute that gives colours (grey)");
+  nan_colour.take = [](PictureRequest& request, const std::string& text) { return request.looks.set_nan_colour(text); };
+  rows.push_back(std::move(nan_colour));
+  rows.insert(
+      rows.end(),
+      {action("opacity", "F", "Their opacity, 0 (clear) to 1"),
+       action("material", list_of(named_materials()), "Their material (the style's)"),
+       action("radius_scale", "F", "After a selection: multiply their radii. Before: files, every radius", scale_all),
+       action("outline", "PX",
+              "After a selection: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)",
+              outline_all),
+       action("crease", "ATTR", "Lines between those that touch and differ in it, such as chain"),
+       action("clip", "plane:NX,NY,NZ,D|box:X0,Y0,Z0,X1,Y1,Z1|sphere:X,Y,Z,R",
+              "Cut them open: n.x > D, the box or the sphere is taken away; repeatable"),
+       {.id = "element_colours",
+        .value_name = "soft|jmol|cpk|FILE",
+        .help = "Colours of elements: a name, or a file with lines 'C #909090' (the style's)",
+        .theme = OptionTheme::spheres,
+        .ranks = kWhole,
+        .take = [](PictureRequest& request, const std::string& text) -> Status {
+          request.looks.element_colours = text;
+          return Done{};
+        }},
+       action_switch("no_hydrogens", "Hide hydrogen",
+                     [](LookOptions& looks) { looks.hide_word("--no-hydrogens", "hydrogen"); }),
+       action_switch("no_water", "Hide water", [](LookOptions& looks) { looks.hide_word("--no-water", "water"); })});
+  // Both are also of all spheres, which ranks then know without their ids.
+  for (Row& row : rows)
+    if (row.id == "outline" || (row.id == "radius_scale" && reading_setting("radius_scale")->with_chunks))
+      row.ranks = kChunks;
+}
+
+void add_labels(Rows& rows) {
+  constexpr OptionTheme kTheme = OptionTheme::labels;
+  add_parameters(rows, ParameterGroup::cell, kTheme);
+  add_parameters(rows, ParameterGroup::labels, kTheme);
+  rows.insert(rows.end(), {{.id = "title_values",
+                            .value_name = "FILE",
+                            .help = "CSV: a row for each frame, from 0; the first line names the columns: {NAME}",
+                            .theme = kTheme,
+                            .ranks = kChunks,
+                            .take = [](PictureRequest& request, const std::string& text) -> Status {
+                              request.labels.title_values = text;
+                              return Done{};
+                            }},
+                           {.id = "no_labels",
+                            .help = "None of the labels that the scene file or the style asks for",
+                            .theme = kTheme,
+                            .ranks = kChunks,
+                            .take = [](PictureRequest& request, const std::string&) -> Status {
+                              request.labels.none = true;
+                              return Done{};
+                            }}});
+}
+
+Rows all_rows() {
+  Rows rows;
+  add_picture(rows);
+  add_style(rows);
+  add_camera(rows);
+  add_engine(rows);
+  for (const RequestOption<InputOptions>& row : input_options())
+    if (row.id != "radius_scale") rows.push_back(of_part(row, &PictureRequest::input));  // also an action
+  add_spheres(rows);
+  add_labels(rows);
+  return rows;
+}
+
+}  // namespace
+
+const std::vector<RequestOption<InputOptions>>& input_options() {
+  static const std::vector<RequestOption<InputOptions>> kRows = [] {
+    std::vector<RequestOption<InputOptions>> rows{
+        {.id = "count",
+         .value_name = "N",
+         .help = "Scenarios: how many spheres (4096)",
+         .theme = OptionTheme::reading,
+         .ranks = kWhole,
+         .take = into<InputOptions, InputOptions>(
+             &InputOptions::count,
+             [](const std::string& text) { return whole_number_from_text(text, 1, kUnlimited); })},
+        {.id = "seed",
+         .value_name = "S",
+         .help = "Scenarios: the seed of their random numbers (1)",
+         .theme = OptionTheme::reading,
+         .ranks = kWhole,
+         .take = into<InputOptions, InputOptions>(&InputOptions::seed, seed_from)}};
+    for (const ReadingSetting& setting : reading_settings()) {
+      RequestOption<InputOptions> row{.id = std::string(setting.id),
+                                      .value_name = std::string(setting.value_name),
+                                      .help = setting.help,
+                                      .theme = OptionTheme::reading,
+                                      .ranks = setting.with_chunks ? kChunks : kWhole};
+      if (!setting.excludes.empty()) row.excludes.emplace_back(setting.excludes);
+      row.take = [&setting](InputOptions& input, const std::string& text) {
+        return input.reading.take(setting.id, text);
+      };
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  }();
+  return kRows;
+}
+
+const std::vector<RequestOption<TreeParameters>>& tree_options() {
+  static const std::vector<RequestOption<TreeParameters>> kRows{
+      {.id = "max_prims",
+       .value_name = "N|unlimited",
+       .help = "Most spheres of a leaf (the engine's choice; reference: 8)",
+       .theme = OptionTheme::engine,
+       .ranks = kChunks,
+       .take = into<TreeParameters, TreeParameters>(&TreeParameters::max_prims, limit_from)},
+      {.id = "max_depth",
+       .value_name = "N|unlimited",
+       .help = "Most levels of the tree (the engine's choice; reference: unlimited)",
+       .theme = OptionTheme::engine,
+       .ranks = kChunks,
+       .take = into<TreeParameters, TreeParameters>(&TreeParameters::max_depth, limit_from)}};
+  return kRows;
+}
+
+RequestOption<PictureRequest> samples_option(std::int64_t most) {
+  return {.id = "samples",
+          .value_name = "N|auto",
+          .help = "Samples per pixel, 1 to " + std::to_string(most) +
+                  " (files: 4, thesis scenes: 1, with an aperture 64);\nauto: 4, and 16 on edges",
+          .ranks = kChunks,
+          .take = [most](PictureRequest& request, const std::string& text) -> Status {
+            const Result<std::int64_t> samples = samples_from(text, most);
+            if (!samples) return samples.error();
+            request.picture.set("samples_auto", *samples == kAutomaticSamples);
+            if (*samples != kAutomaticSamples) request.picture.set("samples_per_pixel", *samples);
+            return Done{};
+          }};
+}
+
+const std::vector<RequestOption<PictureRequest>>& picture_options() {
+  static const Rows kRows = all_rows();
+  return kRows;
+}
+
+const RequestOption<PictureRequest>* picture_option(std::string_view id) {
+  for (const Row& row : picture_options())
+    if (row.id == id) return &row;
+  return nullptr;
+}
+
+void take_setting(PictureRequest& request, const std::string& id, const std::string& value) {
+  const Row* const row = picture_option(id);
+  if (row == nullptr) {
+    std::vector<std::string> ids;
+    for (const Row& each : picture_options()) ids.push_back(each.id);
+    const std::string near = near_name(id, ids);
+    fail_usage("there is no option " + setting_name(id),
+               near.empty() ? std::string() : "did you mean " + setting_name(near) + "?");
+  }
+  const auto is_given = [&request](const std::string& other) {
+    return std::find(request.given.begin(), request.given.end(), other) != request.given.end();
+  };
+  if (!row->repeatable && is_given(id)) fail_setting(id, " is given more than once");
+  for (const Row& other : picture_options())
+    for (const std::string& excluded : other.excludes)
+      if ((other.id == id && is_given(excluded)) || (excluded == id && is_given(other.id)))
+        fail_setting(other.id, " excludes " + setting_name(excluded));
+  if (const Status status = row->take(request, value); !status)
+    fail_setting(id, ": " + status.error().message, status.error().hint);
+  request.given.push_back(id);
+}
+
+void take_words(PictureRequest& request, const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--") {
+      if (i + 1 < words.size()) request.input.input = words[i + 1];
+      return;
+    }
+    const std::size_t end = std::min(word.find('='), word.size());
+    const std::string id = setting_of_option(word.substr(0, end));
+    std::string value = end < word.size() ? word.substr(end + 1) : "";
+    const Row* const row = picture_option(id);
+    if (end == word.size() && row != nullptr && !row->value_name.empty() && i + 1 < words.size()) value = words[++i];
+    take_setting(request, id, value);
+  }
+}
+
+}  // namespace bihive

@@ -1,0 +1,74 @@
+// A request for a picture: its input and all that a user has set, before any file is read. Command line, window, Python
+// and C fill it by the table of options (job/picture_options.h); job/prepare_picture.h makes a scene of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/image/film.h"
+#include "bihive/job/engine.h"
+#include "bihive/job/input.h"
+#include "bihive/job/look_options.h"
+#include "bihive/job/values.h"
+#include "bihive/math/vec3.h"
+#include "bihive/scene/camera.h"
+#include "bihive/scene/framing.h"
+#include "bihive/scene/light_text.h"
+#include "bihive/scene/turn.h"
+#include "bihive/settings/overrides.h"
+
+namespace bihive {
+
+/// The style of files and the lights.
+struct StyleOptions {
+  std::string name;                        ///< a name or a path; empty: the default one
+  LightChoice lights;                      ///< empty: the style's
+  std::vector<std::string> light_words{};  ///< the same as they were given
+};
+
+/// Options of labels that are not parameters of a picture.
+struct LabelOptions {
+  bool none = false;              ///< leave out those of the scene and its style
+  std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
+};
+
+/// The things that stay the same in all pictures of a film.
+struct FixedByFilm {
+  Camera camera;  ///< of this picture
+  ColourRange range_of_style;
+  std::vector<ColourRange> ranges_of_looks;
+};
+
+/// The word of `background` for a transparent picture.
+inline const std::string kNoBackground = "none";
+
+/// Unset: the scene's value.
+struct PictureRequest {
+  InputOptions input;
+  LookOptions looks;
+  Overrides picture;         ///< of the parameters in settings/parameter.h
+  std::optional<Tile> crop;  ///< not yet compared with the size
+  View view = View::shaded;
+  RenderEngine engine = RenderEngine::automatic;
+  TreeParameters tree;
+  std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
+  StyleOptions style;
+  LabelOptions labels;
+  std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
+  std::optional<std::int64_t> bits;       ///< 8 or 16
+  double dots_per_inch = 0;               ///< 0: not said
+  std::optional<Vec3d> eye, look_at, up;
+  std::optional<double> fov_deg;
+  std::optional<ViewFrom> view_from;
+  std::optional<Projection> projection;
+  std::optional<Turn> turn;
+  std::optional<double> zoom;      ///< above 0
+  std::optional<double> aperture;  ///< world units, at least 0
+  std::optional<Focus> focus;      ///< world units, 0: where the camera looks at; or what is sharp
+  std::optional<FixedByFilm> fixed;
+  std::vector<std::string> given;  ///< the ids of all options that were given: "light_points"
+};
+
+}  // namespace bihive

@@ -1,0 +1,213 @@
+#include "bihive/job/prepare_picture.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bihive/base/json_text.h"
+#include "bihive/base/setting_name.h"
+#include "bihive/base/version.h"
+#include "bihive/job/choose_labels.h"
+#include "bihive/job/choose_look.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/title_values.h"
+#include "bihive/render/memory.h"
+#include "bihive/scene/clips.h"
+#include "bihive/scene/title_text.h"
+#include "bihive/settings/check_picture.h"
+#include "bihive/settings/picture_report.h"
+
+namespace bihive {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+bool shows_reference_tree(View view) {
+  return view == View::traversal || view == View::tree;
+}
+
+// The title with the frame's values. A generated scene has no frame; its number is 0.
+std::string filled_title(const std::string& title, const PictureRequest& request, const Input& input,
+                         std::int64_t spheres) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  TitleValues values{{"frame", static_cast<double>(request.input.reading.options().frame)},
+                     {"time", input.time_ps.value_or(kUnknown)},
+                     {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
+                     {"spheres", static_cast<double>(spheres)}};
+  if (!request.labels.title_values.empty()) {
+    const TitleValues more = values_of_frame(request.labels.title_values, request.input.reading.options().frame);
+    values.insert(values.begin(), more.begin(), more.end());
+  }
+  Result<std::string> filled = fill_title(title, values);
+  if (!filled) fail_setting("title", ": " + filled.error().message, filled.error().hint);
+  return *filled;
+}
+
+// Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
+// user's options are the result.
+RenderSettings apply_options(const PictureRequest& request, Input& input, const WholeSet* whole) {
+  Scene& scene = input.scene;
+  const Overrides& user = request.picture;
+  PictureSettings picture = scene.picture;
+  if (request.labels.none) picture.labels = {};
+  if (request.aperture.value_or(0) > 0 && !user.has("samples_auto")) use_lens_samples(picture);
+  user.apply_to(picture);
+  if (request.background) picture.transparent = *request.background == kNoBackground;
+  scene.picture.transfer = picture.transfer;
+  RenderSettings settings = settings_from(picture);
+  settings.crop = request.crop;
+  if (request.crop && (request.crop->x1 > settings.width_px || request.crop->y1 > settings.height_px))
+    fail_setting("crop",
+                 fmt::format(" ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
+                 "give the size of the whole picture by " + setting_name("size"));
+  if (user.has("length_unit") && !settings.labels.scale_bar)
+    fail_setting("length_unit", " is for the scale bar, and the picture has none",
+                 "add " + setting_name("scale_bar") + ", or leave it out");
+  if (user.is_on("cell") && !scene.spheres.cell())
+    fail({"there is no periodic cell that " + setting_name("cell") + " could draw", request.input.input, 0, 0,
+          "give one with " + setting_name("cell_vectors")});
+  if (user.is_on("cell") && request.view != View::shaded)
+    fail_setting("cell", " draws on the shaded picture alone", "leave out " + setting_name("view"));
+  settings.view = request.view;
+  settings.threads = static_cast<int>(request.threads);
+  if (request.background && !settings.transparent)
+    scene.background = *colour_from(*request.background, scene.picture.transfer);
+  if (settings.transparent && shows_reference_tree(settings.view))
+    fail_setting("view", " " + name_of(kViews, settings.view) + " has no transparent background",
+                 "give a colour by " + setting_name("background") + ", or choose another view");
+  settings.labels.title =
+      filled_title(settings.labels.title, request, input, whole != nullptr ? whole->count : scene.spheres.size());
+  scene.camera = request.fixed ? request.fixed->camera : choose_camera(input, request, settings, whole);
+  if (const Status status = check_picture(settings, scene.camera.aperture); !status)
+    fail_usage(status.error().message, status.error().hint);
+  apply_look(request.style, input);
+  leave_out_labels(user, scene, settings);
+  return settings;
+}
+
+// Refuses what the graphics processor cannot draw.
+void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings& settings) {
+  const auto refuse = [engine](const std::string& what, const std::string& without) {
+    fail_setting("engine", " " + name_of(kRenderEngines, engine) + " draws no " + what,
+                 "leave " + setting_name("engine") + " out, or draw " + without);
+  };
+  if (settings.cell_lines) refuse("edges of a cell", "without " + setting_name("cell"));
+  if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: " + setting_name("samples") + " 4");
+  if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
+  if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
+}
+
+}  // namespace
+
+// The pictures of the tree show the reference tree, also if another engine is faster.
+RenderEngine choose_engine(const PictureRequest& request) {
+  const RenderEngine engine = request.engine;
+  if (!shows_reference_tree(request.view) || engine == RenderEngine::reference) return engine;
+  if (engine == RenderEngine::automatic) return RenderEngine::reference;
+  const std::string view = " " + name_of(kViews, request.view);
+  const std::string chosen = setting_name("engine") + " " + name_of(kRenderEngines, engine);
+  if (engine == RenderEngine::brute || engine == RenderEngine::wide_brute || engine == RenderEngine::gpu_brute)
+    fail_setting("view", view + " shows a tree, and " + chosen + " has none");
+  if (engine == RenderEngine::wide)
+    fail_setting("view", view + " shows the reference tree, and " + setting_name("engine") + " wide has another one",
+                 "leave " + setting_name("engine") + " out, or choose " + setting_name("engine") + " reference");
+  if (request.view == View::tree)
+    fail_setting("view", view + " is drawn by the CPU alone, not by " + chosen,
+                 "leave " + setting_name("engine") + " out, or choose " + setting_name("engine") + " reference");
+  return engine;
+}
+
+RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engine, Input& input,
+                               const WholeSet* whole) {
+  PictureSettings& picture = input.scene.picture;
+  if (const SettingValue* const transfer = request.picture.find("transfer"))
+    parameter_named("transfer")->set(picture, *transfer);
+  look(input, request.looks, request.fixed ? request.fixed->ranges_of_looks : std::vector<ColourRange>{});
+  RenderSettings settings = apply_options(request, input, whole);
+  if (shows_reference_tree(settings.view) && has_clips(input.scene))
+    fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",
+                 "leave out " + setting_name("clip"));
+  if (shows_reference_tree(settings.view) && input.scene.spheres.has_images())
+    fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of the stored spheres",
+                 "leave out " + setting_name("replicate"));
+  if (input.scene.spheres.has_images() && has_clips(input.scene))
+    fail_setting("clip", " does not cut the copies of " + setting_name("replicate"), "leave one of them out");
+  if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
+  return settings;
+}
+
+// A pixel of a file's band: display values, and the bytes of the file, 8 bits of each colour.
+constexpr double kFileBytes = 2 * 3;
+
+bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
+  return is_gpu(engine) || settings.view == View::distance || settings.view == View::tree;
+}
+
+void check_memory_of(RenderEngine engine, const Input& input, const PictureRequest& request,
+                     const RenderSettings& settings) {
+  if (comes_whole(engine, settings)) value_or_fail(check_picture_memory(settings.width_px, settings.height_px));
+  const Tile drawn = drawn_pixels(settings);
+  const double row = predict_film_bytes(settings, drawn.width()) + kFileBytes * drawn.width();
+  const double band = comes_whole(engine, settings) ? 0 : row * rows_of_band(drawn.height(), row);
+  value_or_fail(check_render_memory(input.scene.spheres, structure_of(engine), request.tree, settings, band));
+}
+
+ordered_json settings_json(const PictureRequest& request, const RenderSettings& settings, const Scene& scene,
+                           const std::vector<Layer>& layers) {
+  const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
+  ordered_json json = ordered_json::object();
+  json["view"] = name_of(kViews, settings.view);
+  if (!layers.empty()) json["layers"] = ordered_json::array();
+  for (const Layer& layer : layers) json["layers"].push_back(name_of_layer(layer));
+  const ReportedScene reported{has_soft_light(scene), lets_light_through(scene)};
+  json.update(*json_from_text<ordered_json>(picture_report(settings, reported)));
+  if (settings.crop) json["crop"] = {settings.crop->x0, settings.crop->y0, settings.crop->x1, settings.crop->y1};
+  if (layers.empty())
+    json["transfer"] = names_of(*parameter_named("transfer"))[static_cast<std::size_t>(scene.picture.transfer)];
+  json["background"] = vector(scene.background);
+  if (settings.transparent) json["transparent"] = true;
+  if (request.bits) json["bits"] = *request.bits;
+  if (request.dots_per_inch > 0) json["dpi"] = request.dots_per_inch;
+  json["camera"] = {{"eye", vector(scene.camera.eye)},
+                    {"look_at", vector(scene.camera.look_at)},
+                    {"up", vector(scene.camera.up)},
+                    {"fov_deg", scene.camera.fov_deg}};
+  if (scene.camera.projection == Projection::orthographic) {
+    json["camera"]["projection"] = name_of(kProjections, scene.camera.projection);
+    json["camera"]["shorter_side"] = scene.camera.shorter_side;
+  }
+  if (scene.camera.aperture > 0) {
+    json["camera"]["aperture"] = scene.camera.aperture;
+    json["camera"]["focus"] = focus_distance(scene.camera);
+  }
+  if (shows_reference_tree(settings.view)) {
+    const auto limit = [](std::int64_t value) { return value == kUnlimited ? ordered_json() : ordered_json(value); };
+    const BuildParameters tree = request.tree.for_reference();
+    json["max_prims"] = limit(tree.max_prims);
+    json["max_depth"] = limit(tree.max_depth);
+  }
+  const InputOptions& input = request.input;
+  json["spheres"] = scene.spheres.size();
+  for (const ReadingSetting& row : reading_settings()) {
+    const std::string key(row.report.empty() ? row.id : row.report);
+    // Scene files replicate too.
+    if (row.id == "replicate" && scene.spheres.has_images())
+      json[key] = scene.spheres.images().counts;
+    else if (row.id != "replicate" && input.reading.has(row.id))
+      json[key] = *json_from_text<ordered_json>(row.value(input.reading.options()));
+  }
+  if (!request.looks.element_colours.empty()) json["element_colours"] = request.looks.element_colours;
+  if (!request.looks.words.empty()) json["looks"] = request.looks.words;
+  return json;
+}
+
+std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const ordered_json& settings) {
+  std::vector<std::pair<std::string, std::string>> text{
+      {"Software", "bihive " + std::string(version())}, {"Scene", scene.name}, {"Settings", as_text(settings, -1)}};
+  if (scene.seed) text.emplace_back("Seed", std::to_string(*scene.seed));
+  return text;
+}
+
+}  // namespace bihive

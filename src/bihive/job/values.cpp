@@ -1,0 +1,133 @@
+#include "bihive/job/values.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "bihive/bih/tree.h"
+#include "bihive/image/colour_text.h"
+#include "bihive/select/selection.h"
+
+namespace bihive {
+namespace {
+
+Error unexpected(const std::string& expected, const std::string& found) {
+  return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
+}
+
+// A number that is the whole text.
+template <class T>
+std::optional<T> whole(std::string_view text) {
+  T value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Numbers with commas between them; empty if one is not of the type T.
+template <class T>
+std::vector<T> numbers_of(std::string_view text) {
+  std::vector<T> numbers;
+  for (bool more = true; more;) {
+    const std::size_t comma = text.find(',');
+    const std::optional<T> number = whole<T>(text.substr(0, comma));
+    if (!number) return {};
+    numbers.push_back(*number);
+    more = comma != std::string_view::npos;
+    text.remove_prefix(more ? comma + 1 : text.size());
+  }
+  return numbers;
+}
+
+// Three finite numbers with commas between them.
+std::optional<Vec3d> three_numbers(std::string_view text) {
+  const std::vector<double> numbers = numbers_of<double>(text);
+  if (numbers.size() != 3) return std::nullopt;
+  const Vec3d v{numbers[0], numbers[1], numbers[2]};
+  return is_finite(v) ? std::optional(v) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::uint64_t> seed_from(const std::string& text) {
+  const std::optional<std::uint64_t> value = whole<std::uint64_t>(text);
+  if (value) return *value;
+  return unexpected("a whole number from 0 to 18446744073709551615", text);
+}
+
+Result<std::int64_t> limit_from(const std::string& text) {
+  if (text == "unlimited") return kUnlimited;
+  const std::optional<std::int64_t> value = whole<std::int64_t>(text);
+  if (value && *value >= 1) return *value;
+  return unexpected("a whole number of at least 1 or \"unlimited\"", text);
+}
+
+Result<Vec3d> vector_from(const std::string& text) {
+  constexpr double kLargest = 3.4e38;
+  const std::optional<Vec3d> v = three_numbers(text);
+  if (v && std::abs(v->x) <= kLargest && std::abs(v->y) <= kLargest && std::abs(v->z) <= kLargest) return *v;
+  return unexpected("three numbers X,Y,Z", text);
+}
+
+Result<Turn> turn_from(const std::string& text) {
+  constexpr double kMost = 360;
+  const std::vector<double> degrees = numbers_of<double>(text);
+  const bool in_range =
+      std::all_of(degrees.begin(), degrees.end(), [](double number) { return std::abs(number) <= kMost; });
+  if (in_range && (degrees.size() == 2 || degrees.size() == 3))
+    return Turn{degrees[0], degrees[1], degrees.size() == 3 ? degrees[2] : 0};
+  return unexpected("degrees AZ,EL or AZ,EL,ROLL, each from -360 to 360", text);
+}
+
+Result<PictureSize> size_from(const std::string& text) {
+  constexpr int kLargest = 65535;
+  const std::size_t times = text.find('x');
+  if (times != std::string::npos) {
+    const std::optional<int> width = whole<int>(std::string_view(text).substr(0, times));
+    const std::optional<int> height = whole<int>(std::string_view(text).substr(times + 1));
+    if (width && height && *width >= 1 && *height >= 1 && *width <= kLargest && *height <= kLargest)
+      return PictureSize{*width, *height};
+  }
+  return unexpected("WIDTHxHEIGHT in pixels, each from 1 to 65535", text);
+}
+
+Result<Tile> crop_from(const std::string& text) {
+  constexpr int kLargest = 65535;
+  const std::vector<int> n = numbers_of<int>(text);
+  if (n.size() == 4 && n[0] >= 0 && n[1] >= 0 && n[0] < n[2] && n[1] < n[3] && n[2] <= kLargest && n[3] <= kLargest)
+    return Tile{n[0], n[1], n[2], n[3]};
+  return unexpected("four whole numbers X0,Y0,X1,Y1 from 0 to 65535, X0 below X1 and Y0 below Y1", text);
+}
+
+Result<std::int64_t> samples_from(const std::string& text, std::int64_t most) {
+  if (text == "auto") return kAutomaticSamples;
+  const std::optional<std::int64_t> value = whole<std::int64_t>(text);
+  if (value && *value >= 1 && *value <= most) return *value;
+  return unexpected("a whole number from 1 to " + std::to_string(most) + " or \"auto\"", text);
+}
+
+Result<Focus> focus_from(const std::string& text) {
+  if (text == "auto") return Focus(0.0);
+  const std::optional<double> value = whole<double>(text);
+  if (value && *value > 0 && *value <= double(std::numeric_limits<float>::max())) return Focus(*value);
+  if (!value && check_selection(text)) return Focus(text);
+  return unexpected("a number above 0 and up to 3.4e38, \"auto\" or a selection", text);
+}
+
+Result<std::int64_t> bits_from(const std::string& text) {
+  const std::optional<std::int64_t> bits = whole<std::int64_t>(text);
+  if (bits && (*bits == 8 || *bits == 16)) return *bits;
+  return unexpected("8 or 16", text);
+}
+
+Result<Vec3d> colour_from(const std::string& text, Transfer transfer) {
+  if (const std::optional<Vec3d> colour = colour_from_text(text, transfer)) return *colour;
+  const std::optional<Vec3d> v = three_numbers(text);
+  if (v && v->x >= 0 && v->y >= 0 && v->z >= 0 && v->x <= 1 && v->y <= 1 && v->z <= 1) return *v;
+  return unexpected("#rrggbb, r,g,b with numbers from 0 to 1, or one of " + std::string(kColourNames), text);
+}
+
+}  // namespace bihive

@@ -1,0 +1,71 @@
+// The table of all options of a picture, and how settings are taken by it.
+// ctest: needs bihive_job
+#include "bihive/job/picture_options.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bihive/job/failure.h"
+
+namespace bihive {
+namespace {
+
+PictureRequest taken(const std::vector<std::string>& words) {
+  PictureRequest request;
+  take_words(request, words);
+  return request;
+}
+
+std::string refusal_of(const std::vector<std::string>& words) {
+  try {
+    taken(words);
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code, kBadUsage);
+    return failure.error.to_string();
+  }
+  return "";
+}
+
+TEST(PictureOptions, EachHasAnIdOfItsOwnAndWorksOnRanks) {
+  std::set<std::string> ids;
+  for (const RequestOption<PictureRequest>& row : picture_options()) {
+    EXPECT_TRUE(ids.insert(row.id).second) << row.id;
+    EXPECT_FALSE(row.help.empty()) << row.id;
+    // The default is to refuse; so far each row says how ranks read the input under it.
+    EXPECT_NE(row.ranks, ParameterRanks::refused) << row.id;
+  }
+  for (const RequestOption<PictureRequest>& row : picture_options())
+    for (const std::string& other : row.excludes) EXPECT_TRUE(ids.contains(other)) << row.id << " excludes " << other;
+}
+
+TEST(PictureOptions, WordsAreTakenInTheirOrder) {
+  const PictureRequest request = taken({"--view-from=left", "--samples", "16", "--opacity=0.5", "--select=chain A",
+                                        "--colour", "red", "--hide", "--no-shadows", "--", "a=b.pdb"});
+  EXPECT_EQ(request.view_from, ViewFrom::left);
+  EXPECT_EQ(std::get<std::int64_t>(*request.picture.find("samples_per_pixel")), 16);
+  EXPECT_EQ(request.looks.words,
+            (std::vector<std::string>{"--opacity 0.5", "--select chain A", "--colour red", "--hide"}));
+  EXPECT_EQ(request.input.input, "a=b.pdb");
+  EXPECT_EQ(request.given.front(), "view_from");
+  EXPECT_EQ(request.given.back(), "no_shadows");
+}
+
+TEST(PictureOptions, ARadiusScaleIsOfTheFileBeforeASelectionAndOfItsSpheresAfter) {
+  const PictureRequest request = taken({"--radius-scale=2", "--select=chain A", "--radius-scale=3"});
+  EXPECT_EQ(request.input.reading.options().radius_scale, 2);
+  EXPECT_EQ(request.looks.looks.size(), 1U);
+}
+
+TEST(PictureOptions, RefusalsNameTheSetting) {
+  EXPECT_EQ(refusal_of({"--fgo=0.3"}), "there is no option fgo; did you mean fog?");
+  EXPECT_EQ(refusal_of({"--fov=200"}).substr(0, 5), "fov: ");
+  EXPECT_EQ(refusal_of({"--zoom=2", "--zoom=3"}), "zoom is given more than once");
+  EXPECT_EQ(refusal_of({"--ao", "--no-ao"}), "no_ao excludes ao");
+  EXPECT_EQ(refusal_of({"--no-ao", "--ao"}), "no_ao excludes ao");
+}
+
+}  // namespace
+}  // namespace bihive
