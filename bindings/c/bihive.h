@@ -112,10 +112,13 @@ BIHIVE_API void bihive_scene_free(bihive_scene* scene);
  * this call it is the scene file's own, or "front". */
 BIHIVE_API int bihive_scene_view_from(bihive_scene* scene, const char* side);
 
-/* Sets a parameter of the pictures by the name that Python gives it, to a value as text: "ao_distance" to "2.5",
- * "shadows" to "false", "tone" to "filmic", "outline_colour" to "#404040". docs/settings.md lists all. `value` NULL:
- * the scene's own again. The size is an argument of bihive_render(). Failures: an unknown name, a value out of range;
- * the message says what was expected. */
+/* Sets any option of `bihive render` by the name that Python gives it, to a value as text: "ao_distance" to "2.5",
+ * "shadows" to "false", "eye" to "0,0,50", "turn" to "30,20", "light" to "studio". `value` NULL: the scene's own again.
+ * - Options of spheres count in their order, as on the command line: "select" to "chain A", then "colour" to "red", or
+ *   "hide" to "true". NULL for one of them takes back all. With any of them each picture copies the scene.
+ * - A few are arguments of other functions or have no meaning here: size, threads, style, crop, bits, and those of reading.
+ * Failures: an unknown name, a value out of range; the message says what was expected. What contradicts each other, or the
+ * spheres, fails in bihive_render(). */
 BIHIVE_API int bihive_scene_set(bihive_scene* scene, const char* name, const char* value);
 
 /* Draws the picture of `bihive render`: width * height * 4 bytes to `rgba`, row by row from the top; red, green and

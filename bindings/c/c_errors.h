@@ -5,6 +5,7 @@
 #include <new>
 
 #include "bihive/base/result.h"
+#include "bihive/job/failure.h"
 
 namespace bihive::c {
 
@@ -12,8 +13,8 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 
 /// Notes the text for bihive_error_text() of this thread, without memory from the heap; cuts it if it is very long.
-int fail(const char* text) noexcept;
-int fail(const Error& error);
+int failed(const char* text) noexcept;
+int failed(const Error& error);
 const char* last_error() noexcept;
 
 /// body() returns kDone or kFailed.
@@ -21,12 +22,14 @@ template <class Body>
 int guarded(const Body& body) noexcept {
   try {
     return body();
+  } catch (const Failure& failure) {
+    return failed(failure.error);
   } catch (const std::bad_alloc&) {
-    return fail("not enough memory");
+    return failed("not enough memory");
   } catch (const std::exception& error) {
-    return fail(error.what());
+    return failed(error.what());
   } catch (...) {
-    return fail("an unknown failure");
+    return failed("an unknown failure");
   }
 }
 

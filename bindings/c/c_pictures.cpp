@@ -9,81 +9,122 @@
 #include <vector>
 
 #include "bihive.h"
-#include "bihive/base/near_name.h"
 #include "bihive/image/png_pixels.h"
 #include "bihive/image/transfer.h"
+#include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
+#include "bihive/job/picture_options.h"
+#include "bihive/job/prepare_picture.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
-#include "bihive/scene/camera_lights.h"
-#include "bihive/scene/clips.h"
-#include "bihive/scene/framing_cell.h"
 #include "bihive/scene/load_scene.h"
-#include "bihive/scene/names.h"
-#include "bihive/scene/render_settings.h"
-#include "bihive/scene/title_text.h"
-#include "bihive/settings/check_picture.h"
 #include "bihive/settings/overrides.h"
 #include "bihive/settings/parameter_text.h"
 #include "c_errors.h"
 #include "c_spheres.h"
 
-/// A scene, the tracer of its spheres, and the side from which to look at them. The tracer refers to the scene.
+/// A scene as it was read, its tree, and what its user has set since.
 struct bihive_scene {
   bihive::LoadedScene loaded;
-  std::optional<bihive::Tracer> tracer;
-  std::optional<bihive::ViewFrom> side;
-  bihive::Overrides user;
-  std::mutex in_use;  // each picture places the camera and the lights anew
+  std::optional<bihive::Tracer> tracer;  // refers to `loaded`
+  bihive::Scene as_read;                 // without the spheres: what each picture begins with
+  bihive::Overrides picture;
+  std::vector<std::pair<std::string, std::string>> settings;  // ids and values of the other options, in their order
+  std::mutex in_use;                                          // each picture places the camera and the lights anew
 };
 
 namespace bihive::c {
 namespace {
 
+// Options of a picture that another argument takes, or that a picture in memory cannot have.
+constexpr std::pair<std::string_view, const char*> kElsewhere[] = {
+    {"width_px", "width and height are arguments of bihive_render()"},
+    {"height_px", "width and height are arguments of bihive_render()"},
+    {"size", "width and height are arguments of bihive_render()"},
+    {"crop", "crop: bihive_render() draws whole pictures"},
+    {"threads", "threads is an argument of bihive_render()"},
+    {"bits", "bits: bihive_render() gives 8 of each colour"},
+    {"style", "style is an argument of bihive_scene_new() and bihive_scene_from_bytes()"}};
+
 Result<Style> style_or_default(const char* name) {
   return style_named(name == nullptr ? style_names().front() : std::string_view(name));
+}
+
+// The parts of a scene that prepare_picture() changes where no setting is of the spheres.
+void put_light(const Scene& from, Scene& to) {
+  to.lights = from.lights;
+  to.camera = from.camera;
+  to.background = from.background;
+  to.ambient_light = from.ambient_light;
+  to.picture = from.picture;
 }
 
 int take_scene(LoadedScene loaded, bihive_scene** scene) {
   auto made = std::make_unique<bihive_scene>();
   made->loaded = std::move(loaded);
+  put_light(made->loaded.scene, made->as_read);
   auto tracer = Tracer::build(made->loaded.scene, Engine::automatic);
-  if (!tracer) return fail(tracer.error());
+  if (!tracer) return failed(tracer.error());
   made->tracer.emplace(std::move(*tracer));
   *scene = made.release();
   return kDone;
 }
 
-// The camera that shows everything.
-Camera fitted_camera(const Scene& scene, const PictureSettings& picture, const Side& side, int width, int height) {
-  const Lens lens{scene.camera.fov_deg, scene.camera.projection};
-  const RemainingSpheres remaining(scene);
-  Camera camera = picture.cell_lines ? frame_with_cell(remaining.set(), side, lens, width, height)
-                                     : frame_spheres(remaining.set(), side, lens, width, height);
-  camera.aperture = scene.camera.aperture;
-  camera.focus = scene.camera.focus;
-  return camera;
+// An action on spheres, or `select`.
+bool is_of_spheres(std::string_view id) {
+  const RequestOption<PictureRequest>* const row = picture_option(id);
+  return row != nullptr && row->theme == OptionTheme::spheres && row->repeatable;
 }
 
-// As the user placed them, else around everything.
-void place_camera_and_lights(bihive_scene& of, const PictureSettings& picture, int width, int height) {
-  Scene& scene = of.loaded.scene;
-  if (of.side || !of.loaded.has_camera)
-    scene.camera = fitted_camera(scene, picture, side_of(of.side.value_or(ViewFrom::front)), width, height);
-  if (!of.loaded.has_lights) scene.lights = lights_around(of.loaded.rig, scene.camera);
+PictureRequest request_of(const bihive_scene& scene) {
+  PictureRequest request;
+  request.picture = scene.picture;
+  for (const auto& [id, value] : scene.settings) take_setting(request, id, value);
+  refuse_settings_of_files(request.input);
+  if (request.input.reading.has("replicate")) fail_setting("replicate", " is for scene files here");
+  return request;
+}
+
+// A flag of the table of options is on or off by its text.
+bool is_off(const RequestOption<PictureRequest>& row, const char* value) {
+  const std::string_view text(value);
+  if (!row.value_name.empty() || text.empty() || text == "true") return false;
+  if (text != "false") fail_setting(row.id, ": expected true or false, found \"" + std::string(text) + "\"");
+  return true;
+}
+
+// An option that is no parameter of the picture. NULL takes it back: of the actions on spheres all, for each acts on
+// what the ones before have selected.
+void set_option(bihive_scene& scene, const std::string& id, const char* value) {
+  const RequestOption<PictureRequest>* const row = picture_option(id);
+  const auto before = scene.settings;
+  const bool of_spheres = is_of_spheres(id);
+  if (value == nullptr || row == nullptr || !row->repeatable)
+    std::erase_if(scene.settings,
+                  [&](const auto& one) { return one.first == id || (of_spheres && is_of_spheres(one.first)); });
+  if (value == nullptr) return;
+  if (row == nullptr || !is_off(*row, value))
+    scene.settings.emplace_back(id, row && row->value_name.empty() ? "" : value);
+  try {
+    request_of(scene);
+  } catch (...) {
+    scene.settings = before;
+    throw;
+  }
 }
 
 int check_picture(const bihive_scene* scene, int width, int height, int samples, int threads,
                   const std::uint8_t* rgba) {
   constexpr int kMostPixels = 65535;
   constexpr int kMostSamples = 4096;
-  if (scene == nullptr) return fail("the scene is NULL");
-  if (rgba == nullptr) return fail("there is no place for the picture");
+  if (scene == nullptr) return failed("the scene is NULL");
+  if (rgba == nullptr) return failed("there is no place for the picture");
   if (width < 1 || width > kMostPixels || height < 1 || height > kMostPixels)
-    return fail("width and height must be from 1 to 65535");
-  if (samples < 0 || samples > kMostSamples) return fail("samples must be from 1 to 4096, or 0 for the scene's");
-  if (threads < 0) return fail("the number of threads is negative; 0 takes all");
+    return failed("width and height must be from 1 to 65535");
+  if (samples < 0 || samples > kMostSamples) return failed("samples must be from 1 to 4096, or 0 for the scene's");
+  if (threads < 0) return failed("the number of threads is negative; 0 takes all");
   return kDone;
 }
 
@@ -105,15 +146,15 @@ using namespace bihive::c;  // NOLINT(google-build-using-namespace)
 
 int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb, int64_t count, const char* style,
                      bihive_scene** scene) {
-  if (scene == nullptr) return fail("there is no place for the scene");
+  if (scene == nullptr) return failed("there is no place for the scene");
   *scene = nullptr;
   return guarded([&] {
-    if (count < 1) return fail("a scene needs at least one sphere");
-    if (xyz == nullptr || radii == nullptr) return fail("the spheres are NULL");
+    if (count < 1) return failed("a scene needs at least one sphere");
+    if (xyz == nullptr || radii == nullptr) return failed("the spheres are NULL");
     const auto look = style_or_default(style);
-    if (!look) return fail(look.error());
+    if (!look) return failed(look.error());
     auto spheres = spheres_of(xyz, radii, count);
-    if (!spheres) return fail(spheres.error());
+    if (!spheres) return failed(spheres.error());
     SphereFile file;
     file.spheres = std::move(*spheres);
     if (rgb != nullptr) {
@@ -129,14 +170,14 @@ int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb,
 }
 
 int bihive_scene_from_bytes(const char* bytes, size_t size, const char* name, const char* style, bihive_scene** scene) {
-  if (scene == nullptr) return fail("there is no place for the scene");
+  if (scene == nullptr) return failed("there is no place for the scene");
   *scene = nullptr;
   return guarded([&] {
-    if (bytes == nullptr || name == nullptr) return fail("the bytes or their name are NULL");
+    if (bytes == nullptr || name == nullptr) return failed("the bytes or their name are NULL");
     const auto look = style_or_default(style);
-    if (!look) return fail(look.error());
+    if (!look) return failed(look.error());
     auto loaded = load_scene(std::string_view(bytes, size), name, {}, LooksOfFile::apply, &*look);
-    if (!loaded) return fail(loaded.error());
+    if (!loaded) return failed(loaded.error());
     return take_scene(std::move(*loaded), scene);
   });
 }
@@ -146,37 +187,27 @@ void bihive_scene_free(bihive_scene* scene) {
 }
 
 int bihive_scene_view_from(bihive_scene* scene, const char* side) {
-  return guarded([&] {
-    if (scene == nullptr || side == nullptr) return fail("the scene or the side is NULL");
-    const ViewFrom* const found = value_named(kSides, side);
-    if (found == nullptr) return fail("unknown side; known are front, back, left, right, top, bottom and iso");
-    const std::lock_guard<std::mutex> lock(scene->in_use);
-    scene->side = *found;
-    return kDone;
-  });
+  if (scene == nullptr || side == nullptr) return failed("the scene or the side is NULL");
+  return bihive_scene_set(scene, "view_from", side);
 }
 
 int bihive_scene_set(bihive_scene* scene, const char* name, const char* value) {
   return guarded([&] {
-    if (scene == nullptr || name == nullptr) return fail("the scene or the name is NULL");
-    const Parameter* const parameter = parameter_named(name);
-    if (parameter == nullptr) {
-      std::vector<std::string> ids;
-      for (const Parameter& row : picture_parameters()) ids.emplace_back(row.id);
-      const std::string near = near_name(name, ids);
-      return fail(Error{"there is no parameter \"" + std::string(name) + "\"", "", 0, 0,
-                        near.empty() ? "docs/settings.md lists them" : "did you mean " + near + "?"});
-    }
-    if (parameter->id == "width_px" || parameter->id == "height_px")
-      return fail("width and height are arguments of bihive_render()");
+    if (scene == nullptr || name == nullptr) return failed("the scene or the name is NULL");
+    for (const auto& [id, why] : kElsewhere)
+      if (id == name) return failed(why);
     const std::lock_guard<std::mutex> lock(scene->in_use);
+    const auto is_selected = [](const auto& one) { return one.first == "select"; };
+    const bool after_select = std::any_of(scene->settings.begin(), scene->settings.end(), is_selected);
+    const Parameter* const parameter = parameter_named(name);
+    if (parameter == nullptr || (after_select && is_of_spheres(name))) return set_option(*scene, name, value), kDone;
     if (value == nullptr) {
-      scene->user.reset(parameter->id);
+      scene->picture.reset(parameter->id);
       return kDone;
     }
     const Result<SettingValue> parsed = value_from_text(*parameter, value);
-    if (!parsed) return fail(Error{std::string(name) + ": " + parsed.error().message, "", 0, 0, ""});
-    scene->user.set(parameter->id, *parsed);
+    if (!parsed) return failed(Error{std::string(name) + ": " + parsed.error().message, "", 0, 0, ""});
+    scene->picture.set(parameter->id, *parsed);
     return kDone;
   });
 }
@@ -185,31 +216,39 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
   return guarded([&] {
     if (check_picture(scene, width, height, samples, threads, rgba) != kDone) return kFailed;
     const std::lock_guard<std::mutex> lock(scene->in_use);
-    PictureSettings picture = scene->loaded.scene.picture;
-    scene->user.apply_to(picture);
-    if (const Status status = bihive::check_picture(picture, scene->loaded.scene.camera.aperture); !status)
-      return fail(status.error());
-    if (scene->user.is_on("cell") && !scene->loaded.scene.spheres.cell())
-      return fail("cell: the spheres have no periodic cell");
-    place_camera_and_lights(*scene, picture, width, height);
-    const Scene& drawn = scene->loaded.scene;
-    RenderSettings settings = settings_from(picture);
-    settings.width_px = width;
-    settings.height_px = height;
-    settings.threads = threads;
+    std::vector<std::string> warnings;
+    const CollectedWarnings unsaid(warnings);
+
+    // The request, and its scene: that which was read, or a copy that settings of spheres change.
+    PictureRequest request = request_of(*scene);
+    request.picture.set("width_px", width);
+    request.picture.set("height_px", height);
+    request.threads = threads;
     if (samples > 0) {
-      settings.adaptive_samples = false;
-      settings.samples_per_pixel = samples;
+      request.picture.set("samples_auto", false);
+      request.picture.set("samples_per_pixel", samples);
     }
-    if (Status status = check_picture_memory(width, height); !status) return fail(status.error());
-    Result<std::string> title = fill_title(settings.labels.title, {{"spheres", double(drawn.spheres.size())}});
-    if (!title) return fail(title.error());
-    settings.labels.title = *title;
-    if (Status status = check_labels(drawn, settings); !status) return fail(status.error());
-    const auto rendered = render(drawn, *scene->tracer, settings);
-    if (!rendered) return fail(rendered.error());
-    PngPixels pixels = png_pixels_from_film(rendered->film, settings.transfer, 8, threads);
-    draw_labels(pixels, drawn, settings);
+    const RenderEngine engine = choose_engine(request);
+    if (is_gpu(engine)) return failed("engine: bihive_render() draws on the CPU");
+    const bool changes_spheres = !request.looks.looks.empty() || !request.looks.element_colours.empty();
+    std::optional<LoadedScene> changed;
+    put_light(scene->as_read, scene->loaded.scene);
+    if (changes_spheres) changed = scene->loaded;
+    LoadedScene& input = changed ? *changed : scene->loaded;
+    const RenderSettings settings = prepare_picture(request, engine, input);
+    value_or_fail(check_picture_memory(width, height));
+
+    // Its tree.
+    const bool has_tree =
+        !changes_spheres && engine == RenderEngine::automatic && !request.tree.max_prims && !request.tree.max_depth;
+    std::optional<Tracer> own;
+    if (!has_tree) own.emplace(value_or_fail(Tracer::build(input.scene, structure_of(engine), request.tree, threads)));
+
+    // The picture.
+    const Rendered rendered = value_or_fail(render(input.scene, own ? *own : *scene->tracer, settings));
+    const Transfer curve = settings.view == View::shaded ? input.scene.picture.transfer : Transfer::none;
+    PngPixels pixels = png_pixels_from_film(rendered.film, curve, 8, threads);
+    draw_labels(pixels, input.scene, settings, request.dots_per_inch);
     write_rgba(pixels, rgba);
     return kDone;
   });

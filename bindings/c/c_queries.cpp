@@ -80,17 +80,17 @@ int for_parts(const bihive_rays& rays, int threads, const Answer& answer) {
       no_memory = true;
     }
   });
-  return no_memory ? fail("not enough memory for so many rays; trace fewer at a time") : kDone;
+  return no_memory ? failed("not enough memory for so many rays; trace fewer at a time") : kDone;
 }
 
 int check_point_arguments(const bihive_tree* tree, const double* xyz, std::int64_t count, int distance_to,
                           int threads) {
-  if (tree == nullptr) return fail("the tree is NULL");
-  if (count < 0) return fail("the number of points is negative");
-  if (count > 0 && xyz == nullptr) return fail("the points are NULL");
+  if (tree == nullptr) return failed("the tree is NULL");
+  if (count < 0) return failed("the number of points is negative");
+  if (count > 0 && xyz == nullptr) return failed("the points are NULL");
   if (distance_to != BIHIVE_SURFACE && distance_to != BIHIVE_CENTRE)
-    return fail("distance_to is neither BIHIVE_SURFACE nor BIHIVE_CENTRE");
-  if (threads < 0) return fail("the number of threads is negative; 0 takes all");
+    return failed("distance_to is neither BIHIVE_SURFACE nor BIHIVE_CENTRE");
+  if (threads < 0) return failed("the number of threads is negative; 0 takes all");
   return kDone;
 }
 
@@ -114,17 +114,17 @@ const char* bihive_error_text(void) {
 }
 
 int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree) {
-  if (tree == nullptr) return fail("there is no place for the tree");
+  if (tree == nullptr) return failed("there is no place for the tree");
   *tree = nullptr;
   return guarded([&] {
-    if (count < 0) return fail("the number of spheres is negative");
-    if (count > 0 && (xyz == nullptr || radii == nullptr)) return fail("the spheres are NULL");
-    if (threads < 0) return fail("the number of threads is negative; 0 takes all");
+    if (count < 0) return failed("the number of spheres is negative");
+    if (count > 0 && (xyz == nullptr || radii == nullptr)) return failed("the spheres are NULL");
+    if (threads < 0) return failed("the number of threads is negative; 0 takes all");
     const auto spheres = spheres_of(xyz, radii, count);
-    if (!spheres) return fail(spheres.error());
+    if (!spheres) return failed(spheres.error());
     WideBuilder builder;
     const auto built = builder.build(*spheres, {}, threads);
-    if (!built) return fail(built.error());
+    if (!built) return failed(built.error());
     *tree = new bihive_tree{*built};
     return kDone;
   });
@@ -140,8 +140,8 @@ int64_t bihive_tree_size(const bihive_tree* tree) {
 
 int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads, double* t, int64_t* spheres) {
   return guarded([&] {
-    if (!ready(tree, rays) || threads < 0) return fail("tree or rays are NULL, or a number is negative");
-    if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return fail("there is no place for the hits");
+    if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
+    if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return failed("there is no place for the hits");
     return for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
       closest_hits(*tree->tree, part, RayOrder::any, HitSpan{t, spheres}.part(first));
     });
@@ -150,8 +150,8 @@ int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads
 
 int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int threads, uint8_t* hidden) {
   return guarded([&] {
-    if (!ready(tree, rays) || threads < 0) return fail("tree or rays are NULL, or a number is negative");
-    if (rays->count > 0 && hidden == nullptr) return fail("there is no place for the answers");
+    if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
+    if (rays->count > 0 && hidden == nullptr) return failed("there is no place for the answers");
     return for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
       occluded(*tree->tree, part, RayOrder::any, hidden + first);
     });
@@ -162,10 +162,10 @@ int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, in
                    int distance_to, const uint8_t* mask, int threads, double* distances, int64_t* spheres) {
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
-    if (count > 0 && (distances == nullptr || spheres == nullptr)) return fail("there is no place for the spheres");
+    if (count > 0 && (distances == nullptr || spheres == nullptr)) return failed("there is no place for the spheres");
     const auto nearest =
         nearest_spheres(*tree->tree, PointSpan::rows(xyz, count), most, within, options_of(distance_to, mask, threads));
-    if (!nearest) return fail(nearest.error());
+    if (!nearest) return failed(nearest.error());
     std::copy(nearest->distance.begin(), nearest->distance.end(), distances);
     std::copy(nearest->sphere_id.begin(), nearest->sphere_id.end(), spheres);
     return kDone;
@@ -190,7 +190,7 @@ void bihive_lists_free(bihive_lists* lists) {
 
 int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits, int distance_to,
                   const uint8_t* mask, int threads, bihive_lists** lists) {
-  if (lists == nullptr) return fail("there is no place for the lists");
+  if (lists == nullptr) return failed("there is no place for the lists");
   *lists = nullptr;
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
@@ -198,17 +198,17 @@ int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, con
     const PointOptions options = options_of(distance_to, mask, threads);
     auto found = limits != nullptr ? spheres_within(*tree->tree, points, limits, options)
                                    : spheres_within(*tree->tree, points, 0.0, options);
-    if (!found) return fail(found.error());
+    if (!found) return failed(found.error());
     *lists = new bihive_lists{std::move(found->begin), std::move(found->sphere_id), std::move(found->distance)};
     return kDone;
   });
 }
 
 int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int threads, bihive_lists** lists) {
-  if (lists == nullptr) return fail("there is no place for the lists");
+  if (lists == nullptr) return failed("there is no place for the lists");
   *lists = nullptr;
   return guarded([&] {
-    if (!ready(tree, rays) || threads < 0) return fail("tree or rays are NULL, or a number is negative");
+    if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     std::vector<std::vector<RayHit>> of_part(static_cast<std::size_t>(rays->count / kRaysPerPart + 1));
     const int done = for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t, std::int64_t number) {
       all_hits(*tree->tree, part, of_part[static_cast<std::size_t>(number)]);

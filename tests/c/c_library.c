@@ -217,6 +217,30 @@ static void test_pictures(void) {
   EXPECT(bihive_scene_set(scene, "cell", NULL) == 0);
   EXPECT_ERROR(bihive_scene_set(scene, "light_points", "0"), "a whole number from 1 to 1024");
   EXPECT_ERROR(bihive_scene_set(scene, "fog", NULL) || bihive_scene_set(NULL, "fog", "1"), "NULL");
+
+  /* Camera, appearance and lights by name, in their order; NULL takes them back. */
+  EXPECT(bihive_scene_set(scene, "turn", "30,20") == 0 && bihive_scene_set(scene, "light", "headlight") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) != 0);
+  EXPECT(bihive_scene_set(scene, "turn", NULL) == 0 && bihive_scene_set(scene, "light", NULL) == 0);
+  EXPECT(bihive_scene_set(scene, "select", "x > 0") == 0 && bihive_scene_set(scene, "hide", "true") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(pixel(other, 24, 32), pixel(one, 24, 32), 4) == 0 || memcmp(one, other, sizeof one) != 0);
+  EXPECT(bihive_scene_set(scene, "select", "x < 0") == 0 && bihive_scene_set(scene, "outline", "4") == 0);
+  EXPECT(bihive_scene_set(scene, "select", NULL) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) == 0);
+  EXPECT_ERROR(bihive_scene_set(scene, "zoom", "-1"), "zoom: ");
+  EXPECT_ERROR(bihive_scene_set(scene, "select", "x >"), "select: ");
+  EXPECT_ERROR(bihive_scene_set(scene, "hide", "maybe"), "true or false");
+  EXPECT_ERROR(bihive_scene_set(scene, "radius", "2"), "is for files");
+  EXPECT_ERROR(bihive_scene_set(scene, "radius_scale", "2"), "is for files");
+  EXPECT_ERROR(bihive_scene_set(scene, "crop", "0,0,1,1"), "whole pictures");
+  EXPECT(bihive_scene_set(scene, "view", "tree") == 0 && bihive_scene_set(scene, "max_prims", "1") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(bihive_scene_set(scene, "view", NULL) == 0 && bihive_scene_set(scene, "max_prims", NULL) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) == 0);
   EXPECT_ERROR(bihive_render(scene, 0, 10, 1, 0, other), "65535");
   EXPECT_ERROR(bihive_render(scene, 10, 10, 5000, 0, other), "4096");
   EXPECT_ERROR(bihive_render(scene, 10, 10, 1, 0, NULL), "no place");
@@ -240,8 +264,9 @@ int main(int argc, char** argv) {
   EXPECT(strcmp(bihive_error_text(), "") == 0);
   test_trees();
   test_pictures();
-  /* The picture of a file, for comparison with that of `bihive render`: c_library FILE STYLE OUT, raw RGBA. */
-  if (argc == 4) {
+  /* The picture of a file, for comparison with that of `bihive render`: c_library FILE STYLE OUT [NAME VALUE]..., raw
+   * RGBA. */
+  if (argc >= 4) {
     static char bytes[1 << 20];
     static uint8_t rgba[160 * 120 * 4];
     FILE* file = fopen(argv[1], "rb");
@@ -250,6 +275,7 @@ int main(int argc, char** argv) {
     EXPECT(size > 0);
     if (file != NULL) fclose(file);
     EXPECT(bihive_scene_from_bytes(bytes, size, argv[1], argv[2], &scene) == 0);
+    for (int i = 4; i + 1 < argc; i += 2) EXPECT(bihive_scene_set(scene, argv[i], argv[i + 1]) == 0);
     EXPECT(bihive_render(scene, 160, 120, 2, 0, rgba) == 0);
     bihive_scene_free(scene);
     file = fopen(argv[3], "wb");

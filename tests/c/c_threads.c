@@ -66,7 +66,7 @@ static void* work(void* number) {
     wrong[thread] += draw(kSideNames[(thread + i) % kSides]);
     /* Each thread has its own last error. */
     wrong[thread] +=
-        bihive_scene_view_from(scene, "nowhere") != 1 || strstr(bihive_error_text(), "unknown side") == NULL;
+        bihive_scene_view_from(scene, "nowhere") != 1 || strstr(bihive_error_text(), "expected one of front") == NULL;
     if (thread % 2 == 0) wrong[thread] += bihive_closest(NULL, NULL, 1, NULL, NULL) != 1;
     if (thread % 2 == 0) wrong[thread] += strstr(bihive_error_text(), "NULL") == NULL;
   }

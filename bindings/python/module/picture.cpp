@@ -58,19 +58,8 @@ struct Picture {
   std::optional<FixedByFilm> fixed;  // for pictures like it; unset: it was unpickled
 };
 
-// The options that are for files: an array has been read already. Its frame is for titles.
-void refuse_for_arrays(const InputOptions& options) {
-  const auto refuse = [](bool given, std::string_view argument, const char* hint) {
-    if (given) fail_setting(argument, " is for files, and these spheres are in memory", hint);
-  };
-  refuse(options.count.has_value(), "count", "leave it out");
-  refuse(options.seed.has_value(), "seed", "leave it out");
-  for (const auto& [row, text] : options.reading.all())
-    refuse(row->id != "frame" && row->id != "replicate", row->id, "give it to read, or to Spheres");
-}
-
 Input input_of(const Spheres& spheres, const PictureRequest& options, const Style& style) {
-  refuse_for_arrays(options.input);
+  refuse_settings_of_files(options.input);
   if (spheres.file.spheres.empty()) fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
   SphereFile file = spheres.file;
   if (options.input.reading.has("replicate")) {

@@ -90,6 +90,16 @@ void refuse_copies(const InputOptions& options, const std::string& what) {
     fail_usage(what + " without copies, so " + setting_name("replicate") + " changes nothing there", "leave it out");
 }
 
+void refuse_settings_of_files(const InputOptions& options) {
+  const auto refuse = [](bool given, std::string_view id, const char* hint) {
+    if (given) fail_setting(id, " is for files, and these spheres are in memory", hint);
+  };
+  refuse(options.count.has_value(), "count", "leave it out");
+  refuse(options.seed.has_value(), "seed", "leave it out");
+  for (const auto& [row, text] : options.reading.all())
+    refuse(row->id != "frame" && row->id != "replicate", row->id, "give it where they are read");
+}
+
 std::optional<Scene> generated_scene(const InputOptions& options) {
   const std::string& name = options.input;
   if (!is_generated(name)) return std::nullopt;

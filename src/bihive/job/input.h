@@ -37,6 +37,10 @@ std::string file_of(const InputOptions& options);
 /// do.
 void refuse_copies(const InputOptions& options, const std::string& what);
 
+/// Fails with kBadUsage on a setting that is for files, where the spheres are in memory already; `frame` (for titles)
+/// and `replicate` are not among them.
+void refuse_settings_of_files(const InputOptions& options);
+
 /// Coloured, at least one sphere; its warnings were already printed on stderr.
 using Input = LoadedScene;
 
