@@ -116,9 +116,9 @@ BIHIVE_API int bihive_scene_view_from(bihive_scene* scene, const char* side);
  * "shadows" to "false", "eye" to "0,0,50", "turn" to "30,20", "light" to "studio". `value` NULL: the scene's own again.
  * - Options of spheres count in their order, as on the command line: "select" to "chain A", then "colour" to "red", or
  *   "hide" to "true". NULL for one of them takes back all. With any of them each picture copies the scene.
- * - A few are arguments of other functions or have no meaning here: size, threads, style, crop, bits, and those of reading.
- * Failures: an unknown name, a value out of range; the message says what was expected. What contradicts each other, or the
- * spheres, fails in bihive_render(). */
+ * - A few are arguments of other functions or have no meaning here: size, threads, style, crop, bits, and those of
+ * reading. Failures: an unknown name, a value out of range; the message says what was expected. What contradicts each
+ * other, or the spheres, fails in bihive_render(). */
 BIHIVE_API int bihive_scene_set(bihive_scene* scene, const char* name, const char* value);
 
 /* Draws the picture of `bihive render`: width * height * 4 bytes to `rgba`, row by row from the top; red, green and

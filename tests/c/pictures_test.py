@@ -19,7 +19,7 @@ SETTINGS = [
     ["select", "chain B", "colour", "orange", "radius_scale", "0.5", "select", "resname 478", "material", "glass", "outline", "3"],
     ["colour_by", "b_factor:viridis", "legend", "true", "no_water", "true", "light", "studio", "clip", "plane:0,0,1,10"],
     ["view", "traversal", "max_prims", "2", "engine", "reference", "background", "#203040"],
-    ["scale_bar", "true", "title", "{spheres} spheres", "dpi", "300", "element_colours", "jmol"],
+    ["projection", "orthographic", "scale_bar", "true", "title", "{spheres} spheres", "dpi", "300", "element_colours", "jmol"],
 ]
 
 
