@@ -6,6 +6,7 @@
 #include "bihive/base/version.h"
 #include "bihive/io/reading_settings.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/picture_options.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/style.h"
@@ -124,6 +125,8 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     text = parameters_to_json() + "\n";
   } else if (what == "reading" && words.size() == 1) {
     text = reading_settings_to_json() + "\n";
+  } else if (what == "picture" && words.size() == 1) {
+    text = picture_options_to_json() + "\n";
   } else if (what == "man" && words.size() <= 2) {
     text = man_page(program, words.size() == 2 ? words[1] : "");
   } else if (words.size() == 1) {
@@ -132,7 +135,7 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     if (what == "fish") text = fish_completion(program);
   }
   if (text.empty())
-    fail_usage("bihive describe knows: commands, options, settings, reading, man [COMMAND], bash, zsh, fish",
+    fail_usage("bihive describe knows: commands, options, settings, reading, picture, man [COMMAND], bash, zsh, fish",
                "see docs/packages.md");
   return text;
 }

@@ -1,12 +1,14 @@
 #include "bihive/job/picture_options.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bihive/base/near_name.h"
 #include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/report_text.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/settings/parameter_text.h"
@@ -477,6 +479,18 @@ RequestOption<PictureRequest> samples_option(std::int64_t most) {
 const std::vector<RequestOption<PictureRequest>>& picture_options() {
   static const Rows kRows = all_rows();
   return kRows;
+}
+
+std::string picture_options_to_json() {
+  static constexpr const char* kThemes[] = {"picture", "style", "camera", "engine", "reading", "spheres", "labels"};
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Row& row : picture_options())
+    rows.push_back({{"id", row.id},
+                    {"option", option_of_setting(row.id)},
+                    {"value", row.value_name},
+                    {"help", row.help},
+                    {"theme", kThemes[static_cast<std::size_t>(row.theme)]}});
+  return as_text(rows, -1);
 }
 
 const RequestOption<PictureRequest>* picture_option(std::string_view id) {

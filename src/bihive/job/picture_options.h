@@ -19,6 +19,9 @@ const std::vector<RequestOption<InputOptions>>& input_options();
 /// `max_prims` and `max_depth`.
 const std::vector<RequestOption<TreeParameters>>& tree_options();
 
+/// The table, for what is generated from it in other languages.
+std::string picture_options_to_json();
+
 /// The samples of a pixel, at most `most`.
 RequestOption<PictureRequest> samples_option(std::int64_t most);
 
