@@ -124,6 +124,88 @@ TEST(Selection, TakesValuesAndRanges) {
   EXPECT_EQ(ids("hydrogen"), (Ids{1}));
 }
 
+TEST(Selection, TakesRangesWithBlanksAndListsWithPlus) {
+  EXPECT_EQ(ids("index 1 - 3"), (Ids{1, 2, 3}));
+  EXPECT_EQ(ids("index 1- 3"), (Ids{1, 2, 3}));
+  EXPECT_EQ(ids("charge -1- -0.5"), (Ids{0, 3}));
+  EXPECT_EQ(ids("charge -1 - -0.5"), (Ids{0, 3}));
+  EXPECT_EQ(ids("charge -1 --0.5"), (Ids{0, 3}));
+  EXPECT_EQ(ids("charge 2 -1"), (Ids{0, 2})) << "two values";
+  EXPECT_EQ(ids("index 0+2+4-5"), (Ids{0, 2, 4, 5}));
+  EXPECT_EQ(ids("index 0,2,4-5"), (Ids{0, 2, 4, 5}));
+  EXPECT_EQ(ids("element C+O"), (Ids{0, 2, 3}));
+  EXPECT_EQ(ids("phase solid+liquid"), (Ids{0, 1, 2}));
+  const SphereFile ions = test::read_text("x,y,z,r,resname\n0,0,0,1,A+B\n1,0,0,1,A\n2,0,0,1,Na+\n", "a.csv");
+  EXPECT_EQ(ids_in(ions.spheres, "resname A+B"), (Ids{0})) << "a text that is there is itself";
+  EXPECT_EQ(ids_in(ions.spheres, "resname Na+"), (Ids{2}));
+}
+
+TEST(Selection, CalculatesRootsPowersAndMagnitudes) {
+  EXPECT_EQ(ids("x^2 > 9"), (Ids{4, 5}));
+  EXPECT_EQ(ids("-x^2 < -9"), (Ids{4, 5})) << "a power binds tighter than a sign";
+  EXPECT_EQ(ids("2^-x <= 0.125"), (Ids{3, 4, 5}));
+  EXPECT_EQ(ids("sqrt(x) = 2"), (Ids{4}));
+  EXPECT_EQ(ids("SQRT (x * x) = 2"), (Ids{2}));
+  EXPECT_EQ(ids("abs(charge) = 1"), (Ids{0, 5}));
+  EXPECT_EQ(ids("(charge)^2 = 1"), (Ids{0, 5}));
+  EXPECT_EQ(ids("charge^0.5 >= 0"), (Ids{2, 4, 5})) << "there is no root of a negative number";
+  EXPECT_EQ(ids("x^0 = 1"), ids("all"));
+  EXPECT_FALSE(select_spheres(table(), "2^x^2 > 1").ok()) << "which way is ambiguous";
+  const SphereFile moving = test::read_text("x,y,z,r,vx,vy,vz\n0,0,0,1,3,0,4\n1,0,0,1,1,2,2\n", "a.csv");
+  EXPECT_EQ(ids_in(moving.spheres, "speed = 5"), (Ids{0}));
+  EXPECT_EQ(ids_in(moving.spheres, "speed 3"), (Ids{1}));
+  EXPECT_THAT(error_in(table(), "speed > 1").message, testing::HasSubstr("there is no attribute 'speed'"));
+}
+
+TEST(Selection, TakesAllThatAreTheSameAsSome) {
+  EXPECT_EQ(ids("same phase as index 0"), (Ids{0, 1}));
+  EXPECT_EQ(ids("same r as x = 3"), (Ids{2, 3}));
+  EXPECT_EQ(ids("not same element as index 0"), (Ids{1, 2, 4, 5}));
+  EXPECT_EQ(ids("same charge as index 1"), Ids{}) << "an unknown number is the same as none";
+  EXPECT_EQ(count_in_protease("same residue as name CA and resid 25"), count_in_protease("resid 25"));
+  EXPECT_EQ(count_in_protease("byres index 0"), count_in_protease("chain A and resid 1"));
+  EXPECT_EQ(count_in_protease("same chain as index 0"), count_in_protease("chain A"));
+  EXPECT_GT(count_in_protease("byres within 5 of resname 478"), count_in_protease("within 5 of resname 478"));
+  EXPECT_THAT(error_in(table(), "byres x > 1").message, testing::HasSubstr("has no 'resid'"));
+  EXPECT_THAT(error_in(table(), "same phse as x > 1").to_string(), testing::HasSubstr("did you mean 'phase'"));
+}
+
+TEST(Selection, KindsOfResiduesDivideAMolecule) {
+  EXPECT_EQ(count_in_protease("ligand"), 35u);
+  EXPECT_EQ(count_in_protease("polymer"), 1516u);
+  EXPECT_EQ(count_in_protease("solvent"), 80u);
+  EXPECT_EQ(count_in_protease("ion"), 0u);
+  EXPECT_EQ(count_in_protease("sidechain"), 1516u - 792u) << "its file has no hydrogens";
+  EXPECT_EQ(count_in_protease("ligand or polymer or water or ion"), 1631u);
+}
+
+TEST(Selection, WordsOfOtherProgramsAreRefusedWithAdvice) {
+  const struct {
+    const char *expression, *column, *message;
+  } cases[] = {
+      {"resname 478 around 5", "13", "'around' is a word of another program, where a value of 'resname' is expected"},
+      {"around 5 resname 478", "1", "'around' is a word of another program; write 'within 5 of resname LIG'"},
+      {"name CA expand 3", "9", "write 'within 5 of"},
+      {"bychain", "1", "write 'same chain as'"},
+      {"organic", "1", "write ligand"},
+  };
+  for (const auto& one : cases) {
+    const Error error = error_in(protease(), one.expression);
+    EXPECT_THAT(error.to_string(), testing::HasSubstr(one.message)) << one.expression;
+    EXPECT_EQ(std::to_string(error.column), one.column) << one.expression << ": " << error.to_string();
+  }
+  EXPECT_EQ(count_in_protease("name 'around'"), 0u);
+}
+
+TEST(Selection, ASelectionThatFindsNothingSaysWhatThereIs) {
+  EXPECT_EQ(what_there_is(protease(), "chain a"), "no sphere has chain a; there are A, B, ''");
+  EXPECT_EQ(what_there_is(protease(), "chain A and resid 500 600"),
+            "no sphere has resid 500 600; there are numbers from 1 to 280");
+  EXPECT_EQ(what_there_is(protease(), "chain A and x > 1000"), "") << "no test of values";
+  EXPECT_EQ(what_there_is(protease(), "chain A and"), "");
+  EXPECT_EQ(what_there_is(table(), "phase gas"), "no sphere has phase gas; there are solid, liquid, Solid, 10, C5'");
+}
+
 TEST(Selection, AndBindsTighterThanOrAndNotTighterThanBoth) {
   EXPECT_EQ(ids("x = 0 or x = 1 and r = 2"), (Ids{0}));
   EXPECT_EQ(ids("(x = 0 or x = 1) and r = 1"), (Ids{0, 1}));
@@ -196,7 +278,7 @@ TEST(Selection, ErrorsNameThePlaceAndTheRemedy) {
       {"index solid", "7", "expected a number for 'index', found 'solid'"},
       {"phase 1..2", "7", "'phase' holds texts, and a range needs numbers"},
       {"phase > 2", "1", "'phase' holds texts, and this comparison needs numbers"},
-      {"phase", "1", "'phase' needs values behind it"},
+      {"phase", "1", "'phase' needs values after it"},
       {"phase solid charge 2", "13", "'charge' stands where a value of 'phase' is expected; put 'and' or 'or'"},
       {"water 3", "7", "'water' takes no values"},
       {"water", "1", "'water' needs the names of residues, and the input has no 'resname'"},
@@ -243,7 +325,8 @@ TEST(Selection, DeepAndLongTextsAreErrors) {
   EXPECT_EQ(ids(within), ids("x > 1"));
   for (int i = 0; i < 98; ++i) within = "within 0 of " + within;
   EXPECT_EQ(ids(within), ids("x > 1"));
-  EXPECT_THAT(error_in(table(), "within 0 of " + within).message, testing::HasSubstr("at most 100 times 'within'"));
+  EXPECT_THAT(error_in(table(), "within 0 of " + within).message,
+              testing::HasSubstr("at most 100 times 'within', 'same' or 'byres'"));
   std::string many = "x > 1";
   for (int i = 0; i < 3000; ++i) many += " or x > 1";
   EXPECT_EQ(ids(many), (Ids{2, 3, 4, 5}));

@@ -7,6 +7,7 @@
 
 #include "bihive/job/messages.h"
 #include "bihive/job/selection.h"
+#include "bihive/select/selection.h"
 #include "commands/commands.h"
 
 namespace bihive::cli {
@@ -33,6 +34,8 @@ void run_select(const SelectOptions& options) {
   const SphereSet& spheres = input.scene.spheres;
   const std::vector<std::uint8_t> mask = selected_or_fail(spheres, options.expression, "EXPRESSION");
   const std::int64_t count = std::count(mask.begin(), mask.end(), std::uint8_t{1});
+  const std::string reason = count == 0 ? what_there_is(spheres, options.expression) : "";
+  if (!reason.empty()) warn(reason);
   if (!options.json) {
     print(fmt::format("{}: {} of {} spheres\n{}\n", escaped(input.scene.name), grouped(count), grouped(spheres.size()),
                       ids_as_ranges(mask)));

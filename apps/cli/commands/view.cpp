@@ -110,6 +110,7 @@ void check_style(const ViewOptions& options) {
 }  // namespace
 
 void run_view(const ViewOptions& options) {
+  options.looks.check_for_action();
   if (options.window_engine == ViewerEngine::gpu && options.view == View::tree)
     fail_usage("--view tree is drawn by the CPU, and --engine gpu is not",
                "leave --engine out, or choose --engine cpu");

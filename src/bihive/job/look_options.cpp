@@ -25,6 +25,12 @@ void recolour(LoadedScene& input, const std::string& choice) {
     fail_setting("element_colours", ": " + status.error().message, "leave it out");
 }
 
+// ": no sphere has chain 'a'; there are A, B", where that can be said.
+std::string because(const LoadedScene& input, const std::string& selection) {
+  const std::string reason = what_there_is(input.scene.spheres, selection);
+  return reason.empty() ? reason : ": " + reason;
+}
+
 std::size_t colourings_of(const std::vector<Look>& looks) {
   std::size_t count = 0;
   for (const Look& one : looks)
@@ -36,6 +42,7 @@ std::size_t colourings_of(const std::vector<Look>& looks) {
 
 void LookOptions::add(LookAction action, const std::string& name) {
   const std::string setting = setting_of_option(name);
+  without_action_.reset();
   if (!has_current_) {
     has_current_ = true;
     current_ = looks.size();
@@ -53,12 +60,21 @@ void LookOptions::add_row(const std::string& action, const std::string& value) {
 
 void LookOptions::select(const std::string& text) {
   if (const Status status = check_selection(text); !status) fail_selection("select", text, status.error());
+  check_for_action();
+  without_action_ = text;
   selected = true;
   has_current_ = true;
   current_ = looks.size();
   looks.push_back({text, {}});
   of_look.emplace_back("select");
   words.push_back(option_of_setting("select") + " " + text);
+}
+
+void LookOptions::check_for_action() const {
+  if (without_action_)
+    fail_setting("select", " \"" + *without_action_ + "\" has no action after it, and changes nothing",
+                 "what is done to its spheres comes after it, such as " + setting_name("colour") + " or " +
+                     setting_name("hide"));
 }
 
 void LookOptions::show(bool shown) {
@@ -105,6 +121,7 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
         how->nan_colour = *colour_choice_from_text(options.nan_colour);
     looks.push_back(std::move(one));
   }
+  options.check_for_action();
   std::size_t next = 0;
   for (Look& one : looks)
     for (LookAction& action : one.actions)
@@ -131,7 +148,7 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
   }
   for (std::size_t i = own; i < looks.size(); ++i)
     if ((*counts)[i] == 0 && options.of_look[i - own] == "select" && !looks[i].actions.empty())
-      warn(setting_name("select") + " \"" + looks[i].select + "\" selects no sphere");
+      warn(setting_name("select") + " \"" + looks[i].select + "\" selects no sphere" + because(input, looks[i].select));
 }
 
 std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOptions& options) {

@@ -31,6 +31,8 @@ struct LookOptions {
   Status set_nan_colour(const std::string& text);
   /// colour, colour-by, opacity, material, radius-scale, outline, crease, clip.
   Status act(const std::string& name, const std::string& text);
+  /// Fails with kBadUsage on a selection with no action after it.
+  void check_for_action() const;
   /// --no-hydrogens and --no-water: hide what the word selects; the selection of the next actions stays.
   void hide_word(const std::string& option, const std::string& word);
 
@@ -39,6 +41,7 @@ struct LookOptions {
   void add_row(const std::string& action, const std::string& value);
   std::size_t current_ = 0;  // the look that takes actions, if there is any
   bool has_current_ = false;
+  std::optional<std::string> without_action_;  // the last selection, until its first action
 };
 
 /// The range of the numbers that colours stand for; unset: not said, or there is none.

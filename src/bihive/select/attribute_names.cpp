@@ -1,6 +1,7 @@
 #include "bihive/select/attribute_names.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -36,7 +37,8 @@ constexpr OtherName kOtherNames[] = {
     {"b", "b_factor"},     {"beta", "b_factor"},   {"bfactor", "b_factor"}, {"tempfactor", "b_factor"},
     {"q", "occupancy"},    {"occ", "occupancy"},   {"resi", "resid"},       {"resnum", "resid"},
     {"resn", "resname"},   {"chainid", "chain"},   {"segid", "chain"},      {"elem", "element"},
-    {"symbol", "element"}, {"icode", "insertion"}, {"atomname", "name"},
+    {"symbol", "element"}, {"icode", "insertion"}, {"atomname", "name"},    {"serial", "id"},
+    {"id", "serial"},
 };
 
 bool is_known(Number number, const SphereAttributes& attributes) {
@@ -44,6 +46,17 @@ bool is_known(Number number, const SphereAttributes& attributes) {
   if (number == Number::type) return !attributes.type.empty();
   if (number == Number::opacity) return !attributes.opacity.empty();
   return true;
+}
+
+// The length of the velocity, unless a column of the input has that name.
+FoundAttribute find_speed(const SphereAttributes& attributes) {
+  FoundAttribute speed;
+  speed.column = attributes.find_numbers("vx");
+  speed.others[0] = attributes.find_numbers("vy");
+  speed.others[1] = attributes.find_numbers("vz");
+  if (speed.column == nullptr || speed.others[0] == nullptr || speed.others[1] == nullptr) return {};
+  speed.number = Number::speed;
+  return speed;
 }
 
 // The built-in name or the column of exactly this name; with `lower`, of this name in lower case.
@@ -88,6 +101,10 @@ double FoundAttribute::number_of(const SphereSet& spheres, std::int64_t id) cons
       return double(attributes.opacity[i]);
     case Number::column:
       return column->values[i];
+    case Number::speed: {
+      const double x = column->values[i], y = others[0]->values[i], z = others[1]->values[i];
+      return std::sqrt(x * x + y * y + z * z);
+    }
     case Number::none:
       break;
   }
@@ -100,6 +117,7 @@ FoundAttribute find_attribute(const SphereSet& spheres, std::string_view name) {
   if (const FoundAttribute found = find_named(spheres, lower, true); found.found()) return found;
   for (const OtherName& other : kOtherNames)
     if (other.other == lower) return find_named(spheres, other.ours, false);
+  if (lower == "speed") return find_speed(spheres.attributes());
   return {};
 }
 
@@ -113,6 +131,7 @@ std::vector<std::string> attribute_names(const SphereSet& spheres) {
     if (built_in.name != "radius" && is_known(built_in.number, attributes)) add(built_in.name);
   for (const NamedNumbers& column : attributes.numbers) add(column.name);
   for (const NamedTexts& column : attributes.texts) add(column.name);
+  if (find_speed(attributes).found()) add("speed");
   return names;
 }
 

@@ -12,9 +12,10 @@ namespace bihive {
 
 /// What a name stands for in one set: numbers, texts, both (a type with labels), or nothing.
 struct FoundAttribute {
-  enum class Number { none, x, y, z, radius, index, element, type, opacity, column };
+  enum class Number { none, x, y, z, radius, index, element, type, opacity, column, speed };
   Number number = Number::none;
-  const NamedNumbers* column = nullptr;
+  const NamedNumbers* column = nullptr;                ///< of speed: vx
+  const NamedNumbers* others[2] = {nullptr, nullptr};  ///< of speed: vy and vz
   const NamedTexts* texts = nullptr;
 
   bool found() const { return has_numbers() || texts != nullptr; }
@@ -25,9 +26,9 @@ struct FoundAttribute {
   double number_of(const SphereSet& spheres, std::int64_t id) const;
 };
 
-/// x, y, z, r (or radius), index, element, type, opacity, and the columns of the input. A column's name is tried as it
-/// is, then without regard to case, then as another program's name (beta for b_factor). The set must outlive the
-/// answer.
+/// x, y, z, r (or radius), index, element, type, opacity, the columns of the input, and speed where it has vx, vy and
+/// vz. A column's name is tried as it is, then without regard to case, then as another program's name (beta for
+/// b_factor). The set must outlive the answer.
 FoundAttribute find_attribute(const SphereSet& spheres, std::string_view name);
 
 /// Every name that find_attribute() knows in this set, without those of other programs.

@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "bihive/base/parallel.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/select/attribute_names.h"
+#include "bihive/select/foreign_words.h"
 #include "bihive/select/nearby.h"
 #include "bihive/select/number_term.h"
 #include "bihive/select/parse_expression.h"
+#include "bihive/select/residues.h"
 #include "bihive/select/text_values.h"
 #include "bihive/select/words.h"
 
@@ -57,9 +60,9 @@ std::vector<NumberRange> disjoint_ranges(const std::vector<SelectionValue>& valu
 
 bool any_holds(const std::vector<NumberRange>& ranges, double number) {
   // The last range that begins at the number or before it; NaN is in none.
-  const auto behind = std::upper_bound(ranges.begin(), ranges.end(), number,
-                                       [](double n, const NumberRange& range) { return n < range.first; });
-  return behind != ranges.begin() && number >= std::prev(behind)->first && number <= std::prev(behind)->second;
+  const auto next = std::upper_bound(ranges.begin(), ranges.end(), number,
+                                     [](double n, const NumberRange& range) { return n < range.first; });
+  return next != ranges.begin() && number >= std::prev(next)->first && number <= std::prev(next)->second;
 }
 
 class Evaluation {
@@ -76,6 +79,8 @@ class Evaluation {
         return comparison(expression);
       case Expression::Kind::within:
         return within(expression);
+      case Expression::Kind::same:
+        return same(expression);
       case Expression::Kind::negation:
         return negation(expression);
       case Expression::Kind::conjunction:
@@ -119,8 +124,10 @@ class Evaluation {
     if (attribute.found())
       return error(expression.place,
                    quote(expression.name) + " needs " +
-                       (attribute.has_numbers() ? "values or a comparison" : "values") + " behind it",
+                       (attribute.has_numbers() ? "values or a comparison" : "values") + " after it",
                    "for example '" + expression.name + (attribute.has_numbers() ? " > 3'" : " A B'"));
+    if (const std::string_view advice = advice_on_foreign_word(expression.name); !advice.empty())
+      return error(expression.place, quote(expression.name) + " is a word of another program", std::string(advice));
     std::vector<std::string> names = selection_words();
     for (const std::string& known : attribute_names(spheres_)) names.push_back(known);
     return error(expression.place, "there is no word or attribute " + quote(expression.name),
@@ -132,10 +139,16 @@ class Evaluation {
     if (!attribute.found()) {
       if (is_selection_word(lower_case(expression.name)))
         return error(expression.values.front().place, quote(expression.name) + " takes no values",
-                     "put 'and' or 'or' behind it");
+                     "put 'and' or 'or' after it");
+      if (const std::string_view advice = advice_on_foreign_word(expression.name); !advice.empty())
+        return error(expression.place, quote(expression.name) + " is a word of another program", std::string(advice));
       return unknown_name(expression.place, expression.name);
     }
     if (Status status = check_for_missing_and(expression); !status) return status.error();
+    return values_of(with_lists_apart(expression, attribute), attribute);
+  }
+
+  Result<SphereMask> values_of(const Expression& expression, const FoundAttribute& attribute) const {
     if (attribute.is_element()) return elements(expression);
 
     // A text attribute takes each value as a text. An attribute of both kinds does so where a value is no number.
@@ -145,11 +158,55 @@ class Evaluation {
     return by_text ? texts(expression, *attribute.texts) : numbers(expression, attribute);
   }
 
+  // PyMOL writes lists as 25+50 and CA+CB. A text that some sphere has is itself.
+  Expression with_lists_apart(const Expression& expression, const FoundAttribute& attribute) const {
+    Expression apart = expression;
+    apart.values.clear();
+    for (const SelectionValue& value : expression.values) {
+      const bool is_list = value.kind == SelectionValue::Kind::text && !value.quoted && value.text.size() > 2 &&
+                           value.text.find('+', 1) < value.text.size() - 1;
+      const bool is_text = attribute.texts != nullptr &&
+                           std::find(attribute.texts->texts.begin(), attribute.texts->texts.end(), value.text) !=
+                               attribute.texts->texts.end();
+      if (!is_list || is_text) {
+        apart.values.push_back(value);
+        continue;
+      }
+      for (std::size_t begin = 0; begin <= value.text.size();) {
+        const std::size_t end = std::min(value.text.find('+', begin), value.text.size());
+        apart.values.push_back(value_from(value.text.substr(begin, end - begin), value.place + begin));
+        begin = end + 1;
+      }
+    }
+    return apart;
+  }
+
+  // "CA", "25" or "10-20".
+  static SelectionValue value_from(const std::string& text, TextPlace place) {
+    SelectionValue value;
+    value.place = place;
+    value.text = text;
+    const std::size_t minus = text.find('-', 1);
+    const std::optional<double> first = parse_double(std::string_view(text).substr(0, minus));
+    const std::optional<double> last =
+        minus == std::string::npos ? first : parse_double(std::string_view(text).substr(minus + 1));
+    if (!first || !last) return value;
+    value.kind = minus == std::string::npos ? SelectionValue::Kind::number : SelectionValue::Kind::range;
+    value.first = *first;
+    value.last = *last;
+    return value;
+  }
+
   // 'chain A resname LIG' lacks an 'and': the language could take resname for the name of a chain.
   Status check_for_missing_and(const Expression& expression) const {
     for (std::size_t i = 0; i < expression.values.size(); ++i) {
       const SelectionValue& value = expression.values[i];
       if (value.quoted || value.kind != SelectionValue::Kind::text || value.text.size() < 2) continue;
+      if (const std::string_view advice = advice_on_foreign_word(value.text); !advice.empty())
+        return error(value.place,
+                     quote(value.text) + " is a word of another program, where a value of " + quote(expression.name) +
+                         " is expected",
+                     std::string(advice) + "; put quotes around it if it is a value");
       const std::vector<std::string> names = attribute_names(spheres_);
       const bool known =
           is_selection_word(value.text) || std::find(names.begin(), names.end(), value.text) != names.end();
@@ -248,6 +305,35 @@ class Evaluation {
         mask[static_cast<std::size_t>(id)] = nearby.any_within(spheres_.stored_centre(id), distance * distance) ? 1 : 0;
     });
     return mask;
+  }
+
+  Result<SphereMask> same(const Expression& expression) const {
+    const Result<SphereMask> inner = mask_of(expression.operands.front());
+    if (!inner) return inner;
+    if (lower_case(expression.name) == "residue") {
+      const Result<std::vector<std::int32_t>> residue = residue_of_spheres(spheres_);
+      if (!residue) return error(expression.place, residue.error().message, residue.error().hint);
+      std::vector<bool> wanted(residue->empty() ? 0 : static_cast<std::size_t>(residue->back()) + 1, false);
+      for (std::size_t i = 0; i < size(); ++i)
+        if ((*inner)[i] != 0) wanted[static_cast<std::size_t>((*residue)[i])] = true;
+      return mask_by([&](std::size_t i) { return wanted[static_cast<std::size_t>((*residue)[i])]; });
+    }
+    const FoundAttribute attribute = find_attribute(spheres_, expression.name);
+    if (!attribute.found()) return unknown_name(expression.place, expression.name);
+    if (!attribute.has_numbers()) {
+      std::vector<bool> wanted(attribute.texts->texts.size(), false);
+      for (std::size_t i = 0; i < size(); ++i)
+        if ((*inner)[i] != 0) wanted[static_cast<std::size_t>(attribute.texts->text_of_sphere[i])] = true;
+      return mask_by_text(*attribute.texts, wanted);
+    }
+    const auto number = [&](std::size_t i) { return attribute.number_of(spheres_, static_cast<std::int64_t>(i)); };
+    std::vector<double> wanted;
+    for (std::size_t i = 0; i < size(); ++i)
+      if ((*inner)[i] != 0 && !std::isnan(number(i))) wanted.push_back(number(i));
+    std::sort(wanted.begin(), wanted.end());
+    return mask_by([&](std::size_t i) {
+      return !std::isnan(number(i)) && std::binary_search(wanted.begin(), wanted.end(), number(i));
+    });
   }
 
   Result<SphereMask> negation(const Expression& expression) const {

@@ -10,9 +10,9 @@ namespace bihive {
 /// A place in the selection's text: bytes from 0.
 using TextPlace = std::size_t;
 
-/// Arithmetic on numbers: `2 * x + charge`.
+/// Arithmetic on numbers: `2 * x + sqrt(charge)`.
 struct NumberTerm {
-  enum class Kind { number, name, negative, chain };
+  enum class Kind { number, name, negative, chain, power, square_root, absolute };
   Kind kind = Kind::number;
   TextPlace place = 0;
   std::string text;  ///< a number as it is written, or a name
@@ -39,6 +39,7 @@ struct Expression {
     values,       ///< `name` with `values`
     comparison,   ///< `terms` with a sign between each two
     within,       ///< at most `distance` from a sphere of the operand
+    same,         ///< those whose `name` (an attribute, or "residue") some sphere of the operand has too
     negation,     ///< of the operand
     conjunction,  ///< all operands
     disjunction   ///< any operand

@@ -35,6 +35,9 @@ struct word_or : istring<'o', 'r'> {};
 struct word_not : istring<'n', 'o', 't'> {};
 struct word_of : istring<'o', 'f'> {};
 struct word_within : istring<'w', 'i', 't', 'h', 'i', 'n'> {};
+struct word_same : istring<'s', 'a', 'm', 'e'> {};
+struct word_as : istring<'a', 's'> {};
+struct word_byres : istring<'b', 'y', 'r', 'e', 's'> {};
 struct reserved : seq<sor<word_and, word_or, word_not, word_of, word_within>, not_at<value_next>> {};
 
 struct and_sign : seq<sor<keyword<word_and>, seq<one<'&'>, opt<one<'&'>>, gap>>> {};
@@ -66,7 +69,13 @@ struct times_sign : one<'*', '/'> {};
 struct times_token : seq<times_sign, gap> {};
 struct plus_sign : one<'+', '-'> {};
 struct plus_token : seq<plus_sign, gap> {};
-struct factor : seq<star<minus_token>, sor<number_token, name, seq<open, sum, close>>> {};
+struct function_name : sor<istring<'s', 'q', 'r', 't'>, istring<'a', 'b', 's'>> {};
+struct function : seq<function_name, gap, open, sum, close> {};
+struct primary : sor<function, number_token, name, seq<open, sum, close>> {};
+struct power_token : seq<one<'^'>, gap> {};
+struct exponent_factor : seq<star<minus_token>, primary> {};
+struct power : seq<primary, opt<power_token, exponent_factor>> {};
+struct factor : seq<star<minus_token>, power> {};
 struct product : seq<factor, star<times_token, factor>> {};
 struct sum : seq<product, star<plus_token, product>> {};
 struct comparison_sign
@@ -75,8 +84,10 @@ struct comparison_token : seq<comparison_sign, gap> {};
 struct comparison : seq<sum, plus<comparison_token, sum>> {};
 
 // --- Names with values ---
+// A minus with a blank before it alone is the sign of another value: 5 -3.
+struct range_minus : sor<seq<one<'-'>, gap>, seq<plus<space>, one<'-'>, sor<plus<space>, at<one<'-'>>>>> {};
 struct range_sign
-    : sor<seq<gap, sor<two<'.'>, one<':'>>, gap>, seq<plus<space>, istring<'t', 'o'>, plus<space>>, one<'-'>> {};
+    : sor<seq<gap, sor<two<'.'>, one<':'>>, gap>, seq<plus<space>, istring<'t', 'o'>, plus<space>>, range_minus> {};
 struct range_value : seq<signed_digits, range_sign, signed_digits, not_at<value_next>> {};
 struct number_value : seq<signed_digits, not_at<value_next>> {};
 struct plain_value : seq<not_at<reserved>, value_first, star<value_next>> {};
@@ -89,19 +100,22 @@ struct disjunction;
 struct distance : seq<signed_digits> {};
 struct distance_token : seq<distance, not_at<name_next>, gap> {};
 struct within_prefix : seq<within_word, distance_token, of_word> {};
+struct byres_prefix : seq<keyword<word_byres>> {};
+struct same_prefix : seq<keyword<word_same>, name, keyword<word_as>> {};
 struct inner : seq<open, disjunction, close> {};
-struct operand : seq<star<sor<not_sign, within_prefix>>, sor<comparison, inner, test>> {};
+struct operand : seq<star<sor<not_sign, within_prefix, same_prefix, byres_prefix>>, sor<comparison, inner, test>> {};
 struct conjunction : seq<operand, star<and_sign, operand>> {};
 struct disjunction : seq<conjunction, star<or_sign, conjunction>> {};
 struct end_of_text : eof {};
 struct whole : seq<gap, disjunction, end_of_text> {};
 
 template <class Rule>
-using selector = parse_tree::selector<
-    Rule,
-    parse_tree::store_content::on<not_sign, within_prefix, distance, quoted, plain_name, number, minus_sign, times_sign,
-                                  plus_sign, factor, product, sum, comparison_sign, comparison, range_value,
-                                  number_value, signed_digits, plain_value, test, operand, conjunction, disjunction>>;
+using selector =
+    parse_tree::selector<Rule, parse_tree::store_content::on<
+                                   not_sign, within_prefix, same_prefix, byres_prefix, distance, function_name,
+                                   function, exponent_factor, power, quoted, plain_name, number, minus_sign, times_sign,
+                                   plus_sign, factor, product, sum, comparison_sign, comparison, range_value,
+                                   number_value, signed_digits, plain_value, test, operand, conjunction, disjunction>>;
 }  // namespace grammar
 // NOLINTEND(readability-identifier-naming)
 
@@ -286,8 +300,26 @@ NumberTerm factor_of(const ParseNode& node) {
   return negative;
 }
 
+// A function of one operand, or a base and its exponent.
+NumberTerm function_of(const ParseNode& node, NumberTerm::Kind kind) {
+  NumberTerm term;
+  term.kind = kind;
+  term.place = place_of(node);
+  for (const auto& child : node.children)
+    if (!child->is_type<grammar::function_name>()) term.operands.push_back(term_of(*child));
+  return term;
+}
+
+NumberTerm::Kind kind_of_function(const ParseNode& node) {
+  const char first = node.children.front()->string_view().front();
+  return first == 's' || first == 'S' ? NumberTerm::Kind::square_root : NumberTerm::Kind::absolute;
+}
+
 NumberTerm term_of(const ParseNode& node) {
-  if (node.is_type<grammar::factor>()) return factor_of(node);
+  if (node.is_type<grammar::factor>() || node.is_type<grammar::exponent_factor>()) return factor_of(node);
+  if (node.is_type<grammar::function>()) return function_of(node, kind_of_function(node));
+  if (node.is_type<grammar::power>())
+    return node.children.size() == 1 ? term_of(*node.children.front()) : function_of(node, NumberTerm::Kind::power);
   if (node.is_type<grammar::sum>() || node.is_type<grammar::product>()) return chain_of(node);
   NumberTerm term;
   term.place = place_of(node);
@@ -351,17 +383,23 @@ Expression comparison_of(const ParseNode& node) {
 // nest.
 Expression operand_of(const ParseNode& node) {
   Expression made = expression_of(*node.children.back());
-  const auto is_within = [&node](std::size_t i) { return node.children[i]->is_type<grammar::within_prefix>(); };
+  const auto is_not = [&node](std::size_t i) { return node.children[i]->is_type<grammar::not_sign>(); };
   for (std::size_t i = node.children.size() - 1; i-- > 0;) {
-    if (!is_within(i) && i > 0 && !is_within(i - 1)) {
+    if (is_not(i) && i > 0 && is_not(i - 1)) {
       --i;
       continue;
     }
     const ParseNode& prefix = *node.children[i];
     Expression outer;
     outer.place = place_of(prefix);
-    outer.kind = is_within(i) ? Expression::Kind::within : Expression::Kind::negation;
-    if (is_within(i)) outer.distance = number_of(*prefix.children.front());
+    outer.kind = Expression::Kind::negation;
+    if (prefix.is_type<grammar::within_prefix>()) {
+      outer.kind = Expression::Kind::within;
+      outer.distance = number_of(*prefix.children.front());
+    } else if (!is_not(i)) {
+      outer.kind = Expression::Kind::same;
+      outer.name = prefix.is_type<grammar::same_prefix>() ? text_of(*prefix.children.front()) : "residue";
+    }
     outer.operands.push_back(std::move(made));
     made = std::move(outer);
   }
@@ -380,11 +418,13 @@ Expression expression_of(const ParseNode& node) {
   return made;
 }
 
-// The place of the 'within' beyond the most that a selection may have; text.size() if there is none.
-TextPlace too_many_within(const ParseNode& node, int& left, std::size_t none) {
-  if (node.is_type<grammar::within_prefix>() && --left < 0) return place_of(node);
+// The place of the 'within', 'same' or 'byres' beyond the most that a selection may have; text.size() if there is none.
+TextPlace too_many_prefixes(const ParseNode& node, int& left, std::size_t none) {
+  const bool counts = node.is_type<grammar::within_prefix>() || node.is_type<grammar::same_prefix>() ||
+                      node.is_type<grammar::byres_prefix>();
+  if (counts && --left < 0) return place_of(node);
   for (const auto& child : node.children)
-    if (const TextPlace place = too_many_within(*child, left, none); place != none) return place;
+    if (const TextPlace place = too_many_prefixes(*child, left, none); place != none) return place;
   return none;
 }
 
@@ -417,10 +457,11 @@ Result<Expression> parse_expression(std::string_view text) {
           text, farthest.place,
           "expected " + expectation(farthest.expected) + ", found " + found_at(text, farthest.place));
     const ParseNode& whole = *root->children.front();
-    int within_left = kDeepestSelection;
-    if (const TextPlace place = too_many_within(whole, within_left, text.size()); place != text.size())
-      return selection_error(text, place,
-                             "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within'");
+    int prefixes_left = kDeepestSelection;
+    if (const TextPlace place = too_many_prefixes(whole, prefixes_left, text.size()); place != text.size())
+      return selection_error(
+          text, place,
+          "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within', 'same' or 'byres'");
     return expression_of(whole);
   } catch (const TooDeep& deep) {
     return selection_error(text, text.rfind('(', deep.place - 1),

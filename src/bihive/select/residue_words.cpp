@@ -14,6 +14,13 @@ constexpr std::string_view kMoreNucleic[] = {"DA5", "DC5", "DG5", "DT5", "DA3", 
                                              "RC",  "RG",  "RU",  "ADE", "CYT", "GUA", "THY", "URA"};
 constexpr std::string_view kMoreWater[] = {"WAT", "H2O", "TIP", "TIP2", "TIP3", "TIP4", "TP3",
                                            "T3P", "T4P", "SOL", "SPC",  "SPCE", "OH2",  "DOD"};
+// Monatomic ions of the PDB's chemical components, their names in AMBER, CHARMM and GROMACS, and common groups.
+constexpr std::string_view kIons[] = {
+    "LI",  "NA",  "K",   "RB",  "CS",  "MG",  "CA",  "SR",  "BA",  "MN",  "MN3", "FE",  "FE2", "CO",
+    "3CO", "NI",  "CU",  "CU1", "ZN",  "CD",  "HG",  "AG",  "AU",  "PT",  "PB",  "AL",  "TL",  "LA",
+    "CE",  "SM",  "EU",  "GD",  "TB",  "YB",  "LU",  "U1",  "F",   "CL",  "BR",  "IOD", "SO4", "PO4",
+    "NO3", "CO3", "NH4", "Na+", "K+",  "Cl-", "Br-", "I-",  "F-",  "Li+", "Rb+", "Cs+", "NA+", "CL-",
+    "MG2", "CA2", "ZN2", "SOD", "POT", "CLA", "CAL", "CES", "LIT", "RUB", "BAR", "CAD", "CIO", "IB"};
 constexpr std::string_view kProteinBackbone[] = {"N", "CA", "C", "O"};
 constexpr std::string_view kNucleicBackbone[] = {"P", "O5'", "C5'", "C4'", "C3'", "O3'"};
 
@@ -34,6 +41,10 @@ bool is_nucleic_residue(const std::string& residue) {
 
 bool is_water_residue(const std::string& residue) {
   return gemmi::find_tabulated_residue(residue).is_water() || holds(kMoreWater, residue);
+}
+
+bool is_ion_residue(const std::string& residue) {
+  return holds(kIons, residue);
 }
 
 bool is_protein_backbone(std::string_view atom) {

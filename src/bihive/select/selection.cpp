@@ -1,8 +1,12 @@
 #include "bihive/select/selection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/select/attribute_names.h"
 #include "bihive/select/evaluate.h"
 #include "bihive/select/parse_expression.h"
 
@@ -18,6 +22,55 @@ Status check_selection(std::string_view expression) {
   const Result<Expression> parsed = parse_expression(expression);
   if (!parsed) return parsed.error();
   return Done{};
+}
+
+namespace {
+
+constexpr std::size_t kMostTexts = 12;
+
+// Of a name without spheres that have one of its values.
+std::string alternatives_to(const SphereSet& spheres, const Expression& test) {
+  const FoundAttribute attribute = find_attribute(spheres, test.name);
+  std::string values;
+  for (const SelectionValue& value : test.values)
+    values += (values.empty() ? "" : " ") + (value.quoted ? quote(value.text) : value.text);
+  const std::string nothing = "no sphere has " + test.name + " " + values + "; there ";
+  if (attribute.texts != nullptr) {
+    const std::vector<std::string>& texts = attribute.texts->texts;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(texts.size(), kMostTexts); ++i)
+      list += (i == 0 ? "" : ", ") + (texts[i].empty() ? quote("") : printable(texts[i]));
+    if (texts.size() > kMostTexts) list += " and " + std::to_string(texts.size() - kMostTexts) + " others";
+    return nothing + "are " + list;
+  }
+  double low = 0, high = 0;
+  bool any = false;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const double number = attribute.number_of(spheres, id);
+    if (!std::isfinite(number)) continue;
+    low = any ? std::min(low, number) : number;
+    high = any ? std::max(high, number) : number;
+    any = true;
+  }
+  return any ? nothing + fmt::format("are numbers from {} to {}", low, high) : std::string();
+}
+
+std::string first_empty_test(const SphereSet& spheres, const Expression& expression, std::string_view text) {
+  if (expression.kind == Expression::Kind::values) {
+    const Result<std::vector<std::uint8_t>> mask = evaluate(expression, text, spheres);
+    const bool found = !mask || std::find(mask->begin(), mask->end(), std::uint8_t{1}) != mask->end();
+    return found ? std::string() : alternatives_to(spheres, expression);
+  }
+  for (const Expression& operand : expression.operands)
+    if (std::string reason = first_empty_test(spheres, operand, text); !reason.empty()) return reason;
+  return "";
+}
+
+}  // namespace
+
+std::string what_there_is(const SphereSet& spheres, std::string_view expression) {
+  const Result<Expression> parsed = parse_expression(expression);
+  return parsed ? first_empty_test(spheres, *parsed, expression) : std::string();
 }
 
 std::string caret_lines(std::string_view expression, const Error& error) {

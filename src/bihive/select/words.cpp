@@ -12,12 +12,14 @@ namespace {
 
 using WordMask = std::vector<std::uint8_t>;
 
-constexpr std::string_view kWords[] = {"all", "none", "hydrogen", "water", "protein", "nucleic", "backbone", "hetero"};
+constexpr std::string_view kWords[] = {"all",     "none",    "hydrogen", "water",    "ion",       "ligand",
+                                       "protein", "nucleic", "polymer",  "backbone", "sidechain", "hetero"};
 struct OtherForm {
   std::string_view other, word;
 };
-constexpr OtherForm kOtherForms[] = {
-    {"hydrogens", "hydrogen"}, {"waters", "water"}, {"hetatm", "hetero"}, {"hetatom", "hetero"}};
+constexpr OtherForm kOtherForms[] = {{"hydrogens", "hydrogen"}, {"waters", "water"},   {"solvent", "water"},
+                                     {"ions", "ion"},           {"ligands", "ligand"}, {"sidechains", "sidechain"},
+                                     {"hetatm", "hetero"},      {"hetatom", "hetero"}};
 
 constexpr int kHydrogen = 1;
 
@@ -45,6 +47,34 @@ Result<WordMask> by_residue(std::string_view word, const SphereSet& spheres, con
   const std::vector<bool> wanted = decide(residues->texts, test);
   WordMask mask(static_cast<std::size_t>(spheres.size()));
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = wanted[text_at(*residues, i)] ? 1 : 0;
+  return mask;
+}
+
+bool is_polymer_residue(const std::string& residue) {
+  return is_protein_residue(residue) || is_nucleic_residue(residue);
+}
+
+bool is_ligand_residue(const std::string& residue) {
+  return !is_polymer_residue(residue) && !is_water_residue(residue) && !is_ion_residue(residue);
+}
+
+Result<WordMask> backbone(const SphereSet& spheres);
+
+// The atoms of polymers that are not of their backbone, and no hydrogen.
+Result<WordMask> sidechain(const SphereSet& spheres) {
+  Result<WordMask> mask = backbone(spheres);
+  if (!mask) {
+    Error error = mask.error();
+    if (const std::size_t at = error.message.find("backbone"); at != std::string::npos)
+      error.message.replace(at, 8, "sidechain");
+    return error;
+  }
+  const Result<WordMask> polymer = by_residue("sidechain", spheres, is_polymer_residue);
+  const std::vector<std::uint8_t>& element = spheres.attributes().element;
+  for (std::size_t i = 0; i < mask->size(); ++i) {
+    const bool is_hydrogen = !element.empty() && element[i] == kHydrogen;
+    (*mask)[i] = (*polymer)[i] != 0 && (*mask)[i] == 0 && !is_hydrogen ? 1 : 0;
+  }
   return mask;
 }
 
@@ -105,6 +135,10 @@ Result<WordMask> mask_of_word(std::string_view word, const SphereSet& spheres) {
   if (word == "hydrogen") return hydrogen(spheres);
   if (word == "hetero") return hetero(spheres);
   if (word == "backbone") return backbone(spheres);
+  if (word == "sidechain") return sidechain(spheres);
+  if (word == "polymer") return by_residue(word, spheres, is_polymer_residue);
+  if (word == "ligand") return by_residue(word, spheres, is_ligand_residue);
+  if (word == "ion") return by_residue(word, spheres, is_ion_residue);
   if (word == "protein") return by_residue(word, spheres, is_protein_residue);
   if (word == "nucleic") return by_residue(word, spheres, is_nucleic_residue);
   return by_residue(word, spheres, is_water_residue);

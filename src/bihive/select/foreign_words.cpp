@@ -1,0 +1,56 @@
+#include "bihive/select/foreign_words.h"
+
+namespace bihive {
+namespace {
+
+struct ForeignWord {
+  std::string_view word, advice;
+};
+constexpr std::string_view kNear = "write 'within 5 of resname LIG', and 'and not resname LIG' to leave it out";
+constexpr std::string_view kPlace = "compare coordinates: 'x^2 + y^2 < 25', 'z > 3'";
+constexpr ForeignWord kForeignWords[] = {
+    {"around", kNear},
+    {"exwithin", kNear},
+    {"pbwithin", kNear},
+    {"near_to", kNear},
+    {"beyond", "write 'not within 5 of resname LIG'"},
+    {"expand", "write 'within 5 of resname LIG'"},
+    {"gap", "write 'not within 5 of resname LIG'"},
+    {"extend", "there are no bonds; write 'within 2 of resname LIG'"},
+    {"bonded", "there are no bonds; write 'within 2 of resname LIG'"},
+    {"neighbor", "write 'within 2 of resname LIG'"},
+    {"nbr", "write 'within 2 of resname LIG'"},
+    {"bymolecule", "write 'same mol as', if there is a column mol"},
+    {"bymol", "write 'same mol as', if there is a column mol"},
+    {"bychain", "write 'same chain as'"},
+    {"bysegi", "write 'same chain as'"},
+    {"byobject", "there is one object; write 'all'"},
+    {"group", "write the group's selection itself"},
+    {"global", "leave it out"},
+    {"prop", "compare the number: 'charge < 0'"},
+    {"point", kPlace},
+    {"sphlayer", kPlace},
+    {"sphzone", kPlace},
+    {"isolayer", kPlace},
+    {"cylayer", kPlace},
+    {"cyzone", kPlace},
+    {"box", kPlace},
+    {"fragment", "write 'same mol as', if there is a column mol"},
+    {"pfrag", "write 'same chain as'"},
+    {"polymer_type", "write protein or nucleic"},
+    {"organic", "write ligand"},
+    {"inorganic", "write ion"},
+    {"metals", "write the elements: 'element Zn Fe Mg'"},
+    {"noh", "write 'not hydrogen'"},
+    {"nucleicbackbone", "write 'nucleic and backbone'"},
+};
+
+}  // namespace
+
+std::string_view advice_on_foreign_word(std::string_view word) {
+  for (const ForeignWord& one : kForeignWords)
+    if (one.word == word) return one.advice;
+  return {};
+}
+
+}  // namespace bihive
