@@ -252,7 +252,7 @@ bool EffectsPanel::draw_colours(const SceneFacts& facts, ViewerLook& look) {
                         facts.attributes, parts.attribute);
   if (changed) parts.range.clear();  // another attribute has another range
   ImGui::BeginDisabled(parts.attribute.empty());
-  changed = choice("map", "automatic", {"viridis", "magma", "cividis", "coolwarm", "okabe-ito"}, parts.map) || changed;
+  changed = choice("map", "automatic", colour_map_names(), parts.map) || changed;
   changed = text("range", "MIN,MAX: all values", parts.range) || changed;
   bool log = parts.log == "log";
   check("logarithmic", log);

@@ -14,7 +14,6 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/io/reading_settings.h"
 #include "bihive/scene/camera_lights.h"
-#include "bihive/scene/colour_maps.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/names.h"
@@ -189,7 +188,6 @@ std::string Page::choices() const {
   for (const std::string& name : style_names())
     json["styles"].push_back({{"name", name}, {"description", style_named(name)->description}});
   json["actions"] = look_action_names();
-  json["maps"] = kColourMapNames;
   json["materials"] = names_json(named_materials());
   json["lights"] = names_json(light_presets());
   json["settings"] = *json_from_text<ordered_json>(parameters_to_json());

@@ -57,7 +57,7 @@ class Page {
 
   // The look (viewer/viewer_json.h).
 
-  /// {"styles": [{"name", "description"}], "actions": [names], "maps": "a, b", "materials": [names], "lights": [names],
+  /// {"styles": [{"name", "description"}], "actions": [names], "materials": [names], "lights": [names],
   /// "tones": [names]}
   std::string choices() const;
   std::string look() const;

@@ -72,7 +72,7 @@ class ManualPages(Words):
         for words in ([], ["man", "nothing"], ["man", "render", "film"], ["tcsh"], ["bash", "zsh"], ["commands", "all"]):
             done = self.run_bihive("describe", *words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
-            self.assertIn("bihive describe knows: commands, options, settings, reading, picture, man [COMMAND], bash, zsh, fish", done.stderr)
+            self.assertIn("bihive describe knows: commands, options, settings, reading, picture, colour-maps, man [COMMAND], bash, zsh, fish", done.stderr)
 
 
 class Bash(Words):

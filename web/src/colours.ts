@@ -1,6 +1,7 @@
 // The panel's controls of the look that are for all spheres: lights, lines between groups, and colours by an attribute.
 import { element } from './dom';
 import type { ColouredBy, Facts, Look } from './protocol';
+import { colour_maps } from './settings';
 
 const presets = ['studio', 'cloudy', 'headlight', 'thesis'];
 const grey = '#808080';
@@ -58,6 +59,7 @@ export class ColourControls {
       this.min.value = this.max.value = '';
       this.change_colours();
     });
+    fill(this.map, 'automatic', [...colour_maps]);
     for (const input of [this.map, this.min, this.max, this.log])
       input.addEventListener('change', () => this.change_colours());
     this.nan_colour.addEventListener('change', () => change({ nan_colour: this.nan_colour.value }));

@@ -7,7 +7,9 @@
 #include "bihive/io/reading_settings.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/picture_options.h"
+#include "bihive/job/report_text.h"
 #include "bihive/scene/camera_lights.h"
+#include "bihive/scene/colour_maps.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/style.h"
 #include "bihive/viewer/viewer_json.h"
@@ -127,6 +129,8 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     text = reading_settings_to_json() + "\n";
   } else if (what == "picture" && words.size() == 1) {
     text = picture_options_to_json() + "\n";
+  } else if (what == "colour-maps" && words.size() == 1) {
+    text = as_text(colour_map_names(), -1) + "\n";
   } else if (what == "man" && words.size() <= 2) {
     text = man_page(program, words.size() == 2 ? words[1] : "");
   } else if (words.size() == 1) {
@@ -135,8 +139,10 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     if (what == "fish") text = fish_completion(program);
   }
   if (text.empty())
-    fail_usage("bihive describe knows: commands, options, settings, reading, picture, man [COMMAND], bash, zsh, fish",
-               "see docs/packages.md");
+    fail_usage(
+        "bihive describe knows: commands, options, settings, reading, picture, colour-maps, man [COMMAND], bash, zsh, "
+        "fish",
+        "see docs/packages.md");
   return text;
 }
 

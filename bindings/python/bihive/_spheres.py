@@ -20,7 +20,7 @@ __all__ = ["Spheres", "read", "convert", "select", "stats", "colour_map"]
 Array = np.ndarray[Any, Any]
 _BUILT_IN = ["demo", "scenario1", "scenario2", "scenario3", "four-spheres"]
 _WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".ply": "ply"}
-_MAPS = ["viridis", "magma", "cividis", "coolwarm", "okabe-ito"]
+_MAPS = [name + tail for name in _bihive.colour_maps() for tail in ("", "_r") if name != "okabe-ito" or not tail]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
 _TYPES = (-(2**31), 2**31 - 1)
 _READING = [*_bihive.reading_settings(), "count", "seed"]
@@ -487,7 +487,7 @@ def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> 
 def colour_map(values: Any, map: Optional[str] = None, range: Any = None, log: bool = False, nan_colour: str = "grey") -> Array:
     """float32 (n, 3) of linear light: the colours that ``--colour-by`` gives these values.
 
-    values: numbers or texts, shape (n,). map: "viridis", "magma", "cividis", "coolwarm" or "okabe-ito"; left out: viridis for
+    values: numbers or texts, shape (n,). map: "viridis", "RdBu_r" or another of ``bihive render --help-all``; left out: viridis for
     numbers, colours by category for texts. range: the two numbers at the ends of the map; left out: those of the values.
     log: the map runs along the logarithm. nan_colour: of NaN.
 

@@ -290,6 +290,7 @@ std::vector<std::pair<std::string, std::string>> options_of_pictures() {
 void bind_spheres(py::module_& module) {
   module.def("options", options_of_pictures);
   module.def("actions", look_action_names);
+  module.def("colour_maps", colour_map_names);
   py::class_<Spheres, std::shared_ptr<Spheres>>(module, "Spheres")
       .def("__len__", [](const Spheres& s) { return s.file.spheres.size(); })
       .def_property_readonly("xyz", centres)

@@ -304,6 +304,12 @@ Row action(const std::string& id, const std::string& value_name, const std::stri
           }};
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 // A switch among the actions.
 template <class Act>
 Row action_switch(const std::string& id, const std::string& help, Act act) {
@@ -332,13 +338,15 @@ void add_spheres(Rows& rows) {
   select.take = [](PictureRequest& request, const std::string& text) -> Status {
     return request.looks.select(text), Done{};
   };
-  rows.insert(rows.end(),
-              {std::move(select),
-               action_switch("hide", "Hide them from every ray", [](LookOptions& looks) { looks.show(false); }),
-               action_switch("show", "Show them again", [](LookOptions& looks) { looks.show(true); }),
-               action("colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1"),
-               action("colour_by", "ATTR[:MAP[:MIN,MAX[:log]]]",
-                      "Colour them by an attribute; MAP: " + std::string(kColourMapNames))});
+  rows.insert(
+      rows.end(),
+      {std::move(select),
+       action_switch("hide", "Hide them from every ray", [](LookOptions& looks) { looks.show(false); }),
+       action_switch("show", "Show them again", [](LookOptions& looks) { looks.show(true); }),
+       action("colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1"),
+       action("colour_by", "ATTR[:MAP][:MIN,MAX][:log][:mid=M]",
+              "Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed:\n" +
+                  joined(colour_map_names()))});
   Row nan_colour =
       action("nan_colour", "COLOUR", "Colour of unknown numbers in the attribute that gives colours (grey)");
   nan_colour.take = [](PictureRequest& request, const std::string& text) { return request.looks.set_nan_colour(text); };

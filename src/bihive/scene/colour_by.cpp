@@ -11,6 +11,7 @@
 #include "bihive/scene/colour_of_number.h"
 #include "bihive/scene/palette.h"
 #include "bihive/select/attribute_names.h"
+#include "bihive/select/number_term.h"
 
 namespace bihive {
 namespace {
@@ -27,13 +28,19 @@ std::string take_part(std::string& rest) {
   return part;
 }
 
-std::optional<std::pair<double, double>> range_from(const std::string& text) {
+// "MIN,MAX" or "P%,Q%", with the larger one first or last, into `how`.
+bool take_range(const std::string& text, ColourBy& how) {
   const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) return std::nullopt;
-  const auto low = parse_double(std::string_view(text).substr(0, comma));
-  const auto high = parse_double(std::string_view(text).substr(comma + 1));
-  if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || !(*low < *high)) return std::nullopt;
-  return std::pair{*low, *high};
+  if (comma == std::string::npos) return false;
+  std::string_view first = std::string_view(text).substr(0, comma), second = std::string_view(text).substr(comma + 1);
+  const bool of_percent = first.ends_with('%') && second.ends_with('%');
+  if (of_percent) first.remove_suffix(1), second.remove_suffix(1);
+  const auto low = parse_double(first), high = parse_double(second);
+  if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || *low == *high) return false;
+  if (of_percent && (std::min(*low, *high) < 0 || std::max(*low, *high) > 100)) return false;
+  (of_percent ? how.percentiles : how.range).emplace(std::min(*low, *high), std::max(*low, *high));
+  if (*low > *high) how.map = reversed(how.map.value_or(ColourMap::viridis));
+  return true;
 }
 
 // A colour that looks the same under both transfers.
@@ -70,29 +77,60 @@ class Scale {
   double low_, high_;
 };
 
-// The smallest and largest finite number of the spheres in the mask; with a logarithmic scale above 0.
-std::optional<std::pair<double, double>> range_of(const SphereSet& spheres, const FoundAttribute& attribute,
-                                                  const std::vector<std::uint8_t>& mask, bool logarithmic) {
-  std::optional<std::pair<double, double>> range;
-  const auto add = [&](std::int64_t id, double number) {
+// use(number) for each finite number of the spheres in the mask, and of their images where these differ; with a
+// logarithmic scale above 0.
+template <class Use>
+void for_each_number(const SphereSet& spheres, const FoundAttribute& attribute, const std::vector<std::uint8_t>& mask,
+                     bool logarithmic, const Use& use) {
+  const auto add = [&](std::int64_t id) {
     if (mask[static_cast<std::size_t>(spheres.stored_id(id))] == 0) return;
-    if (!std::isfinite(number) || (logarithmic && !(number > 0))) return;
+    const double number = attribute.number_of(spheres, id);
+    if (std::isfinite(number) && (!logarithmic || number > 0)) use(number);
+  };
+  if (spheres.has_images() && attribute.differs_by_image())
+    for_each_sphere(spheres, [&](std::int64_t id, Vec3d, double) { add(id); });
+  else
+    for (std::int64_t id = 0; id < spheres.size(); ++id) add(id);
+}
+
+// The value below which `percent` of the numbers lie, between two of them in proportion. Reorders them.
+double percentile(std::vector<double>& numbers, double percent) {
+  const double place = percent / 100 * static_cast<double>(numbers.size() - 1);
+  const auto below = numbers.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(numbers.begin(), below, numbers.end());
+  const double weight = place - std::floor(place);
+  if (weight == 0) return *below;
+  return (1 - weight) * *below + weight * *std::min_element(below + 1, numbers.end());
+}
+
+// The range of an open one: the smallest and largest number, or the percentiles.
+std::optional<std::pair<double, double>> range_of(const SphereSet& spheres, const ColourBy& how,
+                                                  const FoundAttribute& attribute,
+                                                  const std::vector<std::uint8_t>& mask) {
+  if (how.percentiles) {
+    std::vector<double> numbers;
+    for_each_number(spheres, attribute, mask, how.logarithmic, [&](double number) { numbers.push_back(number); });
+    if (numbers.empty()) return std::nullopt;
+    const double low = percentile(numbers, how.percentiles->first);
+    return std::pair{low, percentile(numbers, how.percentiles->second)};
+  }
+  std::optional<std::pair<double, double>> range;
+  for_each_number(spheres, attribute, mask, how.logarithmic, [&](double number) {
     if (!range) range.emplace(number, number);
     range->first = std::min(range->first, number);
     range->second = std::max(range->second, number);
-  };
-  // Images differ from their stored sphere in place and index alone.
-  using Number = FoundAttribute::Number;
-  const bool by_place = attribute.number == Number::x || attribute.number == Number::y || attribute.number == Number::z;
-  if (spheres.has_images() && (by_place || attribute.number == Number::index)) {
-    const int axis = attribute.number == Number::x ? 0 : attribute.number == Number::y ? 1 : 2;
-    for_each_sphere(spheres, [&](std::int64_t id, Vec3d centre, double) {
-      add(id, by_place ? centre[axis] : static_cast<double>(id));
-    });
-  } else {
-    for (std::int64_t id = 0; id < spheres.size(); ++id) add(id, attribute.number_of(spheres, id));
-  }
+  });
   return range;
+}
+
+// As far above the middle as below.
+std::pair<double, double> around(double middle, std::pair<double, double> range, bool logarithmic) {
+  if (logarithmic) {
+    const double factor = std::max({1.0, middle / range.first, range.second / middle});
+    return {middle / factor, middle * factor};
+  }
+  const double half = std::max({0.0, middle - range.first, range.second - middle});
+  return {middle - half, middle + half};
 }
 
 Result<ColourBy> colour_by_number(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
@@ -106,7 +144,8 @@ Result<ColourBy> colour_by_number(const SphereSet& spheres, const ColourBy& how,
   if (!unknown) return unknown.error();
   ColourBy done = how;
   done.map = how.map.value_or(ColourMap::viridis);
-  if (!done.range) done.range = range_of(spheres, attribute, mask, how.logarithmic).value_or(std::pair{0.0, 1.0});
+  if (!done.range) done.range = range_of(spheres, how, attribute, mask).value_or(std::pair{0.0, 1.0});
+  if (how.middle) done.range = around(*how.middle, *done.range, how.logarithmic);
   const Scale scale(*done.range, how.logarithmic);
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     const auto i = static_cast<std::size_t>(id);
@@ -171,42 +210,57 @@ Result<ColourBy> colour_by_from_text(const std::string& text) {
   ColourBy how;
   how.attribute = take_part(rest);
   if (how.attribute.empty()) return colour_by_error("expected the name of an attribute, found \"" + text + "\"");
-  if (const std::string map = take_part(rest); !map.empty()) {
-    how.map = colour_map_from(map);
-    if (!how.map)
-      return colour_by_error("there is no colour map \"" + map + "\"", "there are " + std::string(kColourMapNames));
+  for (bool first = true; !rest.empty(); first = false) {
+    const std::string part = take_part(rest);
+    const bool has_range = how.range || how.percentiles;
+    if (part.empty()) continue;
+    if (part == "log" && !how.logarithmic) {
+      how.logarithmic = true;
+    } else if (part.starts_with("mid=") && !how.middle) {
+      how.middle = parse_double(std::string_view(part).substr(4));
+      if (!how.middle || !std::isfinite(*how.middle))
+        return colour_by_error("expected a number after mid=, found \"" + part + "\"");
+    } else if (part.find(',') != std::string::npos && !has_range) {
+      if (!take_range(part, how))
+        return colour_by_error("expected a range MIN,MAX of two finite numbers or percentiles (2%,98%), found \"" +
+                               part + "\"");
+    } else if (first) {
+      how.map = colour_map_from(part);
+      if (!how.map) {
+        const std::vector<std::string> names = colour_map_names();
+        return colour_by_error("there is no colour map \"" + part + "\"",
+                               suggestion(part, names) + ", each but okabe-ito also with _r");
+      }
+    } else {
+      return colour_by_error("expected MIN,MAX, \"log\" or \"mid=\" once each, found \"" + part + "\"");
+    }
   }
-  if (const std::string range = take_part(rest); range == "log" && rest.empty()) {
-    how.logarithmic = true;
-  } else if (!range.empty()) {
-    how.range = range_from(range);
-    if (!how.range)
-      return colour_by_error("expected a range MIN,MAX of finite numbers with MIN below MAX, found \"" + range + "\"");
-  }
-  if (rest == "log") how.logarithmic = true;
-  if (!rest.empty() && rest != "log") return colour_by_error("expected \"log\" at the end, found \"" + rest + "\"");
+  if (how.logarithmic && how.middle && !(*how.middle > 0))
+    return colour_by_error("the middle of a logarithmic range is above 0, found \"" + text + "\"");
+  if (how.map && *how.map == ColourMap::okabe_ito && (how.range || how.percentiles || how.middle || how.logarithmic))
+    return colour_by_error("okabe-ito is for categories, which have no range", "leave the range out, or take viridis");
   if (how.logarithmic && how.range && !(how.range->first > 0))
     return colour_by_error("a logarithmic range begins above 0, found \"" + text + "\"");
   return how;
 }
 
 std::optional<std::pair<double, double>> number_range(const SphereSet& spheres, const ColourBy& how) {
-  const FoundAttribute attribute = find_attribute(spheres, how.attribute);
-  if (!attribute.found() || attribute.texts != nullptr) return std::nullopt;
+  const Result<FoundAttribute> attribute = find_numbers(spheres, how.attribute);
+  if (!attribute || attribute->texts != nullptr) return std::nullopt;
   const std::vector<std::uint8_t> all(static_cast<std::size_t>(spheres.size()), 1);
-  return range_of(spheres, attribute, all, how.logarithmic);
+  return range_of(spheres, how, *attribute, all);
 }
 
 Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
                            Transfer transfer, std::vector<Vec3f>& colours) {
   BIHIVE_CHECK_EQ(mask.size(), colours.size());
-  const FoundAttribute attribute = find_attribute(spheres, how.attribute);
-  if (!attribute.found())
-    return colour_by_error("there is no attribute \"" + how.attribute + "\"",
-                           suggestion(how.attribute, attribute_names(spheres)));
+  const Result<FoundAttribute> found = find_numbers(spheres, how.attribute);
+  if (!found) return found.error();
+  const FoundAttribute& attribute = *found;
   const bool by_number = attribute.has_numbers();
   const bool of_categories = !by_number || attribute.is_element() || attribute.number == FoundAttribute::Number::type;
-  const bool categorical = how.map ? *how.map == ColourMap::okabe_ito : of_categories && !how.range && !how.logarithmic;
+  const bool categorical = how.map ? *how.map == ColourMap::okabe_ito
+                                   : of_categories && !how.range && !how.percentiles && !how.middle && !how.logarithmic;
   if (!categorical && !by_number)
     return colour_by_error("\"" + how.attribute + "\" holds texts, and this map needs numbers",
                            "leave the map out, or take okabe-ito");

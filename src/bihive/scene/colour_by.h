@@ -22,15 +22,17 @@ using ColourChoice = std::variant<Vec3d, std::string>;
 Result<Vec3f> linear_colour(const ColourChoice& colour, Transfer transfer);
 
 struct ColourBy {
-  std::string attribute;                           ///< a name as selections know it (docs/selections.md)
-  std::optional<ColourMap> map;                    ///< unset: by category for texts, types and elements, else viridis
-  std::optional<std::pair<double, double>> range;  ///< unset: the finite values of the coloured spheres
-  bool logarithmic = false;                        ///< the map runs along the logarithm; numbers <= 0 are unknown
-  ColourChoice nan_colour = std::string("grey");   ///< of spheres whose number is unknown (NaN)
+  std::string attribute;         ///< a name as selections know it, or arithmetic of names: "sqrt(vx^2 + vy^2)"
+  std::optional<ColourMap> map;  ///< unset: by category for texts, types and elements, else viridis
+  std::optional<std::pair<double, double>> range;        ///< unset: the finite values of the coloured spheres
+  std::optional<std::pair<double, double>> percentiles;  ///< of these values, in place of the ends of an open range
+  std::optional<double> middle;                          ///< the range is widened so that the map's middle is here
+  bool logarithmic = false;                              ///< the map runs along the logarithm; numbers <= 0 are unknown
+  ColourChoice nan_colour = std::string("grey");         ///< of spheres whose number is unknown (NaN)
 };
 
-/// "ATTR", "ATTR:MAP", "ATTR:MAP:MIN,MAX" or "ATTR:MAP:MIN,MAX:log"; MAP and MIN,MAX may be empty. An error says what
-/// was expected.
+/// "ATTR", then ":MAP", ":MIN,MAX" (numbers, or percentiles such as 2%,98%; MIN above MAX reverses the map), ":log" and
+/// ":mid=NUMBER", each of which may be left out; MAP comes first. An error says what was expected.
 Result<ColourBy> colour_by_from_text(const std::string& text);
 
 /// Sets `colours` (one for each sphere) where the mask is not 0. Numbers outside the range have the colour of its end.

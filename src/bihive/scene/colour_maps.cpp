@@ -11,7 +11,8 @@ constexpr int kControls = 33;
 
 // Control colours at equal distances, as they appear on the screen. Those of viridis, magma and cividis are their
 // authors' tables of 256 colours at every eighth place, rounded to bytes. Those of coolwarm come from its author's
-// formula, from (59, 76, 192) by (221, 221, 221) to (180, 4, 38).
+// formula, from (59, 76, 192) by (221, 221, 221) to (180, 4, 38). plasma, inferno and turbo are tables of 256 colours
+// too; RdBu passes through ColorBrewer's eleven colours.
 constexpr std::uint32_t kViridis[kControls] = {
     0x440154, 0x470D60, 0x48186A, 0x482374, 0x472D7B, 0x453681, 0x424086, 0x3F4989, 0x3B528B, 0x375A8D, 0x33638D,
     0x2F6A8E, 0x2C728E, 0x297A8E, 0x26818E, 0x23898E, 0x21908C, 0x1F988B, 0x1F9F88, 0x21A685, 0x28AE80, 0x31B57B,
@@ -29,18 +30,49 @@ constexpr std::uint32_t kCoolwarm[kControls] = {
     0xAEC9FD, 0xB8D0F9, 0xC2D5F4, 0xCCD9EE, 0xD5DBE6, 0xDDDDDD, 0xE5D8D1, 0xECD3C6, 0xF1CCB9, 0xF5C4AD, 0xF7BBA0,
     0xF7B194, 0xF7A687, 0xF49A7B, 0xF18D6F, 0xEC7F63, 0xE57057, 0xDE614C, 0xD55042, 0xCB3E38, 0xC0282F, 0xB40426};
 
-const std::uint32_t (&controls_of(ColourMap map))[kControls] {
-  switch (map) {
-    case ColourMap::magma:
-      return kMagma;
-    case ColourMap::cividis:
-      return kCividis;
-    case ColourMap::coolwarm:
-      return kCoolwarm;
-    case ColourMap::viridis:
-    case ColourMap::okabe_ito:
-      break;
-  }
+constexpr std::uint32_t kPlasma[kControls] = {
+    0x0D0887, 0x220690, 0x310597, 0x3F049C, 0x4C02A1, 0x5901A5, 0x6600A7, 0x7201A8, 0x7E03A8, 0x8A09A5, 0x9511A1,
+    0xA01A9C, 0xAA2395, 0xB32C8E, 0xBC3587, 0xC43E7F, 0xCC4778, 0xD35171, 0xDA5A6A, 0xE06363, 0xE66C5C, 0xEB7655,
+    0xF0804E, 0xF58B47, 0xF89540, 0xFBA139, 0xFDAC33, 0xFEB82C, 0xFDC527, 0xFCD225, 0xF8DF25, 0xF4ED27, 0xF0F921};
+constexpr std::uint32_t kInferno[kControls] = {
+    0x000004, 0x040312, 0x0B0724, 0x150B37, 0x210C4A, 0x2F0A5B, 0x3D0965, 0x4A0C6B, 0x57106E, 0x64156E, 0x71196E,
+    0x7D1E6D, 0x8A226A, 0x972766, 0xA32C61, 0xB0315B, 0xBC3754, 0xC73E4C, 0xD24644, 0xDB503B, 0xE45A31, 0xEB6628,
+    0xF1731D, 0xF68013, 0xF98E09, 0xFB9D07, 0xFCAC11, 0xFBBC21, 0xF9CB35, 0xF5DB4C, 0xF2EA69, 0xF3F68A, 0xFCFFA4};
+constexpr std::uint32_t kTurbo[kControls] = {
+    0x30123B, 0x392A73, 0x4040A2, 0x4456C7, 0x466BE3, 0x4680F6, 0x4294FF, 0x37A8FA, 0x28BCEB, 0x1CCDD8, 0x18DDC2,
+    0x1FE9AF, 0x32F298, 0x4EF97D, 0x6DFE62, 0x8BFF4B, 0xA4FC3C, 0xB9F635, 0xCDEC34, 0xDFDF37, 0xEECF3A, 0xF8BE39,
+    0xFDAC34, 0xFE962B, 0xFB7E21, 0xF46617, 0xEB500E, 0xDF3F08, 0xD02F05, 0xBE2102, 0xA91601, 0x920B01, 0x7A0403};
+constexpr std::uint32_t kRdBu[kControls] = {
+    0x67001F, 0x7F0823, 0x960F27, 0xAE172A, 0xBB2A34, 0xC6413E, 0xD25849, 0xDC6E57, 0xE58368, 0xEF9979, 0xF5AC8B,
+    0xF8BDA1, 0xFBCEB7, 0xFDDDCB, 0xFBE6DA, 0xF9EFE9, 0xF6F7F7, 0xEAF1F5, 0xDEEBF2, 0xD2E6F0, 0xC0DCEB, 0xACD2E5,
+    0x98C8E0, 0x81BAD8, 0x68ABD0, 0x4F9BC7, 0x3E8CBF, 0x337EB8, 0x2870B1, 0x1E61A5, 0x15508D, 0x0D3F76, 0x053061};
+constexpr std::uint32_t kGreys[kControls] = {
+    0x000000, 0x080808, 0x101010, 0x181818, 0x202020, 0x282828, 0x303030, 0x383838, 0x404040, 0x484848, 0x505050,
+    0x585858, 0x606060, 0x686868, 0x707070, 0x787878, 0x808080, 0x878787, 0x8F8F8F, 0x979797, 0x9F9F9F, 0xA7A7A7,
+    0xAFAFAF, 0xB7B7B7, 0xBFBFBF, 0xC7C7C7, 0xCFCFCF, 0xD7D7D7, 0xDFDFDF, 0xE7E7E7, 0xEFEFEF, 0xF7F7F7, 0xFFFFFF};
+
+// One map: its name, and its control colours; null: of categories.
+struct MapRow {
+  std::string_view name;
+  ColourMap map;
+  const std::uint32_t* controls;
+};
+constexpr MapRow kMaps[] = {{"viridis", ColourMap::viridis, kViridis}, {"magma", ColourMap::magma, kMagma},
+                            {"plasma", ColourMap::plasma, kPlasma},    {"inferno", ColourMap::inferno, kInferno},
+                            {"cividis", ColourMap::cividis, kCividis}, {"turbo", ColourMap::turbo, kTurbo},
+                            {"greys", ColourMap::greys, kGreys},       {"coolwarm", ColourMap::coolwarm, kCoolwarm},
+                            {"RdBu", ColourMap::rd_bu, kRdBu},         {"okabe-ito", ColourMap::okabe_ito, nullptr}};
+
+constexpr int kReversed = 64;  // added to the number of a map
+
+bool is_reversed(ColourMap map) {
+  return static_cast<int>(map) >= kReversed;
+}
+
+const std::uint32_t* controls_of(ColourMap map) {
+  const ColourMap forward = is_reversed(map) ? reversed(map) : map;
+  for (const MapRow& row : kMaps)
+    if (row.map == forward && row.controls != nullptr) return row.controls;
   return kViridis;
 }
 
@@ -50,17 +82,28 @@ double channel_of(std::uint32_t rgb, int channel) {
 
 }  // namespace
 
+std::vector<std::string> colour_map_names() {
+  std::vector<std::string> names;
+  for (const MapRow& row : kMaps) names.emplace_back(row.name);
+  return names;
+}
+
+ColourMap reversed(ColourMap map) {
+  const int number = static_cast<int>(map);
+  return static_cast<ColourMap>(is_reversed(map) ? number - kReversed : number + kReversed);
+}
+
 std::optional<ColourMap> colour_map_from(std::string_view name) {
-  if (name == "viridis") return ColourMap::viridis;
-  if (name == "magma") return ColourMap::magma;
-  if (name == "cividis") return ColourMap::cividis;
-  if (name == "coolwarm") return ColourMap::coolwarm;
-  if (name == "okabe-ito") return ColourMap::okabe_ito;
+  const bool backwards = name.ends_with("_r");
+  if (backwards) name.remove_suffix(2);
+  for (const MapRow& row : kMaps)
+    if (row.name == name && !(backwards && row.controls == nullptr)) return backwards ? reversed(row.map) : row.map;
   return std::nullopt;
 }
 
 Vec3f map_colour(ColourMap map, double share, Transfer transfer) {
-  const std::uint32_t(&controls)[kControls] = controls_of(map);
+  const std::uint32_t* const controls = controls_of(map);
+  if (is_reversed(map)) share = 1 - share;
   const double place = std::clamp(share, 0.0, 1.0) * (kControls - 1);
   const int below = std::min(static_cast<int>(place), kControls - 2);
   const double weight = place - below;

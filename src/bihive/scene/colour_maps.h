@@ -4,20 +4,25 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bihive/image/transfer.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
 
-/// viridis, magma [SmithVanDerWalt2015] and cividis [Nunez2018] rise evenly in lightness; coolwarm [Moreland2009] has a
-/// light middle between two colours; okabe_ito [OkabeIto2008] has eight colours for categories.
-enum class ColourMap { viridis, magma, cividis, coolwarm, okabe_ito };
+/// viridis, magma, plasma, inferno [SmithVanDerWalt2015], cividis [Nunez2018] and greys rise evenly in lightness; turbo
+/// [Mikhailov2019] has all colours of the rainbow; coolwarm [Moreland2009] and RdBu [HarrowerBrewer2003] have a light
+/// middle between two colours; okabe_ito [OkabeIto2008] is for categories.
+enum class ColourMap { viridis, magma, plasma, inferno, cividis, turbo, greys, coolwarm, rd_bu, okabe_ito };
 
-/// "viridis", "magma", "cividis", "coolwarm" or "okabe-ito".
+/// "viridis", "RdBu", "okabe-ito" ...; all but the last also with "_r" after it: reversed.
 std::optional<ColourMap> colour_map_from(std::string_view name);
-/// For messages: every name that colour_map_from() knows.
-constexpr std::string_view kColourMapNames = "viridis, magma, cividis, coolwarm, okabe-ito";
+/// Every name that colour_map_from() knows, without "_r".
+std::vector<std::string> colour_map_names();
+
+/// The same map from its end to its beginning. Not for okabe_ito.
+ColourMap reversed(ColourMap map);
 
 /// The linear colour that appears on the screen, under the transfer, as the map's colour at `share` (0 to 1; outside,
 /// the end's colour). Between its 33 control colours a map is linear in the screen's values. Not for okabe_ito.

@@ -1,22 +1,16 @@
 #include "bihive/scene/image_colours.h"
 
 #include "bihive/scene/colour_of_number.h"
+#include "bihive/select/number_term.h"
 
 namespace bihive {
-namespace {
-
-bool is_of_place(FoundAttribute::Number number) {
-  using Number = FoundAttribute::Number;
-  return number == Number::x || number == Number::y || number == Number::z || number == Number::index;
-}
-
-}  // namespace
-
 ImageColours::ImageColours(const Scene& scene) : scene_(scene) {
   if (!scene.spheres.has_images() || scene.spheres.attributes().colour.empty()) return;
   for (const ColourBy& how : scene.coloured_by) {
-    FoundAttribute attribute = find_attribute(scene.spheres, how.attribute);
-    if (!is_of_place(attribute.number)) attribute = {};
+    FoundAttribute attribute;
+    if (const Result<FoundAttribute> found = find_numbers(scene.spheres, how.attribute);
+        found && found->differs_by_image())
+      attribute = *found;
     any_ = any_ || attribute.has_numbers();
     by_place_.push_back(attribute);
   }

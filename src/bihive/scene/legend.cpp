@@ -8,6 +8,7 @@
 
 #include "bihive/io/elements.h"
 #include "bihive/select/attribute_names.h"
+#include "bihive/select/number_term.h"
 
 namespace bihive {
 namespace {
@@ -41,14 +42,16 @@ class CategoryNames {
   FoundAttribute attribute_;
 };
 
+FoundAttribute attribute_of(const SphereSet& spheres, const ColourBy& how) {
+  const Result<FoundAttribute> found = find_numbers(spheres, how.attribute);
+  return found ? *found : FoundAttribute();
+}
+
 // Collects the spheres of one key.
 class KeyCollector {
  public:
   KeyCollector(const Scene& scene, const ColourBy& how)
-      : scene_(scene),
-        how_(how),
-        attribute_(find_attribute(scene.spheres, how.attribute)),
-        names_(scene.spheres, attribute_) {}
+      : scene_(scene), how_(how), attribute_(attribute_of(scene.spheres, how)), names_(scene.spheres, attribute_) {}
 
   void add(std::int64_t id) {
     if (!attribute_.found()) return;

@@ -20,6 +20,13 @@ ColourBy colour_by_from_json(const nlohmann::json& value) {
   if (value.contains("map")) how.map = colour_map_from(value.at("map").get<std::string>());
   if (value.contains("range"))
     how.range.emplace(value.at("range").at(0).get<double>(), value.at("range").at(1).get<double>());
+  if (how.range && how.range->first > how.range->second) {
+    std::swap(how.range->first, how.range->second);
+    how.map = reversed(how.map.value_or(ColourMap::viridis));
+  }
+  if (value.contains("percentiles"))
+    how.percentiles.emplace(value.at("percentiles").at(0).get<double>(), value.at("percentiles").at(1).get<double>());
+  if (value.contains("middle")) how.middle = value.at("middle").get<double>();
   how.logarithmic = value.value("log", false);
   if (value.contains("nan_colour")) how.nan_colour = colour_from_json(value.at("nan_colour"));
   return how;

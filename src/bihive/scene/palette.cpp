@@ -42,6 +42,12 @@ constexpr std::uint32_t kTypeColours[] = {0xE69F00, 0x56B4E9, 0x009E73, 0xF0E442
 constexpr int kTypes = 8;
 static_assert(std::size(kTypeColours) == kTypes);
 
+// Further types have the same colours mixed with white or black.
+struct Mixed {
+  float share, white;
+};
+constexpr Mixed kMixed[] = {{0.5f, 1}, {0.6f, 0}, {0.75f, 1}, {0.85f, 0}};
+
 template <std::size_t n>
 std::array<Vec3f, n> linear_colours(const std::uint32_t (&srgb)[n]) {
   std::array<Vec3f, n> linear;
@@ -89,8 +95,15 @@ Vec3f type_colour(std::int32_t type, ElementScheme scheme) {
   static const std::array<Vec3f, kTypes> bright = linear_colours(kTypeColours);
   static const std::array<Vec3f, kTypes> soft = soft_types(bright);
   const std::array<Vec3f, kTypes>& colours = scheme == ElementScheme::jmol ? bright : soft;
-  const std::int64_t remainder = (std::int64_t{type} - 1) % kTypes;
-  return colours[static_cast<std::size_t>(remainder < 0 ? remainder + kTypes : remainder)];
+  constexpr std::int64_t kColours = std::int64_t{kTypes} * (1 + std::size(kMixed));
+  const std::int64_t remainder = (std::int64_t{type} - 1) % kColours;
+  const std::int64_t number = remainder < 0 ? remainder + kColours : remainder;
+  Vec3f colour = colours[static_cast<std::size_t>(number % kTypes)];
+  if (number < kTypes) return colour;
+  const Mixed mixed = kMixed[number / kTypes - 1];
+  for (int channel = 0; channel < 3; ++channel)
+    colour[channel] = (1 - mixed.share) * colour[channel] + mixed.share * mixed.white;
+  return colour;
 }
 
 std::string_view colour_spheres(SphereSet& spheres, ElementScheme scheme) {

@@ -18,8 +18,8 @@ inline const Names<ElementScheme> kElementSchemes{{"jmol", ElementScheme::jmol},
 /// Linear RGB of a chemical element by atomic number (0 or unknown: pink).
 Vec3f element_colour(int atomic_number, ElementScheme scheme = ElementScheme::jmol);
 
-/// Linear RGB of a particle type: different for neighbouring numbers, the same again after eight. Any integer. jmol:
-/// the colours of the map okabe-ito; soft: greyer ones.
+/// Linear RGB of a particle type: different for forty numbers in a row, of which the first eight differ most. Any
+/// integer. jmol: the colours of the map okabe-ito; soft: greyer ones.
 Vec3f type_colour(std::int32_t type, ElementScheme scheme = ElementScheme::jmol);
 
 /// Fills the colour attribute if it is empty: from elements if there are any, else from types. Without both it stays

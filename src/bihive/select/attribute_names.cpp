@@ -7,6 +7,7 @@
 
 #include "bihive/base/near_name.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/select/number_term.h"
 
 namespace bihive {
 namespace {
@@ -101,6 +102,8 @@ double FoundAttribute::number_of(const SphereSet& spheres, std::int64_t id) cons
       return double(attributes.opacity[i]);
     case Number::column:
       return column->values[i];
+    case Number::expression:
+      return term->value(spheres, id);
     case Number::speed: {
       const double x = column->values[i], y = others[0]->values[i], z = others[1]->values[i];
       return std::sqrt(x * x + y * y + z * z);
@@ -109,6 +112,11 @@ double FoundAttribute::number_of(const SphereSet& spheres, std::int64_t id) cons
       break;
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool FoundAttribute::differs_by_image() const {
+  if (number == Number::expression) return term->differs_by_image();
+  return number == Number::x || number == Number::y || number == Number::z || number == Number::index;
 }
 
 FoundAttribute find_attribute(const SphereSet& spheres, std::string_view name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,18 +11,24 @@
 
 namespace bihive {
 
+struct ResolvedTerm;
+
 /// What a name stands for in one set: numbers, texts, both (a type with labels), or nothing.
 struct FoundAttribute {
-  enum class Number { none, x, y, z, radius, index, element, type, opacity, column, speed };
+  enum class Number { none, x, y, z, radius, index, element, type, opacity, column, speed, expression };
   Number number = Number::none;
   const NamedNumbers* column = nullptr;                ///< of speed: vx
   const NamedNumbers* others[2] = {nullptr, nullptr};  ///< of speed: vy and vz
   const NamedTexts* texts = nullptr;
 
+  std::shared_ptr<const ResolvedTerm> term = {};  ///< of an expression (number_term.h)
+
   bool found() const { return has_numbers() || texts != nullptr; }
   bool has_numbers() const { return number != Number::none; }
   bool is_element() const { return number == Number::element; }
 
+  /// Whether an image has another number than its stored sphere.
+  bool differs_by_image() const;
   /// The number of one sphere or image; NaN: unknown. Lengths are in world units. Needs has_numbers().
   double number_of(const SphereSet& spheres, std::int64_t id) const;
 };

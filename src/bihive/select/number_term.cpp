@@ -1,5 +1,6 @@
 #include "bihive/select/number_term.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -42,6 +43,34 @@ double ResolvedTerm::value(const SphereSet& spheres, std::int64_t id) const {
     if (signs[i] == '/') result /= right;
   }
   return result;
+}
+
+bool ResolvedTerm::differs_by_image() const {
+  if (kind == NumberTerm::Kind::name) return attribute.differs_by_image();
+  return std::any_of(operands.begin(), operands.end(), [](const ResolvedTerm& one) { return one.differs_by_image(); });
+}
+
+Result<FoundAttribute> find_numbers(const SphereSet& spheres, std::string_view text) {
+  if (FoundAttribute attribute = find_attribute(spheres, text); attribute.found()) return attribute;
+  const Result<NumberTerm> term = parse_number_term(text);
+  const auto in_one_line = [text](Error error) {
+    if (error.column > 0)
+      error.message = quote(text) + ": column " + std::to_string(error.column) + ": " + error.message;
+    error.line = error.column = 0;
+    return error;
+  };
+  if (!term || term->kind == NumberTerm::Kind::name || term->kind == NumberTerm::Kind::number) {
+    const bool is_arithmetic = text.find_first_of("+*/^()") != std::string_view::npos;
+    if (!term && is_arithmetic) return in_one_line(term.error());
+    return Error{"there is no attribute \"" + std::string(text) + "\"", "", 0, 0,
+                 suggestion(text, attribute_names(spheres))};
+  }
+  Result<ResolvedTerm> resolved = resolve_term(*term, text, spheres);
+  if (!resolved) return in_one_line(resolved.error());
+  FoundAttribute found;
+  found.number = FoundAttribute::Number::expression;
+  found.term = std::make_shared<const ResolvedTerm>(std::move(*resolved));
+  return found;
 }
 
 Result<ResolvedTerm> resolve_term(const NumberTerm& term, std::string_view text, const SphereSet& spheres) {

@@ -21,9 +21,14 @@ struct ResolvedTerm {
 
   /// In binary64; NaN where a number is unknown.
   double value(const SphereSet& spheres, std::int64_t id) const;
+  bool differs_by_image() const;
 };
 
 /// `text` is the selection's, for the places in errors. Errors: an unknown name, or one that holds no numbers.
 Result<ResolvedTerm> resolve_term(const NumberTerm& term, std::string_view text, const SphereSet& spheres);
+
+/// What a name stands for (find_attribute()), or else arithmetic of names that hold numbers: "vx^2 + vy^2". Error: it
+/// is neither, with what there is.
+Result<FoundAttribute> find_numbers(const SphereSet& spheres, std::string_view text);
 
 }  // namespace bihive

@@ -108,6 +108,7 @@ struct conjunction : seq<operand, star<and_sign, operand>> {};
 struct disjunction : seq<conjunction, star<or_sign, conjunction>> {};
 struct end_of_text : eof {};
 struct whole : seq<gap, disjunction, end_of_text> {};
+struct whole_sum : seq<gap, sum, end_of_text> {};
 
 template <class Rule>
 using selector =
@@ -443,26 +444,23 @@ Error selection_error(std::string_view text, TextPlace place, const std::string&
   return error;
 }
 
-Result<Expression> parse_expression(std::string_view text) {
+namespace {
+
+// The first node that Rule makes of the text.
+template <class Rule, class Use>
+auto parse_text(std::string_view text, const Use& use) -> decltype(use(std::declval<const ParseNode&>())) {
   if (text.size() > kLongestSelection)
     return selection_error(text, 0, "a selection has at most " + std::to_string(kLongestSelection) + " bytes");
   try {
     tao::pegtl::memory_input<> input(text.data(), text.size(), "");
     FarthestFailure farthest;
     const auto root =
-        tao::pegtl::parse_tree::parse<grammar::whole, ParseNode, grammar::selector, tao::pegtl::nothing, Watch>(
-            input, farthest);
+        tao::pegtl::parse_tree::parse<Rule, ParseNode, grammar::selector, tao::pegtl::nothing, Watch>(input, farthest);
     if (!root)
       return selection_error(
           text, farthest.place,
           "expected " + expectation(farthest.expected) + ", found " + found_at(text, farthest.place));
-    const ParseNode& whole = *root->children.front();
-    int prefixes_left = kDeepestSelection;
-    if (const TextPlace place = too_many_prefixes(whole, prefixes_left, text.size()); place != text.size())
-      return selection_error(
-          text, place,
-          "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within', 'same' or 'byres'");
-    return expression_of(whole);
+    return use(*root->children.front());
   } catch (const TooDeep& deep) {
     return selection_error(text, text.rfind('(', deep.place - 1),
                            "parentheses lie at most " + std::to_string(kDeepestSelection) + " deep in each other");
@@ -471,6 +469,23 @@ Result<Expression> parse_expression(std::string_view text) {
   } catch (const std::exception& e) {
     return Error{"reading the selection failed: " + std::string(e.what()), "", 0, 0, ""};
   }
+}
+
+}  // namespace
+
+Result<NumberTerm> parse_number_term(std::string_view text) {
+  return parse_text<grammar::whole_sum>(text, [](const ParseNode& sum) -> Result<NumberTerm> { return term_of(sum); });
+}
+
+Result<Expression> parse_expression(std::string_view text) {
+  return parse_text<grammar::whole>(text, [text](const ParseNode& whole) -> Result<Expression> {
+    int prefixes_left = kDeepestSelection;
+    if (const TextPlace place = too_many_prefixes(whole, prefixes_left, text.size()); place != text.size())
+      return selection_error(
+          text, place,
+          "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within', 'same' or 'byres'");
+    return expression_of(whole);
+  });
 }
 
 }  // namespace bihive

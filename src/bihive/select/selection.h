@@ -24,7 +24,8 @@ Result<std::vector<std::uint8_t>> select_spheres(const SphereSet& spheres, std::
 Status check_selection(std::string_view expression);
 
 /// Why a selection finds nothing: the first test of texts or numbers in it that no sphere passes, and what there is
-/// instead: "no sphere has chain 'a'; there are A, B". Empty if every test finds some sphere, or the expression is wrong.
+/// instead: "no sphere has chain 'a'; there are A, B". Empty if every test finds some sphere, or the expression is
+/// wrong.
 std::string what_there_is(const SphereSet& spheres, std::string_view expression);
 
 /// The expression's line in which the error is, and below it a caret at its column: two lines, each indented by two
