@@ -137,7 +137,16 @@ class Looks(ProgramTest):
     def test_a_selection_without_spheres_is_said(self):
         done = self.run_bihive("render", "a.csv", "-o", "a.png", *VIEW, "--select", "part nowhere", "--hide")
         self.assertEqual(done.returncode, 0)
-        self.assertEqual(done.stderr, 'bihive: warning: --select "part nowhere" selects no sphere\n')
+        self.assertEqual(
+            done.stderr,
+            'bihive: warning: --select "part nowhere" selects no sphere: no sphere has part nowhere; there are left, middle, right\n',
+        )
+
+    def test_a_selection_without_an_action_is_an_error(self):
+        for options in (["--select", "all"], ["--select", "all", "--select", "x > 0", "--hide"], ["--select", "all", "--no-water"]):
+            done = self.run_bihive("render", "a.csv", "-o", "a.png", *VIEW, *options)
+            self.assertEqual(done.returncode, 2, options)
+            self.assertIn('--select "all" has no action after it, and changes nothing', done.stderr)
 
     def test_bad_values(self):
         for options, message in [

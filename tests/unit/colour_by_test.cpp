@@ -110,15 +110,64 @@ TEST(ColourBy, CategoriesForTextsTypesAndElements) {
   EXPECT_EQ(on_screen(coloured("phase", Transfer::none)[0], Transfer::none), on_screen(type_colour(1)));
 }
 
+TEST(ColourBy, MapsAreReversedAndRangesArePercentilesOrHaveAMiddle) {
+  EXPECT_EQ(coloured("heat:magma_r"), coloured("heat:magma:100,-5"));
+  EXPECT_EQ(coloured("heat:magma_r")[5], map_colour(ColourMap::magma, 1, Transfer::srgb)) << "-5 is least";
+  EXPECT_EQ(coloured("heat:magma_r:100,-5"), coloured("heat:magma:-5,100")) << "reversed twice";
+  EXPECT_EQ(coloured("heat:0%,100%"), coloured("heat"));
+  EXPECT_EQ(coloured("heat:100%,0%"), coloured("heat:viridis_r"));
+  EXPECT_EQ(coloured("heat:coolwarm:mid=0"), coloured("heat:coolwarm:-100,100"));
+  EXPECT_EQ(coloured("heat:coolwarm:-5,5:mid=1"), coloured("heat:coolwarm:-5,7"));
+  EXPECT_EQ(coloured("heat:log:mid=10"), coloured("heat:1,100:log")) << "1 to 100, with 10 in the middle";
+  EXPECT_EQ(colour_map_names().size(), 10U);
+  for (const std::string& name : colour_map_names())
+    EXPECT_EQ(colour_map_from(name + "_r").has_value(), name != "okabe-ito") << name;
+  // Five numbers: a quarter lies at the second.
+  const SphereFile file =
+      test::read_text("x,y,z,r,n\n0,0,0,1,0\n1,0,0,1,1\n2,0,0,1,2\n3,0,0,1,3\n4,0,0,1,1000\n", "a.csv");
+  const std::vector<std::uint8_t> all(5, 1);
+  std::vector<Vec3f> colours(5);
+  const auto done = colour_by(file.spheres, *colour_by_from_text("n:25%,75%"), all, Transfer::srgb, colours);
+  ASSERT_TRUE(done.ok());
+  EXPECT_EQ(*done->range, (std::pair{1.0, 3.0}));
+  EXPECT_EQ(*colour_by(file.spheres, *colour_by_from_text("n:0%,10%"), all, Transfer::srgb, colours)->range,
+            (std::pair{0.0, 0.4}));
+}
+
+TEST(ColourBy, ExpressionsAreNumbers) {
+  EXPECT_EQ(coloured("heat * 2"), coloured("heat"));
+  EXPECT_EQ(coloured("-heat:magma"), coloured("heat:magma_r"));
+  std::vector<Vec3f> colours(6);
+  const auto error_of = [&](const char* text) {
+    const auto done =
+        colour_by(table(), *colour_by_from_text(text), std::vector<std::uint8_t>(6, 1), Transfer::srgb, colours);
+    EXPECT_FALSE(done.ok()) << text;
+    return done.ok() ? "" : done.error().to_string();
+  };
+  EXPECT_THAT(error_of("haet + 1"),
+              HasSubstr("'haet + 1': column 1: there is no attribute 'haet'; did you mean 'heat'?"));
+  EXPECT_THAT(error_of("heat * (1"), HasSubstr("column 10: expected"));
+  EXPECT_THAT(error_of("phase + 1"), HasSubstr("'phase' holds texts"));
+  EXPECT_THAT(error_of("nothing"), HasSubstr("there is no attribute \"nothing\""));
+}
+
 TEST(ColourBy, FaultsAreNamed) {
-  for (const auto& [text, message] : {std::pair{"", "expected the name of an attribute"},
-                                      {"x:jet", "there is no colour map \"jet\"; there are viridis, magma"},
-                                      {"x:magma:3", "expected a range MIN,MAX"},
-                                      {"x:magma:3,3", "expected a range MIN,MAX"},
-                                      {"x:magma:nan,3", "expected a range MIN,MAX"},
-                                      {"x:magma:0,3:log", "begins above 0"},
-                                      {"x:magma:1,3:lg", "expected \"log\" at the end, found \"lg\""},
-                                      {"x:magma:1,3:log:x", "expected \"log\" at the end"}}) {
+  for (const auto& [text, message] :
+       {std::pair{"", "expected the name of an attribute"},
+        {"x:jet", "there is no colour map \"jet\"; there are viridis, magma"},
+        {"x:magma:3", "expected a range MIN,MAX"},
+        {"x:magma:3,3", "expected a range MIN,MAX"},
+        {"x:magma:nan,3", "expected a range MIN,MAX"},
+        {"x:magma:0,3:log", "begins above 0"},
+        {"x:magma:1,3:lg", "expected a range MIN,MAX, \"log\" or \"mid=NUMBER\", each once, found \"lg\""},
+        {"x:magma:1,3:log:x", "each once, found \"x\""},
+        {"x:log:log", "each once, found \"log\""},
+        {"x:magma:2%,98", "expected a range MIN,MAX"},
+        {"x:magma:2%,198%", "expected a range MIN,MAX"},
+        {"x:mid=q", "expected a number after mid="},
+        {"x:log:mid=-1", "the middle of a logarithmic range is above 0"},
+        {"x:okabe-ito:1,2", "okabe-ito is for categories"},
+        {"x:okabe-ito_r", "there is no colour map"}}) {
     const Result<ColourBy> how = colour_by_from_text(text);
     ASSERT_FALSE(how.ok()) << text;
     EXPECT_THAT(how.error().to_string(), HasSubstr(message));

@@ -199,7 +199,7 @@ TEST(Looks, FaultsOfASceneFileNameTheirPlace) {
   EXPECT_THAT(error_of("2", R"([{"opacity": 2}])"), HasSubstr("/looks/0/opacity: expected a number from 0 to 1"));
   EXPECT_THAT(error_of("2", R"([{"colour_by": {"attribute": "x", "map": "jet"}}])"),
               HasSubstr("expected one of viridis"));
-  EXPECT_THAT(error_of("2", R"([{"colour_by": {"attribute": "x", "range": [2, 1]}}])"),
+  EXPECT_THAT(error_of("2", R"([{"colour_by": {"attribute": "x", "range": [2, 2]}}])"),
               HasSubstr("begins below its end"));
   EXPECT_THAT(error_of("2", R"([{"show": false}])"), HasSubstr("every sphere is hidden"));
 }

@@ -42,13 +42,13 @@ TEST(Palette, UnknownElementsArePink) {
     EXPECT_EQ(on_screen(element_colour(unknown)), 0xFF1493u) << unknown;
 }
 
-TEST(Palette, NeighbouringTypesDifferAndRepeatAfterEight) {
+TEST(Palette, FortyTypesInARowDiffer) {
   for (std::int32_t type = -20; type < 20; ++type) {
-    for (std::int32_t step = 1; step < 8; ++step) EXPECT_NE(type_colour(type), type_colour(type + step)) << type;
-    EXPECT_EQ(type_colour(type), type_colour(type + 8)) << type;
+    for (std::int32_t step = 1; step < 40; ++step) EXPECT_NE(type_colour(type), type_colour(type + step)) << type;
+    EXPECT_EQ(type_colour(type), type_colour(type + 40)) << type;
   }
   EXPECT_EQ(on_screen(type_colour(1)), 0xE69F00u);
-  EXPECT_EQ(type_colour(std::numeric_limits<std::int32_t>::min()), type_colour(8));
+  EXPECT_EQ(type_colour(std::numeric_limits<std::int32_t>::min()), type_colour(32));
   EXPECT_EQ(type_colour(std::numeric_limits<std::int32_t>::max()), type_colour(7));
 }
 

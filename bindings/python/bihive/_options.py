@@ -88,7 +88,10 @@ def light_words(value: Any) -> list[str]:
 def action_words(name: str, value: Any) -> list[str]:
     """An action; several clips may come as a list."""
     if name == "clip" and not isinstance(value, str):
-        return [option(name, clip) for clip in several(name, value, "a clip or several")]
+        clips = [option(name, clip) for clip in several(name, value, "a clip or several")]
+        if not clips:
+            raise bad_argument(name, "must not be empty", "leave it out")
+        return clips
     return [option(name, value)]
 
 

@@ -232,7 +232,7 @@ Result<ColourBy> colour_by_from_text(const std::string& text) {
                                suggestion(part, names) + ", each but okabe-ito also with _r");
       }
     } else {
-      return colour_by_error("expected MIN,MAX, \"log\" or \"mid=\" once each, found \"" + part + "\"");
+      return colour_by_error("expected a range MIN,MAX, \"log\" or \"mid=NUMBER\", each once, found \"" + part + "\"");
     }
   }
   if (how.logarithmic && how.middle && !(*how.middle > 0))

@@ -24,11 +24,11 @@ Result<Vec3f> linear_colour(const ColourChoice& colour, Transfer transfer);
 struct ColourBy {
   std::string attribute;         ///< a name as selections know it, or arithmetic of names: "sqrt(vx^2 + vy^2)"
   std::optional<ColourMap> map;  ///< unset: by category for texts, types and elements, else viridis
-  std::optional<std::pair<double, double>> range;        ///< unset: the finite values of the coloured spheres
-  std::optional<std::pair<double, double>> percentiles;  ///< of these values, in place of the ends of an open range
-  std::optional<double> middle;                          ///< the range is widened so that the map's middle is here
-  bool logarithmic = false;                              ///< the map runs along the logarithm; numbers <= 0 are unknown
-  ColourChoice nan_colour = std::string("grey");         ///< of spheres whose number is unknown (NaN)
+  std::optional<std::pair<double, double>> range;  ///< unset: the finite values of the coloured spheres
+  bool logarithmic = false;                        ///< the map runs along the logarithm; numbers <= 0 are unknown
+  ColourChoice nan_colour = std::string("grey");   ///< of spheres whose number is unknown (NaN)
+  std::optional<std::pair<double, double>> percentiles = {};  ///< of these values, in place of an open range's ends
+  std::optional<double> middle = {};                          ///< the range is widened so that the map's middle is here
 };
 
 /// "ATTR", then ":MAP", ":MIN,MAX" (numbers, or percentiles such as 2%,98%; MIN above MAX reverses the map), ":log" and
