@@ -103,7 +103,6 @@ TEST(Mmcif, TakesASingleAtomOutsideALoopAndTheFirstBlockWithAtoms) {
 TEST(Mmcif, NamesLineAndColumnOfAFault) {
   const std::string head = "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 2 3\n";
   EXPECT_EQ(error_of(head + "4 nan 6\n", "a.cif"), "a.cif:7:3: Cartn_y is not finite: 'nan'");
-  EXPECT_EQ(error_of(head + "4\n5 ?\n", "a.cif"), "a.cif:8:3: expected a number for Cartn_z but found '?'");
   EXPECT_EQ(error_of(head + "4 5 6x\n", "a.cif"), "a.cif:7:5: expected a number for Cartn_z but found '6x'");
   EXPECT_EQ(error_of(head + "4 5\n", "a.cif"), "a.cif:7:3: the last row of this loop has 2 of its 3 values");
   EXPECT_EQ(error_of("data_T\n_cell.length_a 1\n", "a.cif"),
@@ -129,10 +128,6 @@ TEST(Mmcif, NamesTheKindOfCifWithoutAtomsOfIts) {
             none +
                 ": this CIF describes a monomer (_chem_comp_atom); convert it with 'gemmi convert FILE.cif OUT.pdb' or "
                 "'obabel FILE.cif -O OUT.xyz'");
-  EXPECT_EQ(error_of("data_T\nloop_\n_atom_site.label\n_atom_site.fract_x\nC 1\n", "a.cif"),
-            none +
-                ": this CIF is of a small molecule or crystal (fractional coordinates); convert it with 'ase convert "
-                "FILE.cif OUT.xyz' or 'obabel FILE.cif --fillUC strict -O OUT.xyz'");
   EXPECT_EQ(error_of("data_T\nloop_\n_refln.index_h\n1\n", "a.cif"),
             none + ": this CIF holds reflections, not atoms; take the entry's file of coordinates");
 }
@@ -158,6 +153,26 @@ TEST(Mmcif, WarnsOfALastLineWithoutEnd) {
       "a.cif");
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_EQ(file.warnings[0], "the last line of a.cif has no end: the file may be cut");
+}
+
+TEST(Mmcif, TypeSymbolsMayHaveACharge) {
+  const SphereFile file = read_text(
+      "data_T\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
+      "_atom_site.Cartn_z\nN1+ 1 2 3\nO1- 2 2 3\nZN2+ 3 2 3\nFe3+ 4 2 3\nC 5 2 3\nC1 6 2 3\n",
+      "a.cif");
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{7, 8, 30, 26, 6, 0}));
+}
+
+TEST(Mmcif, AtomsWithoutPlaceAreLeftOut) {
+  const SphereFile file = read_text(
+      "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.auth_seq_id\n1 2 3 7\n? ? "
+      "? "
+      "8\n4 . 5 9\n6 7 8 10\n",
+      "a.cif");
+  EXPECT_EQ(xs(file), (Xs{1, 6}));
+  EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{7, 10}));
+  ASSERT_FALSE(file.warnings.empty());
+  EXPECT_NE(file.warnings[0].find("2 spheres have no place"), std::string::npos) << file.warnings[0];
 }
 
 }  // namespace
