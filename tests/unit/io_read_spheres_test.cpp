@@ -56,6 +56,14 @@ TEST(Detect, GoesByContentFirst) {
       EXPECT_EQ(name_of(format_by_content(text, name)), format) << text << " as " << name;
 }
 
+TEST(Detect, TheEndingDecidesWhereFirstLinesFitTwoFormats) {
+  // The name of a record, which is also that of a column.
+  const char* const table = "SITE   x y z\n1 0 0 0\n";
+  EXPECT_EQ(name_of(format_by_content(table, "a")), "PDB");
+  EXPECT_EQ(name_of(format_by_content(table, "a.txt")), "CSV");
+  EXPECT_EQ(name_of(format_by_content("data_x\n_cell_length_a 1\n_atom_site_fract_x 0\n", "a.cif")), "CIF of crystals");
+}
+
 TEST(Detect, GoesByNameWhereContentSaysNothing) {
   const std::pair<const char*, const char*> cases[] = {
       {"a.pdb", "PDB"},       {"a.ENT", "PDB"},     {"b/a.cif.gz", "mmCIF"},   {"a.mmcif", "mmCIF"},

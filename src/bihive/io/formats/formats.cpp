@@ -81,9 +81,17 @@ const Format* format_by_content(std::string_view bytes, const std::string& name)
   bytes = bytes.substr(0, kFileHeadBytes);
   FileHead head{bytes, name, TextScanner(bytes, "")};
   const bool may_be_text = bytes.find('\0') == std::string_view::npos && head.text.next_filled_line();
-  for (const Format* format : kFormats)
-    if ((may_be_text || !format->has(Format::kText)) && format->recognise(head)) return format;
-  return nullptr;
+  const auto fits = [&](const Format* format) {
+    return (may_be_text || !format->has(Format::kText)) && format->recognise(head);
+  };
+  const auto found = std::find_if(std::begin(kFormats), std::end(kFormats), fits);
+  if (found == std::end(kFormats)) return nullptr;
+
+  // First lines may be those of two formats. One reader takes all CIF.
+  const auto first_general = std::find(std::begin(kFormats), std::end(kFormats), &kPqr);
+  const bool is_general = found >= first_general && !(*found)->files.empty();
+  const Format* const named = is_general ? format_by_name(name) : nullptr;
+  return named != nullptr && fits(named) ? named : *found;
 }
 
 Result<RawSpheres> read_bytes(const Format& format, std::string_view bytes, const std::string& name, std::int64_t frame,

@@ -16,8 +16,8 @@ std::span<const TrajectoryFormat* const> trajectory_formats();
 /// The format of that name, which must be there.
 const Format& format_named(std::string_view name);
 
-/// The format of unpacked bytes by their content; null if it fits none. Where PDB and PQR both fit, the ending of the
-/// name decides.
+/// The format of unpacked bytes by their content; null if it fits none. Where first lines fit several formats of text,
+/// the ending of the name decides.
 const Format* format_by_content(std::string_view bytes, const std::string& name);
 
 /// The format by the file's name; null if it fits none.
