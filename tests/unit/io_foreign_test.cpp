@@ -11,7 +11,6 @@ using namespace std::string_literals;
 
 TEST(Foreign, NamesTheFormatByItsContent) {
   const std::pair<std::string, const char*> cases[] = {
-      {"BZh91AY", "a file packed with bzip2"},
       {"{\"1\": {\n \"ctime\": 1, \"numbers\": [1]}}", "a database of ASE in JSON"},
       {"<!DOCTYPE html>\n<html>", "a web page (HTML)"},
       {"PSF CMAP\n\n 1 !NTITLE\n", "a topology of CHARMM or NAMD (PSF), without coordinates"},

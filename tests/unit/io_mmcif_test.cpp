@@ -126,8 +126,8 @@ TEST(Mmcif, NamesTheKindOfCifWithoutAtomsOfIts) {
   const std::string none = "a.cif: there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it";
   EXPECT_EQ(error_of("data_T\nloop_\n_chem_comp_atom.atom_id\n_chem_comp_atom.x\nC 1\n", "a.cif"),
             none +
-                ": this CIF describes a monomer (_chem_comp_atom); convert it with 'gemmi convert FILE.cif OUT.pdb' or "
-                "'obabel FILE.cif -O OUT.xyz'");
+                ": this CIF describes a monomer (_chem_comp_atom) without coordinates; take its file from the "
+                "Chemical Component Dictionary");
   EXPECT_EQ(error_of("data_T\nloop_\n_refln.index_h\n1\n", "a.cif"),
             none + ": this CIF holds reflections, not atoms; take the entry's file of coordinates");
 }
@@ -173,6 +173,36 @@ TEST(Mmcif, AtomsWithoutPlaceAreLeftOut) {
   EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{7, 10}));
   ASSERT_FALSE(file.warnings.empty());
   EXPECT_NE(file.warnings[0].find("2 spheres have no place"), std::string::npos) << file.warnings[0];
+}
+
+TEST(Mmcif, TakesMonomersByTheirIdealCoordinates) {
+  const std::string tags =
+      "loop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n_chem_comp_atom.type_symbol\n_chem_comp_atom.charge\n"
+      "_chem_comp_atom.model_Cartn_x\n_chem_comp_atom.model_Cartn_y\n_chem_comp_atom.model_Cartn_z\n"
+      "_chem_comp_atom.pdbx_model_Cartn_x_ideal\n_chem_comp_atom.pdbx_model_Cartn_y_ideal\n"
+      "_chem_comp_atom.pdbx_model_Cartn_z_ideal\n";
+  const std::string text =
+      "data_LIG\n" + tags + "LIG \"C1'\" C 0 9 9 9 1 2 3\nLIG CL1 CL -1 9 9 9 4 5 6\nLIG H1 H 0 9 9 9 ? ? ?\n";
+  const SphereFile file = read_text(text, "LIG.cif");
+  ASSERT_EQ(file.spheres.size(), 3) << "more atoms have a place in the structure";
+  EXPECT_EQ(xs(file), (Xs{9, 9, 9}));
+  const std::string ideal = text.substr(0, text.find("LIG H1"));
+  EXPECT_EQ(xs(read_text(ideal, "LIG.cif")), (Xs{1, 4}));
+  EXPECT_EQ(read_text(ideal, "a").spheres.attributes().element, (std::vector<std::uint8_t>{6, 17}));
+  EXPECT_EQ(read_text(ideal, "a").spheres.attributes().find_texts("name")->of(0), "C1'");
+  EXPECT_EQ(numbers_of(read_text(ideal, "a"), "charge"), (std::vector<double>{0, -1}));
+
+  // Libraries of monomers have a block for each.
+  const std::string library =
+      "data_comp_list\nloop_\n_chem_comp.id\nA\ndata_comp_A\nloop_\n_chem_comp_atom.atom_id\n_chem_comp_atom.type_"
+      "symbol\n"
+      "_chem_comp_atom.x\n_chem_comp_atom.y\n_chem_comp_atom.z\nO O 7 8 9\n" +
+      ideal;
+  EXPECT_EQ(read_text(library, "a").frames, 2);
+  EXPECT_EQ(xs(read_text(library, "a")), (Xs{7}));
+  EXPECT_EQ(xs(read_text(library, "a", at_frame(1))), (Xs{1, 4}));
+  EXPECT_NE(error_of(library, "a", at_frame(2)).find("there is no frame 2"), std::string::npos);
+  EXPECT_NE(error_of(ideal + "LIG X X 0 9 9 9 1 nan 3\n", "a").find("is not finite: 'nan'"), std::string::npos);
 }
 
 }  // namespace

@@ -20,10 +20,6 @@ constexpr std::string_view kPoints = "write the points as CSV with a header, for
 constexpr ForeignFormat kKnown[] = {
     {"tng", "a TNG trajectory of GROMACS", ".tng", kTrajectory},
     {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
-    {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'", "BZh"},
-    {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'",
-     "\xfd"
-     "7zXZ"},
     {"utf16", "a text in UTF-16", "", "convert it with 'iconv -f UTF-16 -t UTF-8 FILE > OUT'"},
     {"cr", "a text whose lines end in CR (carriage return) alone", "",
      "convert it with 'tr \"\\r\" \"\\n\" < FILE > OUT'"},

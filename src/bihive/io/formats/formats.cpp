@@ -8,6 +8,7 @@
 #include "bihive/base/check.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/known_formats.h"
+#include "bihive/io/packed/unpack.h"
 
 namespace bihive {
 
@@ -54,8 +55,7 @@ const Format& format_named(std::string_view name) {
 
 std::string ending_of(const std::string& name) {
   std::string lower = lower_case(name);
-  for (const std::string_view packing : {".gz", ".zst"})
-    if (lower.size() > packing.size() && lower.ends_with(packing)) lower.resize(lower.size() - packing.size());
+  lower.resize(lower.size() - packed_ending(lower).size());
   const std::size_t dot = lower.find_last_of("./");
   return dot == std::string::npos || lower[dot] != '.' ? "" : lower.substr(dot);
 }
@@ -113,7 +113,7 @@ std::string known_formats() {
   std::vector<std::string> all;
   for (const Format* format : kFormats)
     all.push_back(std::string(format->name) + (format->files.empty() ? "" : " (" + std::string(format->files) + ")"));
-  return listed(std::move(all)) + ", each also as .gz or .zst";
+  return listed(std::move(all)) + ", each also as .gz, .zst, .xz or .bz2";
 }
 
 std::string names_of_formats(FormatsThat which) {

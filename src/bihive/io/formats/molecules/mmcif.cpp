@@ -6,6 +6,7 @@
 #include <gemmi/cif.hpp>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -13,6 +14,7 @@
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
+#include "bihive/io/formats/molecules/chem_comp.h"
 #include "bihive/io/formats/molecules/cif.h"
 #include "bihive/io/formats/molecules/cif_elements.h"
 #include "bihive/io/text/text_scanner.h"
@@ -254,6 +256,8 @@ class AtomSites {
     return std::move(spheres_);
   }
 
+  bool holds_monomers_alone() const { return atoms_ == 0 && is_monomer_; }
+
  private:
   [[noreturn]] void stop(const Value& at, const std::string& what) const {
     throw Stop{{what, file_, static_cast<std::int64_t>(at.line), static_cast<std::int64_t>(at.column), ""}};
@@ -283,8 +287,8 @@ class AtomSites {
   Error no_atoms() const {
     const std::string none = "there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it: ";
     if (is_monomer_)
-      return {none + "this CIF describes a monomer (_chem_comp_atom)", file_, 0, 0,
-              "convert it with 'gemmi convert FILE.cif OUT.pdb' or 'obabel FILE.cif -O OUT.xyz'"};
+      return {none + "this CIF describes a monomer (_chem_comp_atom) without coordinates", file_, 0, 0,
+              "take its file from the Chemical Component Dictionary"};
     if (is_reflections_)
       return {none + "this CIF holds reflections, not atoms", file_, 0, 0, "take the entry's file of coordinates"};
     return {none.substr(0, none.size() - 2), file_, 0, 0, "bihive reads the atoms of mmCIF files alone"};
@@ -456,7 +460,11 @@ Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, st
   try {
     tao::pegtl::memory_input<> input(text.data(), text.size(), file);
     tao::pegtl::parse<rules::file, Action, gemmi::cif::Errors>(input, sites);
-    return sites.finish();
+    Result<RawSpheres> spheres = sites.finish();
+    if (spheres || !sites.holds_monomers_alone()) return spheres;
+    Result<std::optional<RawSpheres>> monomer = read_chem_comp(text, file, frame);
+    if (!monomer) return monomer.error();
+    return *monomer ? std::move(**monomer) : std::move(spheres);
   } catch (const Stop& stop) {
     return stop.error;
   } catch (const tao::pegtl::parse_error& e) {
