@@ -222,6 +222,8 @@ TEST(SmallCif, SymmetryInAnUnknownFormIsTold) {
   ASSERT_EQ(file.spheres.size(), 1);
   EXPECT_TRUE(says(file.warnings, "symmetry is stated, but not in a form that is read (_space_group_magn_name_BNS)"));
   EXPECT_FALSE(says(file.rules, "the file states none"));
+  EXPECT_TRUE(says(read_text(kCube + "_parent_space_group.name_H-M_alt 'I -1'\n" + atom, "a.cif").warnings,
+                   "not in a form that is read (_parent_space_group_name_H-M_alt)"));
   for (const char* none :
        {"", "_symmetry_cell_setting cubic\n", "_space_group_name_H-M_alt ?\n", "_symmetry_equiv_pos_as_xyz ?\n"}) {
     const SphereFile without = read_text(kCube + none + atom, "a.cif");

@@ -138,7 +138,9 @@ std::string unread_symmetry(const gemmi::cif::Block& block) {
     const std::string lower = lower_case(tag);
     for (const char* const harmless : {"_space_group_crystal_system", "_space_group_id", "_symmetry_cell_setting"})
       if (lower == harmless) return false;
-    return lower.rfind("_space_group", 0) == 0 || lower.rfind("_symmetry", 0) == 0;
+    for (const char* const category : {"_space_group", "_symmetry", "_magnetic_space_group", "_parent_space_group"})
+      if (lower.rfind(category, 0) == 0) return true;
+    return false;
   };
   const auto is_null = [](const std::string& value) { return gemmi::cif::is_null(value); };
   for (const gemmi::cif::Item& item : block.items) {
