@@ -173,5 +173,41 @@ TEST(Replicate, CountsTheMiddleOfAllCopies) {
   EXPECT_EQ(file.spheres.centre(5), (Vec3d{2.5, 0.5, 0.5}));
 }
 
+TEST(Cell, ThatCannotBeReadIsTold) {
+  const auto warnings = [](const std::string& text, const std::string& name) {
+    std::string all;
+    for (const std::string& one : read_text(text, name).warnings) all += one + "\n";
+    return all;
+  };
+  // PDB: the columns, else six fields; a record that is none of both.
+  const std::string fields = "CRYST1 63.15 83.59 53.80 90.00 90.00 90.00 P 1 21 1\n" + kAtom;
+  expect_near(cell_of(read_text(fields, "a.pdb")).vectors[1], {0, 83.59, 0});
+  EXPECT_EQ(warnings(fields, "a.pdb"),
+            "a.pdb: CRYST1 does not keep to its columns; its first six fields are taken as the cell\n");
+  for (const char* record : {"CRYST1   10.000   10.000   10.000  10.00  20.00 120.00 P 1\n", "CRYST1 none\n"})
+    EXPECT_EQ(warnings(record + kAtom, "a.pdb"), "a.pdb: CRYST1 states no cell that can be read, so there is none\n");
+  for (const char* record : {"CRYST1    1.000    1.000    1.000  90.00  90.00  90.00 P 1\n", "CRYST1 1 1 1 90 90 90\n",
+                             "CRYST1    0.000    0.000    0.000  90.00  90.00  90.00 P 1\n", "CRYST1\n"})
+    EXPECT_EQ(warnings(record + kAtom, "a.pdb"), "") << record;
+
+  // mmCIF has the same placeholder.
+  const std::string atoms =
+      "loop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.type_symbol\n1 2 3 C\n";
+  const auto cell = [](const std::string& a) {
+    return "data_a\n_cell.length_a " + a + "\n_cell.length_b 1\n_cell.length_c 1\n_cell.angle_alpha 90\n" +
+           "_cell.angle_beta 90\n_cell.angle_gamma 90\n";
+  };
+  EXPECT_EQ(warnings(cell("1") + atoms, "a.cif"), "");
+  EXPECT_FALSE(read_text(cell("1") + atoms, "a.cif").spheres.cell().has_value());
+  EXPECT_EQ(warnings(cell("wide") + atoms, "a.cif"),
+            "a.cif: the lengths and angles of _cell make no cell, so there is none\n");
+
+  // MOL2 has none.
+  const std::string mol2 = "@<TRIPOS>MOLECULE\nx\n 1\n@<TRIPOS>ATOM\n1 C1 0 0 0 C.3\n@<TRIPOS>CRYSIN\n";
+  EXPECT_TRUE(read_text(mol2 + "1 1 1 90 90 90 1 1\n", "a.mol2").spheres.cell().has_value());
+  EXPECT_EQ(warnings(mol2 + "1 1 1 90 90 190 1 1\n", "a.mol2"),
+            "a.mol2:7: the numbers of CRYSIN make no cell, so there is none\n");
+}
+
 }  // namespace
 }  // namespace bihive

@@ -135,7 +135,8 @@ TEST(Csv, TakesColoursAsBytesIfAnyIsAboveOne) {
   EXPECT_EQ(attributes.opacity, (std::vector<float>{0.5f, 1}));
   EXPECT_EQ(error_of("x,y,z,red,green,blue\n0,0,0,256,0,0\n", "a.csv"), "a.csv:2:7: red is outside 0 to 255: '256'");
   EXPECT_EQ(error_of("x,y,z,red,green,blue\n0,0,0,0,nan,0\n", "a.csv"), "a.csv:2:9: green is outside 0 to 255: 'nan'");
-  EXPECT_EQ(error_of("x,y,z,opacity\n0,0,0,1.5\n", "a.csv"), "a.csv:2:7: opacity is outside 0 to 1: '1.5'");
+  EXPECT_EQ(error_of("x,y,z,opacity\n0,0,0,1.5\n", "a.csv"),
+            "a.csv:2:7: opacity is outside 0 to 1: '1.5'; keep it as a number: columns NAME=opacity");
 }
 
 TEST(Csv, NumbersLabelsInOrderOfAppearance) {

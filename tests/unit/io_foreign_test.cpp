@@ -11,7 +11,6 @@ using namespace std::string_literals;
 
 TEST(Foreign, NamesTheFormatByItsContent) {
   const std::pair<std::string, const char*> cases[] = {
-      {"BZh91AY", "a file packed with bzip2"},
       {"{\"1\": {\n \"ctime\": 1, \"numbers\": [1]}}", "a database of ASE in JSON"},
       {"<!DOCTYPE html>\n<html>", "a web page (HTML)"},
       {"PSF CMAP\n\n 1 !NTITLE\n", "a topology of CHARMM or NAMD (PSF), without coordinates"},
@@ -65,6 +64,42 @@ TEST(Foreign, TakesNothingOfBihivesOwn) {
         "Water\n1\n    1SOL     OW    1   0.230   0.628   0.113\n   1 1 1\n", "x,y,z\n1,2,3\n",
         "ATOM      1  N   ALA A   1      11.104   6.134  -6.504\n", "{\"bihive_scene\": 2}", "\n\n\n", " \n", ""})
     EXPECT_EQ(foreign_by_content(text), nullptr) << text;
+}
+
+TEST(Foreign, NamesTextsThatNoReaderTakes) {
+  const std::string table = "x,y,z\n1,2,3\n4,5,6\n";
+  std::string cr = table, little = "\xff\xfe", big;
+  for (char& c : cr)
+    if (c == '\n') c = '\r';
+  for (const char c : table) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  for (const char* file : {"a", "a.csv"}) {
+    EXPECT_EQ(error_of(cr, file),
+              file +
+                  ": this is a text whose lines end in CR (carriage return) alone, which bihive does not read; convert "
+                  "it with 'tr \"\\r\" \"\\n\" < FILE > OUT'"s);
+    for (const std::string& text : {little, little.substr(2), big, "\xfe\xff"s + big})
+      EXPECT_EQ(error_of(text, file).rfind(file + ": this is a text in UTF-16, which bihive does not read"s, 0), 0u);
+  }
+}
+
+TEST(Foreign, NamesStructuresOfOtherPrograms) {
+  const std::pair<std::string, const char*> cases[] = {
+      {"   5.0   5.0   5.0\n  90.0  90.0  90.0   SPGR =  1 P 1\n   1   0\n 0 x\n   1 C  0 0 0\n",
+       "a crystal structure in CSSR"},
+      {"water\n 0 2\n 10 0 0\n 0 10 0\n 0 0 10\nOW 1\n 1.0 2.0 3.0\n",
+       "a structure or trajectory of DL_POLY (CONFIG, HISTORY)"},
+      {"water\n 0 1 3\ntimestep 1 3 0 1 0.001\n", "a structure or trajectory of DL_POLY (CONFIG, HISTORY)"},
+      {"\xde\x00\x05\xabmmtfVersion\xa5"
+       "1.0.0"s,
+       "an MMTF file"},
+  };
+  for (const auto& [text, name] : cases)
+    EXPECT_EQ(error_of(text, "a").rfind("a: this is "s + name + ", which bihive does not read; ", 0), 0u)
+        << error_of(text, "a");
+  EXPECT_NE(error_of("?\n", "run/HISTORY").find("DL_POLY"), std::string::npos);
 }
 
 }  // namespace

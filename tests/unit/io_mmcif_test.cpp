@@ -103,7 +103,6 @@ TEST(Mmcif, TakesASingleAtomOutsideALoopAndTheFirstBlockWithAtoms) {
 TEST(Mmcif, NamesLineAndColumnOfAFault) {
   const std::string head = "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 2 3\n";
   EXPECT_EQ(error_of(head + "4 nan 6\n", "a.cif"), "a.cif:7:3: Cartn_y is not finite: 'nan'");
-  EXPECT_EQ(error_of(head + "4\n5 ?\n", "a.cif"), "a.cif:8:3: expected a number for Cartn_z but found '?'");
   EXPECT_EQ(error_of(head + "4 5 6x\n", "a.cif"), "a.cif:7:5: expected a number for Cartn_z but found '6x'");
   EXPECT_EQ(error_of(head + "4 5\n", "a.cif"), "a.cif:7:3: the last row of this loop has 2 of its 3 values");
   EXPECT_EQ(error_of("data_T\n_cell.length_a 1\n", "a.cif"),
@@ -127,12 +126,8 @@ TEST(Mmcif, NamesTheKindOfCifWithoutAtomsOfIts) {
   const std::string none = "a.cif: there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it";
   EXPECT_EQ(error_of("data_T\nloop_\n_chem_comp_atom.atom_id\n_chem_comp_atom.x\nC 1\n", "a.cif"),
             none +
-                ": this CIF describes a monomer (_chem_comp_atom); convert it with 'gemmi convert FILE.cif OUT.pdb' or "
-                "'obabel FILE.cif -O OUT.xyz'");
-  EXPECT_EQ(error_of("data_T\nloop_\n_atom_site.label\n_atom_site.fract_x\nC 1\n", "a.cif"),
-            none +
-                ": this CIF is of a small molecule or crystal (fractional coordinates); convert it with 'ase convert "
-                "FILE.cif OUT.xyz' or 'obabel FILE.cif --fillUC strict -O OUT.xyz'");
+                ": this CIF describes a monomer (_chem_comp_atom) without coordinates; take its file from the "
+                "Chemical Component Dictionary");
   EXPECT_EQ(error_of("data_T\nloop_\n_refln.index_h\n1\n", "a.cif"),
             none + ": this CIF holds reflections, not atoms; take the entry's file of coordinates");
 }
@@ -158,6 +153,56 @@ TEST(Mmcif, WarnsOfALastLineWithoutEnd) {
       "a.cif");
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_EQ(file.warnings[0], "the last line of a.cif has no end: the file may be cut");
+}
+
+TEST(Mmcif, TypeSymbolsMayHaveACharge) {
+  const SphereFile file = read_text(
+      "data_T\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
+      "_atom_site.Cartn_z\nN1+ 1 2 3\nO1- 2 2 3\nZN2+ 3 2 3\nFe3+ 4 2 3\nC 5 2 3\nC1 6 2 3\n",
+      "a.cif");
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{7, 8, 30, 26, 6, 0}));
+}
+
+TEST(Mmcif, AtomsWithoutPlaceAreLeftOut) {
+  const SphereFile file = read_text(
+      "data_T\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.auth_seq_id\n1 2 3 7\n? ? "
+      "? "
+      "8\n4 . 5 9\n6 7 8 10\n",
+      "a.cif");
+  EXPECT_EQ(xs(file), (Xs{1, 6}));
+  EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{7, 10}));
+  ASSERT_FALSE(file.warnings.empty());
+  EXPECT_NE(file.warnings[0].find("2 spheres have no place"), std::string::npos) << file.warnings[0];
+}
+
+TEST(Mmcif, TakesMonomersByTheirIdealCoordinates) {
+  const std::string tags =
+      "loop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n_chem_comp_atom.type_symbol\n_chem_comp_atom.charge\n"
+      "_chem_comp_atom.model_Cartn_x\n_chem_comp_atom.model_Cartn_y\n_chem_comp_atom.model_Cartn_z\n"
+      "_chem_comp_atom.pdbx_model_Cartn_x_ideal\n_chem_comp_atom.pdbx_model_Cartn_y_ideal\n"
+      "_chem_comp_atom.pdbx_model_Cartn_z_ideal\n";
+  const std::string text =
+      "data_LIG\n" + tags + "LIG \"C1'\" C 0 9 9 9 1 2 3\nLIG CL1 CL -1 9 9 9 4 5 6\nLIG H1 H 0 9 9 9 ? ? ?\n";
+  const SphereFile file = read_text(text, "LIG.cif");
+  ASSERT_EQ(file.spheres.size(), 3) << "more atoms have a place in the structure";
+  EXPECT_EQ(xs(file), (Xs{9, 9, 9}));
+  const std::string ideal = text.substr(0, text.find("LIG H1"));
+  EXPECT_EQ(xs(read_text(ideal, "LIG.cif")), (Xs{1, 4}));
+  EXPECT_EQ(read_text(ideal, "a").spheres.attributes().element, (std::vector<std::uint8_t>{6, 17}));
+  EXPECT_EQ(read_text(ideal, "a").spheres.attributes().find_texts("name")->of(0), "C1'");
+  EXPECT_EQ(numbers_of(read_text(ideal, "a"), "charge"), (std::vector<double>{0, -1}));
+
+  // Libraries of monomers have a block for each.
+  const std::string library =
+      "data_comp_list\nloop_\n_chem_comp.id\nA\ndata_comp_A\nloop_\n_chem_comp_atom.atom_id\n_chem_comp_atom.type_"
+      "symbol\n"
+      "_chem_comp_atom.x\n_chem_comp_atom.y\n_chem_comp_atom.z\nO O 7 8 9\n" +
+      ideal;
+  EXPECT_EQ(read_text(library, "a").frames, 2);
+  EXPECT_EQ(xs(read_text(library, "a")), (Xs{7}));
+  EXPECT_EQ(xs(read_text(library, "a", at_frame(1))), (Xs{1, 4}));
+  EXPECT_NE(error_of(library, "a", at_frame(2)).find("there is no frame 2"), std::string::npos);
+  EXPECT_NE(error_of(ideal + "LIG X X 0 9 9 9 1 nan 3\n", "a").find("is not finite: 'nan'"), std::string::npos);
 }
 
 }  // namespace

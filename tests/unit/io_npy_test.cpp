@@ -202,5 +202,55 @@ TEST(NpySpheres, NameAWrongShapeAndAWrongNumber) {
             "a.npy: there is no frame 1: the file has one only (0); choose one with frame, counting from 0");
 }
 
+TEST(Npy, ReadsTheLongNumbersOfPython2) {
+  expect_rows(npy_file(header("<f8", "(2L, 4L)"), data_of<double>(kRows, false)), "Python 2");
+}
+
+std::string structured(const std::string& fields, const std::string& data, const std::string& shape = "(2,)") {
+  return npy_file("{'descr': " + fields + ", 'fortran_order': False, 'shape': " + shape + ", }\n", data);
+}
+
+TEST(NpySpheres, TakeTheFieldsOfStructuredArrays) {
+  const std::string four = "[('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('radius', '<f4')]";
+  const SphereFile file = read_text(structured(four, data_of<float>(kRows, false)), "a.npy");
+  EXPECT_EQ(file.format, "NPY");
+  ASSERT_EQ(file.spheres.size(), 2);
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{-4, 5.25, 6}));
+  EXPECT_EQ(file.spheres.radius(1), 0.25);
+  EXPECT_EQ(read_text(structured(four, data_of<float>(kRows, false), "(1, 2)"), "a.npy").spheres.size(), 2);
+
+  // Types side by side, arrays in fields, titles, padding, texts, inner structures.
+  const std::string mixed =
+      "[('id', '>i2'), ('pos', '<f8', (3,)), (('a title', 'ok'), '|b1'), ('', '|V3'), ('name', '<U2'), ('in', [('q', "
+      "'<f4')])]";
+  std::string rows;
+  for (int i = 0; i < 2; ++i)
+    rows += data_of<std::int16_t>({7.0 + i}, true) + data_of<double>({1.0 + i, 2, 3}, false) +
+            std::string(1, static_cast<char>(i)) + "pad" + std::string(8, 'n') + data_of<float>({0.5}, false);
+  const SphereFile of_fields = read_text(structured(mixed, rows), "a.npy");
+  ASSERT_EQ(of_fields.spheres.size(), 2);
+  EXPECT_EQ(of_fields.spheres.centre(1), (Vec3d{2, 2, 3}));
+  const auto numbers = [&](const std::string& name) {
+    for (const NamedNumbers& column : of_fields.spheres.attributes().numbers)
+      if (column.name == name) return column.values;
+    return std::vector<double>();
+  };
+  EXPECT_EQ(numbers("id"), (std::vector<double>{7, 8}));
+  EXPECT_EQ(numbers("ok"), (std::vector<double>{0, 1}));
+  EXPECT_EQ(numbers("in.q"), (std::vector<double>{0.5, 0.5}));
+
+  EXPECT_EQ(error_of(structured("[('px', '<f4')]", data_of<float>({1, 2}, false)), "a.npy")
+                .rfind("a.npy: no array of the NPY file holds the places: it has px; name the fields x", 0),
+            0u);
+  EXPECT_NE(error_of(structured(four, "short"), "a.npy").find("does not agree with the 5 bytes"), std::string::npos);
+  EXPECT_NE(error_of(structured("[('x', '|O')]", "12345678"), "a.npy").find("whose length is unknown"),
+            std::string::npos);
+  EXPECT_NE(error_of(structured("[('x', '<f4', (99999999999999999,))]", "1234"), "a.npy").find("length is unknown"),
+            std::string::npos);
+  const std::string whole = structured(mixed, rows);
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    (void)read_spheres_from_memory(std::string_view(whole).substr(0, length), "a.npy", {});
+}
+
 }  // namespace
 }  // namespace bihive

@@ -138,5 +138,14 @@ TEST(Lzf, UnpacksLiteralsAndCopies) {
   EXPECT_FALSE(unpack_lzf("\0a"s, std::size_t{1} << 40).has_value());
 }
 
+TEST(Pcd, TheEndingTellsWhereTheVersionIsMissing) {
+  const std::string text =
+      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n";
+  const SphereFile file = read_text(text, "a.pcd");
+  EXPECT_EQ(file.format, "PCD");
+  ASSERT_EQ(file.spheres.size(), 1);
+  EXPECT_EQ(file.spheres.centre(0), (Vec3d{1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace bihive

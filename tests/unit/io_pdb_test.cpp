@@ -390,5 +390,59 @@ TEST(Pdb, WarnsOfAnUnreadableOccupancyOrBFactor) {
   EXPECT_EQ(numbers_of(bare, "occupancy"), (std::vector<double>{1}));
 }
 
+std::vector<std::string> texts(const SphereFile& file, const char* name) {
+  std::vector<std::string> all;
+  for (std::int64_t id = 0; id < file.spheres.size(); ++id)
+    all.push_back(file.spheres.attributes().find_texts(name)->of(id));
+  return all;
+}
+using Texts = std::vector<std::string>;
+
+TEST(Pdb, ResidueNamesMayHaveFourLetters) {
+  const auto atom = [](const std::string& columns_18_to_22) {
+    Atom made;
+    made.component = columns_18_to_22.substr(0, 3);
+    made.chain = columns_18_to_22.substr(3);
+    return made.line();
+  };
+  // Lipids and water of simulations, with a chain and without; ends of chains as Amber names them.
+  const SphereFile file = read_text(
+      atom("POPC ") + atom("POPCM") + atom("TIP3W") + atom("TIP3 ") + atom("NALA ") + atom("ALA A") + atom("NA   "),
+      "a.pdb");
+  EXPECT_EQ(texts(file, "resname"), (Texts{"POPC", "POPC", "TIP3", "TIP3", "NALA", "ALA", "NA"}));
+  EXPECT_EQ(texts(file, "chain"), (Texts{"", "M", "W", "", "", "A", ""}));
+
+  // Chains of two letters: a residue of three letters that is known shows them, also for unknown ones after it.
+  const SphereFile two = read_text(atom("ALAAB") + atom("LIGAB") + atom("HOHAC"), "a.pdb");
+  EXPECT_EQ(texts(two, "resname"), (Texts{"ALA", "LIG", "HOH"}));
+  EXPECT_EQ(texts(two, "chain"), (Texts{"AB", "AB", "AC"}));
+}
+
+TEST(Pdb, LargeNumbersShiftTheColumns) {
+  // As programs write them that give a number all of its digits.
+  const auto line = [](const char* serial, const char* residue) {
+    char text[128];
+    std::snprintf(text, sizeof text, "ATOM  %s  OW  SOL A%s    %8.3f%8.3f%8.3f  0.50 20.00           O\n", serial,
+                  residue, 10.5, -200.125, 1000.25);
+    return std::string(text);
+  };
+  const SphereFile file = read_text(
+      line("99999", "9999") + line("99999", "10000") + line("100000", "9999") + line("1000000", "123456"), "a.pdb");
+  ASSERT_EQ(file.spheres.size(), 4);
+  for (std::int64_t id = 0; id < 4; ++id) EXPECT_EQ(file.spheres.centre(id), (Vec3d{10.5, -200.125, 1000.25})) << id;
+  EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{9999, 10000, 9999, 123456}));
+  EXPECT_EQ(numbers_of(file, "occupancy"), std::vector<double>(4, 0.5));
+  EXPECT_EQ(texts(file, "chain"), Texts(4, "A"));
+  EXPECT_EQ(file.spheres.attributes().element, std::vector<std::uint8_t>(4, 8));
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0].rfind("a.pdb:2: 3 atoms have a number with more digits than its columns hold", 0), 0u)
+      << file.warnings[0];
+  // The same under a name that says nothing is no PQR.
+  EXPECT_EQ(read_text(line("99999", "10000"), "a").format, "PDB");
+  // A digit as insertion code shifts nothing.
+  EXPECT_EQ(numbers_of(read_text(Atom{1, " CA ", " ", " A", "  10", "1"}.line(), "a.pdb"), "resid"),
+            (std::vector<double>{10}));
+}
+
 }  // namespace
 }  // namespace bihive

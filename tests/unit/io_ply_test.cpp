@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -121,6 +122,26 @@ TEST(Ply, SaysWhereItIsWrong) {
       (void)read_spheres_from_memory(std::string_view(text).substr(0, length), "a.ply", {});
   EXPECT_EQ(error_of(with(binary(false), "vertex 2", "vertex 900000000000"), "a").find("a:18: the file ends too early"),
             0u);
+}
+
+TEST(Ply, AnOpacityThatIsNoneIsANumber) {
+  // A Gaussian splat.
+  const std::string splat =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float "
+      "f_dc_0\nproperty float opacity\nproperty float scale_0\nend_header\n1 2 3 .1 0.5 -4\n4 5 6 .2 -2 -3\n";
+  const SphereFile file = read_text(splat, "a.ply");
+  ASSERT_EQ(file.spheres.size(), 2);
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{4, 5, 6}));
+  EXPECT_TRUE(file.spheres.attributes().opacity.empty());
+  EXPECT_EQ(numbers_of(file, "opacity"), (std::vector<double>{0.5, -2}));
+  EXPECT_NE(std::find(file.rules.begin(), file.rules.end(),
+                      "'opacity' is outside 0 to 1 (-2 in row 1, from 0), so it is a number and no opacity"),
+            file.rules.end());
+  EXPECT_EQ(read_text(with(splat, "-2", "0"), "a.ply").spheres.attributes().opacity.size(), 2u);
+  // Chosen by the user it must be one.
+  ReadOptions options;
+  options.columns = {{"opacity", "opacity"}};
+  EXPECT_NE(error_of(splat, "a.ply", options).find("opacity is outside 0 to 1: -2"), std::string::npos);
 }
 
 }  // namespace

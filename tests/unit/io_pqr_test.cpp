@@ -84,5 +84,26 @@ TEST(Pqr, NamesLineAndColumnOfAFault) {
       "the file is cut on this line");
 }
 
+TEST(Pqr, AnElementMayFollowTheRadius) {
+  // As Open Babel writes it.
+  const std::string text =
+      "ATOM      1  CA  GLY A   1      -0.966   0.493   1.500 -0.12345678    1.700  C\n"
+      "HETATM    2 CA    CA A   2       1.000   2.000   3.000  2.00000000    1.800 Ca\n";
+  for (const char* name : {"a", "a.pqr"}) {
+    const SphereFile file = read_text(text, name);
+    EXPECT_EQ(file.format, "PQR");
+    ASSERT_EQ(file.spheres.size(), 2);
+    EXPECT_FLOAT_EQ(static_cast<float>(file.spheres.radius(0)), 1.7f);
+    EXPECT_EQ(numbers_of(file, "charge"), (std::vector<double>{-0.12345678, 2}));
+    EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{6, 20}));
+  }
+  EXPECT_EQ(read_text("ATOM 1 XX LIG 1 1 2 3 0.5 1.5 Fe\n", "a.pqr").spheres.attributes().element,
+            (std::vector<std::uint8_t>{26}));
+  EXPECT_FALSE(error_of("ATOM 1 XX LIG 1 1 2 3 0.5 1.5 iron\n", "a.pqr").empty());
+  // PDB has its element in the same place, so its columns count.
+  const std::string pdb = "ATOM      1  N   MET     1     -11.053  26.680  12.742  1.00 20.00           N\n";
+  EXPECT_EQ(format_by_content(pdb, "a.pqr"), &format_named("PDB"));
+}
+
 }  // namespace
 }  // namespace bihive

@@ -56,6 +56,14 @@ TEST(Detect, GoesByContentFirst) {
       EXPECT_EQ(name_of(format_by_content(text, name)), format) << text << " as " << name;
 }
 
+TEST(Detect, TheEndingDecidesWhereFirstLinesFitTwoFormats) {
+  // The name of a record, which is also that of a column.
+  const char* const table = "SITE   x y z\n1 0 0 0\n";
+  EXPECT_EQ(name_of(format_by_content(table, "a")), "PDB");
+  EXPECT_EQ(name_of(format_by_content(table, "a.txt")), "CSV");
+  EXPECT_EQ(name_of(format_by_content("data_x\n_cell_length_a 1\n_atom_site_fract_x 0\n", "a.cif")), "CIF of crystals");
+}
+
 TEST(Detect, GoesByNameWhereContentSaysNothing) {
   const std::pair<const char*, const char*> cases[] = {
       {"a.pdb", "PDB"},       {"a.ENT", "PDB"},     {"b/a.cif.gz", "mmCIF"},   {"a.mmcif", "mmCIF"},
@@ -168,7 +176,7 @@ TEST(ReadSpheres, NamesWhatItCannotRead) {
   EXPECT_EQ(known.find("; known are CIF of crystals, CSV (.csv .tsv .txt .dat), GRO (.gro), GSD (.gsd), HDF5 (.h5 "),
             0u)
       << known;
-  EXPECT_NE(known.find("XYZ (.xyz .extxyz), each also as .gz or .zst"), std::string::npos) << known;
+  EXPECT_NE(known.find("XYZ (.xyz .extxyz), each also as .gz, .zst, .xz or .bz2"), std::string::npos) << known;
   EXPECT_EQ(error_of("", "a.pdb"), "a.pdb: the file is empty");
   EXPECT_EQ(error_of("what is this?\n", "a"), "a: this is no file of spheres in a known format" + known);
   std::string junk;

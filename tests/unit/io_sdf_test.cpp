@@ -170,5 +170,40 @@ TEST(Mol2, SaysWhereItIsWrong) {
       (void)read_spheres_from_memory(std::string_view(kMol2).substr(0, length), "a.mol2", at_frame(frame));
 }
 
+TEST(Sdf, LinesOfVersion3000MayGoOnAnywhere) {
+  const std::string cut = with(with(kTwoMolecules, "M  V30 2 \"NOT [N, O]\" 4 5 6 0",
+                                    "M  V30 2 \"NOT [N, -\nM  V30 O]\" -\nM V30 4 5.-\nM  V30 0 6 0"),
+                               "M  V30 COUNTS 2 1", "M  V30 COUNTS -\nM  V30 2 1");
+  const SphereFile file = read_text(cut, "a.sdf", at_frame(1));
+  ASSERT_EQ(file.spheres.size(), 2);
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{4, 5, 6}));
+  EXPECT_EQ(numbers_of(file, "charge"), (std::vector<double>{1, -1}));
+  // Lines keep their numbers, and other lines that end in a hyphen are no such lines.
+  EXPECT_EQ(error_of(with(cut, "BEGIN BOND", "BEGIN ATOM"), "a").rfind("a:30: the block of atoms comes twice", 0), 0u);
+  EXPECT_EQ(read_text(with(kTwoMolecules, "acetate\n", "acetate -\n"), "a.sdf").spheres.size(), 3);
+  for (std::size_t length = 0; length < cut.size(); ++length)
+    (void)read_spheres_from_memory(std::string_view(cut).substr(0, length), "a.sdf", at_frame(1));
+}
+
+TEST(Sdf, TheEndingTellsWhereTheVersionIsMissing) {
+  const std::string old =
+      "2244\n  own\n\n  2  0  0  0  0  0              1\n    1.0000    2.0000    3.0000 C   0  0\n"
+      "    4.0000    5.0000    6.0000 O   0  0\nM  END\n$$$$\n";
+  for (const char* name : {"a.sdf", "a.mol", "a.sd.gz"}) {
+    const SphereFile file = read_text(old, name);
+    EXPECT_EQ(file.format, "SDF");
+    ASSERT_EQ(file.spheres.size(), 2);
+    EXPECT_EQ(file.spheres.centre(1), (Vec3d{4, 5, 6}));
+  }
+}
+
+TEST(Mol2, LinesMayGoOn) {
+  const SphereFile file =
+      read_text(with(kMol2, "1.5000   2.0000   3.0000 cl", "1.5000 \\\n   2.0000   3.0000\\\n cl"), "a.mol2");
+  ASSERT_EQ(file.spheres.size(), 4);
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{1.5, 2, 3}));
+  EXPECT_EQ(file.spheres.attributes().find_texts("type")->of(1), "cl");
+}
+
 }  // namespace
 }  // namespace bihive

@@ -40,7 +40,7 @@ const std::string kListed =
     "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n"
     "loop_\n_symmetry_equiv_pos_as_xyz\n'x, y, z'\n-x,-y,z+1/2\n"
     "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
-    "Fe1A 0.125 0.25 -0.25\nCA2 0.001 0 0.5\nOw 0.5 0.5 0.125\n";
+    "Fe1A 0.125 0.25 -0.25\nCa2 0.001 0 0.5\nOw 0.5 0.5 0.125\n";
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
   EXPECT_NE(text.find(from), std::string::npos) << from;
@@ -159,6 +159,117 @@ TEST(SmallCif, SaysWhereItIsWrong) {
   EXPECT_EQ(error_of(with(kSalt, "0.75 ?\n", "\n"), "a").rfind("a:", 0), 0u) << "a row is too short";
   for (std::size_t length = 0; length < kSalt.size(); ++length)
     (void)read_spheres_from_memory(std::string_view(kSalt).substr(0, length), "a.cif", {});
+}
+
+const std::string kCube =
+    "data_x\n_cell_length_a 5\n_cell_length_b 5\n_cell_length_c 5\n"
+    "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n";
+const std::string kSites =
+    "loop_\n_atom_site_label\n_atom_site_type_symbol\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n";
+const std::string kLabels = "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n";
+
+bool says(const std::vector<std::string>& texts, const std::string& wanted) {
+  for (const std::string& text : texts)
+    if (text.find(wanted) != std::string::npos) return true;
+  return false;
+}
+
+TEST(SmallCif, TagsMayHaveADot) {
+  const std::string group =
+      kCube + "_space_group.name_H-M_alt 'F m -3 m'\n" + kSites + "Na1 Na 0 0 0\nCl1 Cl .5 .5 .5\n";
+  EXPECT_EQ(read_text(group, "a.cif").spheres.size(), 8);
+  EXPECT_EQ(read_text(with(group, "name_H-M_alt 'F m -3 m'", "IT_number 225"), "a.cif").spheres.size(), 8);
+
+  // All of the file in the newer form, which mmCIF shares. Where places of mmCIF are there too, it is mmCIF.
+  std::string dotted = kListed;
+  for (const char* category : {"_cell", "_atom_site"})
+    for (std::size_t at = 0; (at = dotted.find(category + std::string("_"), at)) != std::string::npos;)
+      dotted[at + std::string(category).size()] = '.';
+  dotted = with(dotted, "_symmetry_equiv_pos_as_xyz", "_space_group_symop.operation_xyz");
+  const SphereFile file = read_text(dotted, "a.cif"), same = read_text(kListed, "a.cif");
+  ASSERT_EQ(file.spheres.size(), same.spheres.size());
+  for (std::int64_t id = 0; id < file.spheres.size(); ++id) EXPECT_EQ(file.spheres.centre(id), same.spheres.centre(id));
+  EXPECT_EQ(
+      read_text("data_a\nloop_\n_atom_site.fract_x\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n0 1 "
+                "2 3\n",
+                "a.cif")
+          .format,
+      "mmCIF");
+}
+
+TEST(SmallCif, TakesOperationsAndCentringsOfMagneticFiles) {
+  const std::string magnetic =
+      kCube +
+      "_parent_space_group.name_H-M_alt 'I -1'\n"
+      "loop_\n_space_group_symop_magn_operation.id\n_space_group_symop_magn_operation.xyz\n1 x,y,z,+1\n2 -x,-y,-z,-1\n"
+      "loop_\n_space_group_symop_magn_centering.id\n_space_group_symop_magn_centering.xyz\n1 x,y,z,+1\n"
+      "2 x+1/2,y+1/2,z+1/2,-1\n" +
+      kSites + "Fe1 Fe .125 .25 .375\n";
+  const SphereFile file = read_text(magnetic, "a.mcif");
+  ASSERT_EQ(file.spheres.size(), 4);
+  EXPECT_EQ(file.spheres.centre(0), (Vec3d{0.625, 1.25, 1.875}));
+  EXPECT_EQ(file.spheres.centre(1), (Vec3d{4.375, 3.75, 3.125}));
+  EXPECT_EQ(file.spheres.centre(2), (Vec3d{3.125, 3.75, 4.375}));
+  EXPECT_EQ(file.spheres.centre(3), (Vec3d{1.875, 1.25, 0.625}));
+  std::string older = with(magnetic, "magn_operation.xyz", "magn_operation_xyz");
+  older = with(older, "magn_centering.xyz", "magn_centering_xyz");
+  EXPECT_EQ(read_text(older, "a.mcif").spheres.size(), 4);
+}
+
+TEST(SmallCif, SymmetryInAnUnknownFormIsTold) {
+  const std::string atom = kSites + "Fe1 Fe .125 .25 .375\n";
+  const SphereFile file = read_text(kCube + "_space_group_magn.name_BNS 'P -1'\n" + atom, "a.cif");
+  ASSERT_EQ(file.spheres.size(), 1);
+  EXPECT_TRUE(says(file.warnings, "symmetry is stated, but not in a form that is read (_space_group_magn_name_BNS)"));
+  EXPECT_FALSE(says(file.rules, "the file states none"));
+  EXPECT_TRUE(says(read_text(kCube + "_parent_space_group.name_H-M_alt 'I -1'\n" + atom, "a.cif").warnings,
+                   "not in a form that is read (_parent_space_group_name_H-M_alt)"));
+  for (const char* none :
+       {"", "_symmetry_cell_setting cubic\n", "_space_group_name_H-M_alt ?\n", "_symmetry_equiv_pos_as_xyz ?\n"}) {
+    const SphereFile without = read_text(kCube + none + atom, "a.cif");
+    EXPECT_TRUE(says(without.rules, "the file states none")) << none;
+    EXPECT_TRUE(without.warnings.empty()) << none;
+  }
+}
+
+TEST(SmallCif, LabelsInCapitalsAreReadByTheFormula) {
+  const auto elements = [](const std::string& head, const std::string& labels) {
+    std::string rows;
+    for (std::size_t at = 0, end; at < labels.size(); at = end + 1) {
+      end = std::min(labels.find(' ', at), labels.size());
+      rows += labels.substr(at, end - at) + " 0." + std::to_string(10 + at) + " 0 0\n";
+    }
+    return read_text(kCube + head + kLabels + rows, "a.cif").spheres.attributes().element;
+  };
+  using Elements = std::vector<std::uint8_t>;
+  EXPECT_EQ(elements("", "C1 O1 HO1 HC1 CA2 CO3 Ca4 CL5 ZN6 AL7"), (Elements{6, 8, 1, 1, 6, 6, 20, 17, 30, 13}));
+  // The formula, or the list of types, tells two readings apart.
+  EXPECT_EQ(elements("_chemical_formula_sum 'C2 CO H'\n", "CO1 HO1 C1"), (Elements{27, 1, 6}));
+  EXPECT_EQ(elements("_chemical_formula_sum 'Ca0.5 O H2'\n", "CA1 HO1 O1"), (Elements{20, 1, 8}));
+  EXPECT_EQ(elements("loop_\n_atom_type_symbol\nNi2+\nO\n", "NI1 O1"), (Elements{28, 8}));
+  EXPECT_EQ(elements("_chemical_formula_sum 'C H O'\n", "Ho1 Co1"), (Elements{1, 6}));
+  EXPECT_TRUE(says(read_text(kCube + kLabels + "HO1 0 0 0\n", "a").rules, "of labels in capitals"));
+}
+
+TEST(SmallCif, AListedImageIsNotTakenTwice) {
+  const std::string head = kCube + "loop_\n_symmetry_equiv_pos_as_xyz\nx,y,z\n-x,-y,-z\n";
+  const SphereFile file = read_text(head + kSites + "C1 C 0.1 0.2 0.3\nC1A C -0.1001 -0.2 -0.3\nO1 O 0 0 0\n", "a.cif");
+  EXPECT_EQ(file.spheres.size(), 3);
+  EXPECT_TRUE(says(file.warnings, "1 listed atom is at the place of an image of another one (first 'C1A')"));
+  // Another element, and disorder that shares a place, stay.
+  EXPECT_EQ(read_text(head + kSites + "C1 C 0.1 0.2 0.3\nN1 N -0.1 -0.2 -0.3\n", "a.cif").spheres.size(), 4);
+  const std::string half = with(kSites, "_atom_site_fract_z\n", "_atom_site_fract_z\n_atom_site_occupancy\n");
+  EXPECT_EQ(read_text(head + half + "C1 C 0.1 0.2 0.3 0.5\nC1A C -0.1 -0.2 -0.3 0.5\n", "a.cif").spheres.size(), 4);
+  EXPECT_EQ(read_text(head + half + "C1 C 0.1 0.2 0.3 1\nC1A C 0.1 0.2 0.3 1\n", "a.cif").spheres.size(), 4)
+      << "one place twice, without symmetry";
+}
+
+TEST(SmallCif, SmallCellsAndUnknownAnglesAreCells) {
+  std::string small = kCube + kSites + "C1 C 0 0 0\nO1 O 1.1 0 0\n";
+  for (const char* length : {"_a 5", "_b 5", "_c 5"}) small = with(small, length, std::string(length, 3) + "1");
+  EXPECT_EQ(read_text(small, "a.cif").spheres.cell()->vectors[0], (Vec3d{1, 0, 0}));
+  EXPECT_EQ(read_text(with(small, "alpha 90", "alpha ?"), "a.cif").spheres.size(), 2);
+  EXPECT_EQ(error_of(with(small, "_a 1", "_a ?"), "a"), "a:2: block 'x': the value of _cell_length_a is unknown");
 }
 
 }  // namespace

@@ -215,5 +215,93 @@ TEST(VtkXml, SaysWhereItIsWrong) {
       (void)read_spheres_from_memory(std::string_view(text).substr(0, length), "a.vtp", {});
 }
 
+TEST(VtkLegacy, LeavesTextsOutAndTakesBits) {
+  const std::string arrays =
+      "FIELD more 4\nlabel 1 2 string\na%20b\n\n\nflag 1 2 bit\n1 0\n\nmixed 1 2 variant\n6 1\n13 x\nradius 1 2 "
+      "float\n0.5 0.25\n";
+  const SphereFile file = read_text(
+      "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 3 4 5 6\n"
+      "POINT_DATA 2\n" +
+          arrays,
+      "a.vtk");
+  ASSERT_EQ(file.spheres.size(), 2);
+  EXPECT_EQ(file.spheres.radius(1), 0.25);
+  EXPECT_EQ(numbers_of(file, "flag"), (std::vector<double>{1, 0}));
+  EXPECT_NE(
+      std::find(file.rules.begin(), file.rules.end(), "arrays of another length or kind are left out: 'label' 'mixed'"),
+      file.rules.end());
+
+  // In binary a text stands behind its length, whose first two bits tell its width; eight bits are a byte.
+  std::string text = "# vtk DataFile Version 5.1\nb\nBINARY\nDATASET POLYDATA\nPOINTS 9 float\n";
+  const auto put = [&text](auto value) {
+    const std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+    text += std::string(bytes.rbegin(), bytes.rend());
+  };
+  for (int i = 0; i < 27; ++i) put(float(i));
+  text += "\nPOINT_DATA 9\nFIELD more 3\nlabel 1 9 string\n";
+  for (int i = 0; i < 7; ++i)
+    text +=
+        "\xc2"
+        "a\n";
+  put(std::uint16_t{0x8000 | 70}), text += std::string(70, 'x');
+  put(std::uint32_t{0x40000000 | 3}), text += "abc";
+  text += "\nflag 1 9 bit\n";
+  put(std::uint8_t{0xa0}), put(std::uint8_t{0x80});
+  text += "\nradius 1 9 float\n";
+  for (int i = 0; i < 9; ++i) put(0.5F);
+  const SphereFile binary = read_text(text, "a.vtk");
+  ASSERT_EQ(binary.spheres.size(), 9);
+  EXPECT_EQ(binary.spheres.radius(8), 0.5);
+  EXPECT_EQ(numbers_of(binary, "flag"), (std::vector<double>{1, 0, 1, 0, 0, 0, 0, 0, 1}));
+  for (std::size_t length = 0; length < text.size(); ++length)
+    (void)read_spheres_from_memory(std::string_view(text).substr(0, length), "a.vtk", {});
+}
+
+TEST(VtkLegacy, KeywordsMayBeInEitherCase) {
+  const std::size_t head = kLegacy.find("ASCII");
+  std::string lower = kLegacy;
+  for (std::size_t i = head; i < lower.size(); ++i)
+    if (lower[i] >= 'A' && lower[i] <= 'Z') lower[i] = static_cast<char>(lower[i] - 'A' + 'a');
+  expect_two_points(lower, "a.vtk");
+  EXPECT_EQ(number_names(read_text(lower, "a.vtk")), number_names(read_text(kLegacy, "a.vtk")));
+}
+
+TEST(VtkXml, NumbersMayHaveBlanksAroundThem) {
+  std::string text = with(xml_appended(true), "offset=\"28\"", "offset=\"  28 \"");
+  text = with(with(text, "NumberOfPoints=\"2\"", "NumberOfPoints=\"    2\""), "NumberOfComponents=\"3\" format",
+              "NumberOfComponents=\" 3\" format");
+  expect_two_points(text, "a.vtp");
+}
+
+TEST(VtkXml, WithoutAFormatArraysAreText) {
+  std::string text = xml_text();
+  for (std::size_t at; (at = text.find(" format=\"ascii\"")) != std::string::npos;) text.erase(at, 15);
+  expect_two_points(text, "a.vtp");
+}
+
+TEST(VtkXml, PiecesMayDiffer) {
+  const std::string text = xml_text();
+  const std::size_t begin = text.find("<Piece"), end = text.find("</PolyData>");
+  const std::string piece = text.substr(begin, end - begin);
+  // A piece without points says nothing of the arrays.
+  std::string empty = text;
+  empty.insert(begin,
+               "<Piece NumberOfPoints=\"0\"><Points><DataArray type=\"Float32\" Name=\"Points\" "
+               "NumberOfComponents=\"3\" format=\"ascii\"></DataArray></Points></Piece>\n");
+  expect_two_points(empty, "a.vtp");
+  // In another order; an array that is not in all of them is left out.
+  std::string other = piece;
+  other = with(other, "Name=\"radius\"", "Name=\"mass\"");
+  std::string both = text;
+  both.insert(end, other);
+  const SphereFile file = read_text(both, "a.vtp");
+  ASSERT_EQ(file.spheres.size(), 4);
+  EXPECT_TRUE(number_names(file).empty());
+  EXPECT_EQ(file.spheres.attributes().colour.size(), 4u);
+  EXPECT_NE(
+      std::find(file.rules.begin(), file.rules.end(), "arrays of another length or kind are left out: 'radius' 'mass'"),
+      file.rules.end());
+}
+
 }  // namespace
 }  // namespace bihive

@@ -78,6 +78,7 @@ std::string choose_columns(const ColumnChoice& choice, std::vector<TableColumn>&
   for (const auto& [position, part] : chosen) {
     TableColumn& column = columns[position];
     column.role = role_of_part(part);
+    column.is_chosen = true;
     if (column.role == ColumnRole::number) column.name = part;
   }
   return "";

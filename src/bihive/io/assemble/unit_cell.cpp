@@ -14,7 +14,6 @@ std::optional<Cell> unit_cell(const std::array<double, 6>& given) {
     if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
   for (const double angle : {alpha, beta, gamma})
     if (!(angle > 0 && angle < 180)) return std::nullopt;
-  if (a == 1 && b == 1 && c == 1) return std::nullopt;
   const SineCosine at_a = sine_cosine_deg(alpha);
   const SineCosine at_b = sine_cosine_deg(beta);
   const SineCosine at_c = sine_cosine_deg(gamma);
@@ -25,6 +24,11 @@ std::optional<Cell> unit_cell(const std::array<double, 6>& given) {
   cell.vectors = {Vec3d{a, 0, 0}, Vec3d{b * at_c.cosine, b * at_c.sine, 0},
                   Vec3d{c * at_b.cosine, c * y, c * std::sqrt(z_squared)}};
   return cell;
+}
+
+bool is_placeholder_cell(const std::array<double, 6>& given) {
+  const auto all = [&given](double length) { return given[0] == length && given[1] == length && given[2] == length; };
+  return all(1) || all(0);
 }
 
 std::optional<Cell> cell_of_vectors(std::string_view nine) {

@@ -10,9 +10,11 @@
 namespace bihive {
 
 /// From the lengths a, b, c and the angles alpha, beta, gamma in degrees of a crystal: a along x, b in the plane of x
-/// and y, as PDB and mmCIF place their atoms. Nothing: the numbers are no cell, or those that files without a crystal
-/// have (lengths of 1 or 0).
+/// and y, as PDB and mmCIF place their atoms. Nothing: the numbers are no cell.
 std::optional<Cell> unit_cell(const std::array<double, 6>& lengths_and_angles);
+
+/// Whether these are the numbers that PDB and mmCIF files without a crystal have: lengths of 1, or of 0.
+bool is_placeholder_cell(const std::array<double, 6>& lengths_and_angles);
 
 /// From nine numbers with blanks between them: the vectors a, b and c one after the other.
 std::optional<Cell> cell_of_vectors(std::string_view nine);

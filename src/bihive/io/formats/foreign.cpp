@@ -20,10 +20,9 @@ constexpr std::string_view kPoints = "write the points as CSV with a header, for
 constexpr ForeignFormat kKnown[] = {
     {"tng", "a TNG trajectory of GROMACS", ".tng", kTrajectory},
     {"tpr", "a run input file of GROMACS (TPR)", ".tpr", "convert it with 'gmx editconf -f FILE.tpr -o OUT.pdb'"},
-    {"bzip2", "a file packed with bzip2", ".bz2", "unpack it first: 'bunzip2 FILE'", "BZh"},
-    {"xz", "a file packed with xz", ".xz", "unpack it first: 'unxz FILE'",
-     "\xfd"
-     "7zXZ"},
+    {"utf16", "a text in UTF-16", "", "convert it with 'iconv -f UTF-16 -t UTF-8 FILE > OUT'"},
+    {"cr", "a text whose lines end in CR (carriage return) alone", "",
+     "convert it with 'tr \"\\r\" \"\\n\" < FILE > OUT'"},
     {"bcif", "a BinaryCIF file", ".bcif", "take the entry's mmCIF file"},
     {"mmtf", "an MMTF file", ".mmtf", "take the entry's mmCIF file"},
     {"pdbml", "a PDBML file (XML)", "", "take the entry's mmCIF file"},
@@ -40,6 +39,9 @@ constexpr ForeignFormat kKnown[] = {
     {"top", "a topology of GROMACS, without coordinates", ".top .itp", "take its structure: a GRO or PDB file"},
     {"coor", "a binary structure of NAMD", ".coor", kMdanalysis},
     {"crd", "a structure of CHARMM (CRD)", ".crd", kMdanalysis},
+    {"cssr", "a crystal structure in CSSR", ".cssr", kBabel},
+    {"dlpoly", "a structure or trajectory of DL_POLY (CONFIG, HISTORY)", "config* revcon* history*",
+     "write it as XYZ with ASE: ase.io.write('OUT.xyz', ase.io.read('CONFIG', format='dlp4')), or 'dlp-history'"},
     {"cube", "a cube of Gaussian", ".cube .cub", kAse},
     {"xsf", "a structure of XCrySDen (XSF)", ".xsf .axsf", kAse},
     {"tinker", "a structure of Tinker", ".txyz .arc", kBabel},
@@ -71,6 +73,10 @@ std::string_view by_mark(std::string_view bytes) {
       marks.remove_prefix(std::min(end + 1, marks.size()));
     }
   if (bytes.size() < 16) return "";
+  // A map of msgpack.
+  const auto first = static_cast<unsigned char>(bytes[0]);
+  if ((first >> 4 == 8 || first == 0xde) && bytes.substr(0, 65536).find("mmtfVersion") != std::string_view::npos)
+    return "mmtf";
   if (bytes.substr(4, 4) == "\0\0\0\x0d"sv && bytes.substr(8, 8).find("VERSION") != std::string_view::npos)
     return "tpr";
   if (begins(bytes, "\0\0\0"sv) && bytes.substr(0, 24).find("VERSION") != std::string_view::npos) return "tpr";
@@ -132,6 +138,19 @@ std::string_view by_lines(std::string_view text) {
   if (counted_vector(2) && counted_vector(3) && counted_vector(4) && counted_vector(5)) return "cube";
 
   const std::vector<std::string_view> second = fields_of_line(line(1));
+  // DL_POLY: a title, kinds of records and of the cell, the cell unless its kind is 0; then a name with a number, and
+  // three numbers. A trajectory has its time before the cell.
+  const auto kind = [&second](std::size_t i) { return i < second.size() ? parse_int(second[i]).value_or(-1) : -1; };
+  if (kind(0) >= 0 && kind(0) <= 2 && kind(1) >= 0 && kind(1) <= 7) {
+    const std::size_t cell_lines = kind(1) == 0 ? 0 : 3;
+    const std::vector<std::string_view> name = fields_of_line(line(2 + cell_lines)),
+                                        place = fields_of_line(line(3 + cell_lines));
+    const bool is_atom = name.size() >= 2 && !parse_double(name[0]) && parse_int(name[1]);
+    const bool has_cell = cell_lines == 0 || all_numbers(fields_of_line(line(2)), 3);
+    if (begins(line(2), "timestep ") || (is_atom && has_cell && place.size() == 3 && all_numbers(place, 3)))
+      return "dlpoly";
+  }
+
   // Amber: a title, a count (with a time), then six numbers on a line.
   if ((second.size() == 1 || second.size() == 2) && parse_int(second[0]) && fields_of_line(line(2)).size() == 6 &&
       all_numbers(fields_of_line(line(2)), 6))
@@ -158,6 +177,24 @@ std::string_view by_braces(std::string_view text) {
 }
 
 }  // namespace
+
+const ForeignFormat* foreign_before_all(std::string_view bytes) {
+  // Letters of one byte with a zero beside each, or the mark of UTF-16 in either order.
+  const std::string_view first = bytes.substr(0, 32);
+  bool is_wide[2] = {first.size() >= 8, first.size() >= 8};
+  for (std::size_t i = 0; i < first.size(); ++i)
+    for (std::size_t zero = 0; zero < 2; ++zero) is_wide[zero] = is_wide[zero] && (first[i] == '\0') == (i % 2 == zero);
+  if (begins(bytes, "\xff\xfe") || begins(bytes, "\xfe\xff") || is_wide[0] || is_wide[1]) return named("utf16");
+
+  const std::string_view head = bytes.substr(0, 65536);
+  if (head.find('\0') != std::string_view::npos) return nullptr;
+  if (head.find('\n') == std::string_view::npos && head.find('\r') != std::string_view::npos) return named("cr");
+
+  // Three lengths, then three angles with the group.
+  TextScanner scanner(head, "");
+  if (!scanner.next_line() || !all_numbers(fields_of_line(scanner.line()), 3) || !scanner.next_line()) return nullptr;
+  return scanner.line().find("SPGR") != std::string_view::npos ? named("cssr") : nullptr;
+}
 
 const ForeignFormat* foreign_by_content(std::string_view bytes) {
   for (const auto recognise : {by_mark, by_element, by_braces})

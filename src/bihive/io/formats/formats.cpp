@@ -8,6 +8,7 @@
 #include "bihive/base/check.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/known_formats.h"
+#include "bihive/io/packed/unpack.h"
 
 namespace bihive {
 
@@ -54,8 +55,7 @@ const Format& format_named(std::string_view name) {
 
 std::string ending_of(const std::string& name) {
   std::string lower = lower_case(name);
-  for (const std::string_view packing : {".gz", ".zst"})
-    if (lower.size() > packing.size() && lower.ends_with(packing)) lower.resize(lower.size() - packing.size());
+  lower.resize(lower.size() - packed_ending(lower).size());
   const std::size_t dot = lower.find_last_of("./");
   return dot == std::string::npos || lower[dot] != '.' ? "" : lower.substr(dot);
 }
@@ -81,9 +81,17 @@ const Format* format_by_content(std::string_view bytes, const std::string& name)
   bytes = bytes.substr(0, kFileHeadBytes);
   FileHead head{bytes, name, TextScanner(bytes, "")};
   const bool may_be_text = bytes.find('\0') == std::string_view::npos && head.text.next_filled_line();
-  for (const Format* format : kFormats)
-    if ((may_be_text || !format->has(Format::kText)) && format->recognise(head)) return format;
-  return nullptr;
+  const auto fits = [&](const Format* format) {
+    return (may_be_text || !format->has(Format::kText)) && format->recognise(head);
+  };
+  const auto found = std::find_if(std::begin(kFormats), std::end(kFormats), fits);
+  if (found == std::end(kFormats)) return nullptr;
+
+  // First lines may be those of two formats. One reader takes all CIF.
+  const auto first_general = std::find(std::begin(kFormats), std::end(kFormats), &kPqr);
+  const bool is_general = found >= first_general && !(*found)->files.empty();
+  const Format* const named = is_general ? format_by_name(name) : nullptr;
+  return named != nullptr && fits(named) ? named : *found;
 }
 
 Result<RawSpheres> read_bytes(const Format& format, std::string_view bytes, const std::string& name, std::int64_t frame,
@@ -105,7 +113,7 @@ std::string known_formats() {
   std::vector<std::string> all;
   for (const Format* format : kFormats)
     all.push_back(std::string(format->name) + (format->files.empty() ? "" : " (" + std::string(format->files) + ")"));
-  return listed(std::move(all)) + ", each also as .gz or .zst";
+  return listed(std::move(all)) + ", each also as .gz, .zst, .xz or .bz2";
 }
 
 std::string names_of_formats(FormatsThat which) {

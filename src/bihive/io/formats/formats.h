@@ -16,8 +16,8 @@ std::span<const TrajectoryFormat* const> trajectory_formats();
 /// The format of that name, which must be there.
 const Format& format_named(std::string_view name);
 
-/// The format of unpacked bytes by their content; null if it fits none. Where PDB and PQR both fit, the ending of the
-/// name decides.
+/// The format of unpacked bytes by their content; null if it fits none. Where first lines fit several formats of text,
+/// the ending of the name decides.
 const Format* format_by_content(std::string_view bytes, const std::string& name);
 
 /// The format by the file's name; null if it fits none.
@@ -30,7 +30,7 @@ Result<RawSpheres> read_bytes(const Format& format, std::string_view bytes, cons
 /// "PDB (.pdb .ent), PLY (.ply), ...", for messages.
 std::string known_formats();
 
-/// The ending of a file's name, in lower case, before .gz or .zst: ".pdb"; empty if it has none.
+/// The ending of a file's name, in lower case, before .gz and the like: ".pdb"; empty if it has none.
 std::string ending_of(const std::string& name);
 /// Whether a file's name is one of Format::files.
 bool is_named_so(std::string_view files, const std::string& name);

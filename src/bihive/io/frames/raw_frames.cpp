@@ -30,8 +30,10 @@ const TrajectoryFormat* lone_trajectory(std::string_view head, const std::string
 
 // The content tells, then the name. A format that is known and not read, or not without another file, is named.
 Result<const Format*> known_format(std::string_view head, const std::string& name, bool with_columns) {
-  if (const Format* const format = format_by_content(head, name)) return format;
-  const ForeignFormat* foreign = foreign_by_content(head);
+  const ForeignFormat* foreign = foreign_before_all(head);
+  if (foreign == nullptr)
+    if (const Format* const format = format_by_content(head, name)) return format;
+  if (foreign == nullptr) foreign = foreign_by_content(head);
   const Format* const named = foreign != nullptr ? nullptr : format_by_name(name);
   if (const auto* lone = lone_trajectory(head, foreign != nullptr || named != nullptr ? "" : name))
     return Error{"this is " + std::string(lone->alone) + ", which is read only together with a file of its atoms", name,

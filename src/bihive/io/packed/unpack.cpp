@@ -1,12 +1,14 @@
 #include "bihive/io/packed/unpack.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <utility>
 
 #include "bihive/base/memory.h"
 #include "bihive/io/packed.h"
+#include "bihive/io/packed/unpackers.h"
 
 #if BIHIVE_HAS_ZLIB
 #include <zlib.h>
@@ -19,18 +21,10 @@ namespace bihive {
 namespace {
 
 constexpr std::string_view kGzipMark = "\x1f\x8b";
-constexpr std::string_view kZstdMark = "\x28\xb5\x2f\xfd";
-
-// Unpacked bytes that are given on at a time.
-constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
 // A text grows by this factor, and has room for so many bytes from the beginning.
 constexpr double kGrowth = 1.5;
 constexpr double kLeastRoom = 1 << 20;
-
-Error packed_fault(const std::string& what, const std::string& name) {
-  return {what, name, 0, 0, ""};
-}
 
 #if BIHIVE_HAS_ZLIB
 
@@ -71,7 +65,7 @@ Status gunzip_pieces(const PieceSource& source, const std::string& name, const P
   Inflater inflater;
   if (!inflater.ready) return packed_fault("there is no memory left to undo gzip", name);
   z_stream& stream = inflater.stream;
-  std::string buffer(kBufferBytes, '\0'), rest;
+  std::string buffer(kUnpackedPieceBytes, '\0'), rest;
   bool at_end = false;
   for (;;) {
     if (stream.avail_in == 0 && !at_end) {
@@ -121,7 +115,7 @@ Status gunzip_pieces(const PieceSource&, const std::string& name, const PieceSin
 Status unzstd_pieces(const PieceSource& source, const std::string& name, const PieceSink& sink) {
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
   if (!stream) return packed_fault("there is no memory left to undo zstd", name);
-  std::string buffer(kBufferBytes, '\0');
+  std::string buffer(kUnpackedPieceBytes, '\0');
   bool in_frame = false;
   for (;;) {
     const Result<std::string_view> piece = source();
@@ -154,12 +148,40 @@ Status unzstd_pieces(const PieceSource&, const std::string& name, const PieceSin
 
 #endif
 
+using namespace std::string_view_literals;
+
+// Each way of packing: how its data begin and the names of its files end. Data of bzip2 go on with a block, or with the
+// end of an empty one, behind a digit.
+struct PackingRow {
+  Packing packing;
+  std::string_view mark, ending;
+  Status (*unpack)(const PieceSource&, const std::string&, const PieceSink&);
+};
+constexpr PackingRow kPackings[] = {
+    {Packing::gzip, kGzipMark, ".gz", gunzip_pieces},
+    {Packing::zstd, "\x28\xb5\x2f\xfd", ".zst", unzstd_pieces},
+    {Packing::xz, "\xfd\x37\x7a\x58\x5a\0"sv, ".xz", unxz_pieces},
+    {Packing::bzip2, "BZh", ".bz2", unbzip2_pieces},
+};
+
+bool is_bzip2(std::string_view bytes) {
+  const std::string_view block = bytes.substr(std::min<std::size_t>(bytes.size(), 4), 6);
+  return block == "\x31\x41\x59\x26\x53\x59" || block == "\x17\x72\x45\x38\x50\x90";
+}
+
 }  // namespace
 
 Packing packing_of(std::string_view first_bytes) {
-  if (first_bytes.substr(0, kGzipMark.size()) == kGzipMark) return Packing::gzip;
-  if (first_bytes.substr(0, kZstdMark.size()) == kZstdMark) return Packing::zstd;
+  for (const PackingRow& row : kPackings)
+    if (first_bytes.substr(0, row.mark.size()) == row.mark && (row.packing != Packing::bzip2 || is_bzip2(first_bytes)))
+      return row.packing;
   return Packing::none;
+}
+
+std::string_view packed_ending(std::string_view name) {
+  for (const PackingRow& row : kPackings)
+    if (name.size() > row.ending.size() && name.ends_with(row.ending)) return row.ending;
+  return "";
 }
 
 bool is_packed(std::string_view bytes) {
@@ -167,8 +189,10 @@ bool is_packed(std::string_view bytes) {
 }
 
 Status unpack_pieces(Packing packing, const PieceSource& source, const std::string& name, const PieceSink& sink) {
-  BIHIVE_CHECK(packing != Packing::none);
-  return packing == Packing::gzip ? gunzip_pieces(source, name, sink) : unzstd_pieces(source, name, sink);
+  const auto* const row = std::find_if(std::begin(kPackings), std::end(kPackings),
+                                       [packing](const auto& one) { return one.packing == packing; });
+  BIHIVE_CHECK(row != std::end(kPackings));
+  return row->unpack(source, name, sink);
 }
 
 Result<std::string> unpack_bytes(std::string_view bytes, const std::string& name) try {

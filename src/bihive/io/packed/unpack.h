@@ -1,6 +1,7 @@
-// Undoes gzip and zstd piece by piece, so that neither side must be in memory as a whole.
+// Undoes gzip, zstd, xz and bzip2 piece by piece, so that neither side must be in memory as a whole.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -9,19 +10,23 @@
 
 namespace bihive {
 
-enum class Packing { none, gzip, zstd };
+enum class Packing { none, gzip, zstd, xz, bzip2 };
 
-/// Four bytes are enough.
+/// Bytes that are enough for packing_of().
+constexpr std::size_t kPackingMarkBytes = 10;
 Packing packing_of(std::string_view first_bytes);
+
+/// The endings of packed files' names: ".gz", ".zst", ".xz" or ".bz2" at the end of the name in lower case; else empty.
+std::string_view packed_ending(std::string_view name);
 
 /// The next bytes, which live until the next call; none: the end.
 using PieceSource = std::function<Result<std::string_view>()>;
 /// Takes the next unpacked bytes; false: it needs no more.
 using PieceSink = std::function<Result<bool>(std::string_view)>;
 
-/// All members of a gzip file, or frames of a zstd file, in a row; zeros behind the last member of gzip are padding.
-/// Errors: cut or damaged data; those of source and sink; a build without zlib or libzstd. `name` is for messages. A
-/// piece has at most a gigabyte.
+/// All members of a gzip file, frames of a zstd file, or streams of the others, in a row; zeros behind the last member
+/// of gzip are padding. Errors: cut or damaged data; those of source and sink; a build without the library. `name` is
+/// for messages. A piece has at most a gigabyte.
 Status unpack_pieces(Packing packing, const PieceSource& source, const std::string& name, const PieceSink& sink);
 
 /// The bytes themselves, or what they hold if they are packed. Errors: more than the memory holds, too.

@@ -20,7 +20,6 @@
 namespace bihive {
 namespace {
 
-constexpr std::int64_t kMarkBytes = 4;
 constexpr std::int64_t kPieceBytes = std::int64_t{1} << 18;
 constexpr std::size_t kHeadOfFile = 65536;
 
@@ -146,7 +145,7 @@ Result<RandomFile> open_unpacked(const std::string& path) {
   if (!is_plain(path)) return in_memory(path);
   Result<RandomFile> file = RandomFile::open(path);
   if (!file) return in_memory(path);
-  const Result<std::string> mark = file->read(0, std::min(kMarkBytes, file->size()));
+  const Result<std::string> mark = file->read(0, std::min<std::int64_t>(kPackingMarkBytes, file->size()));
   if (!mark) return mark.error();
   const Packing packing = packing_of(*mark);
   if (packing == Packing::none) return file;

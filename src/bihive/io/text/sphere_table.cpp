@@ -60,6 +60,7 @@ SphereTable::SphereTable(const std::vector<TableColumn>& columns) {
     if (columns_.size() > kMostColumns) break;
     columns_.emplace_back();
     columns_.back().name = printable(column.name);
+    columns_.back().is_chosen = column.is_chosen;
     columns_.back().is_text = column.role == ColumnRole::text;
     columns_.back().role = column.role == ColumnRole::text ? ColumnRole::number : column.role;
   }
@@ -145,11 +146,20 @@ std::string SphereTable::add_numbers(const double* row) {
       continue;
     }
     if (const char* fault = number_fault(column.role, value))
-      return column.name + " " + fault + ": " + readable_number(value);
+      if (!becomes_numbers(column, value)) return column.name + " " + fault + ": " + readable_number(value);
     column.has_number = true;
     column.values.push_back(value);
   }
   return ++rows_ % kRowsBetweenChecks == 0 ? memory_fault() : "";
+}
+
+bool SphereTable::becomes_numbers(Column& column, double value) {
+  const bool is_opacity = column.role == ColumnRole::opacity || column.role == ColumnRole::transparency;
+  if (!is_opacity || column.is_chosen) return false;
+  column.role = ColumnRole::number;
+  no_opacity_ = "'" + column.name + "' is outside 0 to 1 (" + readable_number(value) + " in row " +
+                std::to_string(rows_) + ", from 0), so it is a number and no opacity";
+  return true;
 }
 
 // Each number is kept once here, and once more while the set is made.
@@ -180,8 +190,13 @@ Status SphereTable::read_number(Column& column, std::string_view field, const Te
     }
   }
   if (!value) return scanner.field_error("expected a number for " + column.name + " but found " + quote(field));
-  if (const char* fault = number_fault(column.role, *value))
-    return scanner.field_error(column.name + " " + fault + ": " + quote(field));
+  if (const char* fault = number_fault(column.role, *value)) {
+    const bool is_opacity = column.role == ColumnRole::opacity || column.role == ColumnRole::transparency;
+    return scanner.field_error(column.name + " " + fault + ": " + quote(field),
+                               is_opacity && !column.is_chosen
+                                   ? "keep it as a number: " + setting_name("columns") + " NAME=" + column.name
+                                   : "");
+  }
   column.has_number = true;
   column.values.push_back(*value);
   return Done{};

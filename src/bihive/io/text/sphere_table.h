@@ -37,6 +37,7 @@ enum class ColumnRole {
 struct TableColumn {
   std::string name;
   ColumnRole role;
+  bool is_chosen = false;  ///< by the user: its name does not decide
 };
 
 /// The role that a column's name stands for in most formats (upper or lower case): x, y, z, radius, diameter, element,
@@ -87,7 +88,8 @@ class SphereTable {
   /// how many there were; fewer only at the end of the text.
   Result<std::int64_t> add_rows(TextScanner& scanner, std::int64_t most, RowLines lines);
   /// A row of a file that is not text: one number for each column, those of ignored ones too. Returns why it is refused
-  /// ("x is not finite"), or an empty text.
+  /// ("x is not finite"), or an empty text. A column that is an opacity by its name alone, as the logits of Gaussian
+  /// splats are, becomes one of any numbers where its numbers are none.
   std::string add_numbers(const double* row);
   /// Colours are sRGB bytes, 0 to 255, even if none is above 1.
   void colours_are_bytes() { colours_are_bytes_ = true; }
@@ -101,6 +103,7 @@ class SphereTable {
   struct Column {
     std::string name;
     ColumnRole role;
+    bool is_chosen = false;
     // Numbers.
     std::vector<double> values;
     bool has_number = false;
@@ -119,6 +122,7 @@ class SphereTable {
 
   static Status read_number(Column& column, std::string_view field, const TextScanner& scanner);
   static void begin_text(Column& column);
+  bool becomes_numbers(Column& column, double value);
   static void take_types(Column& column, RawSpheres& spheres);
   std::string memory_fault() const;
   Status width_error(const TextScanner& scanner, std::int64_t found) const;
@@ -134,6 +138,7 @@ class SphereTable {
   std::int64_t rows_ = 0;
   bool more_fields_allowed_ = false;
   bool colours_are_bytes_ = false;
+  std::string no_opacity_;           // a rule
   std::vector<double> row_numbers_;  // of the row that is being read
   std::vector<std::string_view> row_texts_;
 };

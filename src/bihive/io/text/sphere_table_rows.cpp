@@ -75,6 +75,7 @@ SphereTable SphereTable::without_rows() const {
     Column& copy = table.columns_.back();
     copy.name = column.name;
     copy.role = column.role;
+    copy.is_chosen = column.is_chosen;
     copy.has_number = column.has_number;
     copy.is_text = column.is_text;
   }

@@ -55,6 +55,7 @@ RawSpheres SphereTable::take() && {
     spheres.attributes.opacity.push_back(static_cast<float>(opacity));
   for (const double transparency : take_values(ColumnRole::transparency))
     spheres.attributes.opacity.push_back(static_cast<float>(1 - transparency));
+  if (!no_opacity_.empty()) spheres.rules.push_back(no_opacity_);
   take_columns(spheres);
   return spheres;
 }

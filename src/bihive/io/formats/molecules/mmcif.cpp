@@ -6,15 +6,17 @@
 #include <gemmi/cif.hpp>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
-#include "bihive/io/elements.h"
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
+#include "bihive/io/formats/molecules/chem_comp.h"
 #include "bihive/io/formats/molecules/cif.h"
+#include "bihive/io/formats/molecules/cif_elements.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -180,7 +182,10 @@ class AtomSites {
     pair_tags_.clear();
     done_ = done_ || atoms_ > 0;
     if (!done_) assemblies_.clear();
-    if (!done_) cell_ = {};
+    if (!done_) {
+      cell_ = {};
+      states_cell_ = false;
+    }
   }
 
   void begin_loop() {
@@ -227,6 +232,7 @@ class AtomSites {
     if (!done_ && cell_item_ < cell_.size()) {
       const std::string_view digits = value.unquoted();
       cell_[cell_item_] = parse_double(digits.substr(0, digits.find('('))).value_or(0);
+      states_cell_ = states_cell_ || !value.missing();
     }
     if (pair_item_ != kItems) pair_row_[static_cast<std::size_t>(pair_item_)] = value;
   }
@@ -237,7 +243,10 @@ class AtomSites {
     const auto models = static_cast<std::int64_t>(model_of_name_.size());
     if (frame_ < 0 || frame_ >= models) return no_such_frame(file_, frame_, models);
     spheres_.frames = models;
-    spheres_.cell = unit_cell(cell_);
+    take_cell();
+    if (without_place_ > 0)
+      spheres_.warnings.push_back(file_ + ": " + spheres_have(without_place_) +
+                                  " no place ('?'), so the file's other atoms are shown");
     spheres_.rules.push_back("atoms: ATOM and HETATM of model " + std::to_string(frame_) + " (from 0)");
     columns_of_atoms_.take(spheres_.attributes);
     spheres_.assemblies = assemblies_.finish();
@@ -247,9 +256,18 @@ class AtomSites {
     return std::move(spheres_);
   }
 
+  bool holds_monomers_alone() const { return atoms_ == 0 && is_monomer_; }
+
  private:
   [[noreturn]] void stop(const Value& at, const std::string& what) const {
     throw Stop{{what, file_, static_cast<std::int64_t>(at.line), static_cast<std::int64_t>(at.column), ""}};
+  }
+
+  void take_cell() {
+    if (is_placeholder_cell(cell_)) return;
+    spheres_.cell = unit_cell(cell_);
+    if (states_cell_ && !spheres_.cell)
+      spheres_.warnings.push_back(file_ + ": the lengths and angles of _cell make no cell, so there is none");
   }
 
   // Two columns of one name would hide one of them.
@@ -262,7 +280,6 @@ class AtomSites {
   void note_category(std::string_view tag) {
     const std::string lower = lower_case(tag.substr(0, 20));
     const auto begins_with = [&lower](std::string_view text) { return lower.compare(0, text.size(), text) == 0; };
-    is_crystal_ = is_crystal_ || begins_with("_atom_site_fract_") || begins_with("_atom_site.fract_");
     is_monomer_ = is_monomer_ || begins_with("_chem_comp_atom.");
     is_reflections_ = is_reflections_ || begins_with("_refln.") || begins_with("_refln_");
   }
@@ -270,11 +287,8 @@ class AtomSites {
   Error no_atoms() const {
     const std::string none = "there is no _atom_site category with Cartn_x, Cartn_y and Cartn_z in it: ";
     if (is_monomer_)
-      return {none + "this CIF describes a monomer (_chem_comp_atom)", file_, 0, 0,
-              "convert it with 'gemmi convert FILE.cif OUT.pdb' or 'obabel FILE.cif -O OUT.xyz'"};
-    if (is_crystal_)
-      return {none + "this CIF is of a small molecule or crystal (fractional coordinates)", file_, 0, 0,
-              "convert it with 'ase convert FILE.cif OUT.xyz' or 'obabel FILE.cif --fillUC strict -O OUT.xyz'"};
+      return {none + "this CIF describes a monomer (_chem_comp_atom) without coordinates", file_, 0, 0,
+              "take its file from the Chemical Component Dictionary"};
     if (is_reflections_)
       return {none + "this CIF holds reflections, not atoms", file_, 0, 0, "take the entry's file of coordinates"};
     return {none.substr(0, none.size() - 2), file_, 0, 0, "bihive reads the atoms of mmCIF files alone"};
@@ -303,10 +317,15 @@ class AtomSites {
     const auto next_model = static_cast<std::int64_t>(model_of_name_.size());
     const auto model = model_of_name_.try_emplace(std::string(row[kModel].text), next_model).first->second;
     if (model != frame_) return;
+    if (row[kX].missing() || row[kY].missing() || row[kZ].missing()) {
+      ++without_place_;
+      return;
+    }
     spheres_.x.push_back(coordinate(row[kX], "Cartn_x"));
     spheres_.y.push_back(coordinate(row[kY], "Cartn_y"));
     spheres_.z.push_back(coordinate(row[kZ], "Cartn_z"));
-    spheres_.attributes.element.push_back(static_cast<std::uint8_t>(atomic_number(row[kElement].unquoted())));
+    const int element = element_of_type_symbol(row[kElement].unquoted());
+    spheres_.attributes.element.push_back(static_cast<std::uint8_t>(element));
     const double occupancy = row[kOccupancy].missing() ? 1 : number(row[kOccupancy], "occupancy");
     const double b_factor = row[kBFactor].missing() ? 0 : number(row[kBFactor], "B_iso_or_equiv");
     columns_of_atoms_.add(names_of(row), occupancy, b_factor);
@@ -352,12 +371,14 @@ class AtomSites {
   Row row_{};
   Value last_;
   std::unordered_set<std::string> loop_tags_, pair_tags_;  // in lower case, to find duplicates
-  bool is_crystal_ = false, is_monomer_ = false, is_reflections_ = false;
+  bool is_monomer_ = false, is_reflections_ = false;
   int pair_item_ = kItems;
   std::array<double, 6> cell_{};  // as unit_cell() takes them; 0: missing
   std::size_t cell_item_ = 6;     // the item of the last tag; 6: none of them
   Row pair_row_{};
+  bool states_cell_ = false;
   std::int64_t atoms_ = 0;  // of all models
+  std::int64_t without_place_ = 0;
   std::unordered_map<std::string, std::int64_t> model_of_name_;
   RawSpheres spheres_;
   AtomColumns columns_of_atoms_;
@@ -439,7 +460,11 @@ Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, st
   try {
     tao::pegtl::memory_input<> input(text.data(), text.size(), file);
     tao::pegtl::parse<rules::file, Action, gemmi::cif::Errors>(input, sites);
-    return sites.finish();
+    Result<RawSpheres> spheres = sites.finish();
+    if (spheres || !sites.holds_monomers_alone()) return spheres;
+    Result<std::optional<RawSpheres>> monomer = read_chem_comp(text, file, frame);
+    if (!monomer) return monomer.error();
+    return *monomer ? std::move(**monomer) : std::move(spheres);
   } catch (const Stop& stop) {
     return stop.error;
   } catch (const tao::pegtl::parse_error& e) {

@@ -8,6 +8,7 @@
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
+#include "bihive/io/text/continued_lines.h"
 #include "bihive/io/text/fields.h"
 
 namespace bihive {
@@ -152,6 +153,9 @@ class Mol2Reader {
       one = *number;
     }
     spheres_.cell = unit_cell(numbers);
+    if (!spheres_.cell)
+      spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(scanner_.line_number()) +
+                                  ": the numbers of CRYSIN make no cell, so there is none");
     return Done{};
   }
 
@@ -195,7 +199,11 @@ bool is_mol2(const FileHead& head) {
 }
 
 Result<RawSpheres> read_mol2(std::string_view text, const std::string& file, std::int64_t frame) {
-  return Mol2Reader(text, file, frame).read();
+  // A line that ends in a backslash goes on in the next one.
+  constexpr Continuation kLines{'\\', " ", [](std::string_view line) { return line.substr(0, 1) != "#"; },
+                                [](std::string_view) { return std::size_t{0}; }};
+  std::string joined;
+  return Mol2Reader(with_joined_lines(text, kLines, joined), file, frame).read();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
@@ -12,17 +13,13 @@
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_assemblies.h"
+#include "bihive/io/formats/molecules/pdb_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/formats/molecules/pqr_line.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {
-
-// Columns first to last, counted from 1 as in the format's description; shorter if the line ends earlier.
-std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
-  return first > line.size() ? std::string_view() : line.substr(first - 1, last - first + 1);
-}
 
 class PdbReader {
  public:
@@ -42,7 +39,7 @@ class PdbReader {
         in_model = true;
         if (models - 1 != frame_) continue;
         if (Status atom = read_atom(); !atom) return atom.error();
-      } else if (record == "REMARK" && columns(scanner_.line(), 8, 10) == "350") {
+      } else if (record == "REMARK" && pdb_columns(scanner_.line(), 8, 10) == "350") {
         if (pass_.index != nullptr) continue;
         assemblies_.add_line(scanner_.line());
         note_assembly_line(begin);
@@ -69,14 +66,39 @@ class PdbReader {
   }
 
  private:
-  // A record that is no cell counts as none: programs write many forms of it.
+  // CRYST1 in its columns, else as fields. Lengths of 1 or 0, or none, stand for no crystal.
   void read_cell(std::string_view line) {
     std::array<double, 6> six{};
     constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
         {{7, 15}, {16, 24}, {25, 33}, {34, 40}, {41, 47}, {48, 54}}};
     for (std::size_t i = 0; i < 6; ++i)
-      six[i] = parse_double(trim(columns(line, kColumns[i][0], kColumns[i][1]))).value_or(0);
+      six[i] = parse_double(trim(pdb_columns(line, kColumns[i][0], kColumns[i][1]))).value_or(0);
+    cell_warning_.clear();
+    spheres_.cell.reset();
+    const std::string_view numbers = trim(line.substr(std::min<std::size_t>(line.size(), 6)));
+    if (numbers.empty()) return;
+    if (six[0] == 1 && is_placeholder_cell(six)) return;
     spheres_.cell = unit_cell(six);
+    if (spheres_.cell) return;
+    const std::optional<std::array<double, 6>> fields = six_fields(numbers);
+    if (fields && is_placeholder_cell(*fields)) return;
+    if (fields) spheres_.cell = unit_cell(*fields);
+    cell_warning_ = spheres_.cell ? "CRYST1 does not keep to its columns; its first six fields are taken as the cell"
+                                  : "CRYST1 states no cell that can be read, so there is none";
+  }
+
+  static std::optional<std::array<double, 6>> six_fields(std::string_view text) {
+    std::array<double, 6> six{};
+    TextScanner scanner(text, "");
+    scanner.next_line();
+    std::string_view field;
+    for (double& number : six) {
+      scanner.next_field(field);
+      const auto parsed = parse_double(field);
+      if (!parsed) return std::nullopt;
+      number = *parsed;
+    }
+    return six;
   }
 
   // Runs of lines become one place.
@@ -113,13 +135,20 @@ class PdbReader {
   }
 
   Status read_atom() {
-    // The coordinates are required.
     const std::string_view line = scanner_.line();
+    const ColumnShift shift = column_shift(line);
+    if (!shift) return read_columns(line, trim(pdb_columns(line, 23, 26)));
+    if (shifted_++ == 0) first_shifted_line_ = scanner_.line_number();
+    return read_columns(without_shift(line, shift), shifted_residue_number(line, shift));
+  }
+
+  Status read_columns(std::string_view line, std::string_view residue_number) {
+    // The coordinates are required.
     std::vector<double>* const axes[3] = {&spheres_.x, &spheres_.y, &spheres_.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t first = 31 + 8 * axis;
       const std::string name(1, static_cast<char>('x' + axis));
-      const std::string_view field = trim(columns(line, first, first + 7));
+      const std::string_view field = trim(pdb_columns(line, first, first + 7));
       const auto value = parse_double(field);
       const auto bad = [&](const std::string& what) {
         return scanner_.column_error(static_cast<std::int64_t>(first), what);
@@ -137,31 +166,28 @@ class PdbReader {
             scanner_.at_end() && !scanner_.ends_in_newline() ? "the file is cut on this line" : "");
       axes[axis]->push_back(*value);
     }
-    elements_.add({columns(line, 77, 78), columns(line, 13, 16), trim(columns(line, 18, 21)), columns(line, 18, 27),
-                   scanner_.line_number()});
+    const ResidueAndChain of = residue_names_.of(line);
+    elements_.add({pdb_columns(line, 77, 78), pdb_columns(line, 13, 16), trim(pdb_columns(line, 18, 21)),
+                   pdb_columns(line, 18, 27), scanner_.line_number()});
 
     // All else is optional.
-    const double occupancy = optional_number(columns(line, 55, 60), 1);
-    columns_.add(names_of(line), occupancy, optional_number(columns(line, 61, 66), 0));
-
-    // A residue is named by its chain and number with insertion code.
-    const char mark = line[16];
-    if (mark != ' ')
-      alternates_.add(
-          {std::string(columns(line, 21, 27)), columns(line, 18, 20), columns(line, 13, 16), mark, occupancy},
-          spheres_.size() - 1);
-    return Done{};
-  }
-
-  static AtomNames names_of(std::string_view line) {
+    const double occupancy = optional_number(pdb_columns(line, 55, 60), 1);
     AtomNames names;
     names.record = line.substr(0, 4) == "ATOM" ? "ATOM" : "HETATM";
-    names.chain = trim(columns(line, 21, 22));
-    names.residue_number = trim(columns(line, 23, 26));
-    names.insertion = trim(columns(line, 27, 27));
-    names.residue = trim(columns(line, 18, 20));
-    names.name = trim(columns(line, 13, 16));
-    return names;
+    names.chain = of.chain;
+    names.residue_number = residue_number;
+    names.insertion = trim(pdb_columns(line, 27, 27));
+    names.residue = of.residue;
+    names.name = trim(pdb_columns(line, 13, 16));
+    columns_.add(names, occupancy, optional_number(pdb_columns(line, 61, 66), 0));
+
+    // A residue is named by its chain and number with insertion code.
+    if (const char mark = line[16]; mark != ' ') {
+      const std::string residue =
+          std::string(of.chain) + ' ' + std::string(residue_number) + std::string(names.insertion);
+      alternates_.add({residue, of.residue, pdb_columns(line, 13, 16), mark, occupancy}, spheres_.size() - 1);
+    }
+    return Done{};
   }
 
   double optional_number(std::string_view field, double missing) {
@@ -179,6 +205,12 @@ class PdbReader {
     columns_.take(spheres_.attributes);
     spheres_.assemblies = assemblies_.take();
     alternates_.remove_from(spheres_);
+    if (!cell_warning_.empty()) spheres_.warnings.push_back(scanner_.file() + ": " + cell_warning_);
+    if (shifted_ > 0)
+      spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_shifted_line_) + ": " +
+                                  std::to_string(shifted_) + (shifted_ == 1 ? " atom has" : " atoms have") +
+                                  " a number with more digits than its columns hold; what follows it is read by the "
+                                  "shift that the line shows");
     if (unreadable_ > 0)
       spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_unreadable_line_) + ": " +
                                   std::to_string(unreadable_) +
@@ -193,8 +225,11 @@ class PdbReader {
   PdbElements elements_{true};
   Alternates alternates_;
   PdbAssemblies assemblies_;
+  ResidueNames residue_names_;
+  std::string cell_warning_;
   std::int64_t unreadable_ = 0;
   std::int64_t first_unreadable_line_ = 0;
+  std::int64_t shifted_ = 0, first_shifted_line_ = 0;
 };
 
 Result<RawSpheres> read_pdb(const TextScanner& scanner, const FramePass& pass) {

@@ -262,8 +262,9 @@ void PdbElements::take(RawSpheres& spheres, const std::string& file) {
   if (contradictions_ > 0)
     spheres.warnings.push_back(file + ":" + std::to_string(first_contradiction_) + ": " +
                                std::to_string(contradictions_) + (contradictions_ == 1 ? " atom has" : " atoms have") +
-                               " an element in columns 77-78 that contradicts the atom's name (" + contradiction_ +
-                               "); the columns count");
+                               (names_in_columns_ ? " an element in columns 77-78" : " an element behind the radius") +
+                               " that contradicts the atom's name (" + contradiction_ +
+                               (names_in_columns_ ? "); the columns count" : "); that element counts"));
 }
 
 }  // namespace bihive

@@ -30,6 +30,9 @@ class PdbElements {
   /// `names_in_columns`: false where a name's place on the line means nothing (PQR, GRO).
   explicit PdbElements(bool names_in_columns) : names_in_columns_(names_in_columns) {}
 
+  /// Whether it is a residue of proteins, nucleic acids, water or sugars, a modified one, or a bead.
+  static bool is_known_residue(std::string_view name) { return class_of(name) != Class::unknown; }
+
   /// The next atom.
   void add(const ElementClues& clues);
 

@@ -79,7 +79,8 @@ class PqrReader {
     of_atom.residue = atom->residue;
     of_atom.name = atom->name;
     columns_.add(of_atom, 1, 0);
-    elements_.add({"", atom->name, atom->residue, atom->place, scanner_.line_number()});
+    has_elements_ = has_elements_ || !atom->element.empty();
+    elements_.add({atom->element, atom->name, atom->residue, atom->place, scanner_.line_number()});
     return Done{};
   }
 
@@ -87,6 +88,7 @@ class PqrReader {
     spheres_.frames = models;
     spheres_.rules.push_back("atoms: ATOM and HETATM records of model " + std::to_string(frame_) + " (from 0)");
     spheres_.rules.push_back("radii: the file's");
+    if (has_elements_) spheres_.rules.push_back("elements: the symbols behind the radii first");
     elements_.take(spheres_, scanner_.file());
     columns_.take(spheres_.attributes);
 
@@ -106,6 +108,7 @@ class PqrReader {
   NamedNumbers charge_{"charge", {}};
   AtomColumns columns_;
   PdbElements elements_{false};
+  bool has_elements_ = false;
 };
 
 // PQR has PDB's records, with fields of its own. Its atoms do not fit PDB's columns, or the name says it. A file that

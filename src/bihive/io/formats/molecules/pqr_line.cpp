@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "bihive/base/parse_number.h"
+#include "bihive/io/elements.h"
+#include "bihive/io/formats/molecules/pdb_columns.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -46,7 +48,9 @@ bool are_numbers(const std::string_view* fields) {
 }
 
 std::optional<PqrLine> by_fields(std::string_view line) {
-  const std::vector<std::string_view> fields = fields_behind_record(line);
+  std::vector<std::string_view> fields = fields_behind_record(line);
+  const std::string_view element = fields.empty() || atomic_number(fields.back()) == 0 ? "" : fields.back();
+  if (!element.empty()) fields.pop_back();
   for (const bool has_chain : {true, false}) {
     const std::size_t count = has_chain ? kFieldsWithChain : kFieldsWithChain - 1;
     if (fields.size() != count || !are_numbers(&fields[count - 5])) continue;
@@ -56,6 +60,7 @@ std::optional<PqrLine> by_fields(std::string_view line) {
     if (has_chain) atom.chain = fields[3];
     split_number(fields[count - 6], atom);
     for (std::size_t i = 0; i < 5; ++i) atom.numbers[i] = fields[count - 5 + i];
+    atom.element = element;
     const std::string_view last = fields[count - 6];
     atom.place = {fields[2].data(), static_cast<std::size_t>(last.data() + last.size() - fields[2].data())};
     return atom;
@@ -71,14 +76,17 @@ std::optional<PqrLine> by_columns(std::string_view line) {
   };
   PqrLine atom;
   atom.name = columns(13, 16);
-  atom.residue = columns(18, 20);
-  atom.chain = columns(21, 22);
+  const ResidueAndChain names = ResidueNames().of(line);
+  atom.residue = names.residue;
+  atom.chain = names.chain;
   atom.residue_number = columns(23, 26);
   atom.insertion = columns(27, 27);
   atom.place = line.substr(17, 10);
   const std::size_t edges[6] = {31, 39, 47, 55, 63, 70};
   for (std::size_t i = 0; i < 5; ++i) atom.numbers[i] = columns(edges[i], edges[i + 1] - 1);
-  if (!trim(line.substr(69)).empty() || !are_numbers(atom.numbers)) return std::nullopt;
+  atom.element = trim(line.substr(69));
+  if (!atom.element.empty() && atomic_number(atom.element) == 0) return std::nullopt;
+  if (!are_numbers(atom.numbers)) return std::nullopt;
   return atom;
 }
 
@@ -108,11 +116,13 @@ std::optional<PqrLine> split_pqr_line(std::string_view line) {
 }
 
 bool may_be_pqr(std::string_view line) {
-  return split_pqr_line(line).has_value();
+  const std::optional<PqrLine> atom = split_pqr_line(line);
+  return atom && (atom->element.empty() || !may_be_pdb(line));
 }
 
 // Columns 31 to 66: the three coordinates, then two that may be missing.
 bool may_be_pdb(std::string_view line) {
+  if (const ColumnShift shift = column_shift(line)) return may_be_pdb(without_shift(line, shift));
   constexpr std::size_t edges[6] = {30, 38, 46, 54, 60, 66};
   if (line.size() < edges[3]) return false;
   for (int i = 0; i < 5; ++i) {

@@ -6,11 +6,14 @@
 
 #include "bihive/base/parse_number.h"
 #include "bihive/io/elements.h"
-#include "bihive/io/formats/format.h"
+#include "bihive/io/formats/formats.h"
+#include "bihive/io/text/continued_lines.h"
 #include "bihive/io/text/fields.h"
 
 namespace bihive {
 namespace {
+
+constexpr std::string_view kSdfFiles = ".sdf .sd .mol";
 
 // The columns of a line, counted from 0; less where the line ends.
 std::string_view columns_of_line(std::string_view line, std::size_t first, std::size_t width) {
@@ -24,6 +27,18 @@ int element_of_symbol(std::string_view symbol) {
 bool is_end_of_record(std::string_view line) {
   return line.substr(0, 4) == "$$$$";
 }
+
+// The characters up to those behind "M  V30 ". Some programs write one blank where the format has two.
+std::size_t v3000_prefix(std::string_view line) {
+  constexpr std::size_t kNone = std::string_view::npos;
+  const std::size_t tag = line.substr(0, 1) == "M" ? line.find_first_not_of(' ', 1) : kNone;
+  if (tag == kNone || tag == 1 || line.substr(tag, 3) != "V30") return kNone;
+  return std::min(tag + 4, line.size());
+}
+
+// A line of V3000 that ends in "-" goes on in the next one.
+constexpr Continuation kV3000Lines{'-', "", [](std::string_view line) { return v3000_prefix(line) != line.npos; },
+                                   v3000_prefix};
 
 class SdfReader {
  public:
@@ -149,7 +164,7 @@ class SdfReader {
     return Done{};
   }
 
-  // "M  V30 index type x y z aamap [KEY=VALUE ...]"; a line that ends in "-" goes on in the next.
+  // "M  V30 index type x y z aamap [KEY=VALUE ...]"
   Status read_v3000(bool wanted) {
     std::optional<std::int64_t> atoms;
     std::int64_t found = 0;
@@ -163,11 +178,9 @@ class SdfReader {
                                      " atoms but found " + std::to_string(found));
         return Done{};
       }
-      // Some programs write one blank where the format has two.
-      if (line.substr(0, 1) != "M") continue;
-      std::string_view rest = trim(line.substr(1));
-      if (rest.substr(0, 3) != "V30") continue;
-      rest = trim(rest.substr(3));
+      const std::size_t prefix = v3000_prefix(line);
+      if (prefix == std::string_view::npos) continue;
+      const std::string_view rest = trim(line.substr(prefix));
       if (rest == "BEGIN ATOM") {
         if (in_atoms || found > 0) return scanner_.line_error("the block of atoms comes twice");
         in_atoms = true;
@@ -195,11 +208,7 @@ class SdfReader {
   }
 
   Status read_v3000_atom(bool wanted) {
-    if (!wanted) {
-      while (trim(scanner_.line()).back() == '-')
-        if (!scanner_.next_line() || trim(scanner_.line()).empty()) return cut("the rest of an atom");
-      return Done{};
-    }
+    if (!wanted) return Done{};
     skip_fields(3);
     std::string_view symbol, field;
     if (!scanner_.next_field(symbol)) return scanner_.line_error("expected the symbol of an atom");
@@ -210,12 +219,8 @@ class SdfReader {
     const Result<Vec3d> at = take_place(scanner_);
     if (!at) return at.error();
     double charge = 0;
-    while (scanner_.next_field(field)) {
+    while (scanner_.next_field(field))
       if (field.substr(0, 4) == "CHG=") charge = parse_double(field.substr(4)).value_or(0);
-      if (field.back() != '-') continue;
-      if (!scanner_.next_line()) return cut("the rest of an atom");
-      skip_fields(2);
-    }
     add(*at, symbol, charge);
     return Done{};
   }
@@ -238,21 +243,28 @@ class SdfReader {
   NamedNumbers charge_{"charge", {}};
 };
 
+// V2000 may be missing in old files, where the ending tells: a title may be a number, as the first line of XYZ is.
 bool is_sdf(const FileHead& head) {
   TextScanner scanner(head.bytes, "");
   for (int line = 0; line < 4; ++line)
     if (!scanner.next_line()) return false;
   const std::string_view mark = columns_of_line(scanner.line(), 30, 12);
-  return mark.find("V2000") != std::string_view::npos || mark.find("V3000") != std::string_view::npos;
+  if (mark.find("V2000") != std::string_view::npos || mark.find("V3000") != std::string_view::npos) return true;
+  const auto is_count = [&](std::size_t first) {
+    const auto count = parse_int(columns_of_line(scanner.line(), first, 3));
+    return count && *count >= 0;
+  };
+  return is_named_so(kSdfFiles, head.name) && is_count(0) && is_count(3);
 }
 
 Result<RawSpheres> read_sdf(std::string_view text, const std::string& file, std::int64_t frame) {
-  return SdfReader(text, file, frame).read();
+  std::string joined;
+  return SdfReader(with_joined_lines(text, kV3000Lines, joined), file, frame).read();
 }
 
 }  // namespace
 
-extern constexpr Format kSdf("SDF", ".sdf .sd .mol", Format::kText | Format::kFrames, is_sdf, read_sdf,
+extern constexpr Format kSdf("SDF", kSdfFiles, Format::kText | Format::kFrames, is_sdf, read_sdf,
                              "`V2000` or `V3000` on the fourth line | one molecule | van der Waals, by element");
 
 }  // namespace bihive

@@ -4,15 +4,16 @@
 #include <array>
 #include <cmath>
 #include <gemmi/cif.hpp>
-#include <gemmi/symmetry.hpp>
 #include <limits>
 #include <optional>
 
 #include "bihive/base/memory.h"
 #include "bihive/base/parse_number.h"
 #include "bihive/io/assemble/unit_cell.h"
-#include "bihive/io/elements.h"
 #include "bihive/io/formats/molecules/cif.h"
+#include "bihive/io/formats/molecules/cif_elements.h"
+#include "bihive/io/formats/molecules/cif_symmetry.h"
+#include "bihive/io/formats/molecules/listed_images.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -21,64 +22,10 @@ namespace {
 // Images of one site that are nearer than this are one atom on a special position, written with few digits. gemmi has
 // the same distance.
 constexpr double kSamePlace = 0.4;  // Angstrom
-// A face-centred cubic group has 192.
-constexpr std::size_t kMostOperations = 192;
-
-struct Operation {
-  std::array<std::array<double, 3>, 3> turn{};
-  std::array<double, 3> shift{};
-
-  Vec3d of(Vec3d f) const {
-    Vec3d image;
-    for (int i = 0; i < 3; ++i) {
-      const auto& row = turn[static_cast<std::size_t>(i)];
-      image[i] = row[0] * f.x + row[1] * f.y + row[2] * f.z + shift[static_cast<std::size_t>(i)];
-    }
-    return image;
-  }
-};
-
-Operation operation_of(const gemmi::Op& op) {
-  Operation made;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) made.turn[i][j] = double(op.rot[i][j]) / gemmi::Op::DEN;
-    made.shift[i] = double(op.tran[i]) / gemmi::Op::DEN;
-  }
-  return made;
-}
 
 // A number that may have a standard uncertainty in brackets: 1.234(5).
 std::optional<double> cif_number(const std::string& text) {
   return parse_double(std::string_view(text).substr(0, text.find('(')));
-}
-
-// "C", "Fe3+", "O2-", or a label: "C12", "Cl1A".
-int element_of_text(std::string_view text) {
-  std::size_t letters = 0;
-  while (letters < text.size() && letters < 2 &&
-         ((text[letters] >= 'A' && text[letters] <= 'Z') || (text[letters] >= 'a' && text[letters] <= 'z')))
-    ++letters;
-  const int of_two = letters == 2 ? atomic_number(text.substr(0, 2)) : 0;
-  return of_two ? of_two : letters > 0 ? atomic_number(text.substr(0, 1)) : 0;
-}
-
-// "x+.5, y, z+.333" as "x+12/24, y, z+8/24": gemmi reads fractions. Decimals that are near none stay as they are.
-std::string with_fractions(const std::string& text) {
-  std::string made;
-  for (std::size_t at = 0; at < text.size();) {
-    std::size_t end = text.find_first_not_of("0123456789.", at);
-    end = std::min(end, text.size());
-    const std::string_view number = std::string_view(text).substr(at, end - at);
-    const auto value = number.find('.') == std::string_view::npos ? std::nullopt : parse_double(number);
-    const double parts = value ? *value * gemmi::Op::DEN : 0;
-    if (value && parts < 1000 && std::abs(parts - std::round(parts)) < 0.02)
-      made += std::to_string(std::lround(parts)) + "/" + std::to_string(gemmi::Op::DEN);
-    else
-      made += number;
-    if (end == at) made += text[end++];
-    at = end;
-  }
-  return made;
 }
 
 class CrystalReader {
@@ -88,8 +35,10 @@ class CrystalReader {
   }
 
   Result<RawSpheres> read() {
+    unify_tags();
     if (Status cell = read_cell(); !cell) return cell.error();
     if (Status operations = read_operations(); !operations) return operations.error();
+    read_formula();
     if (Status sites = read_sites(); !sites) return sites.error();
     finish();
     return std::move(spheres_);
@@ -100,13 +49,32 @@ class CrystalReader {
     return {"block " + quote(block_.name) + ": " + message, file_, line, 0, hint};
   }
 
+  // Newer dictionaries have a dot between category and item: _space_group.IT_number is _space_group_IT_number.
+  void unify_tags() {
+    const auto unify = [](std::string& tag) {
+      if (const std::size_t dot = tag.find('.'); dot != std::string::npos) tag[dot] = '_';
+    };
+    for (gemmi::cif::Item& item : block_.items) {
+      if (item.type == gemmi::cif::ItemType::Pair) unify(item.pair[0]);
+      if (item.type == gemmi::cif::ItemType::Loop)
+        for (std::string& tag : item.loop.tags) unify(tag);
+    }
+  }
+
   Status read_cell() {
     const char* const tags[6] = {"_cell_length_a",    "_cell_length_b",   "_cell_length_c",
                                  "_cell_angle_alpha", "_cell_angle_beta", "_cell_angle_gamma"};
     std::array<double, 6> numbers{};
     for (std::size_t i = 0; i < 6; ++i) {
       const gemmi::cif::Item* const item = block_.find_pair_item(tags[i]);
+      const bool is_known = item != nullptr && !gemmi::cif::is_null(item->pair[1]);
+      // The dictionary says that an angle which is not stated is 90 degrees.
+      if (!is_known && i >= 3) {
+        numbers[i] = 90;
+        continue;
+      }
       if (item == nullptr) return error("there is no " + std::string(tags[i]));
+      if (!is_known) return error("the value of " + std::string(tags[i]) + " is unknown", item->line_number);
       const auto number = cif_number(item->pair[1]);
       if (!number)
         return error("expected a number for " + std::string(tags[i]) + " but found " + quote(item->pair[1]),
@@ -120,61 +88,21 @@ class CrystalReader {
     return Done{};
   }
 
-  // The operations that the file lists, else those of the group that it names.
   Status read_operations() {
-    for (const char* const tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
-      gemmi::cif::Column column = block_.find_values(tag);
-      if (column.length() <= 0) continue;
-      const int line = column.item() ? column.item()->line_number : 0;
-      if (static_cast<std::size_t>(column.length()) > kMostOperations)
-        return error("expected at most 192 operations of symmetry", line);
-      for (int i = 0; i < column.length(); ++i) {
-        const std::string text = column.str(i);
-        try {
-          if (text.size() > 80) throw std::runtime_error("too long");
-          operations_.push_back(operation_of(gemmi::parse_triplet(with_fractions(text))));
-        } catch (const std::runtime_error&) {
-          return error("expected an operation of symmetry such as 'x, y+1/2, -z' but found " + quote(text), line);
-        }
-      }
-      spheres_.rules.push_back("symmetry: the " + std::to_string(operations_.size()) + " operations of the file");
-      return Done{};
-    }
-    std::string name;
-    const gemmi::SpaceGroup* group = nullptr;
-    for (const char* const tag : {"_space_group_name_Hall", "_symmetry_space_group_name_Hall"})
-      if (const std::string* const value = block_.find_value(tag); value && !group && !gemmi::cif::is_null(*value)) {
-        name = gemmi::cif::as_string(*value);
-        for (const gemmi::SpaceGroup& one : gemmi::spacegroup_tables::main)
-          if (!group && name == one.hall) group = &one;
-      }
-    for (const char* const tag : {"_space_group_name_H-M_alt", "_symmetry_space_group_name_H-M",
-                                  "_space_group_IT_number", "_symmetry_Int_Tables_number"})
-      if (const std::string* const value = block_.find_value(tag); value && !group && !gemmi::cif::is_null(*value)) {
-        name = gemmi::cif::as_string(*value);
-        if (name.empty() || name.size() >= 80) continue;
-        // Some groups have hexagonal and rhombohedral axes; the cell's angles tell which these are.
-        if (const auto number = parse_int(name)) {
-          const gemmi::SpaceGroup* const numbered =
-              *number >= 1 && *number <= 230 ? gemmi::find_spacegroup_by_number(static_cast<int>(*number)) : nullptr;
-          if (numbered != nullptr) group = gemmi::find_spacegroup_by_name(numbered->hm, alpha_, gamma_);
-        } else {
-          group = gemmi::find_spacegroup_by_name(name, alpha_, gamma_);
-        }
-      }
-    if (group == nullptr) {
-      operations_.push_back(operation_of(gemmi::Op::identity()));
-      if (name.empty())
-        spheres_.rules.push_back("symmetry: none, as the file states none");
-      else
-        spheres_.warnings.push_back(file_ + ": the space group " + quote(name) +
-                                    " is unknown, so the atoms stay without their images");
-      return Done{};
-    }
-    for (const gemmi::Op& op : group->operations()) operations_.push_back(operation_of(op));
-    spheres_.rules.push_back("symmetry: the " + std::to_string(operations_.size()) + " operations of the group " +
-                             group->xhm());
+    Result<CifSymmetry> symmetry = symmetry_of(block_, alpha_, gamma_);
+    if (!symmetry) return error(symmetry.error().message, static_cast<int>(symmetry.error().line));
+    operations_ = std::move(symmetry->operations);
+    if (!symmetry->rule.empty()) spheres_.rules.push_back(symmetry->rule);
+    if (!symmetry->warning.empty()) spheres_.warnings.push_back(file_ + ": " + symmetry->warning);
     return Done{};
+  }
+
+  // What the file says of its elements beside the atoms.
+  void read_formula() {
+    if (const std::string* const formula = block_.find_value("_chemical_formula_sum"))
+      elements_.add_formula(gemmi::cif::as_string(*formula));
+    for (const std::string& symbol : block_.find_values("_atom_type_symbol"))
+      elements_.add_type_symbol(gemmi::cif::as_string(symbol));
   }
 
   Status read_sites() {
@@ -197,6 +125,7 @@ class CrystalReader {
         !status)
       return error(status.error().message);
     std::int64_t without_place = 0;
+    if (operations_.size() > 1) listed_.emplace(*spheres_.cell);
     for (gemmi::cif::Table::Row row : table) {
       const std::string label = row.has2(kLabel) ? row.str(kLabel) : "";
       Vec3d fraction;
@@ -216,7 +145,9 @@ class CrystalReader {
         ++without_place;
         continue;
       }
-      const std::string symbol = row.has2(kSymbol) ? row.str(kSymbol) : label;
+      const std::string symbol = row.has2(kSymbol) ? row.str(kSymbol) : "";
+      const int stated = element_of_type_symbol(symbol);
+      const int element = stated != 0 ? stated : elements_.of(symbol.empty() ? label : symbol);
       const auto number_in = [&row](std::size_t column, double otherwise) {
         return row.has2(column) ? cif_number(row[column]).value_or(otherwise) : otherwise;
       };
@@ -224,23 +155,38 @@ class CrystalReader {
       constexpr double kBOfU = 78.95683520871486;  // 8 pi^2
       const double b = row.has2(kBiso) ? number_in(kBiso, kUnknown) : kBOfU * number_in(kUiso, kUnknown);
       has_b_ = has_b_ || !std::isnan(b);
-      add_images(fraction, label, symbol, row.has2(kGroup) ? row.str(kGroup) : "", number_in(kOccupancy, 1), b);
+      const double occupancy = number_in(kOccupancy, 1);
+      if (listed_ && listed_->is_image_of_another(wrapped(fraction), element, occupancy)) {
+        if (twice_++ == 0) first_twice_ = label;
+        continue;
+      }
+      add_images(fraction, label, element, row.has2(kGroup) ? row.str(kGroup) : "", occupancy, b);
     }
+    if (twice_ > 0)
+      spheres_.warnings.push_back(
+          file_ + ": " + std::to_string(twice_) + (twice_ == 1 ? " listed atom is" : " listed atoms are") +
+          " at the place of an image of another one (first " + quote(first_twice_) + ") and not taken twice");
     if (without_place > 0)
       spheres_.warnings.push_back(file_ + ": " + spheres_have(without_place) +
                                   " no place ('?'), so the file's other atoms are shown");
     return Done{};
   }
 
+  // The fractions inside of the cell.
+  static Vec3d wrapped(Vec3d fraction) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int turn = 0; turn < 2; ++turn) fraction[axis] -= std::floor(fraction[axis]);
+    return fraction;
+  }
+
   // The images of a site inside of the cell, each once.
-  void add_images(Vec3d fraction, const std::string& label, const std::string& symbol, const std::string& group,
-                  double occupancy, double b) {
+  void add_images(Vec3d fraction, const std::string& label, int element, const std::string& group, double occupancy,
+                  double b) {
     const Vec3d va = spheres_.cell->vectors[0], vb = spheres_.cell->vectors[1], vc = spheres_.cell->vectors[2];
+    const Vec3d as_listed = wrapped(fraction);
     std::vector<Vec3d> images;
     for (std::size_t i = 0; i < operations_.size(); ++i) {
-      Vec3d image = operations_[i].of(fraction);
-      for (int axis = 0; axis < 3; ++axis)
-        for (int turn = 0; turn < 2; ++turn) image[axis] -= std::floor(image[axis]);
+      const Vec3d image = wrapped(operations_[i].of(fraction));
       const bool known = std::any_of(images.begin(), images.end(), [&](Vec3d other) {
         Vec3d step = image - other;
         for (int axis = 0; axis < 3; ++axis) step[axis] -= std::floor(step[axis] + 0.5);
@@ -249,11 +195,12 @@ class CrystalReader {
       });
       if (known) continue;
       images.push_back(image);
+      if (listed_) listed_->add(image, as_listed, element, occupancy);
       const Vec3d at = image.x * va + image.y * vb + image.z * vc;
       spheres_.x.push_back(at.x);
       spheres_.y.push_back(at.y);
       spheres_.z.push_back(at.z);
-      spheres_.attributes.element.push_back(static_cast<std::uint8_t>(element_of_text(symbol)));
+      spheres_.attributes.element.push_back(static_cast<std::uint8_t>(element));
       occupancy_.values.push_back(occupancy);
       b_factor_.values.push_back(b);
       copy_.values.push_back(double(i + 1));
@@ -275,12 +222,19 @@ class CrystalReader {
         "atoms: the whole cell, all in it; 'copy 1' selects the atoms that the file lists, and other numbers those of "
         "other operations");
     spheres_.rules.push_back("images of one atom nearer than 0.4 Angstrom are one");
+    if (elements_.has_guessed())
+      spheres_.rules.push_back(
+          "elements: of labels in capitals (HO1) the first letter, except BR, CL, FE, PT, SE and SI");
   }
 
   gemmi::cif::Block& block_;
   const std::string& file_;
   RawSpheres spheres_;
-  std::vector<Operation> operations_;
+  std::vector<SymmetryOperation> operations_;
+  LabelElements elements_;
+  std::optional<ListedImages> listed_;
+  std::int64_t twice_ = 0;
+  std::string first_twice_;
   NamedNumbers occupancy_{"occupancy", {}}, b_factor_{"b_factor", {}}, copy_{"copy", {}};
   TextCollector names_, groups_;
   bool has_b_ = false;
@@ -297,11 +251,16 @@ bool is_cif(const FileHead& head) {
 }
 
 bool is_small_cif(std::string_view text) {
-  // The tags may be anywhere in the file.
-  constexpr std::string_view tag = "_atom_site_";
-  for (std::size_t at = text.find(tag); at != std::string_view::npos; at = text.find(tag, at + tag.size()))
-    if (lower_case(text.substr(at + tag.size(), 6)) == "fract_") return true;
-  return false;
+  // The tags may be anywhere in the file. With a dot they stand beside places of mmCIF, too.
+  constexpr std::string_view category = "_atom_site";
+  bool has_dotted = false;
+  for (std::size_t at = text.find(category); at != std::string_view::npos; at = text.find(category, at + 1)) {
+    const std::string item = lower_case(text.substr(at + category.size(), 7));
+    if (item == "_fract_") return true;
+    if (item == ".cartn_") return false;
+    has_dotted = has_dotted || item == ".fract_";
+  }
+  return has_dotted;
 }
 
 Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file, std::int64_t frame) {
@@ -313,7 +272,9 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
     std::int64_t frames = 0;
     cif::Block* wanted = nullptr;
     for (cif::Block& block : document.blocks) {
-      if (block.find_values("_atom_site_fract_x").length() <= 0) continue;
+      if (block.find_values("_atom_site_fract_x").length() <= 0 &&
+          block.find_values("_atom_site.fract_x").length() <= 0)
+        continue;
       if (frames++ == frame) wanted = &block;
     }
     if (wanted == nullptr) return no_such_frame(file, frame, frames);

@@ -1,23 +1,19 @@
-// The header of an NPY file: type, shape, and where the numbers begin.
+// The layout of an NPY file of numbers: type, shape, and where the numbers begin.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "bihive/base/result.h"
-#include "bihive/io/packed/binary_number.h"
+#include "bihive/io/formats/points/npy_header.h"
 
 namespace bihive {
 
-struct NpyLayout {
-  std::string dtype;
+/// Of one or two dimensions, and of no structured type.
+struct NpyLayout : NpyHeader {
   NumberType type;
-  bool fortran_order = false;
-  std::vector<std::int64_t> shape;  ///< one or two sides
-  std::size_t data_begin = 0;       ///< bytes before the first number
-  std::uint64_t count = 0;          ///< of numbers
+  std::uint64_t count = 0;  ///< of numbers
 };
 
 /// `head`: the bytes of the file from its beginning, with the header at least. Errors: no NPY header, a type or shape

@@ -1,6 +1,7 @@
 #include "bihive/base/memory.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/io/formats/format.h"
+#include "bihive/io/formats/points/npy_fields.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/text/sphere_table.h"
 
@@ -29,6 +30,15 @@ Result<RawSpheres> columns_of_npy(const NpyArray& array, const std::string& file
 
 Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std::int64_t frame,
                             const ColumnChoice& choice) {
+  const Result<NpyHeader> header = npy_header(bytes, file);
+  if (header && header->is_structured()) {
+    if (frame != 0) return no_such_frame(file, frame, 1);
+    NamedArrays all{"NPY", {}, "", "name the fields x, y, z and radius, or one of three columns positions"};
+    Result<std::vector<NamedArray>> fields = npy_fields(bytes, *header, file, all.left_out);
+    if (!fields) return fields.error();
+    all.arrays = std::move(*fields);
+    return spheres_of_named_arrays(all, file, choice);
+  }
   Result<NpyArray> array = parse_npy(bytes, file);
   if (!array) return array.error();
   if (array->shape.size() == 2 && !choice.empty()) {
@@ -77,7 +87,8 @@ Result<RawSpheres> read_npy(std::string_view bytes, const std::string& file, std
 extern constexpr Format kNpy(
     "NPY", ".npy", Format::kColumns | Format::kParts,
     [](const FileHead& head) { return head.bytes.substr(0, 6) == "\x93NUMPY"; }, read_npy,
-    "its mark | n x 3 or n x 4, float32 or float64, either byte order, C or Fortran order | fourth column, else from "
+    "its mark | n x 3 or n x 4, float32 or float64, either byte order, C or Fortran order; fields of structured arrays "
+    "| fourth column, else from "
     "distances");
 
 }  // namespace bihive

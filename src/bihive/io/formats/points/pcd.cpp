@@ -8,7 +8,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/base/parse_number.h"
-#include "bihive/io/formats/format.h"
+#include "bihive/io/formats/formats.h"
 #include "bihive/io/formats/points/lzf.h"
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/text/fields.h"
@@ -247,13 +247,20 @@ class PcdReader {
   bool has_rgb_ = false;
 };
 
+constexpr std::string_view kPcdFiles = ".pcd";
+
+// VERSION may be missing, where the ending tells: the names of FIELDS may be the header of a table.
 bool is_pcd(const FileHead& head) {
   if (head.bytes.substr(0, 6) == "# .PCD") return true;
   TextScanner scanner(head.bytes, "");
   scanner.set_comment('#');
-  if (!scanner.next_filled_line() || scanner.line().substr(0, 7) != "VERSION") return false;
-  return scanner.next_filled_line() &&
-         (scanner.line().substr(0, 6) == "FIELDS" || scanner.line().substr(0, 7) == "COLUMNS");
+  const auto begins_with = [&scanner](std::string_view keyword) {
+    return scanner.line().substr(0, keyword.size() + 1) == std::string(keyword) + ' ';
+  };
+  if (!scanner.next_filled_line()) return false;
+  const bool has_version = begins_with("VERSION");
+  if (has_version && !scanner.next_filled_line()) return false;
+  return (has_version || is_named_so(kPcdFiles, head.name)) && (begins_with("FIELDS") || begins_with("COLUMNS"));
 }
 
 Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std::int64_t frame,
@@ -265,7 +272,7 @@ Result<RawSpheres> read_pcd(std::string_view bytes, const std::string& file, std
 }  // namespace
 
 extern constexpr Format kPcd(
-    "PCD", ".pcd", Format::kColumns, is_pcd, read_pcd,
+    "PCD", kPcdFiles, Format::kColumns, is_pcd, read_pcd,
     "`# .PCD`, or `VERSION` and `FIELDS` | points and their numbers, in text, binary and packed | "
     "the file's, else from distances");
 

@@ -33,11 +33,10 @@ void add_columns(const PointArray& array, bool colour, std::vector<TableColumn>&
 }  // namespace
 
 Result<RawSpheres> spheres_of_arrays(const std::vector<double>& places, const std::vector<PointArray>& arrays,
-                                     const std::string& file, const ColumnChoice& choice) {
+                                     std::string left_out, const std::string& file, const ColumnChoice& choice) {
   const std::size_t points = places.size() / 3;
   std::vector<TableColumn> columns{{"x", ColumnRole::x}, {"y", ColumnRole::y}, {"z", ColumnRole::z}};
   std::vector<const PointArray*> taken;
-  std::string left_out;
   bool has_colour = false, colours_are_bytes = false;
   for (const PointArray& array : arrays) {
     const bool fits = array.components > 0 &&
@@ -74,7 +73,7 @@ Result<RawSpheres> spheres_of_arrays(const std::vector<double>& places, const st
   RawSpheres spheres = std::move(table).take();
   spheres.format = "VTK";
   spheres.rules.insert(spheres.rules.begin(), "points and their arrays: " + names);
-  if (!left_out.empty()) spheres.rules.push_back("arrays of another length are left out:" + left_out);
+  if (!left_out.empty()) spheres.rules.push_back("arrays of another length or kind are left out:" + left_out);
   spheres.rules.push_back("points alone are read; lines, faces and cells are left out");
   return spheres;
 }

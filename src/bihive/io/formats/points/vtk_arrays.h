@@ -20,8 +20,9 @@ struct PointArray {
 };
 
 /// Spheres from the places (three numbers a point) and the arrays of as many points; others are left out. An array of
-/// one component has the role of its name, colours have three or four, others become name_1, name_2, ...
+/// one component has the role of its name, colours have three or four, others become name_1, name_2, ... `left_out`:
+/// names of arrays that were left out before, each in quotes with a blank before it.
 Result<RawSpheres> spheres_of_arrays(const std::vector<double>& places, const std::vector<PointArray>& arrays,
-                                     const std::string& file, const ColumnChoice& choice);
+                                     std::string left_out, const std::string& file, const ColumnChoice& choice);
 
 }  // namespace bihive

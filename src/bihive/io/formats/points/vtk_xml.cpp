@@ -81,43 +81,68 @@ class VtkXmlReader {
 
   Result<RawSpheres> read() {
     if (Status status = find_arrays(); !status) return status.error();
-    // Pieces follow each other; every piece has the arrays of the first.
+    // Pieces follow each other. An array that is not in all pieces with points is left out.
+    std::string left_out;
+    const std::vector<std::vector<const DataArray*>> kept = common_arrays(left_out);
     std::vector<double> places;
     std::vector<PointArray> arrays;
-    bool any = false;
+    for (const std::vector<const DataArray*>& pieces : kept) {
+      const DataArray& first = *pieces.front();
+      arrays.push_back({printable(value_of(first, "Name")),
+                        components_of(first),
+                        value_of(first, "type").substr(0, 5) != "Float",
+                        {}});
+    }
+    std::size_t with_points = 0;
     for (std::size_t piece = 0; piece < points_of_piece_.size(); ++piece) {
-      std::size_t nth = 0;
+      const std::int64_t points = points_of_piece_[piece];
+      if (points == 0) continue;
       const std::size_t before = places.size();
       for (const DataArray& array : arrays_) {
-        if (array.piece != piece) continue;
-        if (array.is_places) {
-          if (components_of(array) != 3) return error(array, "places must have three components");
-          if (Status status = decode(array, points_of_piece_[piece], places); !status) return status.error();
-          if (places.size() == before) continue;
-          any = true;
-          continue;
-        }
-        if (!xml_type(value_of(array, "type"))) continue;  // texts
-        if (nth >= arrays.size()) {
-          if (piece > 0) return error(array, "the pieces have different arrays");
-          arrays.push_back({printable(value_of(array, "Name")),
-                            components_of(array),
-                            value_of(array, "type").substr(0, 5) != "Float",
-                            {}});
-        }
-        PointArray& made = arrays[nth++];
-        if (components_of(array) != made.components) return error(array, "the pieces have different arrays");
-        if (Status status = decode(array, points_of_piece_[piece], made.values); !status) return status.error();
+        if (array.piece != piece || !array.is_places) continue;
+        if (components_of(array) != 3) return error(array, "places must have three components");
+        if (Status status = decode(array, points, places); !status) return status.error();
       }
-      if (places.size() != before + 3 * static_cast<std::size_t>(points_of_piece_[piece]))
-        return Error{"a piece of " + std::to_string(points_of_piece_[piece]) + " points has places of others or none",
-                     file_, 0, 0, ""};
+      if (places.size() != before + 3 * static_cast<std::size_t>(points))
+        return Error{"a piece of " + std::to_string(points) + " points has places of others or none", file_, 0, 0, ""};
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        if (Status status = decode(*kept[i][with_points], points, arrays[i].values); !status) return status.error();
+      ++with_points;
     }
-    if (!any) return Error{"there are no Points in it", file_, 0, 0, ""};
-    return spheres_of_arrays(places, arrays, file_, choice_);
+    if (places.empty()) return Error{"there are no Points in it", file_, 0, 0, ""};
+    return spheres_of_arrays(places, arrays, left_out, file_, choice_);
   }
 
  private:
+  // Arrays of numbers that all pieces with points have, each with its form in every one of these pieces.
+  std::vector<std::vector<const DataArray*>> common_arrays(std::string& left_out) const {
+    // Arrays of one name are told apart by their order.
+    using Key = std::pair<std::string, int>;
+    std::map<Key, std::vector<const DataArray*>> found;
+    std::vector<Key> order;
+    std::size_t with_points = 0;
+    for (std::size_t piece = 0; piece < points_of_piece_.size(); ++piece) {
+      if (points_of_piece_[piece] == 0) continue;
+      ++with_points;
+      std::map<std::string, int> times;
+      for (const DataArray& array : arrays_) {
+        if (array.piece != piece || array.is_places) continue;
+        const Key key{value_of(array, "Name"), times[value_of(array, "Name")]++};
+        std::vector<const DataArray*>& forms = found[key];
+        if (forms.empty()) order.push_back(key);
+        const bool fits = forms.empty() || components_of(array) == components_of(*forms.front());
+        if (xml_type(value_of(array, "type")) && fits) forms.push_back(&array);
+      }
+    }
+    std::vector<std::vector<const DataArray*>> common;
+    for (const Key& key : order)
+      if (std::vector<const DataArray*>& forms = found[key]; forms.size() == with_points)
+        common.push_back(std::move(forms));
+      else
+        left_out += " " + quote(key.first);
+    return common;
+  }
+
   static std::string value_of(const DataArray& array, const std::string& key) {
     const auto found = array.attributes.find(key);
     return found == array.attributes.end() ? "" : found->second;
@@ -159,7 +184,8 @@ class VtkXmlReader {
       if (at >= text.size() || (text[at] != '"' && text[at] != '\'')) break;
       const std::size_t end = text.find(text[at], at + 1);
       if (end == std::string_view::npos) break;
-      attributes[key] = std::string(text.substr(at + 1, end - at - 1));
+      const std::string_view value = text.substr(at + 1, end - at - 1);
+      attributes[key] = std::string(key == "Name" ? value : trim(value));
       at = end + 1;
     }
     return name;
@@ -244,7 +270,9 @@ class VtkXmlReader {
     const auto type = xml_type(value_of(array, "type"));
     if (!type) return error(array, "the type " + quote(value_of(array, "type")) + " is not read");
     const std::int64_t total = points * components_of(array);
-    const std::string format = value_of(array, "format");
+    // Without a format it is text, as VTK reads it, unless there is an offset.
+    std::string format = value_of(array, "format");
+    if (format.empty()) format = value_of(array, "offset").empty() ? "ascii" : "appended";
     numbers_ += double(total);
     if (Status memory = check_memory(numbers_ * sizeof(double), "the arrays of the file"); !memory)
       return error(array, memory.error().message);
