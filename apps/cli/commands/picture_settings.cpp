@@ -8,6 +8,7 @@
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
+#include "bihive/io/frames.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/title_text.h"
@@ -33,12 +34,13 @@ bool shows_reference_tree(View view) {
 std::string filled_title(const std::string& title, const RenderOptions& options, const Input& input,
                          std::int64_t spheres) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  TitleValues values{{"frame", static_cast<double>(options.input.reading.options().frame)},
+  const std::int64_t frame = numbered_frame(options.input.reading.options().frame, input.frames);
+  TitleValues values{{"frame", static_cast<double>(frame)},
                      {"time", input.time_ps.value_or(kUnknown)},
                      {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
                      {"spheres", static_cast<double>(spheres)}};
   if (!options.labels.title_values.empty()) {
-    const TitleValues more = values_of_frame(options.labels.title_values, options.input.reading.options().frame);
+    const TitleValues more = values_of_frame(options.labels.title_values, frame);
     values.insert(values.begin(), more.begin(), more.end());
   }
   Result<std::string> filled = fill_title(title, values);
