@@ -66,13 +66,13 @@ Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t
     raw = atoms_;
   }
   if (frame < 0) {
-    const std::int64_t count = is_moved() ? trajectory_->frame_count() : raw.frames;
-    if (numbered_frame(frame, count) < 0) return no_such_frame(is_moved() ? options_.trajectory : name_, frame, count);
-    frame = numbered_frame(frame, count);
-    if (!is_moved() && frame > 0) {
-      Result<RawSpheres> counted = frames_->read(frame);
-      if (!counted) return counted.error();
-      raw = std::move(*counted);
+    // A number beyond the first frame stays, for the message.
+    const std::int64_t numbered = numbered_frame(frame, is_moved() ? trajectory_->frame_count() : raw.frames);
+    if (numbered >= 0) frame = numbered;
+    if (!is_moved() && frame != 0) {
+      Result<RawSpheres> read = frames_->read(frame);
+      if (!read) return read.error();
+      raw = std::move(*read);
     }
   }
   Result<SphereFile> made = made_of(std::move(raw), frame);
