@@ -275,6 +275,7 @@ TEST(Trajectory, dcd_cells_are_read_by_the_version_of_charmm) {
     const std::array<Vec3d, 3> cell = dcd_cell(version, {10, 60, 20, 90, 90, 30});
     EXPECT_NEAR(cell[1].x, 10, 1e-9) << version;
     EXPECT_NEAR(cell[2].z, 30, 1e-9) << version;
+    EXPECT_EQ(dcd_cell(version, {300, 90, 300, 90, 90, 300})[1], (Vec3d{0, 300, 0})) << version;
   }
 }
 

@@ -50,15 +50,16 @@ bool is_shape_matrix(const CellRecord& v) {
 }
 
 // The cell record holds a, gamma, b, beta, alpha, c. Angles are in degrees, or their cosines (NAMD), or the six are the
-// symmetric matrix xx, xy, yy, xz, yz, zz (CHARMM since version 25). Angles of files of such a version make no shape
-// matrix.
+// symmetric matrix xx, xy, yy, xz, yz, zz (CHARMM since version 25). Angles in files that state such a version make no
+// shape matrix of small cells, and three right angles are never one.
 std::optional<Cell> cell_of_record(const CellRecord& v, std::int32_t version) {
   const double angles[3] = {v[4], v[3], v[1]};
   const bool has_other_numbers = std::any_of(std::begin(v), std::end(v), [](double n) { return n < 0; }) ||
                                  std::any_of(std::begin(angles), std::end(angles), [](double n) { return n > 180; });
   const bool are_cosines =
       std::all_of(std::begin(angles), std::end(angles), [](double n) { return n >= -1 && n <= 1; });
-  const bool is_matrix = version > kLastOfAngles ? is_shape_matrix(v) : has_other_numbers && !are_cosines;
+  const bool are_right = std::all_of(std::begin(angles), std::end(angles), [](double n) { return n == 90; });
+  const bool is_matrix = version > kLastOfAngles ? is_shape_matrix(v) && !are_right : has_other_numbers && !are_cosines;
   if (is_matrix) return cell_of_nine({v[0], v[1], v[3], v[1], v[2], v[4], v[3], v[4], v[5]}, 1);
   if (are_cosines) return cell_of_cosines({v[0], v[2], v[5]}, {v[4], v[3], v[1]});
   return unit_cell({v[0], v[2], v[5], v[4], v[3], v[1]});
