@@ -397,9 +397,10 @@ void App::say(const std::string& text, bool bad) {
 
 void App::take_frames(std::shared_ptr<const Frames> frames, std::int64_t frame) {
   reader_.reset();
-  frame_in_viewer_ = frame;
+  const std::int64_t count = frames ? frames->count() : 1;
+  frame_in_viewer_ = numbered_frame(frame, count);
   frame_is_drawn_ = true;
-  player_.start_anew(frames ? frames->count() : 1, frames ? frame : 0);
+  player_.start_anew(count, frames ? frame_in_viewer_ : 0);
   if (frames) reader_ = std::make_unique<FrameReader>(std::move(frames), [] { glfwPostEmptyEvent(); });
 }
 

@@ -435,6 +435,11 @@ class Titles(FilmTest):
         self.assertEqual([self.title(f"run/{k}.png") for k in (0, 1)], ["{n} 2.0 12", "{n} 3.0 12"])
         self.succeed("render", "run.xyz", "-o", "a.png", *SMALL, "--frame", "4", "--title", "frame {frame}")
         self.assertEqual(self.title("a.png"), "frame 4")
+        self.succeed("render", "run.xyz", "-o", "last.png", *SMALL, "--frame", "-2", "--title", "frame {frame}")
+        self.assertEqual(self.title("last.png"), "frame 4")
+        self.write("timed.xyz", "1\nTime=0.5\nC 0 0 0\n1\nTime=1.25\nC 1 0 0\n")
+        self.film("timed.xyz", "-o", "timed/%d.png", *SMALL, "--title", "t = {time:.1f} ps")
+        self.assertEqual(self.title("timed/1.png"), "t = 1.2 ps")
 
     def test_values_of_a_table(self):
         self.write("log.csv", "energy, time\n" + "".join(f"{-1.25 * k},{k}\n" for k in range(6)))

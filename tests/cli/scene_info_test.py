@@ -140,6 +140,9 @@ class Info(ProgramTest):
             self.assertEqual(info["frames"], 3)
             self.assertAlmostEqual((info["bounds"]["lo"][0] + info["bounds"]["hi"][0]) / 2, frame + 1, places=6)
         self.assertIn("3", self.fail_input("info", "a.xyz", "--frame", "3"))
+        last = self.succeed_json("info", "a.xyz", "--frame", "-1")
+        self.assertEqual(last["bounds"], self.succeed_json("info", "a.xyz", "--frame", "2")["bounds"])
+        self.assertIn("there is no frame -4", self.fail_input("info", "a.xyz", "--frame", "-4"))
 
     def test_a_scene_file_says_what_it_has(self):
         self.write("s.json", '{"bihive_scene": 1, "lights": [], "spheres": [[0, 0, 0, 1]]}')

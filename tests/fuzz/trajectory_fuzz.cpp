@@ -22,6 +22,8 @@ void check_frame(const Trajectory& trajectory, std::int64_t number) {
     require(axis->size() == atoms);
     for (const double value : *axis) require(std::isfinite(value));
   }
+  for (const NamedNumbers& column : frame->numbers) require(column.values.size() == atoms);
+  for (const std::string& warning : frame->warnings) require(printable(warning) == warning);
   // The same again: nothing is kept from one frame to the next.
   const Result<TrajectoryFrame> again = trajectory.read(number);
   require(again.ok() && again->x == frame->x && again->y == frame->y && again->z == frame->z);

@@ -89,7 +89,11 @@ void expect_same_frames(const std::string& path, std::int64_t count, const ReadO
     EXPECT_TRUE(outcome((*frames)->read(frame)) == whole) << frame;
     EXPECT_TRUE(read_alone(path, frame, options) == whole) << frame;
   }
-  for (const std::int64_t none : {std::int64_t{-1}, count, count + 5}) {
+  // Reading counts from the end too; frames that are open do not.
+  EXPECT_TRUE(expected(bytes, path, -1, options) == expected(bytes, path, count - 1, options));
+  EXPECT_TRUE(read_alone(path, -count, options) == expected(bytes, path, 0, options));
+  EXPECT_EQ(outcome((*frames)->read(-1)).rfind("error: ", 0), 0u);
+  for (const std::int64_t none : {-count - 1, count, count + 5}) {
     const std::string error = expected(bytes, path, none, options);
     EXPECT_EQ(error.rfind("error: ", 0), 0u);
     EXPECT_EQ(outcome((*frames)->read(none)), error);

@@ -119,7 +119,7 @@ inline std::vector<Film> make_films(int frames, int most, std::uint64_t seed = 1
     gro += "water t= " + number + ".5 step= " + number + "0\n" + counted + "\n";
     const std::string head = "ITEM: TIMESTEP\n" + number + "00\nITEM: NUMBER OF ATOMS\n" + counted +
                              "\nITEM: BOX BOUNDS pp pp pp\n0 1" + number + "\n0 20\n0 20\nITEM: ATOMS id type ";
-    dump += (frame == 0 ? "ITEM: UNITS\nmetal\n" : "") + head + "x y z\n";
+    dump += (frame == 0 ? "ITEM: UNITS\nreal\nITEM: TIME\n" : "ITEM: TIME\n") + number + "\n" + head + "x y z\n";
     scaled += head + "xs ys zs element\n";
     for (int i = 0; i < count; ++i) {
       const std::string id = std::to_string(i + 1), element = elements[i % 4];

@@ -161,6 +161,18 @@ TEST(Netcdf, AmberMovesOtherAtoms) {
   EXPECT_FALSE(trajectory.read(-1).ok());
 }
 
+TEST(Netcdf, ACutTrajectoryHasTheFramesBefore) {
+  const std::string path = testing::TempDir() + "bihive_arrays_test_cut.nc";
+  const std::string whole = *read_file(in_data("amber.nc"));
+  ASSERT_TRUE(write_file(path, whole.substr(0, whole.size() - 8)));
+  const Result<std::shared_ptr<const Trajectory>> opened = open_trajectory(path);
+  ASSERT_TRUE(opened.ok()) << opened.error().to_string();
+  EXPECT_EQ((*opened)->frame_count(), 1);
+  EXPECT_EQ((*opened)->warnings(),
+            std::vector<std::string>{"the file ends inside frame 1, which is left out: it may be cut"});
+  std::remove(path.c_str());
+}
+
 TEST(Netcdf, SurvivesDamage) {
   const std::string whole = *read_file(in_data("lammps.nc"));
   ASSERT_TRUE(read_spheres_from_memory(whole, "a.nc", {}).ok());
@@ -178,12 +190,26 @@ TEST(Netcdf, SurvivesDamage) {
   nan.replace(first, 4, 4, '\x7f');
   nan[first + 1] = '\xff';
   EXPECT_THAT(read_spheres_from_memory(nan, "a.nc", {}).error().to_string(), HasSubstr("x is "));
+  const std::string cut = "the file ends inside frame 1, which is left out: it may be cut";
+  // One that was never written has the library's number.
+  std::string unwritten = whole;
+  unwritten.replace(first, 4, "\x7c\xf0\x00\x00", 4);
+  EXPECT_THAT(read_spheres_from_memory(unwritten, "a.nc", {}).error().to_string(),
+              HasSubstr("x is not finite: nan; numbers that were never written are none"));
   // A file that is cut within its head is damaged; one that is cut within a frame has the frames before.
   EXPECT_THAT(read_spheres_from_memory(whole.substr(0, 300), "a.nc", {}).error().to_string(),
               HasSubstr("it ends in its head"));
   const Result<SphereFile> shorter = read_spheres_from_memory(whole.substr(0, whole.size() - 8), "a.nc", {});
   ASSERT_TRUE(shorter.ok()) << shorter.error().to_string();
   EXPECT_EQ(shorter->frames, 1);
+  EXPECT_THAT(shorter->warnings, testing::Contains(cut));
+  // So has one whose writer did not come to state the number of frames.
+  std::string unstated = whole;
+  for (std::size_t i = 4; i < 8; ++i) unstated[i] = '\xff';
+  EXPECT_EQ(read_spheres_from_memory(unstated, "a.nc", {})->frames, 2);
+  EXPECT_THAT(read_spheres_from_memory(unstated, "a.nc", {})->warnings, testing::Not(testing::Contains(cut)));
+  unstated.resize(unstated.size() - 8);
+  EXPECT_THAT(read_spheres_from_memory(unstated, "a.nc", {})->warnings, testing::Contains(cut));
   // Any changed byte gives an answer or an error.
   for (std::size_t i = 0; i < whole.size(); ++i) {
     for (const char change : {'\xff', '\x01', '\x80'}) {

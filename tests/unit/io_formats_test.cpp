@@ -12,6 +12,7 @@
 
 #include "bihive/io/formats/formats.h"
 #include "bihive/io/known_formats.h"
+#include "support/read_text.h"
 
 namespace bihive {
 namespace {
@@ -30,6 +31,12 @@ std::string text_of(const std::string& name) {
 std::vector<std::string> split(std::string_view text) {
   std::istringstream stream{std::string(text)};
   return {std::istream_iterator<std::string>(stream), {}};
+}
+
+ReadOptions at_radius_one() {
+  ReadOptions options;
+  options.radius = 1;
+  return options;
 }
 
 // The endings of all formats, and of the trajectories.
@@ -118,6 +125,23 @@ TEST(Formats, KnowEndingsOfPackedFiles) {
   EXPECT_EQ(ending_of("a/b.PDB.gz"), ".pdb");
   EXPECT_EQ(ending_of("b.xyz.zst"), ".xyz");
   for (const char* name : {"", "pdb", "a.pdb/b"}) EXPECT_EQ(ending_of(name), "") << name;
+}
+
+// Programs in Fortran write them in every format of text.
+TEST(Formats, TakeExponentsOfFortran) {
+  const std::pair<const char*, const char*> files[] = {
+      {"a.xyz", "1\n\nO 1.0D+00 2.0d0 -3.5D-1\n"},
+      {"a.csv", "x,y,z\n1.0D+00,2.0d0,-3.5D-1\n"},
+      {"a.lmp", "t\n\n1 atoms\n1 atom types\n0.0D0 1.0D1 xlo xhi\n\nAtoms # atomic\n\n1 1 1.0D+00 2.0d0 -3.5D-1\n"},
+      {"a.dump",
+       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0.0D0 1.0D1\n0 9\n0 9\n"
+       "ITEM: ATOMS id x y z\n1 1.0D+00 2.0d0 -3.5D-1\n"},
+      {"POSCAR", "O\n1.0D0\n9 0 0\n0 9 0\n0 0 9\nO\n1\nCartesian\n1.0D+00 2.0d0 -3.5D-1\n"},
+      {"a.ply",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+       "1.0D+00 2.0d0 -3.5D-1\n"}};
+  for (const auto& [name, text] : files)
+    EXPECT_EQ(test::read_text(text, name, at_radius_one()).spheres.centre(0), (Vec3d{1, 2, double(-0.35F)})) << name;
 }
 
 TEST(FormatPages, AreOfTheseFormats) {

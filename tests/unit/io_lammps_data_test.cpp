@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/read_text.h"
 
 namespace bihive {
@@ -127,9 +129,108 @@ TEST(LammpsData, TellsAStyleByItsColumns) {
   EXPECT_EQ(numbers_of(hybrid, "q")[0], 0.1);
   EXPECT_EQ(hybrid.spheres.centre(0), (Vec3d{3, 4, 5}));
   // What every hybrid style has, where its parts are unknown.
-  const SphereFile open = read_text(stated("hybrid oxdna", "1 2 3 4 5 0.5 7"), "a");
+  const SphereFile open = read_text(stated("hybrid other", "1 2 3 4 5 0.5 7"), "a");
   EXPECT_EQ(open.spheres.centre(0), (Vec3d{3, 4, 5}));
   EXPECT_TRUE(has_rule(open, "(id type x y z, others are left out)"));
+}
+
+std::string atoms_of(const std::string& style, const std::string& lines) {
+  const auto count = std::count(lines.begin(), lines.end(), '\n');
+  return "x\n\n" + std::to_string(count) + " atoms\n3 atom types\n\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms" +
+         (style.empty() ? "" : " # " + style) + "\n\n" + lines;
+}
+
+// A line of each style of the manual: x, y and z are 5, 6 and 7, a diameter is 8.
+TEST(LammpsData, KnowsTheStylesOfTheManual) {
+  constexpr std::pair<const char*, const char*> kLines[] = {
+      {"amoeba", "1 9 2 0.5 5 6 7"},
+      {"angle", "1 9 2 5 6 7"},
+      {"apip", "1 2 5 6 7"},
+      {"atomic", "1 2 5 6 7"},
+      {"body", "1 2 1 0.5 5 6 7"},
+      {"bond", "1 9 2 5 6 7"},
+      {"bpm/sphere", "1 9 2 8 0.5 5 6 7"},
+      {"charge", "1 2 0.5 5 6 7"},
+      {"dielectric", "1 2 0.5 5 6 7 0 0 1 1.5 2.5 3.5 4.5 5.5"},
+      {"dielectric", "1 9 2 0.5 5 6 7 0 0 1 1.5 2.5 3.5 4.5 5.5"},
+      {"dipole", "1 2 0.5 5 6 7 0.1 0.2 0.3"},
+      {"dpd", "1 2 0.5 5 6 7"},
+      {"edpd", "1 2 0.5 0.6 5 6 7"},
+      {"electron", "1 2 0.5 1 0.6 5 6 7"},
+      {"ellipsoid", "1 2 1 0.5 5 6 7"},
+      {"full", "1 9 2 0.5 5 6 7"},
+      {"full/kk", "1 9 2 0.5 5 6 7"},
+      {"line", "1 9 2 1 0.5 5 6 7"},
+      {"mdpd", "1 2 0.5 5 6 7"},
+      {"mesont", "1 9 2 3 0.5 0.5 0.5 0 5 6 7"},
+      {"mesont", "1 9 2 3 4 0.5 0.5 0.5 0 5 6 7"},
+      {"molecular", "1 9 2 5 6 7"},
+      {"oxdna", "1 2 5 6 7"},
+      {"peri", "1 2 0.5 0.6 5 6 7"},
+      {"rheo", "1 2 0 0.5 5 6 7"},
+      {"rheo/thermal", "1 2 0 0.5 0.6 5 6 7"},
+      {"smd", "1 2 9 0.5 0.5 0.5 0.5 1 2 3 5 6 7"},
+      {"sph", "1 2 0.5 0.5 0.5 5 6 7"},
+      {"sphere", "1 2 8 0.5 5 6 7"},
+      {"spin", "1 2 5 6 7 0.1 0.2 0.3 1"},
+      {"tdpd", "1 2 5 6 7"},
+      {"tdpd 2", "1 2 5 6 7 0.1 0.2"},
+      {"template", "1 2 9 1 1 5 6 7"},
+      {"tri", "1 9 2 1 0.5 5 6 7"},
+      {"wavepacket", "1 2 0.5 1 0.6 1 0.7 0.8 5 6 7"},
+  };
+  for (const auto& [style, line] : kLines)
+    for (const char* const flags : {"\n", " 1 0 -1\n"}) {
+      const SphereFile file = read_text(atoms_of(style, line + std::string(flags)), "a.data");
+      ASSERT_EQ(file.spheres.size(), 1) << style;
+      EXPECT_EQ(file.spheres.centre(0), (Vec3d{5, 6, 7})) << style;
+      EXPECT_EQ(file.spheres.attributes().type, (std::vector<std::int32_t>{2})) << style << " " << flags;
+      EXPECT_EQ(has_rule(file, "diameter"), std::string(style).find("sphere") != std::string::npos) << style;
+      EXPECT_EQ(numbers_of(file, "iz"), flags[0] == ' ' ? std::vector<double>{-1} : std::vector<double>{}) << style;
+    }
+  EXPECT_EQ(numbers_of(read_text(atoms_of("tdpd", "1 2 5 6 7 0.1 0.2 0 0 1\n"), "a"), "cc2")[0], 0.2);
+  EXPECT_EQ(numbers_of(read_text(atoms_of("dielectric", "1 9 2 0.5 5 6 7 0 0 1 1.5 2.5 3.5 4.5 5.5\n"), "a"), "mol")[0],
+            9);
+}
+
+TEST(LammpsData, RefusesStylesThatItDoesNotKnow) {
+  const std::string message = error_of(atoms_of("granular", "1 2 5 6 7 0.1 0.2\n"), "a");
+  EXPECT_EQ(
+      message.rfind("a:12: the atom style 'granular' behind 'Atoms' (line 10) is not known; known are amoeba, ", 0), 0u)
+      << message;
+}
+
+// The first line alone would be molecular, full, or have image flags.
+TEST(LammpsData, TellsAStyleByAllLines) {
+  EXPECT_TRUE(has_rule(read_text(atoms_of("", "1 2 1 3.5 4 5\n2 1 -1 3 4 5\n"), "a"), "atom style: charge"));
+  EXPECT_TRUE(has_rule(read_text(atoms_of("", "1 2 1 2 3 4 5\n2 1 0.5 2 3 4 5\n"), "a"), "atom style: sphere"));
+  const SphereFile file = read_text(atoms_of("tdpd", "1 2 5 6 7 1 2 3\n2 2 5 6 7 0.5 2 3\n"), "a");
+  EXPECT_EQ(numbers_of(file, "cc1"), (std::vector<double>{1, 0.5}));
+  EXPECT_TRUE(numbers_of(file, "ix").empty());
+}
+
+// Labels number the types, and masses by labels tell elements.
+TEST(LammpsData, LabelsHaveTypesAndElements) {
+  const std::string head = "x\n\n3 atoms\n2 atom types\n\n";
+  const std::string labels = "Atom Type Labels\n\n2 C\n1 ow\n\n";
+  const std::string atoms = "Atoms # atomic\n\n1 C 1 2 3\n2 ow 4 5 6\n3 1 7 8 9\n\n";
+  const std::string masses = "Masses\n\nC 12.011\n1 15.9994\n";
+  const SphereFile file = read_text(head + labels + masses + "\n" + atoms, "a.data");
+  EXPECT_EQ(file.spheres.attributes().type, (std::vector<std::int32_t>{2, 1, 1}));
+  EXPECT_EQ(file.spheres.attributes().find_texts("type")->of(2), "ow");
+  EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{6, 8, 8}));
+  // Labels that another file numbers.
+  const std::string own = "Atoms # atomic\n\n1 C 1 2 3\n2 ow 4 5 6\n3 ow 7 8 9\n\n";
+  const SphereFile unnumbered = read_text(head + own + "Masses\n\nC 12.011\now 15.9994\n", "a.data");
+  EXPECT_EQ(unnumbered.spheres.attributes().type, (std::vector<std::int32_t>{1, 2, 2}));
+  EXPECT_EQ(unnumbered.spheres.attributes().element, (std::vector<std::uint8_t>{6, 8, 8}));
+  // Types by number get the labels as well.
+  std::string numbers = head + labels + masses + "\n" + atoms;
+  numbers.replace(numbers.find("1 C 1"), 5, "1 2 1");
+  numbers.replace(numbers.find("2 ow 4"), 6, "2 1 4");
+  EXPECT_EQ(read_text(numbers, "a.data").spheres.attributes().find_texts("type")->of(0), "C");
+  EXPECT_NE(error_of(head + labels + own.substr(0, own.find("3 ow")) + "3 hw 7 8 9\n", "a").find("the type 'hw' is no"),
+            std::string::npos);
 }
 
 TEST(LammpsData, TakesTypeLabels) {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "support/read_text.h"
 
 namespace bihive {
@@ -81,6 +84,25 @@ TEST(LammpsDump, TakesTheFrameAskedForAndOtherSections) {
   EXPECT_EQ(error_of(text, "d", at_frame(2)), "d: there are no spheres in it (read as LAMMPS dump)");
   EXPECT_EQ(error_of(text, "d", at_frame(3)),
             "d: there is no frame 3: the file has 3 (0 to 2); choose one with frame, counting from 0");
+}
+
+TEST(LammpsDump, TakesTheTime) {
+  const auto timed = [](const std::string& units, const std::string& time) {
+    return (units.empty() ? "" : "ITEM: UNITS\n" + units + "\n") + "ITEM: TIME\n1\n" + frame("x y z", "1 0 0\n", 1) +
+           "ITEM: TIME\n" + time + "\n" + frame("x y z", "1 0 0\n", 1);
+  };
+  for (const auto& [units, time, rule] : {std::tuple{"real", 2.5, "time: picoseconds, from units real"},
+                                          {"metal", 2500, "time: picoseconds, from units metal"},
+                                          {"nano", 2500e3, "time: picoseconds, from units nano"},
+                                          {"lj", 2500, "time: as it stands there, in units lj"},
+                                          {"", 2500, "time: taken as picoseconds, as the file names no units"}}) {
+    const SphereFile file = read_text(timed(units, "2500"), "d", at_frame(1));
+    EXPECT_EQ(file.time_ps, time) << units;
+    EXPECT_NE(std::find(file.rules.begin(), file.rules.end(), rule), file.rules.end()) << units;
+    EXPECT_EQ(file.step, 100);
+  }
+  EXPECT_FALSE(read_text(frame("x y z", "1 0 0\n", 1), "d").time_ps.has_value());
+  EXPECT_EQ(error_of(timed("metal", "now"), "d"), "d:16:1: expected the time but found 'now'");
 }
 
 TEST(LammpsDump, NamesTheLineWhereItIsCut) {

@@ -28,6 +28,18 @@ TEST(ParseDouble, ReadsWhatANumberMayLookLike) {
   EXPECT_EQ(parse_double("1e400"), std::numeric_limits<double>::infinity());
 }
 
+TEST(ParseDouble, ReadsExponentsOfFortran) {
+  EXPECT_EQ(parse_double("1.0D+03"), 1000.0);
+  EXPECT_EQ(parse_double("-2.5d-1"), -0.25);
+  EXPECT_EQ(parse_double("+.5D0"), 0.5);
+  EXPECT_EQ(parse_double("2.d0"), 2.0);
+  EXPECT_EQ(parse_double("1D+2"), 100.0);
+  // Names, such as those of entries of the PDB.
+  for (const char* text :
+       {"4D12", "1d0", "D1.0", "1.0D", "1.0D+", "1.0DD1", "1.0D1.0", "1.0D1E1", "1.0E1D1", ".D1", "1.0 D1"})
+    EXPECT_FALSE(parse_double(text).has_value()) << "'" << text << "'";
+}
+
 TEST(ParseDouble, RefusesEverythingElse) {
   for (const char* text :
        {"", "+", "-", ".", "1x", "1 ", " 1", "1,5", "1.2.3", "--1", "+-1", "++1", "e5", "1e", "0x10", "1.#QNAN", "abc"})

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -12,6 +14,7 @@
 #include "bihive/base/write_file.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/io/trajectory.h"
+#include "support/read_text.h"
 
 namespace bihive {
 namespace {
@@ -31,8 +34,8 @@ TrajectoryPointer opened(const std::string& path) {
 // A file in the test's folder with these bytes.
 class Scratch {
  public:
-  explicit Scratch(const std::string& bytes)
-      : path_(::testing::TempDir() + "bihive_trajectory_test." + std::to_string(getpid())) {
+  explicit Scratch(const std::string& bytes, const std::string& ending = "")
+      : path_(::testing::TempDir() + "bihive_trajectory_test." + std::to_string(getpid()) + ending) {
     // Not write_file(): it waits for the disk, and thousands of files are made.
     std::ofstream file(path_, std::ios::binary);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
@@ -198,6 +201,242 @@ TEST(Trajectory, fixed_atoms_of_dcd_stay) {
   EXPECT_EQ(*trajectory->read(1)->step, 110);
 }
 
+// Numbers as Fortran and XDR store them.
+class Bytes {
+ public:
+  explicit Bytes(bool big_endian = false) : big_endian_(big_endian) {}
+
+  template <class T>
+  Bytes& put(T value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    if (big_endian_) std::reverse(bytes, bytes + sizeof value);
+    text.append(bytes, sizeof value);
+    return *this;
+  }
+  template <class T>
+  Bytes& put_all(const std::vector<T>& values) {
+    for (const T& value : values) put(value);
+    return *this;
+  }
+
+  std::string text;
+
+ private:
+  bool big_endian_;
+};
+
+// DCD files of CHARMM with a cell in some frames.
+struct DcdWriter {
+  std::int32_t version = 24;
+  bool wide_marks = false, big_endian = false;
+
+  std::string record(const std::string& content) const {
+    Bytes mark(big_endian);
+    wide_marks ? mark.put(static_cast<std::int64_t>(content.size()))
+               : mark.put(static_cast<std::int32_t>(content.size()));
+    return mark.text + content + mark.text;
+  }
+  std::string head(std::int32_t atoms) const {
+    Bytes control(big_endian);
+    control.text = "CORD";
+    for (int i = 0; i < 20; ++i) control.put(i == 2 || i == 10 ? 1 : i == 19 ? version : 0);
+    return record(control.text) + record(Bytes(big_endian).put(0).text) + record(Bytes(big_endian).put(atoms).text);
+  }
+  std::string frame(const std::vector<double>& cell, float first, std::size_t atoms = 3) const {
+    std::string made = cell.empty() ? "" : record(Bytes(big_endian).put_all(cell).text);
+    for (int axis = 0; axis < 3; ++axis) {
+      Bytes numbers(big_endian);
+      for (std::size_t i = 0; i < atoms; ++i)
+        numbers.put(first + static_cast<float>(10 * axis) + static_cast<float>(i));
+      made += record(numbers.text);
+    }
+    return made;
+  }
+};
+
+std::array<Vec3d, 3> dcd_cell(std::int32_t version, const std::vector<double>& record) {
+  const DcdWriter writer{version};
+  const Scratch file(writer.head(3) + writer.frame(record, 1));
+  const TrajectoryPointer trajectory = opened(file.path());
+  const Result<TrajectoryFrame> frame = trajectory->read(0);
+  EXPECT_TRUE(frame.ok() && frame->cell) << version;
+  return frame.ok() && frame->cell ? frame->cell->vectors : std::array<Vec3d, 3>{};
+}
+
+// The matrix of a monoclinic cell of 91 degrees: beside its diagonal all numbers look like cosines.
+TEST(Trajectory, dcd_cells_are_read_by_the_version_of_charmm) {
+  const std::vector<double> record{39.9978, 0, 50, -0.41887, 0, 59.99854};
+  EXPECT_EQ(dcd_cell(35, record),
+            (std::array<Vec3d, 3>{Vec3d{39.9978, 0, -0.41887}, Vec3d{0, 50, 0}, Vec3d{-0.41887, 0, 59.99854}}));
+  EXPECT_NEAR(dcd_cell(24, record)[2].x, -0.41887 * 59.99854, 1e-9);
+  // Some programs state a late version and write lengths and angles.
+  for (const std::int32_t version : {24, 35}) {
+    const std::array<Vec3d, 3> cell = dcd_cell(version, {10, 60, 20, 90, 90, 30});
+    EXPECT_NEAR(cell[1].x, 10, 1e-9) << version;
+    EXPECT_NEAR(cell[2].z, 30, 1e-9) << version;
+    EXPECT_EQ(dcd_cell(version, {300, 90, 300, 90, 90, 300})[1], (Vec3d{0, 300, 0})) << version;
+  }
+}
+
+TEST(Trajectory, frames_of_dcd_may_lack_the_cell) {
+  const DcdWriter writer;
+  const std::vector<double> cell{10, 90, 20, 90, 90, 30};
+  const Scratch file(writer.head(3) + writer.frame(cell, 1) + writer.frame({}, 2) + writer.frame(cell, 3));
+  const TrajectoryPointer trajectory = opened(file.path());
+  ASSERT_EQ(trajectory->frame_count(), 3);
+  EXPECT_TRUE(trajectory->warnings().empty());
+  EXPECT_FALSE(trajectory->read(1)->cell.has_value());
+  EXPECT_EQ(trajectory->read(1)->y, (std::vector<double>{12, 13, 14}));
+  EXPECT_TRUE(trajectory->read(2)->cell.has_value());
+  EXPECT_EQ(trajectory->read(2)->z, (std::vector<double>{23, 24, 25}));
+  // As many bytes more than whole frames as two cells: the length alone does not tell.
+  const Scratch none(writer.head(3) + writer.frame({}, 1) + writer.frame({}, 2));
+  EXPECT_EQ(opened(none.path())->frame_count(), 2);
+  EXPECT_EQ(opened(none.path())->read(1)->x, (std::vector<double>{2, 3, 4}));
+}
+
+TEST(Trajectory, lengths_of_dcd_records_may_have_64_bits) {
+  for (const bool big_endian : {false, true}) {
+    const DcdWriter writer{24, true, big_endian};
+    const std::vector<double> cell{10, 90, 20, 90, 90, 30};
+    const Scratch file(writer.head(3) + writer.frame(cell, 1) + writer.frame(cell, 2));
+    const TrajectoryPointer trajectory = opened(file.path());
+    ASSERT_NE(trajectory, nullptr);
+    ASSERT_EQ(trajectory->frame_count(), 2);
+    EXPECT_EQ(trajectory->read(1)->x, (std::vector<double>{2, 3, 4}));
+    EXPECT_EQ(trajectory->read(1)->cell->vectors[1], (Vec3d{0, 20, 0}));
+  }
+}
+
+// No cell is written as zeros; other numbers that make none are told.
+TEST(Trajectory, cells_that_cannot_be_read_are_told) {
+  const DcdWriter writer;
+  const Scratch file(writer.head(3) + writer.frame({0, 90, 0, 90, 90, 0}, 1) +
+                     writer.frame({10, 90, 20, 90, 90, 0}, 2));
+  const TrajectoryPointer trajectory = opened(file.path());
+  EXPECT_FALSE(trajectory->read(0)->cell.has_value());
+  EXPECT_TRUE(trajectory->read(0)->warnings.empty());
+  EXPECT_FALSE(trajectory->read(1)->cell.has_value());
+  EXPECT_EQ(trajectory->read(1)->warnings,
+            (std::vector<std::string>{"frame 1: the numbers of its cell make none, so it is left out"}));
+}
+
+// A machine that stops leaves zeros where frames should be.
+TEST(Trajectory, whole_frames_before_a_damaged_tail_stay) {
+  for (const char* name : {"water.trr", "water.xtc", "water.dcd"})
+    for (const char byte : {'\0', 'x'}) {
+      const std::string whole = *read_file(data(name));
+      const Scratch file(whole + std::string(600, byte));
+      const TrajectoryPointer trajectory = opened(file.path());
+      ASSERT_NE(trajectory, nullptr) << name;
+      EXPECT_EQ(trajectory->frame_count(), 3) << name;
+      ASSERT_EQ(trajectory->warnings().size(), 1u) << name;
+      EXPECT_EQ(trajectory->warnings()[0], "frame 3 does not begin as a frame at byte " + std::to_string(whole.size()) +
+                                               ": the last 600 bytes are left out; the file may be damaged");
+      EXPECT_EQ(trajectory->read(2)->y, opened(data(name))->read(2)->y) << name;
+    }
+  // Without a whole frame before it is an error.
+  const Scratch file(DcdWriter{}.head(3) + std::string(600, '\0'));
+  const Result<TrajectoryPointer> none = open_trajectory(file.path());
+  ASSERT_FALSE(none.ok());
+  EXPECT_NE(none.error().message.find("another number of atoms than its head says"), std::string::npos);
+}
+
+// Where neighbours lie farther apart than the last size of XTC's table, its length is stated as the size's position.
+TEST(Trajectory, xtc_states_the_length_of_its_table_of_sizes) {
+  constexpr int kAtoms = 10, kBits = 26;
+  for (const bool has_run : {false, true}) {
+    Bytes file(true);
+    file.put(1995).put(kAtoms).put(5).put(1.0F);
+    for (int i = 0; i < 9; ++i) file.put(0.0F);
+    file.put(kAtoms).put(1000.0F);
+    for (const std::int32_t end : {0, 1 << 25})
+      for (int axis = 0; axis < 3; ++axis) file.put(end);
+    file.put(73);
+    std::string bits;
+    for (int i = 0; i < kAtoms; ++i) {
+      for (int axis = 0; axis < 3; ++axis)
+        for (int bit = kBits - 1; bit >= 0; --bit)
+          bits += (i % 2 == 0 ? 0 : (1 << 25) - 1000 * axis) >> bit & 1 ? '1' : '0';
+      bits += has_run ? "100100" : "0";
+    }
+    while (bits.size() % 32 != 0) bits += '0';
+    file.put(static_cast<std::int32_t>(bits.size() / 8));
+    for (std::size_t i = 0; i < bits.size(); i += 8)
+      file.text += static_cast<char>(std::stoi(bits.substr(i, 8), nullptr, 2));
+    const Scratch scratch(file.text);
+    const TrajectoryPointer trajectory = opened(scratch.path());
+    ASSERT_NE(trajectory, nullptr);
+    const Result<TrajectoryFrame> frame = trajectory->read(0);
+    EXPECT_EQ(frame.ok(), !has_run);
+    if (!frame.ok()) continue;
+    EXPECT_NEAR(frame->x[1], 335544.32, 0.1);
+    EXPECT_NEAR(frame->z[9], 335544.32 - 20, 0.1);
+    EXPECT_EQ(frame->y[8], 0);
+  }
+}
+
+// One frame of TRR with velocities and forces of two atoms.
+std::string trr_with_velocities() {
+  Bytes file(true);
+  file.put(1993).put(13).put(12);
+  file.text += "GMX_trn_file";
+  for (const std::int32_t bytes : {0, 0, 36, 0, 0, 0, 0, 24, 24, 24}) file.put(bytes);
+  file.put(2).put(7).put(0).put(1.5F).put(0.0F);
+  for (int i = 0; i < 9; ++i) file.put(i % 4 == 0 ? 2.0F : 0.0F);
+  for (int i = 0; i < 18; ++i) file.put(static_cast<float>(i));
+  return file.text;
+}
+
+TEST(Trajectory, trr_has_velocities_and_forces) {
+  const Scratch file(trr_with_velocities());
+  const Result<TrajectoryFrame> frame = opened(file.path())->read(0);
+  ASSERT_TRUE(frame.ok());
+  EXPECT_EQ(frame->x, (std::vector<double>{0, 30}));
+  ASSERT_EQ(frame->numbers.size(), 6u);
+  EXPECT_EQ(frame->numbers[1].name, "vy");
+  EXPECT_EQ(frame->numbers[1].values, (std::vector<double>{7, 10}));
+  EXPECT_EQ(frame->numbers[5].name, "fz");
+  EXPECT_EQ(frame->numbers[5].values, (std::vector<double>{14, 17}));
+}
+
+// Velocities of the atoms' file belong to its own time.
+TEST(Trajectory, velocities_are_those_of_the_frame) {
+  const Scratch atoms(
+      "two\n2\n"
+      "    1SOL     OW    1   1.000   2.000   3.000  0.1000  0.2000  0.3000\n"
+      "    1SOL    HW1    2   1.500   2.500   3.500  0.4000  0.5000  0.6000\n"
+      "   5.00000   5.00000   5.00000\n",
+      ".gro");
+  const auto has_rule = [](const SphereFile& file, const std::string& rule) {
+    return std::find(file.rules.begin(), file.rules.end(), rule) != file.rules.end();
+  };
+  ReadOptions options;
+  EXPECT_NEAR(test::numbers_of(*read_spheres(atoms.path(), options), "vx")[0], 0.1, 1e-12);
+  {
+    const Scratch trr(trr_with_velocities());
+    options.trajectory = trr.path();
+    const Result<SphereFile> file = read_spheres(atoms.path(), options);
+    ASSERT_TRUE(file.ok()) << file.error().to_string();
+    EXPECT_EQ(test::numbers_of(*file, "vx"), (std::vector<double>{6, 9}));
+    EXPECT_EQ(test::numbers_of(*file, "fx"), (std::vector<double>{12, 15}));
+    EXPECT_TRUE(has_rule(*file, "numbers of the trajectory's frame: vx vy vz fx fy fz"));
+  }
+  // The same frame without velocities: XTC keeps so few atoms as they are.
+  Bytes xtc(true);
+  xtc.put(1995).put(2).put(7).put(1.5F);
+  for (int i = 0; i < 9; ++i) xtc.put(0.0F);
+  xtc.put(2).put_all(std::vector<float>{1, 2, 3, 4, 5, 6});
+  const Scratch moved(xtc.text);
+  options.trajectory = moved.path();
+  const Result<SphereFile> file = read_spheres(atoms.path(), options);
+  ASSERT_TRUE(file.ok()) << file.error().to_string();
+  EXPECT_TRUE(test::numbers_of(*file, "vx").empty());
+  EXPECT_FALSE(test::numbers_of(*file, "resid").empty());
+  EXPECT_TRUE(has_rule(*file, "numbers of the atoms' file that change with time are left out: vx vy vz"));
+}
+
 TEST(Trajectory, places_of_a_frame_replace_those_of_the_file) {
   ReadOptions options;
   options.trajectory = data("water.xtc");
@@ -211,6 +450,11 @@ TEST(Trajectory, places_of_a_frame_replace_those_of_the_file) {
   EXPECT_EQ(*file->time_ps, 4);
   ASSERT_TRUE(file->spheres.cell().has_value());
 
+  options.frame = -1;
+  EXPECT_EQ(*read_spheres(data("water.gro"), options)->time_ps, 4);
+  options.frame = -4;
+  EXPECT_NE(read_spheres(data("water.gro"), options).error().to_string().find("there is no frame -4"),
+            std::string::npos);
   options.frame = 3;
   EXPECT_NE(read_spheres(data("water.gro"), options).error().to_string().find("water.xtc"), std::string::npos);
   options.frame = 0;

@@ -424,8 +424,8 @@ def check_readable(path: Union[str, os.PathLike[str]], name: str = "path") -> st
 def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     """The spheres of a file of any format that ``bihive render`` reads, or of a built-in name ("demo").
 
-    options: frame (from 0), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, cell_vectors, cell_origin,
-    columns (a dict such as {"x": "px", "r": 5}: names or places of columns); of built-in scenarios count and seed.
+    options: frame (from 0; -1 is the last), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, cell_vectors,
+    cell_origin, columns (a dict such as {"x": "px", "r": 5}: names or places of columns); of built-in scenarios count and seed.
 
     Raises FileError (an OSError) if the file cannot be opened, InputError (a ValueError) with file and line if its content
     cannot be used. Warnings of the reader are given as InputWarning.

@@ -4,6 +4,7 @@
 #include <gemmi/third_party/fast_float.h>
 
 #include <charconv>
+#include <string>
 
 namespace bihive {
 namespace {
@@ -12,6 +13,17 @@ namespace {
 std::string_view without_plus(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   return plus ? text.substr(1) : text;
+}
+
+// Fortran's exponents: 1.0D+03. A whole number needs the exponent's sign: else 4D12 is a name.
+std::optional<std::string> with_e(std::string_view text) {
+  const std::size_t at = text.find_first_of("dD");
+  if (at == 0 || at == std::string_view::npos || at + 1 == text.size()) return std::nullopt;
+  const bool is_signed = text[at + 1] == '+' || text[at + 1] == '-';
+  if (!is_signed && text.substr(0, at).find('.') == std::string_view::npos) return std::nullopt;
+  std::string changed(text);
+  changed[at] = 'e';
+  return changed;
 }
 
 Error unexpected(const std::string& expected, const std::string& found) {
@@ -24,10 +36,14 @@ std::optional<double> parse_double(std::string_view text) {
   text = without_plus(text);
   if (text.empty()) return std::nullopt;
   double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto parsed = fast_float::from_chars(text.data(), end, value);
-  if (parsed.ec == std::errc::invalid_argument || parsed.ptr != end) return std::nullopt;
-  return value;
+  const auto is_parsed = [&](std::string_view number) {
+    const char* const end = number.data() + number.size();
+    const auto parsed = fast_float::from_chars(number.data(), end, value);
+    return parsed.ec != std::errc::invalid_argument && parsed.ptr == end;
+  };
+  if (is_parsed(text)) return value;
+  const std::optional<std::string> changed = with_e(text);
+  return changed && is_parsed(*changed) ? std::optional(value) : std::nullopt;
 }
 
 std::optional<std::int64_t> parse_int(std::string_view text) {

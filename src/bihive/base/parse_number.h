@@ -11,7 +11,8 @@
 
 namespace bihive {
 
-/// A decimal number, correctly rounded: "1", "-2.5", "+1e-3", ".5", "nan", "inf". Too large gives an infinity.
+/// A decimal number, correctly rounded: "1", "-2.5", "+1e-3", ".5", "nan", "inf", and as Fortran writes it "1.0D+03".
+/// Too large gives an infinity.
 std::optional<double> parse_double(std::string_view text);
 
 /// A decimal whole number that fits 64 bits, with a sign or without.

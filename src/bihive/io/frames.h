@@ -27,6 +27,11 @@ class Frames {
   virtual Result<SphereFile> read(std::int64_t frame) const = 0;
 };
 
+/// The frame that ReadOptions::frame names among `count` frames.
+inline std::int64_t numbered_frame(std::int64_t frame, std::int64_t count) {
+  return frame < 0 ? frame + count : frame;
+}
+
 struct FramesOptions {
   /// Text on the disk: the places of its frames are kept in FILE.bihive-index, and taken from there if this user made
   /// it for this file as it is now (docs/formats.md). An index of no use is replaced, with a warning; one that cannot

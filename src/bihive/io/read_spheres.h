@@ -25,7 +25,7 @@ struct ReadOptions {
   std::optional<double> radius;  ///< replaces every radius; >= 0, world units
   double radius_scale = 1;       ///< multiplies every radius, after `radius`; >= 0
   bool recenter = false;         ///< subtract the middle of the set's centres in binary64 before rounding
-  std::int64_t frame = 0;        ///< 0-based frame or model
+  std::int64_t frame = 0;        ///< 0-based frame or model; less than 0 counts from the end, -1 is the last
   /// A file with the places of the same spheres (io/trajectory.h), of which `frame` is then a frame; the other file is
   /// read at its first frame. Empty: none.
   std::string trajectory = "";

@@ -40,6 +40,13 @@ ordered_json vectors_json(const std::array<Vec3d, 3>& vectors) {
   return json;
 }
 
+// From 0, or less than 0 from the end.
+Result<std::int64_t> frame_from_text(const std::string& text) {
+  const std::optional<std::int64_t> frame = parse_int(text);
+  if (!frame) return Error{"expected a whole number, found \"" + text + "\"", "", 0, 0, ""};
+  return *frame;
+}
+
 Status take_assembly(ReadOptions& options, const std::string& text) {
   if (text.empty()) return Error{"expected the id of an assembly, found an empty text", "", 0, 0, ""};
   options.assembly = text;
@@ -65,9 +72,9 @@ std::vector<ReadingSetting> make_rows() {
        .value = [](const ReadOptions& o) { return text_of(o.radius_scale); }},
       {.id = "frame",
        .value_name = "N",
-       .help = "Files: which frame or model, from 0 (0)",
+       .help = "Files: which frame or model, from 0; -1 is the last (0)",
        .with_chunks = true,
-       .take = [](ReadOptions& o, const std::string& text) { return put(whole_number_from_text(text, 0), o.frame); },
+       .take = [](ReadOptions& o, const std::string& text) { return put(frame_from_text(text), o.frame); },
        .value = [](const ReadOptions& o) { return text_of(o.frame); }},
       {.id = "trajectory",
        .value_name = "FILE",

@@ -12,6 +12,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/cell.h"
+#include "bihive/geometry/sphere_attributes.h"
 
 namespace bihive {
 
@@ -21,6 +22,9 @@ struct TrajectoryFrame {
   std::optional<Cell> cell;          ///< nothing: the frame states none
   std::optional<double> time_ps;     ///< picoseconds
   std::optional<std::int64_t> step;  ///< of the simulation
+  /// What else the frame states of each sphere, in the file's unit: velocities vx vy vz, forces fx fy fz.
+  std::vector<NamedNumbers> numbers;
+  std::vector<std::string> warnings;  ///< remarks for the user on this frame, one line each
 };
 
 /// Any number of threads may read at a time.

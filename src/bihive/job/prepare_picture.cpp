@@ -8,6 +8,7 @@
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
+#include "bihive/io/frames.h"
 #include "bihive/job/choose_labels.h"
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
@@ -32,12 +33,13 @@ bool shows_reference_tree(View view) {
 std::string filled_title(const std::string& title, const PictureRequest& request, const Input& input,
                          std::int64_t spheres) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  TitleValues values{{"frame", static_cast<double>(request.input.reading.options().frame)},
+  const std::int64_t frame = numbered_frame(request.input.reading.options().frame, input.frames);
+  TitleValues values{{"frame", static_cast<double>(frame)},
                      {"time", input.time_ps.value_or(kUnknown)},
                      {"step", input.step ? static_cast<double>(*input.step) : kUnknown},
                      {"spheres", static_cast<double>(spheres)}};
   if (!request.labels.title_values.empty()) {
-    const TitleValues more = values_of_frame(request.labels.title_values, request.input.reading.options().frame);
+    const TitleValues more = values_of_frame(request.labels.title_values, frame);
     values.insert(values.begin(), more.begin(), more.end());
   }
   Result<std::string> filled = fill_title(title, values);

@@ -29,7 +29,7 @@ Result<LoadedFile> load_file(Viewer& viewer, const std::string& path, const Read
   if (again && !unknown && in_parts && !must_be_read_whole(named.file)) {
     Result<std::shared_ptr<const Frames>> frames = open_frames(path, options);
     if (!frames) return frames.error();
-    Result<SphereFile> first = (*frames)->read(options.frame);
+    Result<SphereFile> first = (*frames)->read(numbered_frame(options.frame, (*frames)->count()));
     if (!first) return first.error();
     Result<SceneFacts> facts = viewer.load(std::move(*first), path);
     if (!facts) return facts.error();

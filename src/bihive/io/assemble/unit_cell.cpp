@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "bihive/base/parse_number.h"
-#include "bihive/io/text/text_scanner.h"
 #include "bihive/math/elementary.h"
 
 namespace bihive {
@@ -44,6 +42,10 @@ std::optional<Cell> cell_of_vectors(std::string_view nine) {
       vector[axis] = *number;
     }
   return scanner.next_field(field) ? std::nullopt : std::optional<Cell>(cell);
+}
+
+std::string unreadable_cell(std::int64_t frame) {
+  return "frame " + std::to_string(frame) + ": the numbers of its cell make none, so it is left out";
 }
 
 bool is_finite(const Cell& cell) {

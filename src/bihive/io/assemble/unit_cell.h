@@ -2,8 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
-#include <string_view>
+#include <string>
 
 #include "bihive/geometry/cell.h"
 
@@ -18,6 +19,8 @@ bool is_placeholder_cell(const std::array<double, 6>& lengths_and_angles);
 
 /// From nine numbers with blanks between them: the vectors a, b and c one after the other.
 std::optional<Cell> cell_of_vectors(std::string_view nine);
+/// The warning for a frame that states a cell whose numbers make none.
+std::string unreadable_cell(std::int64_t frame);
 
 /// Whether every number is finite.
 bool is_finite(const Cell& cell);

@@ -8,15 +8,48 @@
 #include "bihive/io/without_throwing.h"
 
 namespace bihive {
+namespace {
+
+// Numbers that change from frame to frame: velocities, forces, image flags, and other coordinates of LAMMPS' dumps.
+constexpr std::string_view kMovingNumbers[] = {"vx", "vy", "vz", "fx", "fy", "fz", "ix",  "iy",  "iz",
+                                               "xu", "yu", "zu", "xs", "ys", "zs", "xsu", "ysu", "zsu"};
+
+// The numbers of the trajectory's frame in place of those of the file, which belong to another time.
+void take_moving_numbers(std::vector<NamedNumbers> numbers, RawSpheres& raw) {
+  std::vector<NamedNumbers>& kept = raw.attributes.numbers;
+  std::string left_out;
+  const auto is_moving = [&](const NamedNumbers& column) {
+    return std::find(std::begin(kMovingNumbers), std::end(kMovingNumbers), column.name) != std::end(kMovingNumbers);
+  };
+  const auto is_replaced = [&](const NamedNumbers& column) {
+    return std::any_of(numbers.begin(), numbers.end(), [&](const auto& one) { return one.name == column.name; });
+  };
+  for (const NamedNumbers& column : kept)
+    if (is_moving(column) && !is_replaced(column)) left_out += " " + column.name;
+  kept.erase(std::remove_if(kept.begin(), kept.end(),
+                            [&](const NamedNumbers& column) { return is_moving(column) || is_replaced(column); }),
+             kept.end());
+  if (!left_out.empty())
+    raw.rules.push_back("numbers of the atoms' file that change with time are left out:" + left_out);
+  std::string taken;
+  for (NamedNumbers& column : numbers) {
+    taken += " " + column.name;
+    kept.push_back(std::move(column));
+  }
+  if (!taken.empty()) raw.rules.push_back("numbers of the trajectory's frame:" + taken);
+}
+
+}  // namespace
+
 Result<SphereFile> SphereFrames::open(std::int64_t frame) {
   return without_throwing(name_, [&] {
-    return begin(open_raw_frames(name_, is_moved() ? 0 : frame, of_frames_.keep_index, options_.columns), frame);
+    return begin(open_raw_frames(name_, opened_at(frame), of_frames_.keep_index, options_.columns), frame);
   });
 }
 
 Result<SphereFile> SphereFrames::open(std::string_view bytes, std::int64_t frame) {
   return without_throwing(
-      name_, [&] { return begin(open_raw_frames(bytes, name_, is_moved() ? 0 : frame, options_.columns), frame); });
+      name_, [&] { return begin(open_raw_frames(bytes, name_, opened_at(frame), options_.columns), frame); });
 }
 
 Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t frame) {
@@ -31,6 +64,16 @@ Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t
     if (!trajectory) return trajectory.error();
     trajectory_ = std::move(*trajectory);
     raw = atoms_;
+  }
+  if (frame < 0) {
+    // A number beyond the first frame stays, for the message.
+    const std::int64_t numbered = numbered_frame(frame, is_moved() ? trajectory_->frame_count() : raw.frames);
+    if (numbered >= 0) frame = numbered;
+    if (!is_moved() && frame != 0) {
+      Result<RawSpheres> read = frames_->read(frame);
+      if (!read) return read.error();
+      raw = std::move(*read);
+    }
   }
   Result<SphereFile> made = made_of(std::move(raw), frame);
   if (made) count_ = made->frames;
@@ -62,6 +105,8 @@ Status SphereFrames::take_places(std::int64_t frame, RawSpheres& raw) const {
   if (read->cell) raw.cell = read->cell;
   raw.time_ps = read->time_ps;
   raw.step = read->step;
+  raw.warnings.insert(raw.warnings.end(), read->warnings.begin(), read->warnings.end());
+  take_moving_numbers(std::move(read->numbers), raw);
   raw.frames = trajectory_->frame_count();
   raw.rules.push_back("places: frame " + std::to_string(frame) + " (from 0) of " + printable(path) + ", " +
                       trajectory_->format());

@@ -1,6 +1,7 @@
 // From the frames of a file to sets of spheres: what open_frames() and read_spheres() share.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -21,7 +22,8 @@ class SphereFrames : public Frames {
   SphereFrames(std::string name, ReadOptions options, FramesOptions of_frames = {})
       : name_(std::move(name)), options_(std::move(options)), of_frames_(of_frames) {}
 
-  /// Opens the file, or the bytes, which must outlive it, and the trajectory if there is one. Reads a frame on the way.
+  /// Opens the file, or the bytes, which must outlive it, and the trajectory if there is one. Reads a frame on the way;
+  /// one less than 0 counts from the end.
   Result<SphereFile> open(std::int64_t frame);
   Result<SphereFile> open(std::string_view bytes, std::int64_t frame);
 
@@ -31,6 +33,8 @@ class SphereFrames : public Frames {
 
  private:
   bool is_moved() const { return !options_.trajectory.empty(); }
+  // The frame that is read when the file is opened; the number of frames is not known yet.
+  std::int64_t opened_at(std::int64_t frame) const { return is_moved() ? 0 : std::max<std::int64_t>(frame, 0); }
   Result<SphereFile> begin(Result<OpenedFrames> opened, std::int64_t frame);
   Result<SphereFile> made_of(RawSpheres raw, std::int64_t frame) const;
   Status take_places(std::int64_t frame, RawSpheres& raw) const;

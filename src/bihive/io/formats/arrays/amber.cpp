@@ -8,6 +8,10 @@
 namespace bihive {
 namespace {
 
+// The libraries of NetCDF put this where a number in floating point was never written, in binary32 as in binary64
+// [NetCDF].
+constexpr double kNetcdfFill = 0x1.ep+122;
+
 // In HDF5 (NetCDF-4) names begin with a slash.
 const ArrayFacts* variable_of(const ArrayFile& file, const std::string& name) {
   const ArrayFacts* const found = file.find(name);
@@ -27,11 +31,13 @@ Result<ParticleLayout> amber_layout(const ArrayFile& file) {
                  file.path(), 0, 0, "write the places as CSV or .npy, for example with xarray or netCDF4 of Python"};
   ParticleLayout layout;
   layout.format = "AMBER NetCDF";
+  layout.warnings = file.warnings();
   const bool is_restart = contains_word(convention, "AMBERRESTART");
   const auto framed = [&](const std::string& name) -> FramedArray {
     const ArrayFacts* const array = variable_of(file, name);
     if (array == nullptr || (!is_restart && array->lengths.empty())) return {};
-    return {array, !is_restart, file.number(array->name, "scale_factor").value_or(1)};
+    return {array, !is_restart, file.number(array->name, "scale_factor").value_or(1),
+            file.number(array->name, "_FillValue").value_or(kNetcdfFill)};
   };
   for (const char* const name : {"coordinates", "unwrapped_coordinates"})
     if (!layout.places) layout.places = framed(name);

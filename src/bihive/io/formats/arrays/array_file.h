@@ -37,6 +37,8 @@ class ArrayFile {
   virtual const std::vector<ArrayFacts>& arrays() const = 0;
   /// Groups and arrays that are named in it but are not read, as no reader opens another file or loads a plug-in.
   virtual const std::vector<RefusedArray>& refused() const { return none_refused_; }
+  /// Remarks for the user on the file as a whole, one line each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// The part of an array that begins at `begin` and has `lengths` numbers along each dimension, row after row. It lies
   /// within the array. Errors: damaged bytes, a library that fails, more than the memory holds.
   virtual Result<std::vector<double>> read(const ArrayFacts& array, const std::vector<std::int64_t>& begin,
@@ -53,6 +55,9 @@ class ArrayFile {
   /// The first refused array that belongs to what is asked for: it itself, the group above it, or all below it (an
   /// empty name: the whole file). Null if there is none. `faults`: those alone that are faults.
   const RefusedArray* find_refused(std::string_view name, bool faults) const;
+
+ protected:
+  std::vector<std::string> warnings_;
 
  private:
   std::vector<RefusedArray> none_refused_;

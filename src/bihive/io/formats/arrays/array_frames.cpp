@@ -95,7 +95,9 @@ class ParticleFrames : public RawFrames {
 class ArrayTrajectory : public Trajectory {
  public:
   ArrayTrajectory(std::shared_ptr<const ArrayFile> file, ParticleLayout layout)
-      : file_(std::move(file)), layout_(std::move(layout)) {}
+      : file_(std::move(file)), layout_(std::move(layout)) {
+    for (const std::string& warning : layout_.warnings) warn(warning);
+  }
 
   std::string format() const override { return layout_.format; }
   std::int64_t frame_count() const override { return bihive::frame_count(layout_); }

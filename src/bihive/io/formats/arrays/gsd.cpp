@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/text/text_scanner.h"
@@ -18,12 +19,14 @@ namespace {
 struct KeptArray {
   const char* array;
   std::array<const char*, 3> names;  // one or three
+  double by_default;                 // of the schema
 };
-constexpr KeptArray kKeptArrays[] = {{"particles/mass", {"mass"}},
-                                     {"particles/charge", {"q"}},
-                                     {"particles/body", {"body"}},
-                                     {"particles/velocity", {"vx", "vy", "vz"}},
-                                     {"particles/image", {"ix", "iy", "iz"}}};
+constexpr KeptArray kKeptArrays[] = {{"particles/mass", {"mass"}, 1},
+                                     {"particles/charge", {"q"}, 0},
+                                     {"particles/body", {"body"}, -1},
+                                     {"particles/velocity", {"vx", "vy", "vz"}, 0},
+                                     {"particles/image", {"ix", "iy", "iz"}, 0}};
+constexpr double kDefaultDiameter = 1;
 
 class GsdFrame {
  public:
@@ -36,8 +39,8 @@ class GsdFrame {
                    ""};
     spheres_.format = "GSD";
     spheres_.frames = file_.frame_count();
-    for (Status (GsdFrame::*step)() : {&GsdFrame::read_places, &GsdFrame::read_types, &GsdFrame::read_radii,
-                                       &GsdFrame::read_numbers, &GsdFrame::read_cell})
+    for (Status (GsdFrame::*step)() : {&GsdFrame::read_count, &GsdFrame::read_places, &GsdFrame::read_types,
+                                       &GsdFrame::read_radii, &GsdFrame::read_numbers, &GsdFrame::read_cell})
       if (Status status = (this->*step)(); !status) return status.error();
     return std::move(spheres_);
   }
@@ -47,26 +50,55 @@ class GsdFrame {
     return {"frame " + std::to_string(frame_) + " of the GSD file: " + array + " " + what, file_.path(), 0, 0, ""};
   }
 
-  // An array with one row for each particle.
+  // The particles of a frame: by their number, else by the rows of their positions.
+  Result<std::int64_t> count_of(std::int64_t frame) const {
+    const Result<std::optional<GsdArray>> stated = file_.array(frame, "particles/N");
+    if (!stated) return stated.error();
+    if (!*stated) return file_.rows(frame, "particles/position").value_or(0);
+    const double count = (*stated)->values.size() == 1 ? (*stated)->values[0] : -1;
+    if (!(count >= 0 && count < 0x1p53 && count == std::floor(count)))
+      return wrong("particles/N", "is no number of particles");
+    return static_cast<std::int64_t>(count);
+  }
+
+  Status read_count() {
+    const Result<std::int64_t> own = count_of(frame_);
+    if (!own) return own.error();
+    const Result<std::int64_t> first = count_of(0);
+    if (!first) return first.error();
+    rows_ = *own;
+    count_ = chunk_.of(rows_).count();
+    is_as_first_ = *own == *first;
+    return Done{};
+  }
+
+  // An array with one row for each particle. What a frame does not state is that of frame 0 if the particles are as
+  // many, else the schema's default: then `array` is empty.
   Status take(const std::string& name, std::int64_t columns, std::optional<GsdArray>& array) const {
+    array.reset();
+    if (!file_.has(frame_, name) && !is_as_first_) return Done{};
     Result<std::optional<GsdArray>> found = file_.array(frame_, name, chunk_);
     if (!found) return found.error();
     array = std::move(*found);
-    if (!array || !rows_) return Done{};
-    // An array of frame 0 stands for later frames only as long as the particles are as many.
-    if (array->rows != *rows_ || array->columns != columns)
+    if (array && (array->rows != rows_ || array->columns != columns))
       return wrong(name, "has " + std::to_string(array->rows) + " x " + std::to_string(array->columns) +
-                             " numbers for " + std::to_string(*rows_) + " particles");
+                             " numbers for " + std::to_string(rows_) + " particles");
+    return Done{};
+  }
+
+  // The same with the default where frame 0 states other numbers: so all frames have the same columns.
+  Status take(const std::string& name, std::int64_t columns, double by_default, std::optional<GsdArray>& array) const {
+    if (Status status = take(name, columns, array); !status) return status;
+    if (!array && !is_as_first_ && file_.has(0, name))
+      array = GsdArray{rows_, columns, std::vector<double>(static_cast<std::size_t>(count_ * columns), by_default)};
     return Done{};
   }
 
   Status read_places() {
+    if (rows_ == 0) return Done{};
     std::optional<GsdArray> array;
     if (Status status = take("particles/position", 3, array); !status) return status;
     if (!array) return wrong("particles/position", "is missing");
-    if (array->columns != 3) return wrong("particles/position", "has not three columns");
-    rows_ = array->rows;
-    count_ = chunk_.of(array->rows).count();
     for (std::size_t i = 0; i < array->values.size(); ++i) {
       if (coordinate_fault(array->values[i])) return wrong("particles/position", "has a number that is not finite");
       (i % 3 == 0 ? spheres_.x : i % 3 == 1 ? spheres_.y : spheres_.z).push_back(array->values[i]);
@@ -107,7 +139,8 @@ class GsdFrame {
 
   Status read_radii() {
     std::optional<GsdArray> diameters;
-    if (Status status = take("particles/diameter", 1, diameters); !status || !diameters) return status;
+    if (Status status = take("particles/diameter", 1, kDefaultDiameter, diameters); !status || !diameters)
+      return status;
     for (const double diameter : diameters->values) {
       if (radius_fault(diameter / 2)) return wrong("particles/diameter", "has a number that is no diameter");
       spheres_.r.push_back(diameter / 2);
@@ -120,7 +153,7 @@ class GsdFrame {
     for (const KeptArray& kept : kKeptArrays) {
       const std::int64_t columns = kept.names[1] != nullptr ? 3 : 1;
       std::optional<GsdArray> array;
-      if (Status status = take(kept.array, columns, array); !status) return status;
+      if (Status status = take(kept.array, columns, kept.by_default, array); !status) return status;
       if (!array) continue;
       for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) {
         NamedNumbers column{kept.names[k], {}};
@@ -143,7 +176,10 @@ class GsdFrame {
       cell.origin = -0.5 * (cell.vectors[0] + cell.vectors[1] + cell.vectors[2]);
       bool finite = true;
       for (const double number : v) finite = finite && std::isfinite(number);
-      if (finite) spheres_.cell = cell;
+      if (finite)
+        spheres_.cell = cell;
+      else
+        spheres_.warnings.push_back(unreadable_cell(frame_));
     }
     const Result<std::optional<GsdArray>> step = file_.array(frame_, "configuration/step");
     if (!step) return step.error();
@@ -157,8 +193,9 @@ class GsdFrame {
   const GsdFile& file_;
   std::int64_t frame_;
   RowChunk chunk_;
-  std::optional<std::int64_t> rows_;  // particles of the frame
-  std::int64_t count_ = 0;            // of the chunk
+  std::int64_t rows_ = 0;     // particles of the frame
+  std::int64_t count_ = 0;    // of the chunk
+  bool is_as_first_ = false;  // as many as in frame 0
   RawSpheres spheres_;
 };
 

@@ -38,7 +38,9 @@ class GsdFile {
   /// The array of that name in that frame; if the frame has none, that of frame 0, as the schema of HOOMD-blue says.
   /// Nothing: neither has one. With the values of the rows of `chunk` alone. Errors: damaged bytes.
   Result<std::optional<GsdArray>> array(std::int64_t frame, const std::string& name, RowChunk chunk = {}) const;
-  /// Its rows, without reading it; nothing as above.
+  /// Whether that frame itself has the array.
+  bool has(std::int64_t frame, const std::string& name) const { return chunks_.contains({name, frame}); }
+  /// Its rows, without reading it; nothing as in array().
   std::optional<std::int64_t> rows(std::int64_t frame, const std::string& name) const;
 
  private:

@@ -63,6 +63,7 @@ class NetcdfFile : public ArrayFile {
       arrays_.clear();
       variables_.clear();
       attributes_.clear();
+      warnings_.clear();
       ends_early_ = false;
       if (Status status = read_head(*bytes); !status) {
         if (!ends_early_) return status;
@@ -302,6 +303,7 @@ class NetcdfFile : public ArrayFile {
                                     ? 0
                                     : (left - variable.row_bytes) / record_bytes_ + 1);
     }
+    warn_of_cut(growing, records, whole);
     for (const auto& [name, lengths] : named) {
       const NetcdfVariable& variable = variables_[name];
       if (variable.type == kNetcdfChar) continue;
@@ -311,6 +313,19 @@ class NetcdfFile : public ArrayFile {
       arrays_.push_back(std::move(facts));
     }
     return Done{};
+  }
+
+  // A file that was still written states no number of records; then bytes behind the whole ones tell.
+  void warn_of_cut(std::size_t growing, std::uint64_t records, std::uint64_t whole) {
+    if (growing == 0 || whole >= records) return;
+    const std::uint64_t unstated = version_ == 5 ? std::numeric_limits<std::uint64_t>::max() : 0xFFFFFFFF;
+    std::uint64_t begin = std::numeric_limits<std::uint64_t>::max();
+    for (const auto& [name, variable] : variables_)
+      if (variable.grows) begin = std::min(begin, variable.begin);
+    constexpr std::uint64_t kPadding = 3;
+    if (records == unstated && static_cast<std::uint64_t>(file_.size()) <= begin + whole * record_bytes_ + kPadding)
+      return;
+    warnings_.push_back("the file ends inside frame " + std::to_string(whole) + ", which is left out: it may be cut");
   }
 
   RandomFile file_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -33,6 +34,9 @@ Result<std::vector<double>> numbers_at(const ArrayFile& file, const FramedArray&
     lengths[particles] = rows->count();
   }
   Result<std::vector<double>> values = file.read(*of.array, begin, lengths);
+  if (values && of.fill)
+    for (double& value : *values)
+      if (value == *of.fill) value = std::numeric_limits<double>::quiet_NaN();
   if (values && of.unit != 1)
     for (double& value : *values) value *= of.unit;
   return values;
@@ -42,31 +46,40 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-// Cells that are no numbers are none; an array that cannot be read is an error.
-Result<std::optional<Cell>> cell_at(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame) {
-  std::optional<Cell> cell;
+// The cell of the frame, into a RawSpheres or a TrajectoryFrame. Numbers that make no cell are told, unless all its
+// lengths are 0; an array that cannot be read is an error.
+template <class Target>
+Status take_cell_of(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame, Target& target) {
+  std::vector<double> lengths;
+  std::optional<Cell>& cell = target.cell;
   if (layout.edges) {
-    const Result<std::vector<double>> edges = numbers_at(file, layout.edges, frame);
+    Result<std::vector<double>> edges = numbers_at(file, layout.edges, frame);
     if (!edges) return edges.error();
-    const std::vector<double>& v = *edges;
-    if (!all_finite(v)) return cell;
+    lengths = std::move(*edges);
+    const std::vector<double>& v = lengths;
     if (v.size() == 3) cell = Cell{{}, {Vec3d{v[0], 0, 0}, Vec3d{0, v[1], 0}, Vec3d{0, 0, v[2]}}};
     if (v.size() == 9) cell = Cell{{}, {Vec3d{v[0], v[1], v[2]}, Vec3d{v[3], v[4], v[5]}, Vec3d{v[6], v[7], v[8]}}};
-    if (std::all_of(v.begin(), v.end(), [](double value) { return value == 0; })) cell.reset();
+    if (!all_finite(v)) cell.reset();
   } else if (layout.lengths && layout.angles) {
-    const Result<std::vector<double>> lengths = numbers_at(file, layout.lengths, frame);
-    if (!lengths) return lengths.error();
+    Result<std::vector<double>> stated = numbers_at(file, layout.lengths, frame);
+    if (!stated) return stated.error();
+    lengths = std::move(*stated);
     const Result<std::vector<double>> angles = numbers_at(file, layout.angles, frame);
     if (!angles) return angles.error();
-    if (lengths->size() == 3 && angles->size() == 3)
-      cell = unit_cell({(*lengths)[0], (*lengths)[1], (*lengths)[2], (*angles)[0], (*angles)[1], (*angles)[2]});
+    if (lengths.size() == 3 && angles->size() == 3)
+      cell = unit_cell({lengths[0], lengths[1], lengths[2], (*angles)[0], (*angles)[1], (*angles)[2]});
   }
+  if (std::all_of(lengths.begin(), lengths.end(), [](double value) { return value == 0; })) {
+    cell.reset();
+    return Done{};
+  }
+  if (!cell) target.warnings.push_back(unreadable_cell(frame));
   if (cell && layout.corner) {
     const Result<std::vector<double>> corner = numbers_at(file, layout.corner, frame);
     if (!corner) return corner.error();
     if (corner->size() == 3 && all_finite(*corner)) cell->origin = {(*corner)[0], (*corner)[1], (*corner)[2]};
   }
-  return cell;
+  return Done{};
 }
 
 // Time and step of the frame, into a RawSpheres or a TrajectoryFrame.
@@ -87,6 +100,27 @@ Status take_when(const ArrayFile& file, const ParticleLayout& layout, std::int64
   const Result<std::optional<double>> step = from(layout.step, layout.first_step, layout.steps_apart);
   if (!step) return step.error();
   if (*step && std::abs(**step) < 0x1p53) target.step = static_cast<std::int64_t>(**step);
+  return Done{};
+}
+
+// The hint of errors about positions that are no numbers.
+std::string about_fill(const ParticleLayout& layout) {
+  return layout.places.fill ? "numbers that were never written are none" : "";
+}
+
+// Velocities and forces of the frame.
+Status take_vectors(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame, TrajectoryFrame& made) {
+  for (const ParticleColumn& column : layout.columns) {
+    if (column.names.size() != 3 || (column.names[0] != "vx" && column.names[0] != "fx")) continue;
+    const Result<std::vector<double>> values = numbers_at(file, column.of, frame);
+    if (!values) return values.error();
+    if (values->size() != 3 * made.x.size()) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      NamedNumbers numbers{column.names[axis], {}};
+      for (std::size_t i = axis; i < values->size(); i += 3) numbers.values.push_back((*values)[i]);
+      made.numbers.push_back(std::move(numbers));
+    }
+  }
   return Done{};
 }
 
@@ -175,8 +209,9 @@ Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& l
     for (std::size_t k = 0; k < sources.size(); ++k)
       row[3 + k] = arrays[sources[k].first][i * widths[sources[k].first] + sources[k].second];
     if (const std::string fault = table.add_numbers(row.data()); !fault.empty())
-      return bad("frame " + std::to_string(frame) + ", particle " +
-                 std::to_string(rows.first + static_cast<std::int64_t>(i)) + " (from 0): " + fault);
+      return Error{"frame " + std::to_string(frame) + ", particle " +
+                       std::to_string(rows.first + static_cast<std::int64_t>(i)) + " (from 0): " + fault,
+                   file.path(), 0, 0, about_fill(layout)};
   }
   const std::string names = table.column_names();
   RawSpheres spheres = std::move(table).take();
@@ -185,9 +220,8 @@ Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& l
   spheres.rules.insert(spheres.rules.begin(), "arrays as columns: " + names);
   spheres.rules.insert(spheres.rules.end(), layout.rules.begin(), layout.rules.end());
   if (labelled != nullptr) take_labels(file.labels(*labelled->of.array), labelled_values, spheres.attributes);
-  Result<std::optional<Cell>> cell = cell_at(file, layout, frame);
-  if (!cell) return cell.error();
-  spheres.cell = *cell;
+  spheres.warnings.insert(spheres.warnings.end(), layout.warnings.begin(), layout.warnings.end());
+  if (Status status = take_cell_of(file, layout, frame, spheres); !status) return status.error();
   if (Status status = take_when(file, layout, frame, spheres); !status) return status.error();
   return spheres;
 }
@@ -204,11 +238,10 @@ Result<TrajectoryFrame> read_places(const ArrayFile& file, const ParticleLayout&
     for (std::size_t axis = 0; axis < axes; ++axis)
       if (const char* fault = coordinate_fault((*places)[i + axis]))
         return Error{"frame " + std::to_string(frame) + ": the place of atom " + std::to_string(i / axes) + " " + fault,
-                     file.path(), 0, 0, ""};
+                     file.path(), 0, 0, about_fill(layout)};
   }
-  Result<std::optional<Cell>> cell = cell_at(file, layout, frame);
-  if (!cell) return cell.error();
-  made.cell = *cell;
+  if (Status status = take_cell_of(file, layout, frame, made); !status) return status.error();
+  if (Status status = take_vectors(file, layout, frame, made); !status) return status.error();
   if (Status status = take_when(file, layout, frame, made); !status) return status.error();
   return made;
 }

@@ -20,7 +20,8 @@ namespace bihive {
 struct FramedArray {
   const ArrayFacts* array = nullptr;  ///< null: the file has none
   bool moves = false;
-  double unit = 1;  ///< its numbers are multiplied by this
+  double unit = 1;                  ///< its numbers are multiplied by this
+  std::optional<double> fill = {};  ///< stands where a number was never written
 
   explicit operator bool() const { return array != nullptr; }
   /// The dimensions of one frame.
@@ -42,7 +43,7 @@ struct ParticleLayout {
   FramedArray edges, lengths, angles, corner;
   FramedArray time_ps, step;
   std::optional<double> first_step, steps_apart, first_time_ps, time_apart_ps;  ///< in place of arrays
-  std::vector<std::string> rules;
+  std::vector<std::string> rules, warnings;
 };
 
 /// The layout of the H5MD group that holds particles, "/particles/all"; an empty name: the only one, or the first.

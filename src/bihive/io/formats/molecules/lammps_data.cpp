@@ -1,8 +1,10 @@
 // LAMMPS data files [LAMMPS-data]: a comment, header lines (counts and the box), then sections. The atoms' columns
 // follow from the style behind "Atoms #", else from their number.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <gemmi/elem.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,6 +14,7 @@
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/lammps_styles.h"
+#include "bihive/io/text/fields.h"
 
 namespace bihive {
 namespace {
@@ -92,13 +95,16 @@ class LammpsDataReader {
         if (Status status = read_atoms(); !status) return status.error();
         more = scanner_.next_filled_line();
       } else {
-        const bool masses = section == "Masses";
+        Status (LammpsDataReader::*const read_line)() = section == "Masses"             ? &LammpsDataReader::read_mass
+                                                        : section == "Atom Type Labels" ? &LammpsDataReader::read_label
+                                                                                        : nullptr;
         for (more = scanner_.next_filled_line(); more && !is_heading(); more = scanner_.next_filled_line())
-          if (masses)
-            if (Status status = read_mass(); !status) return status.error();
+          if (read_line != nullptr)
+            if (Status status = (this->*read_line)(); !status) return status.error();
       }
     }
     if (!read_atoms_) return scanner_.line_error("the file ends without the section 'Atoms'");
+    if (Status status = number_labels(); !status) return status.error();
     infer_elements();
     place_cell();
     return std::move(spheres_);
@@ -192,6 +198,22 @@ class LammpsDataReader {
     return Done{};
   }
 
+  Status read_label() {
+    const Result<std::int64_t> type = take_count(scanner_, "the number of an atom type");
+    if (!type) return type.error();
+    std::string_view label;
+    if (!scanner_.next_field(label)) return scanner_.line_error("expected a type and its label");
+    if (*type > std::numeric_limits<std::int32_t>::max())
+      return scanner_.field_error("the type " + std::to_string(*type) + " is too large");
+    type_of_label_[printable(label)] = static_cast<std::int32_t>(*type);
+    return Done{};
+  }
+
+  bool is_type(std::string_view field) const {
+    const auto number = parse_int(field);
+    return number ? *number >= 1 && *number <= types_.value_or(0) : type_of_label_.contains(printable(field));
+  }
+
   Status read_atoms() {
     if (!count_) return scanner_.line_error("expected the number of atoms ('100 atoms') before the section 'Atoms'");
     // The style stands behind a number sign.
@@ -201,7 +223,6 @@ class LammpsDataReader {
     const std::size_t mark = heading.find('#');
     std::string style(mark == std::string::npos ? std::string_view()
                                                 : trim(std::string_view(heading).substr(mark + 1)));
-    std::optional<std::vector<TableColumn>> columns = lammps_columns(style);
     const std::int64_t heading_line = scanner_.line_number();
     const auto cut = [&](std::int64_t found) {
       return scanner_.line_error("the file ends in its atoms: expected " + std::to_string(*count_) + ", found " +
@@ -212,23 +233,27 @@ class LammpsDataReader {
     read_atoms_ = true;
     if (*count_ == 0) return Done{};
     if (!scanner_.next_filled_line()) return cut(0);
-    const bool stated = columns.has_value();
-    if (!columns) {
-      style = style_of_shapes_.empty() ? guess_lammps_style(scanner_.line(), types_.value_or(0)) : style_of_shapes_;
-      columns = lammps_columns(style);
-    }
-    const auto fields = static_cast<std::size_t>(scanner_.count_fields());
+    const bool stated = !style.empty();
+    const LammpsAtomLines lines = look_at_atom_lines(scanner_, stated && !needs_all_lines(style) ? 1 : *count_,
+                                                     [this](std::string_view field) { return is_type(field); });
+    if (!stated) style = style_of_shapes_.empty() ? guess_lammps_style(lines) : style_of_shapes_;
+    std::optional<std::vector<TableColumn>> columns = lammps_columns(style, lines);
+    if (!columns && stated)
+      return scanner_.line_error(
+          "the atom style " + quote(style) + " behind 'Atoms' (line " + std::to_string(heading_line) + ") is not known",
+          "known are " + lammps_style_names());
     if (!columns)
       return scanner_.line_error("no atom style is stated behind 'Atoms' (line " + std::to_string(heading_line) +
-                                     "), and several or none have " + std::to_string(fields) + " columns",
+                                     "), and several or none have " + std::to_string(lines.fields) + " columns",
                                  "write the style there, as in 'Atoms # full'");
-    if (fields == columns->size() + 3 && (style.rfind("hybrid", 0) != 0 || ends_in_image_flags(scanner_.line())))
+    const auto fields = static_cast<std::size_t>(lines.fields);
+    if (fields == columns->size() + 3 && (style.rfind("hybrid", 0) != 0 || lines.ends_in_flags))
       for (const char* const flag : {"ix", "iy", "iz"}) columns->push_back({flag, ColumnRole::number});
     const bool is_open = style.rfind("hybrid", 0) == 0 && fields > columns->size();
     SphereTable table(*columns);
     if (is_open) table.allow_more_fields();
     if (const std::string fault = table.columns_fault(); !fault.empty()) return scanner_.line_error(fault);
-    spheres_.rules.push_back("atom style: " + style +
+    spheres_.rules.push_back("atom style: " + printable(style) +
                              (stated                     ? ""
                               : style_of_shapes_.empty() ? ", by the number of columns"
                                                          : ", by the header") +
@@ -250,25 +275,68 @@ class LammpsDataReader {
     return Done{};
   }
 
+  // Types that stand in the file by their labels get the labels' numbers, and those by numbers the labels.
+  Status number_labels() {
+    if (type_of_label_.empty() || spheres_.size() == 0) return Done{};
+    std::map<std::int32_t, std::string> label_of_type;
+    for (const auto& [label, type] : type_of_label_) label_of_type.emplace(type, label);
+    SphereAttributes& attributes = spheres_.attributes;
+    const NamedTexts* const texts = attributes.find_texts("type");
+    std::vector<std::int32_t> type_of_text;
+    if (texts != nullptr)
+      for (const std::string& text : texts->texts) {
+        const auto found = type_of_label_.find(text);
+        const auto number = parse_int(text);
+        if (found == type_of_label_.end() && !(number && *number == static_cast<std::int32_t>(*number)))
+          return scanner_.line_error("the type " + quote(text) + " is no number, and no label that the file states");
+        type_of_text.push_back(found != type_of_label_.end() ? found->second : static_cast<std::int32_t>(*number));
+      }
+    TextCollector labels;
+    labels.reserve(spheres_.size());
+    for (std::size_t i = 0; i < spheres_.size(); ++i) {
+      std::int32_t& type = attributes.type[i];
+      if (texts != nullptr) type = type_of_text[static_cast<std::size_t>(texts->text_of_sphere[i])];
+      const auto label = label_of_type.find(type);
+      labels.add(label == label_of_type.end() ? std::to_string(type) : label->second);
+    }
+    std::erase_if(attributes.texts, [](const NamedTexts& column) { return column.name == "type"; });
+    attributes.texts.push_back(printable_texts(labels.take("type")));
+    return Done{};
+  }
+
+  // The number of a type as a mass names it; nothing: no atom has it.
+  std::optional<std::int32_t> type_of_mass(const std::string& name) const {
+    if (const auto found = type_of_label_.find(printable(name)); found != type_of_label_.end()) return found->second;
+    const auto number = parse_int(name);
+    if (number && *number == static_cast<std::int32_t>(*number)) return static_cast<std::int32_t>(*number);
+    // A label that the file does not number.
+    const NamedTexts* const texts = spheres_.attributes.find_texts("type");
+    if (texts == nullptr) return std::nullopt;
+    const auto text = std::find(texts->texts.begin(), texts->texts.end(), printable(name));
+    const auto sphere = std::find(texts->text_of_sphere.begin(), texts->text_of_sphere.end(),
+                                  static_cast<std::int32_t>(text - texts->texts.begin()));
+    if (text == texts->texts.end() || sphere == texts->text_of_sphere.end()) return std::nullopt;
+    return spheres_.attributes.type[static_cast<std::size_t>(sphere - texts->text_of_sphere.begin())];
+  }
+
   // Types become elements if all their masses are those of elements. Models without a unit of mass have whole numbers.
   void infer_elements() {
     const std::vector<std::int32_t>& types = spheres_.attributes.type;
     bool all_whole = true;
     std::map<std::int32_t, int> element_of_type;
     std::string text;
-    for (const auto& [type, mass] : masses_) {
+    for (const auto& [name, mass] : masses_) {
       all_whole = all_whole && mass == std::floor(mass);
-      const auto number = parse_int(type);
       const int element = element_of_mass(mass);
-      if (!number || element == 0) return;
-      element_of_type[static_cast<std::int32_t>(*number)] = element;
+      if (element == 0) return;
+      const auto type = type_of_mass(name);
+      if (!type) continue;
+      element_of_type[*type] = element;
       if (element_of_type.size() <= 8)
-        text += (text.empty() ? "" : ", ") + printable(type) + " (" + readable_number(mass) + ") " +
+        text += (text.empty() ? "" : ", ") + printable(name) + " (" + readable_number(mass) + ") " +
                 element_symbol(element);
     }
-    // Types by labels have numbers of their own.
-    const bool has_labels = spheres_.attributes.find_texts("type") != nullptr;
-    if (element_of_type.empty() || all_whole || has_labels || units_ == "lj") return;
+    if (element_of_type.empty() || all_whole || units_ == "lj") return;
     std::vector<std::uint8_t> elements;
     elements.reserve(types.size());
     for (const std::int32_t type : types) {
@@ -306,6 +374,7 @@ class LammpsDataReader {
   bool has_box_ = false, has_edges_ = false, read_atoms_ = false;
   std::set<std::string> seen_;
   std::map<std::string, double> masses_;
+  std::map<std::string, std::int32_t> type_of_label_;
 };
 
 bool is_lammps_data(const FileHead& head) {

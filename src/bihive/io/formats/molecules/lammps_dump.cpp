@@ -1,5 +1,6 @@
 // LAMMPS dump in text [LAMMPS-dump]: sections that begin with "ITEM:", repeated for every frame.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "bihive/base/parse_number.h"
@@ -26,10 +27,20 @@ constexpr Naming kNamings[] = {
 };
 constexpr Naming kChosenCoordinates = {{}, false, "coordinates: columns as asked for"};
 
+// Picoseconds of the units of time that LAMMPS has [LAMMPS-units]; those of `lj` have none.
+struct Units {
+  std::string_view name;
+  double picoseconds;
+};
+constexpr Units kUnits[] = {{"real", 1e-3},     {"metal", 1},   {"si", 1e12}, {"cgs", 1e12},
+                            {"electron", 1e-3}, {"micro", 1e6}, {"nano", 1e3}};
+
 class LammpsReader {
  public:
   LammpsReader(const TextScanner& scanner, const FramePass& pass)
-      : scanner_(scanner), pass_(pass), wanted_(pass.wanted), frames_(pass.first), notes_(pass.made, scanner_) {}
+      : scanner_(scanner), pass_(pass), wanted_(pass.wanted), frames_(pass.first), notes_(pass.made, scanner_) {
+    if (pass.file != nullptr) find_units(*pass.file);
+  }
 
   Result<RawSpheres> read() {
     while (scanner_.next_filled_line())
@@ -52,11 +63,8 @@ class LammpsReader {
     if (item == "NUMBER OF ATOMS") return read_count();
     if (item.substr(0, 10) == "BOX BOUNDS") return read_box(item);
     if (item.substr(0, 5) == "ATOMS") return read_atoms(item);
-    // Other sections (UNITS, TIME) have one line each.
-    if (item == "UNITS" || item == "TIME") {
-      if (!scanner_.next_line()) return cut("the line of this section");
-      return Done{};
-    }
+    if (item == "UNITS") return read_units();
+    if (item == "TIME") return read_time();
     return scanner_.line_error("expected ITEM: TIMESTEP, NUMBER OF ATOMS, BOX BOUNDS or ATOMS but found " +
                                quote(line));
   }
@@ -76,6 +84,41 @@ class LammpsReader {
       return scanner_.field_error("expected the time step but found " + quote(field));
     step_ = parse_int(field);
     return Done{};
+  }
+
+  // They stand at the beginning of the file, which the bytes of a later frame do not have.
+  void find_units(const RandomFile& file) {
+    constexpr std::int64_t kLook = 256;
+    FileText head{file, 0, std::min(kLook, file.size()), 0, {}};
+    TextScanner scanner(head);
+    if (scanner.next_filled_line() && trim(scanner.line()) == "ITEM: UNITS" && scanner.next_line())
+      units_ = printable(trim(scanner.line()));
+  }
+
+  Status read_units() {
+    if (!scanner_.next_line()) return cut("the units");
+    units_ = printable(trim(scanner_.line()));
+    return Done{};
+  }
+
+  // Before the time step, or after it.
+  Status read_time() {
+    if (!scanner_.next_line()) return cut("the time");
+    std::string_view field;
+    if (scanner_.next_field(field)) time_ = parse_double(field);
+    if (!time_ || !std::isfinite(*time_)) return scanner_.field_error("expected the time but found " + quote(field));
+    return Done{};
+  }
+
+  void take_time() {
+    if (!time_) return;
+    const auto* const units =
+        std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Units& one) { return one.name == units_; });
+    const bool is_known = units != std::end(kUnits);
+    spheres_.time_ps = *time_ * (is_known ? units->picoseconds : 1);
+    spheres_.rules.push_back(is_known         ? "time: picoseconds, from units " + units_
+                             : units_.empty() ? "time: taken as picoseconds, as the file names no units"
+                                              : "time: as it stands there, in units " + units_);
   }
 
   Status read_count() {
@@ -167,6 +210,7 @@ class LammpsReader {
       if (naming->scaled) unscale();
       spheres_.cell = box_;
       spheres_.step = step_;
+      take_time();
     }
 
     // The frame is complete.
@@ -174,6 +218,7 @@ class LammpsReader {
     in_frame_ = false;
     ++frames_;
     step_.reset();
+    time_.reset();
     count_.reset();
     box_.reset();
     return Done{};
@@ -232,6 +277,8 @@ class LammpsReader {
   FrameNotes notes_;
   bool in_frame_ = false;
   std::optional<std::int64_t> step_, count_;
+  std::optional<double> time_;
+  std::string units_;
   std::int64_t count_line_ = 0;
   std::optional<Box> box_;
   RawSpheres spheres_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,14 +12,28 @@
 
 namespace bihive {
 
-/// The columns of a style by its name ("full", "hybrid sphere dipole"), without image flags; nothing: it is unknown.
-std::optional<std::vector<TableColumn>> lammps_columns(std::string_view style);
+/// What the lines of atoms have in common.
+struct LammpsAtomLines {
+  std::int64_t fields = 0;     ///< of the first
+  bool third_is_type = true;   ///< the second fields are whole numbers, the third ones types
+  bool ends_in_flags = false;  ///< the last three fields are whole numbers without a decimal point, as image flags are
+};
 
-/// The style that a first line of atoms without a stated style fits, by the number of its columns; empty: none, or
-/// several. `types` is the number of atom types.
-std::string guess_lammps_style(std::string_view line, std::int64_t types);
+/// Looks at the scanner's line and those behind it, `most` lines at most.
+LammpsAtomLines look_at_atom_lines(TextScanner scanner, std::int64_t most,
+                                   const std::function<bool(std::string_view)>& is_type);
 
-/// Whether the last three of the line's fields are whole numbers without a decimal point, as image flags are.
-bool ends_in_image_flags(std::string_view line);
+/// The columns of a style by its name ("full", "hybrid sphere dipole"), without image flags. Nothing: it is unknown.
+/// Styles whose number of columns depends on the simulation, or on LAMMPS' version, take it from the lines.
+std::optional<std::vector<TableColumn>> lammps_columns(std::string_view style, const LammpsAtomLines& lines);
+
+/// Whether only all lines together tell the columns of the style.
+bool needs_all_lines(std::string_view style);
+
+/// "amoeba, angle, ..."
+std::string lammps_style_names();
+
+/// The style that lines of atoms without a stated style fit, by the number of their columns; empty: none, or several.
+std::string guess_lammps_style(const LammpsAtomLines& lines);
 
 }  // namespace bihive

@@ -1,12 +1,13 @@
 // XYZ: a count, a comment, and one line for each sphere, repeated for every frame. Extended XYZ [ExtXYZ] names its
-// columns in the comment: Properties=species:S:1:pos:R:3:radius:R:1
+// columns in the comment (io/formats/molecules/xyz_comment.h): Properties=species:S:1:pos:R:3:radius:R:1
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "bihive/base/parse_number.h"
-#include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
+#include "bihive/io/formats/molecules/xyz_comment.h"
 #include "bihive/io/text/sphere_table.h"
 
 namespace bihive {
@@ -14,22 +15,6 @@ namespace {
 
 std::vector<TableColumn> plain_columns() {
   return {{"symbol", ColumnRole::species}, {"x", ColumnRole::x}, {"y", ColumnRole::y}, {"z", ColumnRole::z}};
-}
-
-// The value of a key ("properties=") in a comment line, or nothing. It may stand in quotes.
-std::optional<std::string_view> value_in(std::string_view comment, const std::string& key) {
-  const std::string lower = lower_case(comment);
-  for (std::size_t at = lower.find(key); at != std::string::npos; at = lower.find(key, at + 1)) {
-    if (at > 0 && lower[at - 1] != ' ' && lower[at - 1] != '\t') continue;
-    std::string_view value = comment.substr(at + key.size());
-    if (!value.empty() && (value[0] == '"' || value[0] == '\'')) {
-      const char mark = value[0];
-      value.remove_prefix(1);
-      return value.substr(0, value.find(mark));
-    }
-    return value.substr(0, value.find_first_of(" \t"));
-  }
-  return std::nullopt;
 }
 
 // Adds the columns of one property, such as pos:R:3.
@@ -74,9 +59,60 @@ std::string columns_of(std::string_view properties, std::vector<TableColumn>& co
   return "";
 }
 
+// A quote that is not closed may hide keys that matter.
+Status check_comment(const TextScanner& scanner, const XyzComment& comment) {
+  if (!comment.unclear_at()) return Done{};
+  const std::string line = lower_case(scanner.line());
+  for (const char* const key : {"properties", "lattice"}) {
+    const auto value = comment.find(key);
+    const bool is_open = value && !value->empty() && (value->front() == '"' || value->front() == '\'');
+    if (is_open || (!value && line.find(key) != std::string::npos))
+      return scanner.column_error(static_cast<std::int64_t>(*comment.unclear_at()),
+                                  "from here on the comment of extended XYZ is not understood",
+                                  "is a quote or bracket not closed?");
+  }
+  return Done{};
+}
+
+// The cell that a frame's comment line states.
+Result<std::optional<Cell>> cell_of(const TextScanner& scanner, const XyzComment& comment) {
+  const auto lattice = comment.find("lattice");
+  if (!lattice) return std::optional<Cell>();
+  const auto edges = xyz_numbers(*lattice);
+  if (!edges || edges->size() != 9)
+    return scanner.line_error("expected nine finite numbers in Lattice but found " + quote(*lattice));
+  Cell cell;
+  for (std::size_t i = 0; i < 9; ++i) cell.vectors[i / 3][static_cast<int>(i % 3)] = (*edges)[i];
+  if (const auto origin = comment.find("origin")) {
+    const auto corner = xyz_numbers(*origin);
+    if (!corner || corner->size() != 3)
+      return scanner.line_error("expected three finite numbers in Origin but found " + quote(*origin));
+    cell.origin = {(*corner)[0], (*corner)[1], (*corner)[2]};
+  }
+  return std::optional<Cell>(cell);
+}
+
+// The number of a key, after which some programs write a comma.
+std::optional<double> number_of(const XyzComment& comment, std::initializer_list<std::string_view> keys) {
+  const auto value = comment.find_any(keys);
+  if (!value) return std::nullopt;
+  const auto number = parse_double(value->substr(0, value->find_first_of(",;")));
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+// Time and step that a frame's comment line states.
+void take_when_of(const XyzComment& comment, RawSpheres& spheres) {
+  spheres.time_ps = number_of(comment, {"time", "t"});
+  if (spheres.time_ps)
+    spheres.rules.push_back("time: that of the comment, taken as picoseconds, as the format names no unit");
+  const auto step = number_of(comment, {"step"});
+  if (step && *step == std::floor(*step) && std::abs(*step) < 0x1p53) spheres.step = static_cast<std::int64_t>(*step);
+}
+
 // The table that a frame's comment line describes.
-Result<SphereTable> table_of(const TextScanner& scanner, const ColumnChoice& choice) {
-  const auto properties = value_in(scanner.line(), "properties=");
+Result<SphereTable> table_of(const TextScanner& scanner, const XyzComment& comment, const ColumnChoice& choice) {
+  if (Status status = check_comment(scanner, comment); !status) return status.error();
+  const auto properties = comment.find("properties");
   std::vector<TableColumn> columns;
   std::string fault;
   if (properties)
@@ -159,17 +195,14 @@ Result<RawSpheres> read_xyz(const TextScanner& text, const FramePass& pass) {
       if (*count == 0) continue;
       return cut(0);
     }
-    Result<SphereTable> table = table_of(scanner, pass.columns);
+    const XyzComment comment(scanner.line());
+    Result<SphereTable> table = table_of(scanner, comment, pass.columns);
     if (!table) return table.error();
     std::optional<Cell> cell;
-    if (const auto lattice = value_in(scanner.line(), "lattice="); lattice && frames == frame) {
-      cell = cell_of_vectors(*lattice);
-      if (!cell) return scanner.line_error("expected nine finite numbers in Lattice but found " + quote(*lattice));
-      if (const auto origin = value_in(scanner.line(), "origin=")) {
-        const auto corner = cell_of_vectors(std::string(*origin) + " 0 0 0 0 0 0");
-        if (!corner) return scanner.line_error("expected three finite numbers in Origin but found " + quote(*origin));
-        cell->origin = corner->vectors[0];
-      }
+    if (frames == frame) {
+      Result<std::optional<Cell>> stated = cell_of(scanner, comment);
+      if (!stated) return stated.error();
+      cell = *stated;
     }
 
     // Read the spheres of the wanted frame. Skip those of other frames, but check the last line.
@@ -190,6 +223,7 @@ Result<RawSpheres> read_xyz(const TextScanner& text, const FramePass& pass) {
     spheres = std::move(*table).take();
     spheres.cell = cell;
     spheres.rules.insert(spheres.rules.begin(), "columns: " + columns);
+    take_when_of(comment, spheres);
   }
   if (pass.reads_none()) return spheres;
   if (frame < 0 || frame >= frames) return no_such_frame(scanner.file(), frame, frames);

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/data_path.h"
 #include "bihive/io/formats/formats.h"
 #include "bihive/io/formats/trajectories/frame_checks.h"
@@ -42,6 +44,21 @@ Status check_places(const TrajectoryFrame& frame, const std::string& path, std::
       return Error{"frame " + std::to_string(number) + ": the place of atom " + std::to_string(i) + " is not finite",
                    path, 0, 0, ""};
   return Done{};
+}
+
+std::string cut_tail(std::int64_t frame) {
+  return "the file ends inside frame " + std::to_string(frame) + ", which is left out: it may be cut";
+}
+
+std::string damaged_tail(std::int64_t frame, std::int64_t place, std::int64_t file_bytes) {
+  return "frame " + std::to_string(frame) + " does not begin as a frame at byte " + std::to_string(place) +
+         ": the last " + std::to_string(file_bytes - place) + " bytes are left out; the file may be damaged";
+}
+
+void take_cell(std::optional<Cell> cell, std::span<const double> lengths, std::int64_t number, TrajectoryFrame& frame) {
+  frame.cell = std::move(cell);
+  if (frame.cell || std::all_of(lengths.begin(), lengths.end(), [](double n) { return n == 0; })) return;
+  frame.warnings.push_back(unreadable_cell(number));
 }
 
 std::optional<Cell> cell_of_nine(const double (&v)[9], double unit) {

@@ -12,7 +12,10 @@ namespace {
 
 // Sizes of the smaller base: 2^(i / 3), rounded to what fits i bits three times. Those below the first are not used.
 constexpr std::int32_t kFirstSize = 9;
-constexpr std::array<std::int32_t, 73> kSizes{
+// Writers state the length of the table where all neighbours lie farther apart than its last size. Then nothing is
+// written in the smaller base.
+constexpr std::int32_t kNoSize = 73;
+constexpr std::array<std::int32_t, kNoSize> kSizes{
     0,       0,       0,       0,       0,        0,        0,       0,       0,       8,       10,
     12,      16,      20,      25,      32,       40,       50,      64,      80,      101,     128,
     161,     203,     256,     322,     406,      512,      645,     812,     1024,    1290,    1625,
@@ -126,8 +129,7 @@ class Unpacker {
   }
 
   bool prepare() {
-    if (!(head_.precision > 0) || head_.count <= 0 || small_ < kFirstSize || small_ >= std::int32_t{kSizes.size()})
-      return false;
+    if (!(head_.precision > 0) || head_.count <= 0 || small_ < kFirstSize || small_ > kNoSize) return false;
     bool apart = false;
     for (int k = 0; k < 3; ++k) {
       const std::int64_t size = std::int64_t{head_.highest[k]} - head_.lowest[k] + 1;
@@ -156,6 +158,7 @@ class Unpacker {
       put(before);
       return true;
     }
+    if (small_ == kNoSize) return false;
     const auto size = static_cast<std::uint32_t>(kSizes[static_cast<std::size_t>(small_)]);
     const std::uint32_t sizes[3] = {size, size, size};
     for (int i = 0; i < count; ++i) {
@@ -171,7 +174,7 @@ class Unpacker {
 
   bool change_size(int change) {
     small_ += change;
-    return small_ >= kFirstSize && small_ < std::int32_t{kSizes.size()};
+    return small_ >= kFirstSize && small_ <= kNoSize;
   }
 
   void put(const std::int64_t (&place)[3]) {

@@ -1,5 +1,7 @@
 // TRR: frames of GROMACS in XDR's big-endian words, single or double precision, not packed [TRR]. Lengths in
 // nanometres.
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -26,7 +28,7 @@ struct TrrHead {
   bool is_double = false;
   std::int64_t head_bytes = 0;
 
-  static constexpr int kBox = 2, kX = 7;
+  static constexpr int kBox = 2, kX = 7, kV = 8, kF = 9;
 
   std::int64_t bytes_before(int part) const {
     std::int64_t sum = 0;
@@ -57,7 +59,8 @@ struct TrrHead {
     if (size != 4 && size != 8) return false;
     is_double = size == 8;
     if (bytes_of[kBox] != 0 && bytes_of[kBox] != 9 * size) return false;
-    if (has_places() && bytes_of[kX] != 3 * size * atoms) return false;
+    for (int part = kX; part < 10; ++part)
+      if (bytes_of[part] != 0 && bytes_of[part] != 3 * size * atoms) return false;
     float single = 0;
     if (is_double ? !reader.take(time) : !reader.take(single)) return false;
     if (!is_double) time = double(single);
@@ -98,6 +101,17 @@ class TrrTrajectory : public Trajectory {
     return head;
   }
 
+  // The numbers of a part of the frame that begins at `place`.
+  Result<std::vector<double>> part_of(std::int64_t place, const TrrHead& head, int part) const {
+    const Result<std::string> bytes =
+        file_.read(place + head.head_bytes + head.bytes_before(part), head.bytes_of[part]);
+    if (!bytes) return bytes.error();
+    std::vector<double> numbers(bytes->size() / (head.is_double ? 8 : 4));
+    ByteReader reader(*bytes, ByteOrder::big);
+    for (double& number : numbers) number = take_number(reader, head.is_double);
+    return numbers;
+  }
+
   RandomFile file_;
   std::int64_t atoms_ = 0;
   std::vector<std::int64_t> places_;  // of each frame that has places of atoms
@@ -109,9 +123,13 @@ Status TrrTrajectory::find_frames() {
     const std::int64_t left = file_.size() - place;
     const bool cut_in_head = left < kMostHeadBytes - 8;
     const Result<TrrHead> head = head_at(place);
-    if (!head && !cut_in_head) return head.error();
+    if (!head && !cut_in_head) {
+      if (place == 0) return head.error();
+      warn(damaged_tail(frame_count(), place, file_.size()));
+      break;
+    }
     if (!head || head->frame_bytes() > left) {
-      warn("the file ends inside a frame, which is left out: it may be cut");
+      warn(cut_tail(frame_count()));
       break;
     }
     if (head->has_places()) {
@@ -144,22 +162,34 @@ Result<TrajectoryFrame> TrrTrajectory::read(std::int64_t frame) const {
   made.time_ps = head->time;
   made.step = head->step;
   if (head->bytes_of[TrrHead::kBox] > 0) {
-    const Result<std::string> bytes =
-        file_.read(place + head->head_bytes + head->bytes_before(TrrHead::kBox), head->bytes_of[TrrHead::kBox]);
-    if (!bytes) return bytes.error();
-    ByteReader reader(*bytes, ByteOrder::big);
+    const Result<std::vector<double>> box = part_of(place, *head, TrrHead::kBox);
+    if (!box) return box.error();
     double v[9] = {};
-    for (double& number : v) number = take_number(reader, head->is_double);
-    made.cell = cell_of_nine(v, kTrrAngstromOfNm);
+    std::copy(box->begin(), box->end(), v);
+    take_cell(cell_of_nine(v, kTrrAngstromOfNm), v, frame, made);
   }
-  const Result<std::string> bytes =
-      file_.read(place + head->head_bytes + head->bytes_before(TrrHead::kX), head->bytes_of[TrrHead::kX]);
-  if (!bytes) return bytes.error();
-  ByteReader reader(*bytes, ByteOrder::big);
-  for (std::int64_t i = 0; i < atoms_; ++i)
-    for (std::vector<double>* axis : {&made.x, &made.y, &made.z})
-      axis->push_back(kTrrAngstromOfNm * take_number(reader, head->is_double));
+  const Result<std::vector<double>> places = part_of(place, *head, TrrHead::kX);
+  if (!places) return places.error();
+  for (std::size_t i = 0; i < places->size(); i += 3) {
+    made.x.push_back(kTrrAngstromOfNm * (*places)[i]);
+    made.y.push_back(kTrrAngstromOfNm * (*places)[i + 1]);
+    made.z.push_back(kTrrAngstromOfNm * (*places)[i + 2]);
+  }
   if (Status status = check_places(made, file_.path(), frame); !status) return status.error();
+
+  // Velocities and forces, in the file's own units.
+  constexpr std::pair<int, std::array<const char*, 3>> kVectors[] = {{TrrHead::kV, {"vx", "vy", "vz"}},
+                                                                     {TrrHead::kF, {"fx", "fy", "fz"}}};
+  for (const auto& [part, names] : kVectors) {
+    if (head->bytes_of[part] == 0) continue;
+    const Result<std::vector<double>> vectors = part_of(place, *head, part);
+    if (!vectors) return vectors.error();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      NamedNumbers column{names[axis], {}};
+      for (std::size_t i = axis; i < vectors->size(); i += 3) column.values.push_back((*vectors)[i]);
+      made.numbers.push_back(std::move(column));
+    }
+  }
   return made;
 }
 

@@ -14,8 +14,8 @@ namespace bihive {
 namespace {
 
 constexpr double kAngstromOfNm = 10;
-constexpr std::int32_t kMagic = 1995;
-constexpr std::int32_t kMagicOfLarge = 2023;  // the packed bytes are counted in 64 bits
+constexpr std::int32_t kXtcMagic = 1995;
+constexpr std::int32_t kXtcMagicOfLarge = 2023;  // the packed bytes are counted in 64 bits
 // Magic, atoms, step, time, nine numbers of the cell, atoms again.
 constexpr std::int64_t kXtcHeadBytes = 56;
 // Precision, lowest, highest, small size; then the number of packed bytes.
@@ -38,7 +38,7 @@ struct FrameHead {
     return all && reader.take(again) && again == atoms && atoms >= 0;
   }
   bool is_packed() const { return atoms > kUnpacked; }
-  std::int64_t count_bytes() const { return magic == kMagicOfLarge ? 8 : 4; }
+  std::int64_t count_bytes() const { return magic == kXtcMagicOfLarge ? 8 : 4; }
 };
 
 class XtcTrajectory : public Trajectory {
@@ -66,8 +66,10 @@ Status XtcTrajectory::find_frames() {
   std::int64_t place = 0;
   for (std::int64_t frame = 0; place < file_.size(); ++frame) {
     places_.push_back(place);
-    const auto cut = [&] {
-      warn("the file ends inside frame " + std::to_string(frame) + ", which is left out: it may be cut");
+    const auto cut = [&] { warn(cut_tail(frame)); };
+    const auto damage = [&](const std::string& what) -> Status {
+      if (frame == 0) return damaged(frame, what);
+      return warn(damaged_tail(frame, place, file_.size())), Done{};
     };
     const std::int64_t left = file_.size() - place;
     if (left < kXtcHeadBytes) return cut(), Done{};
@@ -76,8 +78,8 @@ Status XtcTrajectory::find_frames() {
     ByteReader reader(*bytes, ByteOrder::big);
     FrameHead head;
     const bool whole = head.take(reader);
-    if (!whole || (head.magic != kMagic && head.magic != kMagicOfLarge))
-      return damaged(frame, "it does not begin as a frame");
+    if (!whole || (head.magic != kXtcMagic && head.magic != kXtcMagicOfLarge))
+      return damage("it does not begin as a frame");
     if (frame == 0) atoms_ = head.atoms;
     if (head.atoms != atoms_)
       return damaged(frame,
@@ -90,7 +92,7 @@ Status XtcTrajectory::find_frames() {
       const bool known = head.count_bytes() == 8 ? reader.take(packed) : reader.take(short_count);
       if (!known) return cut(), Done{};
       if (head.count_bytes() == 4) packed = short_count;
-      if (packed < 0 || packed > file_.size()) return damaged(frame, "its length is no number of bytes");
+      if (packed < 0 || packed > file_.size()) return damage("its length is no number of bytes");
       length = kXtcHeadBytes + kPackedHeadBytes + head.count_bytes() + (packed + 3) / 4 * 4;
     }
     if (length > left) return cut(), Done{};
@@ -137,7 +139,7 @@ Result<TrajectoryFrame> XtcTrajectory::read(std::int64_t frame) const {
     made.z.push_back(kAngstromOfNm * double(places[i + 2]));
   }
   if (Status status = check_places(made, file_.path(), frame); !status) return status.error();
-  made.cell = cell_of_nine(head.cell, kAngstromOfNm);
+  take_cell(cell_of_nine(head.cell, kAngstromOfNm), head.cell, frame, made);
   made.time_ps = double(head.time);
   made.step = head.step;
   return made;
@@ -146,7 +148,7 @@ Result<TrajectoryFrame> XtcTrajectory::read(std::int64_t frame) const {
 bool looks_like_xtc(std::string_view first_bytes) {
   ByteReader reader(first_bytes, ByteOrder::big);
   FrameHead head;
-  return head.take(reader) && (head.magic == kMagic || head.magic == kMagicOfLarge);
+  return head.take(reader) && (head.magic == kXtcMagic || head.magic == kXtcMagicOfLarge);
 }
 
 Result<std::shared_ptr<const Trajectory>> open_xtc(RandomFile file, const std::string&) {
