@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bihive/render/image_tracer.h"
+#include "bihive/render/query/image_tracer.h"
 #include "bihive/render/tracer.h"
 #include "support/block_rays.h"
 #include "support/effort.h"

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "bihive/math/rng.h"
-#include "bihive/render/brute_force.h"
-#include "bihive/render/integrator.h"
+#include "bihive/render/query/brute_force.h"
 #include "bihive/render/renderer.h"
+#include "bihive/render/shade/integrator.h"
 #include "bihive/render/shading.h"
 #include "bihive/scene/generators.h"
 

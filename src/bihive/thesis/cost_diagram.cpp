@@ -12,8 +12,8 @@ namespace bihive {
 namespace {
 
 // Units of the view box.
-constexpr double kWidth = 480, kLeft = 56, kRight = 12, kTop = 30, kPlotHeight = 230, kLine = 17;
-constexpr double kPlotWidth = kWidth - kLeft - kRight;
+constexpr double kDiagramWidth = 480, kLeft = 56, kRight = 12, kTop = 30, kPlotHeight = 230, kLine = 17;
+constexpr double kPlotWidth = kDiagramWidth - kLeft - kRight;
 constexpr double kCharacter = 6.6;  // mean width of a character of 12 units
 constexpr double kMarker = 4.2;
 
@@ -45,7 +45,7 @@ class Diagram {
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bihive-costs\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
         "aria-label=\"{}\"><style>{}</style>{}</svg>\n",
-        kWidth, height_, escape_html(data_.title), cost_diagram_style(), body_);
+        kDiagramWidth, height_, escape_html(data_.title), cost_diagram_style(), body_);
   }
 
  private:
@@ -142,7 +142,7 @@ class Diagram {
     // Its name: below other names that stand there already, and near the axis above them.
     const std::string name = outside ? point.name + " (" + numbers + ")" : point.name;
     const double width = kCharacter * static_cast<double>(name.size());
-    const bool to_the_left = x + 8 + width > kWidth - kRight;
+    const bool to_the_left = x + 8 + width > kDiagramWidth - kRight;
     const double left = to_the_left ? x - 8 - width : x + 8;
     double base = std::max(y - 6, kTop + 12);
     const double step = base + kLine > kTop + kPlotHeight ? -kLine : kLine;
