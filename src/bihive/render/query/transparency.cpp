@@ -6,8 +6,8 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/geometry/cut_sphere.h"
-#include "bihive/render/query/part_tracer.h"
-#include "bihive/render/remote_engine.h"
+#include "bihive/render/query/build_engine.h"
+#include "bihive/render/query/remote_rays.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/image_colours.h"
 
@@ -21,10 +21,6 @@ struct Passing {
 Passing passing_of(const Material& material) {
   const double share = std::min(material.transmissive, 1.0);
   return {is_passed_straight(material) ? share : 0, share};
-}
-
-bool any_passes(const std::vector<double>& passing) {
-  return std::any_of(passing.begin(), passing.end(), [](double share) { return share > 0; });
 }
 
 }  // namespace
@@ -50,13 +46,15 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     std::vector<std::int64_t> opaque, transparent;
     const std::int64_t count = first < 0 ? spheres.size() : first;
     for (std::int64_t id = 0; id < count; ++id) (made->passing(id) > 0 ? transparent : opaque).push_back(id);
-    auto part = std::make_shared<PartTracer>();
-    if (Status status = part->make(spheres, cuts, opaque, {engine, {}, threads, false}); !status) return status.error();
-    made->opaque_ = std::move(part);
-    part = std::make_shared<PartTracer>();
-    if (Status status = part->make(spheres, std::move(cuts), transparent, {engine, {}, threads, true}); !status)
-      return status.error();
-    made->transparent_ = std::move(part);
+    Result<std::shared_ptr<const RayEngine>> part =
+        build_engine(spheres, std::move(opaque), cuts, {engine, {}, threads});
+    if (!part) return part.error();
+    made->opaque_ = std::move(*part);
+    // Crossings are found by a tree, also for the brute engines.
+    part = build_engine(spheres, std::move(transparent), std::move(cuts),
+                        {is_brute(engine) ? Engine::reference : engine, {}, threads});
+    if (!part) return part.error();
+    made->transparent_ = std::move(*part);
     return std::shared_ptr<const TransparentSpheres>(std::move(made));
   } catch (const std::bad_alloc&) {
     return no_memory_for("the transparent spheres");
@@ -66,56 +64,38 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
 std::shared_ptr<const TransparentSpheres> TransparentSpheres::remote(const Scene& scene, RemoteEngine& remote,
                                                                      bool to_eye, bool has_tints) {
   auto made = std::make_shared<TransparentSpheres>();
-  made->of_images_ = &scene;
-  made->remote_ = &remote;
+  made->seen_ = &scene;
   made->to_eye_ = to_eye;
   made->has_tints_ = has_tints;
+  made->opaque_ =
+      std::make_shared<RemoteRays>(&remote, to_eye ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light);
+  made->transparent_ =
+      std::make_shared<RemoteRays>(&remote, to_eye ? WhichSpheres::clear_to_eye : WhichSpheres::clear_to_light);
   return made;
 }
 
 double TransparentSpheres::passing_of_seen(std::int64_t id) const {
-  const Passing passing = passing_of(material_of(*of_images_, id));
+  const Passing passing = passing_of(material_of(*seen_, id));
   return to_eye_ ? passing.to_eye : passing.to_light;
 }
 
+Vec3d TransparentSpheres::tint_of(const Scene& scene, std::int64_t id) const {
+  return passing(id) > 0 ? passing_tint(material_of(scene, id)) : Vec3d{1, 1, 1};
+}
+
 Hit TransparentSpheres::closest_opaque(const Ray& ray) const {
-  if (remote_ != nullptr) {
-    RayBatch one;
-    one.push_back(ray);
-    Hit hit;
-    closest_opaque(one.span(), RayOrder::any, {&hit.t, &hit.sphere_id});
-    return hit;
-  }
   return opaque_->closest_hit(ray);
 }
 
 void TransparentSpheres::find_crossings(const Ray& ray, std::vector<Crossing>& found) const {
-  if (remote_ != nullptr) {
-    RayBatch one;
-    one.push_back(ray);
-    std::vector<RayHit> hits;
-    find_crossings(one.span(), RayOrder::any, hits);
-    found.clear();
-    for (const RayHit& hit : hits) found.push_back({hit.t, hit.sphere_id});
-    return;
-  }
-  transparent_->all_hits(ray, found);
-}
-
-Vec3d TransparentSpheres::tint_of_image(std::int64_t id) const {
-  return passing(id) > 0 ? passing_tint(material_of(*of_images_, id)) : Vec3d{1, 1, 1};
+  static thread_local std::vector<RayHit> hits;
+  find_crossings(one_ray(ray).span(), RayOrder::any, hits);
+  found.clear();
+  for (const RayHit& hit : hits) found.push_back({hit.t, hit.sphere_id});
 }
 
 Vec3d TransparentSpheres::share(const Ray& ray) const {
-  if (remote_ != nullptr) {
-    RayBatch one;
-    one.push_back(ray);
-    std::uint8_t hidden = 0;
-    hides(one.span(), RayOrder::any, &hidden);
-    if (hidden != 0) return {};
-  } else if (opaque_->occluded(ray)) {
-    return {};
-  }
+  if (opaque_->occluded(ray)) return {};
   static thread_local std::vector<Crossing> crossings;
   find_crossings(ray, crossings);
   double share = 1;
@@ -128,50 +108,22 @@ Vec3d TransparentSpheres::share(const Ray& ray) const {
 }
 
 void TransparentSpheres::closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
-  if (remote_ != nullptr)
-    return remote_->closest_hits(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
-                                 hits);
   opaque_->closest_hits(rays, order, hits);
 }
 
-void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
-  if (remote_ != nullptr)
-    return remote_->occluded(to_eye_ ? WhichSpheres::opaque_to_eye : WhichSpheres::opaque_to_light, rays, order,
-                             hidden);
-  opaque_->occluded(rays, order, hidden);
+void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const {
+  opaque_->occluded(rays, order, is_occluded);
 }
 
 void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
-  if (remote_ != nullptr)
-    return remote_->all_hits(to_eye_ ? WhichSpheres::clear_to_eye : WhichSpheres::clear_to_light, rays, order, found);
   transparent_->all_hits(rays, order, found);
 }
 
-Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, const Tracer& tracer, int threads) {
-  if (tracer.remote() == nullptr) return of(scene, rule, tracer.engine(), threads);
-  Transparency parts;
-  if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
+namespace {
 
-  // The spheres that stand for the rest say what there is.
-  bool to_eye = false, to_light = false, alike = true, has_tints = false;
-  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
-    const Material material = material_of(scene, id);
-    const Passing passing = passing_of(material);
-    to_eye = to_eye || passing.to_eye > 0;
-    to_light = to_light || passing.to_light > 0;
-    alike = alike && passing.to_eye == passing.to_light;
-    has_tints = has_tints || (passing.to_light > 0 && passing_tint(material) != Vec3d{1, 1, 1});
-  }
-  if (to_light) parts.to_light = TransparentSpheres::remote(scene, *tracer.remote(), alike, has_tints);
-  if (alike)
-    parts.to_eye = parts.to_light;
-  else if (to_eye)
-    parts.to_eye = TransparentSpheres::remote(scene, *tracer.remote(), true, has_tints);
-  return parts;
-}
-
-Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engine engine, int threads,
-                                      std::int64_t first) {
+// `remote`: where other processes hold the spheres. Then those of the scene say what kinds there are.
+Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine* remote, Engine engine, int threads,
+                             std::int64_t first) {
   Transparency parts;
   if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
   const auto count = static_cast<std::size_t>(scene.spheres.size());
@@ -191,24 +143,33 @@ Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engi
   }
 
   const bool alike = to_eye == to_light;
-  const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
-  const auto divide = [&](std::vector<double>& passing) {
+  const std::shared_ptr<const CutSet> cuts = remote == nullptr ? cut_set_of(scene) : nullptr;
+  const auto divide = [&](std::vector<double>& passing,
+                          bool is_to_eye) -> Result<std::shared_ptr<const TransparentSpheres>> {
+    if (std::none_of(passing.begin(), passing.end(), [](double share) { return share > 0; }))
+      return std::shared_ptr<const TransparentSpheres>();
+    if (remote != nullptr) return TransparentSpheres::remote(scene, *remote, is_to_eye, !tints.empty());
     return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints, of_images,
                                       first);
   };
-  if (any_passes(to_light)) {
-    Result<std::shared_ptr<const TransparentSpheres>> divided = divide(to_light);
-    if (!divided) return divided.error();
-    parts.to_light = std::move(*divided);
-  }
-  if (alike) {
-    parts.to_eye = parts.to_light;
-  } else if (any_passes(to_eye)) {
-    Result<std::shared_ptr<const TransparentSpheres>> divided = divide(to_eye);
-    if (!divided) return divided.error();
-    parts.to_eye = std::move(*divided);
-  }
+  Result<std::shared_ptr<const TransparentSpheres>> part = divide(to_light, alike);
+  if (!part) return part.error();
+  parts.to_light = *part;
+  if (!alike) part = divide(to_eye, true);
+  if (!part) return part.error();
+  parts.to_eye = std::move(*part);
   return parts;
+}
+
+}  // namespace
+
+Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, const Tracer& tracer, int threads) {
+  return divided(scene, rule, tracer.remote(), tracer.engine(), threads, -1);
+}
+
+Result<Transparency> Transparency::of(const Scene& scene, OpacityRule rule, Engine engine, int threads,
+                                      std::int64_t first) {
+  return divided(scene, rule, nullptr, engine, threads, first);
 }
 
 }  // namespace bihive

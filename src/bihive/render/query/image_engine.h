@@ -13,36 +13,28 @@
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere_set.h"
-#include "bihive/render/tracer.h"
-#include "bihive/render/transparency.h"
+#include "bihive/render/query/build_engine.h"
+#include "bihive/render/query/ray_engine.h"
 
 namespace bihive {
 
-/// The answers are those of Tracer and PartTracer on a set that holds the copies, bit for bit. Queries are const; any
-/// number of threads may call them at a time.
-class ImageTracer {
+/// The answers are those of an engine of a set that holds the copies, bit for bit.
+class ImageEngine final : public RayEngine {
  public:
   /// Of all spheres of `whole`, which must outlive it; with `ids` (ascending) of these stored spheres and their images.
   /// Ids of rays and hits are those of the whole set. Errors: as Tracer::build().
-  static Result<std::shared_ptr<const ImageTracer>> build(const SphereSet& whole, Engine engine,
-                                                          const TreeParameters& parameters, int threads,
-                                                          const std::vector<std::int64_t>* ids = nullptr);
-  ImageTracer() = default;
-  ImageTracer(const ImageTracer&) = delete;
-  ImageTracer& operator=(const ImageTracer&) = delete;
+  static Result<std::shared_ptr<const RayEngine>> build(const SphereSet& whole, const std::vector<std::int64_t>* ids,
+                                                        const EngineParameters& parameters);
 
-  Hit closest_hit(const Ray& ray) const;
-  bool occluded(const Ray& ray) const;
-  void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
-  void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
-  /// Each sphere that the ray's segment meets: by t and then by id.
-  void all_hits(const Ray& ray, std::vector<Crossing>& found) const;
-  /// The same for many rays: by ray, t and id.
-  void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
+  Hit closest_hit(const Ray& ray) const override;
+  bool occluded(const Ray& ray) const override;
+  void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override;
+  void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const override;
+  void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const override;
 
-  /// Of the stored spheres; null: the engine has no such tree.
-  const std::shared_ptr<const WideTree>& wide_tree() const { return wide_; }
-  const std::shared_ptr<const Tree>& tree() const { return tree_; }
+  /// Of the stored spheres.
+  const Tree* tree() const override { return engine_ == Engine::reference ? tree_.get() : nullptr; }
+  const WideTree* wide_tree() const override { return wide_.get(); }
 
  private:
   // Neighbouring images: from `first` to before `end` along each vector.

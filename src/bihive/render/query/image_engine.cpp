@@ -1,4 +1,4 @@
-#include "bihive/render/query/image_tracer.h"
+#include "bihive/render/query/image_engine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,27 +25,13 @@ constexpr double kBoxPad = 0x1p-22;
 // Rays that start farther away are not for the boxes in binary32.
 constexpr double kFarthestForBoxes = 1e18;
 
-bool earlier(const Crossing& a, const Crossing& b) {
-  return a.t != b.t ? a.t < b.t : a.id < b.id;
-}
-
-struct AllOfRay {
-  std::vector<Crossing>& found;
-
-  bool take(double t, std::int64_t id) const {
-    if (t < kNoLimit) found.push_back({t, id});
-    return false;
-  }
-  static double limit() { return kNoLimit; }
-};
-
 }  // namespace
 
-bool ImageTracer::Range::is_single() const {
+bool ImageEngine::Range::is_single() const {
   return end[0] - first[0] == 1 && end[1] - first[1] == 1 && end[2] - first[2] == 1;
 }
 
-std::array<ImageTracer::Range, 2> ImageTracer::Range::halves(std::size_t& side) const {
+std::array<ImageEngine::Range, 2> ImageEngine::Range::halves(std::size_t& side) const {
   side = 0;
   for (std::size_t k = 1; k < 3; ++k)
     if (end[k] - first[k] > end[side] - first[side]) side = k;
@@ -56,13 +42,13 @@ std::array<ImageTracer::Range, 2> ImageTracer::Range::halves(std::size_t& side) 
   return two;
 }
 
-Result<std::shared_ptr<const ImageTracer>> ImageTracer::build(const SphereSet& whole, Engine engine,
-                                                              const TreeParameters& parameters, int threads,
-                                                              const std::vector<std::int64_t>* ids) {
+Result<std::shared_ptr<const RayEngine>> ImageEngine::build(const SphereSet& whole,
+                                                            const std::vector<std::int64_t>* ids,
+                                                            const EngineParameters& parameters) {
   try {
-    auto made = std::make_shared<ImageTracer>();
+    auto made = std::make_shared<ImageEngine>();
     made->whole_ = &whole;
-    made->engine_ = engine == Engine::automatic ? Engine::wide : engine;
+    made->engine_ = parameters.engine;
     if (ids != nullptr && static_cast<std::int64_t>(ids->size()) < whole.size()) {
       made->part_ = whole.part(*ids);
       made->ids_ = *ids;
@@ -83,36 +69,36 @@ Result<std::shared_ptr<const ImageTracer>> ImageTracer::build(const SphereSet& w
 
     if (made->engine_ == Engine::wide) {
       Result<std::shared_ptr<const WideTree>> tree =
-          WideBuilder().build(spheres, parameters.for_wide(spheres.size()), threads);
+          WideBuilder().build(spheres, parameters.tree.for_wide(spheres.size()), parameters.threads);
       if (!tree) return tree.error();
       made->wide_ = std::move(*tree);
     }
     if (made->engine_ == Engine::reference || (made->engine_ == Engine::wide && made->may_coincide_))
-      made->tree_ = std::make_shared<const Tree>(build_reference_tree(spheres, parameters.for_reference()));
-    return std::shared_ptr<const ImageTracer>(std::move(made));
+      made->tree_ = std::make_shared<const Tree>(build_reference_tree(spheres, parameters.tree.for_reference()));
+    return std::shared_ptr<const RayEngine>(std::move(made));
   } catch (const std::bad_alloc&) {
     return no_memory_for("the tree of " + std::to_string(whole.size()) + " spheres");
   }
 }
 
-ImageTracer::Box ImageTracer::box_of(const Range& range) const {
+ImageEngine::Box ImageEngine::box_of(const Range& range) const {
   const Images::Shifts shifts = spheres().images().shifts(range.first, range.end);
   const double scale = spheres().scale();
   return {stored_box_.lo + scale * shifts.lo, stored_box_.hi + scale * shifts.hi};
 }
 
-Vec3d ImageTracer::stored_shift(const Range& image) const {
+Vec3d ImageEngine::stored_shift(const Range& image) const {
   return spheres().scale() * spheres().images().shift(image.first);
 }
 
-std::int64_t ImageTracer::left_in(std::int64_t image, std::int64_t leaves) const {
+std::int64_t ImageEngine::left_in(std::int64_t image, std::int64_t leaves) const {
   if (leaves < 0) return kNothing;  // kNothing is too small to subtract from
   const std::int64_t id = leaves - image * whole_->size();
   if (id < 0 || id >= whole_->size()) return kNothing;
   return ids_.empty() ? id : part_of_[static_cast<std::size_t>(id)];
 }
 
-bool ImageTracer::by_place(std::int64_t leaves) const {
+bool ImageEngine::by_place(std::int64_t leaves) const {
   return wide_ == nullptr || (may_coincide_ && leaves >= 0);
 }
 
@@ -120,8 +106,8 @@ bool ImageTracer::by_place(std::int64_t leaves) const {
 
 // A step of the walk through the tree of one image: the scalar truth on the image's spheres.
 template <class Answer>
-struct ImageTracer::AnswerOfImage {
-  const ImageTracer& tracer;
+struct ImageEngine::AnswerOfImage {
+  const ImageEngine& tracer;
   const ScaledRay& ray;
   Vec3d shift;
   std::int64_t image;
@@ -141,7 +127,7 @@ struct ImageTracer::AnswerOfImage {
 // Calls visit(image), which returns true to end, for the images whose boxes the ray meets up to visit.limit(), the
 // nearer half of them first.
 template <class Visit>
-void ImageTracer::visit_images(const Ray& ray, Visit& visit) const {
+void ImageEngine::visit_images(const Ray& ray, Visit& visit) const {
   if (spheres().empty()) return;
   const ScaledRay scaled(ray, spheres().scale());
   const Slabs slabs(scaled, kBoxPad);
@@ -169,7 +155,7 @@ void ImageTracer::visit_images(const Ray& ray, Visit& visit) const {
 }
 
 template <class Answer>
-void ImageTracer::walk_range(const Range& range, const ScaledRay& ray, Answer& answer) const {
+void ImageEngine::walk_range(const Range& range, const ScaledRay& ray, Answer& answer) const {
   AnswerOfImage<Answer> of_image{*this, ray, stored_shift(range), spheres().images().number(range.first), answer};
   if (is_brute(engine_)) {
     for (std::int64_t id = 0; id < spheres().size(); ++id)
@@ -184,8 +170,8 @@ void ImageTracer::walk_range(const Range& range, const ScaledRay& ray, Answer& a
 
 // The closest hit of a ray on the images that it visits, or any.
 template <bool kAnyHit>
-struct ImageTracer::NearestOfImages {
-  const ImageTracer& tracer;
+struct ImageEngine::NearestOfImages {
+  const ImageEngine& tracer;
   const Ray& ray;
   ScaledRay scaled;
   NearestAnswer<kAnyHit> nearest;
@@ -212,24 +198,24 @@ struct ImageTracer::NearestOfImages {
   }
 };
 
-Hit ImageTracer::closest_hit(const Ray& ray) const {
+Hit ImageEngine::closest_hit(const Ray& ray) const {
   if (!is_valid(ray)) return {};
   NearestOfImages<false> nearest{*this, ray, ScaledRay(ray, *whole_), {}};
   visit_images(ray, nearest);
   return nearest.nearest.best;
 }
 
-bool ImageTracer::occluded(const Ray& ray) const {
+bool ImageEngine::occluded(const Ray& ray) const {
   if (!is_valid(ray)) return false;
   NearestOfImages<true> nearest{*this, ray, ScaledRay(ray, *whole_), {}};
   visit_images(ray, nearest);
   return nearest.nearest.best.found();
 }
 
-struct ImageTracer::AllOfImages {
-  const ImageTracer& tracer;
+struct ImageEngine::AllOfImages {
+  const ImageEngine& tracer;
   ScaledRay scaled;
-  AllOfRay all;
+  AllHits all;
 
   static double limit() { return kNoLimit; }
   bool visit(const Range& range) {
@@ -238,28 +224,11 @@ struct ImageTracer::AllOfImages {
   }
 };
 
-void ImageTracer::all_hits(const Ray& ray, std::vector<Crossing>& found) const {
-  found.clear();
-  if (!is_valid(ray)) return;
-  if (wide_ != nullptr && tree_ == nullptr) {
-    // There is no scalar tree: ask as a batch of one.
-    RayBatch one;
-    one.push_back(ray);
-    std::vector<RayHit> hits;
-    all_hits(one.span(), RayOrder::any, hits);
-    for (const RayHit& hit : hits) found.push_back({hit.t, hit.sphere_id});
-    return;
-  }
-  AllOfImages all{*this, ScaledRay(ray, *whole_), {found}};
-  visit_images(ray, all);
-  std::sort(found.begin(), found.end(), earlier);
-}
-
 // ---- Many rays: each image gets those that may meet it ----
 
 // A ray against boxes, in binary32. Directions are scaled, so that the largest component is 1; s = t * factor. Planes
 // are moved outward by `pad`, which is more than all roundings: 2^-18 of the largest number that is met.
-struct ImageTracer::RayBox {
+struct ImageEngine::RayBox {
   float origin[3], inverse[3];
   float pad, s_min;
   double factor;
@@ -300,7 +269,7 @@ struct ImageTracer::RayBox {
 };
 
 // Rays on their way through the ranges of images. Each thread keeps one.
-struct ImageTracer::Batch {
+struct ImageEngine::Batch {
   const RaySpan* rays = nullptr;
   std::vector<RayBox> boxes;
   std::vector<std::uint32_t> list;  // of all ranges that are open; a range's is at the end
@@ -312,7 +281,7 @@ struct ImageTracer::Batch {
 
 // Fills the list with the rays that may meet something, and calls alone(i) for those that go one at a time.
 template <class Alone>
-void ImageTracer::prepare(const RaySpan& rays, Batch& batch, const Alone& alone) const {
+void ImageEngine::prepare(const RaySpan& rays, Batch& batch, const Alone& alone) const {
   batch.rays = &rays;
   batch.boxes.clear();
   batch.list.clear();
@@ -330,7 +299,7 @@ void ImageTracer::prepare(const RaySpan& rays, Batch& batch, const Alone& alone)
 // Calls leaf(image, range, begin) for images with the rays of batch.list from `begin` on that may meet their boxes
 // before limit(ray), which is below 0 for rays that need no more.
 template <class Leaf, class Limit>
-void ImageTracer::visit_range(const Range& range, std::size_t begin, Batch& batch, const Leaf& leaf,
+void ImageEngine::visit_range(const Range& range, std::size_t begin, Batch& batch, const Leaf& leaf,
                               const Limit& limit) const {
   // The rays that meet the box.
   const Box box = box_of(range);
@@ -362,7 +331,7 @@ void ImageTracer::visit_range(const Range& range, std::size_t begin, Batch& batc
 }
 
 // The rays of the list from `begin` on, as the tree of an image is to see them: up to best_t, if that is given.
-RaySpan ImageTracer::rays_of(std::int64_t image, std::size_t begin, const double* best_t, Batch& batch) const {
+RaySpan ImageEngine::rays_of(std::int64_t image, std::size_t begin, const double* best_t, Batch& batch) const {
   const RaySpan& rays = *batch.rays;
   const std::uint32_t* const list = batch.list.data() + begin;
   const std::size_t count = batch.list.size() - begin;
@@ -393,12 +362,12 @@ RaySpan ImageTracer::rays_of(std::int64_t image, std::size_t begin, const double
   return here.span();
 }
 
-ImageTracer::Batch& ImageTracer::batch_of_this_thread() {
+ImageEngine::Batch& ImageEngine::batch_of_this_thread() {
   static thread_local Batch batch;
   return batch;
 }
 
-void ImageTracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
+void ImageEngine::closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
   std::fill_n(hits.t, rays.count, kNoLimit);
   std::fill_n(hits.sphere_id, rays.count, kNothing);
   if (spheres().empty()) return;
@@ -427,32 +396,31 @@ void ImageTracer::closest_hits(const RaySpan& rays, RayOrder order, const HitSpa
               [&](std::uint32_t i) { return rays.t_max != nullptr ? std::min(rays.t_max[i], hits.t[i]) : hits.t[i]; });
 }
 
-void ImageTracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const {
-  std::fill_n(hidden, rays.count, std::uint8_t{0});
+void ImageEngine::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const {
+  std::fill_n(is_occluded, rays.count, std::uint8_t{0});
   if (spheres().empty()) return;
   Batch& batch = batch_of_this_thread();
-  prepare(rays, batch, [&](std::int64_t i, const Ray& ray) { hidden[i] = occluded(ray) ? 1 : 0; });
+  prepare(rays, batch, [&](std::int64_t i, const Ray& ray) { is_occluded[i] = occluded(ray) ? 1 : 0; });
   const auto leaf = [&](const Range& range, std::size_t begin) {
     const RaySpan here = rays_of(spheres().images().number(range.first), begin, nullptr, batch);
     batch.hidden.resize(static_cast<std::size_t>(here.count));
     bihive::occluded(wide_->image(stored_shift(range)), here, order, batch.hidden.data());
     for (std::size_t k = 0; k < batch.hidden.size(); ++k)
-      if (batch.hidden[k] != 0) hidden[batch.list[begin + k]] = 1;
+      if (batch.hidden[k] != 0) is_occluded[batch.list[begin + k]] = 1;
   };
   visit_range(all_images(), 0, batch, leaf, [&](std::uint32_t i) {
-    if (hidden[i] != 0) return -kNoLimit;
+    if (is_occluded[i] != 0) return -kNoLimit;
     return rays.t_max != nullptr ? rays.t_max[i] : kNoLimit;
   });
 }
 
-void ImageTracer::all_hits(const RaySpan& rays, RayOrder, std::vector<RayHit>& found) const {
+void ImageEngine::all_hits(const RaySpan& rays, RayOrder, std::vector<RayHit>& found) const {
   found.clear();
   if (spheres().empty()) return;
   Batch& batch = batch_of_this_thread();
-  std::vector<Crossing> of_ray;
   prepare(rays, batch, [&](std::int64_t i, const Ray& ray) {
-    all_hits(ray, of_ray);
-    for (const Crossing& crossing : of_ray) found.push_back({i, crossing.t, crossing.id});
+    AllOfImages all{*this, ScaledRay(ray, *whole_), {i, found}};
+    visit_images(ray, all);
   });
   const auto leaf = [&](const Range& range, std::size_t begin) {
     const std::int64_t image = spheres().images().number(range.first);
@@ -464,9 +432,7 @@ void ImageTracer::all_hits(const RaySpan& rays, RayOrder, std::vector<RayHit>& f
   };
   visit_range(all_images(), 0, batch, leaf,
               [&](std::uint32_t i) { return rays.t_max != nullptr ? rays.t_max[i] : kNoLimit; });
-  std::sort(found.begin(), found.end(), [](const RayHit& a, const RayHit& b) {
-    return a.ray != b.ray ? a.ray < b.ray : earlier({a.t, a.sphere_id}, {b.t, b.sphere_id});
-  });
+  sort_hits(found);
 }
 
 }  // namespace bihive
