@@ -10,22 +10,8 @@
 namespace bihive {
 
 Vec3d recursion_colour(int deepest_hit) {
-  switch (deepest_hit) {
-    case 0:
-      return {0, 0, 0};
-    case 1:
-      return {1, 0, 0};
-    case 2:
-      return {0, 1, 0};
-    case 3:
-      return {0, 0, 1};
-    case 4:
-      return {1, 1, 0};
-    case 5:
-      return {1, 0, 1};
-    default:
-      return {1, 1, 1};
-  }
+  constexpr Vec3d kColours[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}};
+  return kColours[std::clamp(deepest_hit, 0, 6)];
 }
 
 Vec3d traversal_colour(const Tracer& tracer, const Ray& ray) {

@@ -8,7 +8,6 @@
 namespace bihive {
 namespace {
 
-// Scalar engines gain nothing from long spans, and a cancel should take effect soon.
 constexpr std::int64_t kRaysBetweenLooks = 64;
 // Hits and shadows are queries for a whole generation. The steps between them take as many rays at a time as fit the
 // nearest cache. A part ends between two owners: without shadows, the surfaces of one part are added before the misses
@@ -53,19 +52,26 @@ void WaveIntegrator::find_first_hits(WaveBuffers& buffers) {
   steps::hit_plane(scene_, {&first, 0, first.count}, buffers.t.data(), buffers.id.data());
 }
 
+// Calls ask(some, first) for all rays. Scalar engines gain nothing from long spans, and a cancel should take effect
+// soon.
+template <class Ask>
+void WaveIntegrator::for_each_span(const RaySpan& rays, const Ask& ask) const {
+  const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
+  for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
+    ask(rays.part(i, std::min(step, rays.count - i)), i);
+}
+
 void WaveIntegrator::find_sphere_hits(const WavePart& rays, WaveBuffers& buffers) const {
   buffers.t.reserve(rays.count());
   buffers.id.reserve(rays.count());
   const RayOrder order = order_of(rays);
-  const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count() : kRaysBetweenLooks;
-  for (std::int64_t i = 0; i < rays.count() && !cancelled(); i += step) {
-    const RaySpan some = rays.span().part(i, std::min(step, rays.count() - i));
-    const HitSpan hits = HitSpan{buffers.t.data(), buffers.id.data()}.part(i);
+  for_each_span(rays.span(), [&](const RaySpan& some, std::int64_t first) {
+    const HitSpan hits = HitSpan{buffers.t.data(), buffers.id.data()}.part(first);
     if (to_eye() != nullptr)
       to_eye()->closest_opaque(some, order, hits);
     else
       tracer_.closest_hits(some, order, hits);
-  }
+  });
 }
 
 void WaveIntegrator::trace_part(const WavePart& rays, int depth, WaveBuffers& buffers) {
@@ -287,10 +293,9 @@ void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
 
     // The shadow rays of the first generation are neighbours, as their pixels are.
     const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
-    const std::int64_t step = tracer_.engine() == Engine::wide ? shadows.count : kRaysBetweenLooks;
-    for (std::int64_t i = 0; i < shadows.count && !cancelled(); i += step)
-      ask_for_light(shadows.span().part(i, std::min(step, shadows.count - i)), order, shadows.hidden.data() + i,
-                    shadows.share, i);
+    for_each_span(shadows.span(), [&](const RaySpan& some, std::int64_t at) {
+      ask_for_light(some, order, shadows.hidden.data() + at, shadows.share, at);
+    });
     const std::int64_t row = static_cast<std::int64_t>(l) * surfaces;
     for (std::int64_t i = 0; i < shadows.count; ++i) buffers.hidden[row + shadows.surface[i]] = shadows.hidden[i];
     if (to_light() == nullptr) continue;
@@ -457,9 +462,9 @@ RaySpan WaveIntegrator::trace_places(int depth, double limit, WaveBuffers& buffe
     return rays;
   }
   const RayOrder order = depth == 1 ? RayOrder::blocks : RayOrder::any;
-  const std::int64_t step = tracer_.engine() == Engine::wide ? rays.count : kRaysBetweenLooks;
-  for (std::int64_t i = 0; i < rays.count && !cancelled(); i += step)
-    ask_for_light(rays.part(i, std::min(step, rays.count - i)), order, wave.hidden.data() + i, wave.share, i);
+  for_each_span(rays, [&](const RaySpan& some, std::int64_t at) {
+    ask_for_light(some, order, wave.hidden.data() + at, wave.share, at);
+  });
   return rays;
 }
 

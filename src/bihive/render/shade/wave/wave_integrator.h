@@ -112,6 +112,8 @@ class WaveIntegrator {
   const RenderCounts& rays() const { return rays_; }
 
  private:
+  template <class Ask>
+  void for_each_span(const RaySpan& rays, const Ask& ask) const;
   void find_sphere_hits(const WavePart& rays, WaveBuffers& buffers) const;
   void trace_part(const WavePart& rays, int depth, WaveBuffers& buffers);
   bool find_crossings(const WavePart& rays, int depth, WaveBuffers& buffers) const;
