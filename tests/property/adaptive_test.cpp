@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "bihive/render/integrator.h"
 #include "bihive/render/renderer.h"
+#include "bihive/render/shade/integrator.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/lens_pattern.h"
 #include "support/effects_reference.h"

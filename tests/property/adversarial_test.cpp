@@ -15,7 +15,7 @@
 
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
-#include "bihive/render/brute_force.h"
+#include "bihive/render/query/brute_force.h"
 #include "support/edge_rays.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"

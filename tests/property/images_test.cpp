@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "bihive/render/image_tracer.h"
+#include "bihive/render/query/build_engine.h"
 #include "bihive/render/tracer.h"
+#include "bihive/render/transparency.h"
 #include "support/block_rays.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"
@@ -120,9 +121,9 @@ void check_engine(const Tracer& tracer, const RayBatch& rays, const Expected& ex
   }
 }
 
-void check_all_hits(const ImageTracer& tracer, const RayBatch& rays, const Expected& expected) {
+void check_all_hits(const RayEngine& engine, const RayBatch& rays, const Expected& expected) {
   std::vector<RayHit> found;
-  tracer.all_hits(rays.span(), RayOrder::blocks, found);
+  engine.all_hits(rays.span(), RayOrder::blocks, found);
   std::size_t next = 0;
   for (std::size_t i = 0; i < expected.all.size(); ++i)
     for (const Crossing& crossing : expected.all[i]) {
@@ -133,12 +134,11 @@ void check_all_hits(const ImageTracer& tracer, const RayBatch& rays, const Expec
       ++next;
     }
   ASSERT_EQ(next, found.size());
-  std::vector<Crossing> of_ray;
   for (std::size_t i = 0; i < expected.all.size(); i += 7) {
-    tracer.all_hits(rays.span().at(static_cast<std::int64_t>(i)), of_ray);
-    ASSERT_EQ(of_ray.size(), expected.all[i].size()) << "single ray " << i;
-    for (std::size_t k = 0; k < of_ray.size(); ++k)
-      ASSERT_EQ(of_ray[k].id, expected.all[i][k].id) << "single ray " << i;
+    engine.all_hits(rays.span().part(static_cast<std::int64_t>(i), 1), RayOrder::any, found);
+    ASSERT_EQ(found.size(), expected.all[i].size()) << "single ray " << i;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      ASSERT_EQ(found[k].sphere_id, expected.all[i][k].id) << "single ray " << i;
   }
 }
 
@@ -196,11 +196,11 @@ TEST(images, answer_as_copies_do) {
       SCOPED_TRACE(target);
       ASSERT_TRUE(use_target(target).ok());
       check_engine(Tracer::build(set, Engine::wide).value(), rays, expected);
-      if (set.has_images()) check_all_hits(*ImageTracer::build(set, Engine::wide, {}, 0).value(), rays, expected);
+      if (set.has_images()) check_all_hits(*build_engine(set, Engine::wide).value(), rays, expected);
       ASSERT_TRUE(use_target("").ok());
       if (testing::Test::HasFatalFailure()) return;
     }
-    if (set.has_images()) check_all_hits(*ImageTracer::build(set, Engine::reference, {}, 0).value(), rays, expected);
+    if (set.has_images()) check_all_hits(*build_engine(set, Engine::reference).value(), rays, expected);
     if (testing::Test::HasFatalFailure()) return;
   }
   EXPECT_GT(found, 1000 / test::test_share());
@@ -220,7 +220,7 @@ TEST(images, of_a_part_answer_as_copies_of_it_do) {
     const RayBatch rays = test::batch_of(rays_for(copied(replicated), truth, 600 / test::ray_share()));
     Expected expected = truth_of(copied_set, rays);
     for (const Engine engine : {Engine::wide, Engine::reference, Engine::brute}) {
-      const auto tracer = ImageTracer::build(set, engine, {}, 0, &ids).value();
+      const auto tracer = build_engine(set, ids, nullptr, engine).value();
       HitBatch hits;
       hits.resize(rays.size());
       tracer->closest_hits(rays.span(), RayOrder::any, hits.span());

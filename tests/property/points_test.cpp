@@ -12,7 +12,7 @@
 
 #include "bihive/geometry/ray.h"
 #include "bihive/math/rng.h"
-#include "bihive/render/brute_force_points.h"
+#include "bihive/render/query/brute_force_points.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/wide_builder.h"

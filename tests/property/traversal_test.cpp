@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bihive/bih/reference_builder.h"
-#include "bihive/render/brute_force.h"
+#include "bihive/render/query/brute_force.h"
 #include "support/edge_rays.h"
 #include "support/hostile_sets.h"
 #include "support/oracle.h"

@@ -1,4 +1,4 @@
-// Pictures drawn wave by wave have the same bits as pictures drawn ray by ray (render/integrator.h), on every
+// Pictures drawn wave by wave have the same bits as pictures drawn ray by ray (render/shade/integrator.h), on every
 // instruction set.
 // ctest: kernel *cut
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <string>
 
 #include "bihive/math/rng.h"
-#include "bihive/render/integrator.h"
 #include "bihive/render/renderer.h"
-#include "bihive/render/wave/wave_integrator.h"
+#include "bihive/render/shade/integrator.h"
+#include "bihive/render/shade/wave/wave_integrator.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/lens_pattern.h"
 #include "bihive/simd/target.h"

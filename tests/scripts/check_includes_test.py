@@ -77,6 +77,17 @@ class CheckIncludes(unittest.TestCase):
         files["src/bihive/wide/attic/a.cpp"] = "\n"
         self.assertEqual(len(self.offences(files)), 1)
 
+    def test_public_header_stands_on_the_floor_of_its_source(self):
+        files = {
+            "cmake/public_headers.txt": "bihive/render/renderer.h\n",
+            "src/bihive/render/renderer.h": "#pragma once\n",
+            "src/bihive/render/picture/renderer.cpp": '#include "bihive/render/renderer.h"\n',
+            "src/bihive/render/picture/tiles.cpp": '#include "bihive/render/renderer.h"\n',
+        }
+        self.assertEqual(self.offences(files), [])
+        self.one_offence({**files, "src/bihive/render/query/tracer.cpp": '#include "bihive/render/renderer.h"\n'},
+                         "render/query must not include render/picture")
+
     def test_header_that_is_not_there(self):
         self.assertEqual(len(self.offences({"src/bihive/base/a.cpp": '#include "bihive/base/a.h"\n'})), 1)
 

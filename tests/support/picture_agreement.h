@@ -11,8 +11,8 @@
 
 #include "bihive/base/check.h"
 #include "bihive/image/image.h"
-#include "bihive/render/integrator.h"
 #include "bihive/render/renderer.h"
+#include "bihive/render/shade/integrator.h"
 #include "bihive/render/views.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/sample_pattern.h"

@@ -11,7 +11,7 @@
 
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
-#include "bihive/render/brute_force.h"
+#include "bihive/render/query/brute_force.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/wide_builder.h"

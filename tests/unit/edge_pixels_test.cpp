@@ -1,6 +1,6 @@
 // Adaptive samples: which pixels get more, and what becomes of the picture.
 // ctest: asan-long
-#include "bihive/render/edge_pixels.h"
+#include "bihive/render/picture/edge_pixels.h"
 
 #include <gtest/gtest.h>
 

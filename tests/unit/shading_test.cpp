@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "bihive/render/integrator.h"
+#include "bihive/render/shade/integrator.h"
 #include "bihive/scene/generators.h"
 
 namespace bihive {

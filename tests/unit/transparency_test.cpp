@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "bihive/math/rng.h"
-#include "bihive/render/brute_force.h"
-#include "bihive/render/integrator.h"
+#include "bihive/render/query/brute_force.h"
 #include "bihive/render/renderer.h"
+#include "bihive/render/shade/integrator.h"
 #include "bihive/render/shading.h"
 #include "bihive/scene/generators.h"
 
@@ -351,6 +351,7 @@ TEST(Transparency, crossings_of_many_rays_are_those_of_each) {
   }
   const SphereSet spheres = SphereSet::from_world(x, y, z, r).value();
   const auto divided = TransparentSpheres::divide(spheres, passing, Engine::wide, 1).value();
+  const auto one_by_one = TransparentSpheres::divide(spheres, passing, Engine::reference, 1).value();
   RayBatch rays;
   for (int i = 0; i < 500; ++i) {
     Ray ray;
@@ -366,7 +367,7 @@ TEST(Transparency, crossings_of_many_rays_are_those_of_each) {
   std::size_t next = 0;
   for (std::int64_t i = 0; i < rays.size(); ++i) {
     std::vector<Crossing> alone;
-    divided->find_crossings(rays.span().at(i), alone);
+    one_by_one->find_crossings(rays.span().at(i), alone);
     for (const Crossing& crossing : alone) {
       ASSERT_LT(next, found.size());
       EXPECT_EQ(found[next].ray, i);

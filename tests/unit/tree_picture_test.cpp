@@ -8,7 +8,7 @@
 
 #include "bihive/bih/child_boxes.h"
 #include "bihive/bih/reference_builder.h"
-#include "bihive/render/tree_colours.h"
+#include "bihive/render/picture/tree_colours.h"
 #include "bihive/scene/generators.h"
 #include "support/thread_time.h"
 

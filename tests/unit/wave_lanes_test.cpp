@@ -19,7 +19,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bihive/render/wave/lanes-inl.h"
+#include "bihive/render/query/lanes-inl.h"
 #include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();

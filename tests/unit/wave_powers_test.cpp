@@ -18,7 +18,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bihive/render/wave/powers-inl.h"
+#include "bihive/render/shade/wave/powers-inl.h"
 #include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();

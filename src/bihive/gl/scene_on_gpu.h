@@ -46,7 +46,7 @@ class SceneOnGpu {
   float widest_outline_px() const { return widest_outline_px_; }
   bool has_creases() const { return has_creases_; }
   /// The least and the largest depth of a point of the spheres, in stored units, along `forward` from `eye` (of the
-  /// world), as fog takes them (render/after_effects.h).
+  /// world), as fog takes them (render/picture/post_processing.h).
   std::pair<double, double> depths(Vec3d eye, Vec3d forward) const;
 
   /// Links the program of a view, or of another step, at its first use. `layers`: OpacityRule::once counts; `ambient`:

@@ -8,7 +8,6 @@ namespace bihive {
 
 /// X(name) for each. A new file in gl/shaders needs its line here; CMake embeds every file of the folder.
 #define BIHIVE_SHADER_CHUNKS(X) \
-  X(after_effects)              \
   X(brute_force)                \
   X(camera)                     \
   X(common)                     \
@@ -22,6 +21,7 @@ namespace bihive {
   X(hit)                        \
   X(integrator)                 \
   X(pairs)                      \
+  X(post_processing)            \
   X(probe_loops)                \
   X(ray)                        \
   X(sample)                     \

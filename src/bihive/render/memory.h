@@ -1,22 +1,14 @@
-// Predicts the memory of a picture before it is made, from that of its trees (bih/memory.h, wide/wide_builder.h), film
-// and threads, and refuses what would not fit. Sets of a usual kind take 0.7 to 1.5 times what is predicted.
+// Predicts the memory of a picture before it is made, from that of its tree (render/tree_memory.h), film and threads,
+// and refuses what would not fit. Sets of a usual kind take 0.7 to 1.5 times what is predicted.
 #pragma once
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/render/tracer.h"
+#include "bihive/render/tree_memory.h"
 #include "bihive/scene/render_settings.h"
 
 namespace bihive {
-
-/// Bytes of the tree that the engine builds: while it is built, and afterwards. For sets of a usual kind.
-struct TreeBytes {
-  double peak = 0, built = 0;
-};
-TreeBytes predict_tree_bytes(std::int64_t spheres, Engine engine, const TreeParameters& parameters);
-
-/// The tree that the engine builds, beside the spheres.
-Status check_tree_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters);
 
 /// A picture of this many pixels, as film, display values and file. Sides as in RenderSettings.
 Status check_picture_memory(int width_px, int height_px);

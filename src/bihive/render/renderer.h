@@ -1,7 +1,6 @@
 // From a scene to a film. Threads share the tiles; the bits are the same for any number of threads.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -10,15 +9,12 @@
 #include "bihive/image/film.h"
 #include "bihive/image/image.h"
 #include "bihive/image/image_from_film.h"
+#include "bihive/render/ray_counts.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
-
-struct RenderCounts {
-  std::int64_t primary = 0, shadow = 0, reflected = 0, transmitted = 0, ambient = 0;  ///< rays traced
-};
 
 struct Rendered {
   Film film;
@@ -32,7 +28,8 @@ using ProgressCallback = std::function<void(double done)>;
 /// Settings must be in range (a programmer's error otherwise). The traversal and tree views need a tracer of the
 /// reference engine: an Error without one. The Error is "cancelled" if the token was set before the picture was
 /// complete. The new film takes the memory of `film`, whose contents are lost; so all frames can share one film. Each
-/// thread that took part keeps its buffers for the next picture, usually a few MB (render/wave/wave_integrator.h).
+/// thread that took part keeps its buffers for the next picture, usually a few MB
+/// (render/shade/wave/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
 

@@ -20,8 +20,7 @@
 namespace bihive {
 
 class RemoteEngine;
-class ImageTracer;
-class PartTracer;
+class RayEngine;
 struct Scene;
 
 /// automatic: the fastest engine, which is wide; wide: vectors on the wide tree (wide/queries.h); reference: scalar
@@ -62,9 +61,8 @@ class Tracer {
                               int threads = 0);
 
   /// The same for a scene, whose clips (scene/clips.h) cut its spheres open. Without clips it is the tracer of the
-  /// scene's spheres.
-  /// `first`: so many spheres are traced, and rays may leave the others too; below 0: all. If that is not all, clips
-  /// must cut some sphere.
+  /// scene's spheres. `first`: so many spheres are traced, and rays may leave the others too; below 0: all. If that is
+  /// not all, clips must cut some sphere.
   static Result<Tracer> build(const Scene& scene, Engine engine, const TreeParameters& parameters = {}, int threads = 0,
                               std::int64_t first = -1);
 
@@ -83,7 +81,7 @@ class Tracer {
 
   /// Many rays at a time: much faster with the wide engine (wide/queries.h has the figures). Hit i belongs to ray i.
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
-  void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
+  void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
 
   /// The hits of a camera's rays through the centres of a tile's pixels, row by row: hit i is that of pixel (x0 + i %
   /// width, y0 + i / width). The tile must lie inside the picture of `pixels`.
@@ -92,25 +90,24 @@ class Tracer {
   Engine engine() const { return engine_; }  ///< never `automatic`
   const SphereSet& spheres() const { return *spheres_; }
   /// Whether clips cut the spheres. Then there is no tree of all spheres.
-  bool has_clips() const { return parts_ != nullptr || has_remote_clips_; }
+  bool has_clips() const { return has_clips_; }
   /// Whether the spheres have images. Then a tree is that of the stored spheres alone.
-  bool has_images() const { return images_ != nullptr; }
-  const Tree* tree() const { return tree_.get(); }                ///< null unless the engine is `reference`
-  const WideTree* wide_tree() const { return wide_tree_.get(); }  ///< null unless the engine is `wide`
-  RemoteEngine* remote() const { return remote_.get(); }          ///< null: this process has all spheres
-  double build_ms() const { return build_ms_; }                   ///< 0 for a tree from elsewhere
+  bool has_images() const { return has_images_; }
+  const Tree* tree() const { return tree_; }                ///< null unless the engine is `reference`
+  const WideTree* wide_tree() const { return wide_tree_; }  ///< null unless the engine is `wide`
+  RemoteEngine* remote() const { return remote_.get(); }    ///< null: this process has all spheres
+  double build_ms() const { return build_ms_; }             ///< 0 for a tree from elsewhere
 
  private:
-  Tracer(const SphereSet& spheres, Engine engine) : spheres_(&spheres), engine_(engine) {}
+  Tracer(const SphereSet& spheres, Engine engine, std::shared_ptr<const RayEngine> rays);
 
   const SphereSet* spheres_;
   Engine engine_;
-  std::shared_ptr<const Tree> tree_;
-  std::shared_ptr<const WideTree> wide_tree_;
-  std::shared_ptr<const PartTracer> parts_;    // null: all spheres are whole
-  std::shared_ptr<const ImageTracer> images_;  // null: the set has no images
-  std::shared_ptr<RemoteEngine> remote_;       // null: the spheres are here
-  bool has_remote_clips_ = false;
+  std::shared_ptr<const RayEngine> rays_;  // the engine itself; it holds the trees
+  const Tree* tree_;
+  const WideTree* wide_tree_;
+  std::shared_ptr<RemoteEngine> remote_;  // null: the spheres are here
+  bool has_clips_ = false, has_images_ = false;
   double build_ms_ = 0;
 };
 

@@ -18,8 +18,8 @@
 namespace bihive {
 
 class CutSet;
+class RayEngine;
 class RemoteEngine;
-class PartTracer;
 
 /// The colour that the light gets which goes straight through: white if all of it does, and the nearer to the hue of
 /// the material, the less does. One channel is always 1, so that the transmissive share alone says how much gets
@@ -41,11 +41,11 @@ class TransparentSpheres {
   TransparentSpheres(const TransparentSpheres&) = delete;
   TransparentSpheres& operator=(const TransparentSpheres&) = delete;
 
-  /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for
-  /// that engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. `tints`:
-  /// the colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. `of_images`: the scene,
-  /// if images have colours of their own (scene/image_colours.h); null: they have those of the stored spheres. `first`:
-  /// as for Tracer::build(). The spheres and that scene must outlive it. Error: not enough memory for a tree.
+  /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for that
+  /// engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. `tints`: the
+  /// colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. `of_images`: the scene, if
+  /// images have colours of their own (scene/image_colours.h); null: they have those of the stored spheres. `first`: as
+  /// for Tracer::build(). The spheres and that scene must outlive it. Error: not enough memory for a tree.
   static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
                                                                   Engine engine, int threads,
                                                                   std::shared_ptr<const CutSet> cuts = nullptr,
@@ -58,12 +58,12 @@ class TransparentSpheres {
   static std::shared_ptr<const TransparentSpheres> remote(const Scene& scene, RemoteEngine& remote, bool to_eye,
                                                           bool has_tints);
 
-  double passing(std::int64_t id) const { return remote_ != nullptr ? passing_of_seen(id) : passing_[stored(id)]; }
+  double passing(std::int64_t id) const { return seen_ != nullptr ? passing_of_seen(id) : passing_[stored(id)]; }
   bool has_tints() const { return has_tints_; }
   Vec3d tint(std::int64_t id) const {
     if (!has_tints()) return {1, 1, 1};
-    if (remote_ != nullptr) return tint_of_image(id);
-    if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size()) return tint_of_image(id);
+    if (seen_ != nullptr) return tint_of(*seen_, id);
+    if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size()) return tint_of(*of_images_, id);
     return tints_[stored(id)];
   }
   /// The share that a surface does not let through; 1 of the plane.
@@ -80,7 +80,7 @@ class TransparentSpheres {
   /// Many rays at a time. Each ray's answer goes to its place, all crossings to one list: by ray, t and id. hides: 1
   /// behind an opaque sphere.
   void closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
-  void hides(const RaySpan& rays, RayOrder order, std::uint8_t* hidden) const;
+  void hides(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
   void find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
  private:
@@ -89,16 +89,16 @@ class TransparentSpheres {
     return i < passing_.size() ? i : i % passing_.size();
   }
 
-  Vec3d tint_of_image(std::int64_t id) const;
+  Vec3d tint_of(const Scene& scene, std::int64_t id) const;
   double passing_of_seen(std::int64_t id) const;
 
   bool has_tints_ = false;
   std::vector<double> passing_;
   std::vector<Vec3d> tints_;          // empty: all are white
   const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
-  std::shared_ptr<const PartTracer> opaque_, transparent_;
-  RemoteEngine* remote_ = nullptr;  // null: the spheres are here
-  bool to_eye_ = false;             // where they are elsewhere
+  const Scene* seen_ = nullptr;       // of the spheres that were seen; null: all are here
+  bool to_eye_ = false;               // where they are remote
+  std::shared_ptr<const RayEngine> opaque_, transparent_;
 };
 
 /// The parts of a scene's set for one picture.
@@ -108,8 +108,7 @@ struct Transparency {
   /// For rays that ask for light: refracting spheres let it pass too. Null: no sphere does.
   std::shared_ptr<const TransparentSpheres> to_light;
 
-  /// Both null with OpacityRule::each_surface. Error: not enough memory for the trees.
-  /// `first`: as for Tracer::build().
+  /// Both null with OpacityRule::each_surface. Error: not enough memory for the trees. `first`: as for Tracer::build().
   static Result<Transparency> of(const Scene& scene, OpacityRule rule, Engine engine, int threads,
                                  std::int64_t first = -1);
   /// With the engine of that tracer, or where that tracer asks.

@@ -1,8 +1,8 @@
 // Points against the wide tree: the nearest spheres, and the spheres that contain a point or overlap a ball.
 //
 // The distance between a point and a sphere is one fixed number (geometry/sphere_distance.h), computed in the tree's
-// stored units. Answers have the bits of brute force (render/brute_force_points.h) on every instruction set, for any
-// number of threads. Equal distances are ordered by id. A sphere of radius 0 counts as a point: unlike rays, these
+// stored units. Answers have the bits of brute force (render/query/brute_force_points.h) on every instruction set, for
+// any number of threads. Equal distances are ordered by id. A sphere of radius 0 counts as a point: unlike rays, these
 // queries find it.
 //
 // Points, limits and distances are in world units and binary64. A coordinate must be finite and within binary32's range

@@ -1,4 +1,4 @@
-// Twin of render/brute_force.h: every sphere, one after the other, in the order of ids.
+// Twin of render/query/brute_force.h: every sphere, one after the other, in the order of ids.
 #include "hit"
 #include "sphere"
 

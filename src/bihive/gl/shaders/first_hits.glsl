@@ -1,4 +1,4 @@
-// The first hits of one sample on opaque spheres and the plane, for outlines: see after_effects.glsl.
+// The first hits of one sample on opaque spheres and the plane, for outlines: see post_processing.glsl.
 #include "sample"
 #include "scene_hit"
 

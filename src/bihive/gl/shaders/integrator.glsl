@@ -1,4 +1,4 @@
-// Twin of render/integrator.h, depth first: while a reflected ray is followed, the transmitted ray waits, or with LAYERS
+// Twin of render/shade/integrator.h, depth first: while a reflected ray is followed, the transmitted ray waits, or with LAYERS
 // the ray itself that goes on behind a transparent sphere. So at most one ray of each generation waits. PENDING_RAYS: at
 // least recursion - 1.
 #include "shading"

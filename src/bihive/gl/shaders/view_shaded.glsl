@@ -1,5 +1,5 @@
 // View::shaded: one slice of a sample. The last slice completes the sample.
-#include "after_effects"
+#include "post_processing"
 #include "film"
 #include "integrator"
 #include "tone"

@@ -1,0 +1,100 @@
+#include "bihive/render/draw_labels.h"
+
+#include <algorithm>
+
+#include "bihive/base/setting_name.h"
+#include "bihive/render/picture/labels/parts.h"
+#include "bihive/scene/legend.h"
+
+namespace bihive {
+namespace {
+
+// What a reader sees behind the picture: the background, or a white page.
+Vec3d paper_of(const Scene& scene, const RenderSettings& settings) {
+  if (settings.transparent) return {1, 1, 1};
+  if (settings.view != View::shaded) return screen_colour(scene.background, Transfer::none);
+  return screen_colour(scene.background, scene.picture.transfer);
+}
+
+// Draws each label that the settings have, with the pen that the caller gives for it, in places where they leave each
+// other alone.
+struct Pens {
+  LabelPen title, legend, scale_bar, axes;
+};
+void draw_with(Pens& pens, const Scene& scene, const Camera& camera, const RenderSettings& settings) {
+  const Labels& labels = settings.labels;
+  double top = pens.legend.margin();
+  double bottom = pens.legend.margin();
+  if (!labels.title.empty()) top = draw_title(pens.title, labels.title);
+  if (labels.scale_bar)
+    bottom = pens.scale_bar.em() + draw_scale_bar(pens.scale_bar,
+                                                  length_of_pixel(camera, settings.width_px, settings.height_px),
+                                                  labels.length_unit.value_or(scene.length_unit));
+  if (labels.axes) draw_axes(pens.axes, camera);
+  if (labels.legend) draw_legend(pens.legend, legend_of(scene), top, settings.height_px - bottom);
+}
+
+}  // namespace
+
+double length_of_pixel(const Camera& camera, int width_px, int height_px) {
+  return camera.shorter_side / std::min(width_px, height_px);
+}
+
+Status check_labels(const Scene& scene, const RenderSettings& settings) {
+  return check_labels(scene, scene.camera, settings);
+}
+
+Status check_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
+  const Labels& labels = settings.labels;
+  if (labels.scale_bar && camera.projection != Projection::orthographic)
+    return Error{"a perspective picture has no scale: what is far looks small", "", 0, 0,
+                 "draw it with " + setting_name("projection") + " orthographic"};
+  if (labels.legend && settings.view != View::shaded)
+    return Error{"the legend explains the colours of spheres, which this view does not show", "", 0, 0,
+                 "choose the view shaded"};
+  const bool has_meaning =
+      !scene.coloured_by.empty() && (scene.coloured_by_of_sphere.empty() ||
+                                     std::any_of(scene.coloured_by_of_sphere.begin(), scene.coloured_by_of_sphere.end(),
+                                                 [](std::int32_t meaning) { return meaning >= 0; }));
+  if (labels.legend && !has_meaning)
+    return Error{"the colours of these spheres have no meaning that a legend could explain", "", 0, 0,
+                 "colour them by an attribute: " + setting_name("colour_by") + " z"};
+  return Done{};
+}
+
+Labels possible_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
+  Labels labels = settings.labels;
+  for (bool Labels::*const label : {&Labels::legend, &Labels::scale_bar}) {
+    RenderSettings alone = settings;
+    alone.labels = {};
+    alone.labels.*label = labels.*label;
+    if (!check_labels(scene, camera, alone)) labels.*label = false;
+  }
+  return labels;
+}
+
+LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSettings& settings, double dots_per_inch) {
+  RenderSettings possible = settings;
+  possible.labels = possible_labels(scene, camera, settings);
+  const double em = em_of_picture(settings.width_px, settings.height_px, dots_per_inch);
+  const CanvasArea nothing{double(settings.width_px), double(settings.height_px), 0, 0};
+  CanvasArea title = nothing, legend = nothing, scale_bar = nothing, axes = nothing;
+  const auto pen = [&](CanvasArea& area) { return LabelPen(area, settings.width_px, settings.height_px, em); };
+  Pens pens{pen(title), pen(legend), pen(scale_bar), pen(axes)};
+  draw_with(pens, scene, camera, possible);
+  const auto found = [](const CanvasArea& area) {
+    return area.x0 < area.x1 ? std::optional(area) : std::optional<CanvasArea>();
+  };
+  return {found(title), found(legend), found(scale_bar), found(axes)};
+}
+
+void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings, double dots_per_inch) {
+  if (!settings.labels.any()) return;
+  const double em = em_of_picture(settings.width_px, settings.height_px, dots_per_inch);
+  const LabelPen pen(pixels, drawn_pixels(settings), settings.width_px, settings.height_px, em,
+                     paper_of(scene, settings));
+  Pens pens{pen, pen, pen, pen};
+  draw_with(pens, scene, scene.camera, settings);
+}
+
+}  // namespace bihive
