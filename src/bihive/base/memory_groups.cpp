@@ -92,7 +92,7 @@ MemoryLimit memory_left_by_groups(const std::vector<LimitedGroup>& groups) {
 }
 
 MemoryLimit memory_left_by_own_groups() {
-  // Groups seldom change; what they leave does. Limits above the machine's memory are none.
+  // Groups seldom change; what they leave does. Limits above the machine's memory do not count.
   static const std::vector<LimitedGroup> groups = [] {
     std::vector<LimitedGroup> all = limited_groups("/proc/self/cgroup", "/sys/fs/cgroup");
     const double machine = machine_bytes();

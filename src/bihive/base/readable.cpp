@@ -78,7 +78,7 @@ constexpr CodeRange kHostile[] = {
     {0xE0000, 0xE007F},  // tags
 };
 
-// Whether a terminal may take it for more than a letter, or show nothing in its place.
+// Whether a terminal may interpret it as more than a letter, or show nothing for it.
 bool is_hostile(std::uint32_t code) {
   for (const CodeRange& range : kHostile)
     if (code <= range.last) return code >= range.first;

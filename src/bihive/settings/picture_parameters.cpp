@@ -39,7 +39,7 @@ void put(const SettingValue& value, T& member) {
     member = std::get<T>(value);
 }
 
-// A row with the access to its member.
+// A row with access to its member.
 template <auto Member>
 constexpr Parameter row(Parameter parameter) {
   parameter.get = [](const P& s) { return value_of(s.*Member); };
@@ -55,7 +55,8 @@ constexpr Parameter row(Parameter parameter) {
   return parameter;
 }
 
-// The same for a member of something that may be absent; then it has its default. Setting it makes it present.
+// The same for a member of something that may be absent, which then has its default. Setting it makes the object
+// present.
 template <auto Outer>
 using Content = typename std::remove_reference_t<decltype(std::declval<P>().*Outer)>::value_type;
 template <auto Outer, auto Member>
@@ -68,7 +69,7 @@ constexpr Parameter part(Parameter parameter) {
   return parameter;
 }
 
-// Whether something is there.
+// Whether an object is present.
 template <auto Outer>
 constexpr Parameter presence(Parameter parameter) {
   parameter.get = [](const P& s) -> SettingValue { return (s.*Outer).has_value(); };
@@ -79,7 +80,7 @@ constexpr Parameter presence(Parameter parameter) {
   return parameter;
 }
 
-// A number of which 0 means that something is not there.
+// A number whose value 0 means that the object is absent.
 template <auto Outer, auto Member>
 constexpr Parameter strength(Parameter parameter) {
   parameter.get = [](const P& s) -> SettingValue { return s.*Outer ? *(s.*Outer).*Member : 0.0; };
@@ -92,7 +93,7 @@ constexpr Parameter strength(Parameter parameter) {
   return parameter;
 }
 
-// A number of samples takes the place of adaptive ones, unless these are set too.
+// A number of samples replaces adaptive ones, unless these are set too.
 constexpr Parameter fixed_samples(Parameter parameter) {
   parameter = row<&P::samples_per_pixel>(parameter);
   parameter.set = [](P& s, const SettingValue& value) {

@@ -34,7 +34,7 @@ std::int64_t runnable() {
 #endif
 }
 
-// Whether this machine can run it, and no better name means the same.
+// Whether this machine can run it, and no better name stands for the same target.
 bool is_available(const NamedTarget& target) {
   for (const NamedTarget& better : kNames) {
     if (&better == &target) break;
