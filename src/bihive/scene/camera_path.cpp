@@ -5,7 +5,7 @@
 namespace bihive {
 namespace {
 
-// A number at some pictures of the film.
+// A number at some pictures of the animation.
 struct Knot {
   double picture, value;
 };
@@ -58,7 +58,7 @@ Camera camera_at(const CameraPath& path, const Camera& base, std::int64_t pictur
   if (!path.moves()) return base;
   Camera camera = base;
 
-  // Move what the camera looks at.
+  // Move the look-at point.
   Vec3d look_at = base.look_at;
   for (int axis = 0; axis < 3; ++axis)
     look_at[axis] =

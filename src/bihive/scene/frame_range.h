@@ -1,4 +1,4 @@
-// The frames of a film: every STEP-th of a part of a trajectory.
+// The frames of an animation: every STEP-th of a range of a trajectory.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace bihive {
 
-/// As the user asks for it. Frames count from 0. A negative `begin` or `end` counts from the trajectory's end.
+/// A range as the user states it. Frames count from 0. A negative `begin` or `end` counts from the trajectory's end.
 struct FrameRange {
   std::int64_t begin = 0;
-  std::optional<std::int64_t> end;  ///< the first frame that is left out; unset: all to the last one
+  std::optional<std::int64_t> end;  ///< the frame after the last one; unset: up to the end
   std::int64_t step = 1;            ///< at least 1
 };
 
@@ -28,7 +28,7 @@ struct FrameList {
   std::optional<std::int64_t> picture_of(std::int64_t frame) const;
 };
 
-/// An end behind the trajectory's is its end. Error: the range holds no frame of a trajectory of `frames` frames.
+/// An end after the trajectory's is clamped. Error: the range holds no frame of a trajectory of `frames` frames.
 Result<FrameList> frames_in(const FrameRange& range, std::int64_t frames);
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// Pictures of the graphics processor. The last complete one is kept and shown while the next is made.
+// Pictures of the GPU. The last complete one is kept and shown while the next is drawn.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class GpuPictures {
   GpuPictures(const GpuPictures&) = delete;
   GpuPictures& operator=(const GpuPictures&) = delete;
 
-  /// Makes the pictures; begin() below starts one.
+  /// The renderer; begin() below starts a picture.
   GlRenderer& renderer() { return renderer_; }
   const GlRenderer& renderer() const { return renderer_; }
 

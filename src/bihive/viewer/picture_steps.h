@@ -1,4 +1,4 @@
-// Frame after frame: a picture in steps, coarse while something moves, finer and finer at rest, by either engine.
+// Draws pictures in steps, coarse while something moves, ever finer at rest, by either engine.
 #pragma once
 
 #include <optional>
