@@ -7,7 +7,7 @@
 
 namespace bihive::cli {
 
-/// Everything but letters, digits and - . _ ~ as %XX.
+/// Escapes everything except letters, digits and - . _ ~ as %XX.
 std::string url_escaped(std::string_view text);
 
 /// The path of a request's target, escapes undone, without query and fragment. Nothing if the target does not begin

@@ -77,10 +77,10 @@ MemoryLimit limit_of_all() {
                     "this machine has"};
 #endif
   const char* const request = std::getenv("BIHIVE_MEMORY");  // NOLINT(concurrency-mt-unsafe)
-  if (wish == nullptr) return limit;
+  if (request == nullptr) return limit;
   char* end = nullptr;
-  const double bytes = std::strtod(wish, &end);
-  if (end != wish && *end == '\0' && bytes > 0) lower(limit, bytes, "BIHIVE_MEMORY allows");
+  const double bytes = std::strtod(request, &end);
+  if (end != request && *end == '\0' && bytes > 0) lower(limit, bytes, "BIHIVE_MEMORY allows");
   return limit;
 }
 

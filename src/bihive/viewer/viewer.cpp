@@ -150,7 +150,7 @@ class Viewer::Implementation {
   Status set(ViewerSettings settings) {
     if (shown_) put_below(*shown_, settings);
     if (Status status = check_settings(settings); !status) return status;
-    if (Status status = check_wishes(settings); !status) return status;
+    if (Status status = check_requests(settings); !status) return status;
     // Only another projection, angle or lens: the camera still shows the whole set.
     const bool keeps_side = framed_from_ && same_place(settings.camera, settings_.camera);
     // Another projection resets the angle; a set that is framed again keeps the chosen one.
@@ -316,7 +316,7 @@ class Viewer::Implementation {
   }
 
   // Refuse new requests that the picture cannot fulfil.
-  Status check_wishes(const ViewerSettings& settings) const {
+  Status check_requests(const ViewerSettings& settings) const {
     if (!shown_) return Done{};
     if (!settings.focus_on.empty() && settings.focus_on != settings_.focus_on)
       if (const Result<double> distance = focus_on(shown_->scene.spheres, settings.camera, settings.focus_on);
