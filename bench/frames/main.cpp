@@ -1,4 +1,4 @@
-// bihive-frames: how long whole pictures take, for docs/performance.md. Prints one JSON object.
+// bihive-frames: times of whole pictures, for docs/performance.md. Prints one JSON object.
 //   bihive-frames pictures THREADS REPETITIONS FOLDER   s1 s2 s3 at 1024 x 1024, depth 5, shadows; Tachyon in turn
 //   bihive-frames occlusion THREADS REPETITIONS FOLDER FILE
 //                                                       ambient occlusion: the molecule, a million spheres; Tachyon in
@@ -88,7 +88,7 @@ LoadedScene file_in_style(const std::string& path, const Style& style) {
   return value_or_fail(load_scene(bytes, path, ReadOptions{}, LooksOfFile::apply, &style));
 }
 
-// The settings of a picture of the scene, which gets a camera before it, and the lights of the style around that.
+// The settings of a picture of the scene, which first gets a camera, and the style's lights around it.
 RenderSettings settings_before(const Style& style, int threads, Scene& scene) {
   RenderSettings settings = settings_from(scene.picture);
   settings.threads = threads;
@@ -97,8 +97,8 @@ RenderSettings settings_before(const Style& style, int threads, Scene& scene) {
   return settings;
 }
 
-// Pictures in the default style. Of the 128 directions a place has some 64 before it, as many as Tachyon is told to ask
-// along. Both look to any distance. Tachyon throws hard shadows, and draws neither outlines nor fog.
+// Pictures in the default style. Of the 128 directions some 64 are in front of a shading point, as many as Tachyon is
+// told to use. Neither limits the distance. Tachyon casts hard shadows, and draws neither outlines nor fog.
 ordered_json occlusion(const Request& request) {
   const Style style = style_named(style_names().front()).value();
   LoadedScene molecule = file_in_style(request.input, style);
@@ -148,7 +148,7 @@ ordered_json thesis(const Request& request) {
   return json;
 }
 
-// Every sphere moves by its own small step in each frame; the builder takes back the memory of the tree before.
+// Every sphere moves by its own small step in each frame; the builder reuses the memory of the previous tree.
 ordered_json rebuild(const Request& request) {
   ordered_json json = described(request);
   for (const char* name : {"s1", "u1e5", "u1e6"}) {
