@@ -66,7 +66,7 @@ def memory_section(model):
         *markdown.table(["ranks", "measured, GB", "line, GB"], rows),
         MEMORY.replace("@LINE@", f"{model.memory(2e8, 4) / 1e9:.1f}"),
         "",
-        "The model, in GB a rank:",
+        "The model, in GB per rank:",
         "",
         *markdown.table(
             ["spheres", *(f"{ranks:,} ranks" for ranks in RANKS)],
@@ -173,8 +173,7 @@ def simulation_section(model):
         "",
         f"Counted with {ranks[-1]:,} ranks; of a rank the mean and the largest:",
         "",
-        * markdown.table(["scene, rays", "rays", "ranks per ray", "bytes per ray", "messages", "messages of a rank", "MB
-        * of a rank"], most_rows),
+        *markdown.table(["scene, rays", "rays", "ranks per ray", "bytes per ray", "messages", "messages of a rank", "MB of a rank"], most_rows),
         "Milliseconds of the picture, with 10 Gbit/s and 50 us; the first column is one process with all spheres, on one core:",
         "",
         *markdown.table(["scene, rays", "one process", *(f"{count:,} ranks" if count > 1 else "1 rank" for count in ranks)], growth_rows),
@@ -217,7 +216,7 @@ def summary(model):
     """How many ranks a set needs."""
     fits = (16e9 * 2 / 3 - model.memory_base) / model.memory_of_sphere
     return (
-        f"***In short**: take enough ranks for the set to fit into their memory. A rank with 16 GB takes some {fits / 1e6:,.0f} million spheres, with a third left free; so 10^9 spheres need "
+        f"**In short**: take enough ranks for the set to fit into their memory. A rank with 16 GB takes some {fits / 1e6:,.0f} million spheres, with a third left free; so 10^9 spheres need "
         f"{math.ceil(1e9 / fits)} such ranks, 10^10 {math.ceil(1e10 / fits)}, 10^12 {math.ceil(1e12 / fits):,}. More ranks make the picture faster up to some hundred ranks."
     )
 
