@@ -13,7 +13,7 @@ namespace bihive::mpi {
 /// Nothing: the variable is malformed.
 std::optional<int> patience_from_environment();
 /// The end of an error message about a time limit.
-inline constexpr const char* kMorePatience = "BIHIVE_MPI_PATIENCE=SECONDS waits longer, 0 for ever";
+inline constexpr const char* kMorePatience = "BIHIVE_MPI_PATIENCE=SECONDS waits longer, 0 forever";
 
 /// Prints the error in one line, removes unfinished files, and ends this process. After MPI_Init, mpirun ends the
 /// others.

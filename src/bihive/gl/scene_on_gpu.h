@@ -45,8 +45,8 @@ class SceneOnGpu {
   bool has_own_lines() const { return has_own_lines_; }
   float widest_outline_px() const { return widest_outline_px_; }
   bool has_creases() const { return has_creases_; }
-  /// The least and the largest depth of a point of the spheres, in stored units, along `forward` from `eye` (world
-  /// units), as fog uses them.
+  /// The least and the largest depth of a point of the spheres, in stored units, along `forward` from `eye` (of the
+  /// world), as fog takes them (render/after_effects.h).
   std::pair<double, double> depths(Vec3d eye, Vec3d forward) const;
 
   /// Links the program of a view, or of another step, at its first use. `layers`: OpacityRule::once counts; `ambient`:

@@ -29,8 +29,8 @@ struct PictureSettings {
   int width_px = 1280;        ///< 1 to kMostSidePx
   int height_px = 720;        ///< 1 to kMostSidePx
   int samples_per_pixel = 4;  ///< 1 to kMostSamplesPerPixel; 1: the pixel's centre
-  /// If set, every pixel gets kFewSamples, and the pixels on edges (render/edge_pixels.h) get kManySamples: each pixel
-  /// equals that of a picture with the one or the other number. View::shaded alone; other views get kFewSamples.
+  /// Then every pixel gets kFewSamples, and the pixels on edges (render/edge_pixels.h) get kManySamples instead:
+  /// each pixel is that of a picture with the one or the other number. View::shaded alone; other views get kFewSamples.
   bool adaptive_samples = false;
   int recursion = 5;  ///< generations of rays, 1 to kMostGenerations
   bool shadows = true;

@@ -1,6 +1,6 @@
 // Twin of render/integrator.h, depth first: while a reflected ray is followed, the transmitted ray waits, or with LAYERS
-// the ray itself that continues behind a transparent sphere. So at most one ray of each generation waits. PENDING_RAYS:
-// at least recursion - 1.
+// the ray itself that goes on behind a transparent sphere. So at most one ray of each generation waits. PENDING_RAYS: at
+// least recursion - 1.
 #include "shading"
 
 uniform int recursion;
