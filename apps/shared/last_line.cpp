@@ -26,7 +26,7 @@ void prepare_end() {
   if (g_before_end != nullptr) g_before_end();
 }
 
-// An exception that nobody catches, for example on a thread: one line, no unfinished file, no core.
+// An uncaught exception, for example on a thread: one line, no unfinished file, no core.
 [[noreturn]] void end_after_exception() {
   prepare_end();
   try {

@@ -122,7 +122,7 @@ double print_rounding(const std::string& printed) {
 bool inside_three_sd(double stated, const std::string& printed, double mean, double sd) {
   const double rounding = print_rounding(printed);
   if (rounding == 0.5 && sd == 0) return stated == mean;
-  // Slightly more than the rounding itself, because 0.005 is no binary number.
+  // Slightly more than the rounding itself, because 0.005 is not a binary number.
   return std::abs(stated - mean) <= 3 * sd + rounding * (1 + 1e-9);
 }
 

@@ -58,7 +58,7 @@ Status App::open() {
   window_ = std::move(*window);
   texture_ = std::make_unique<PictureTexture>(window_->gl());
 
-  // A missing graphics processor is an error only if the user asked for it.
+  // A missing GPU is an error only if the user chose it.
   const Result<GlFunctions> functions = load_gl_functions(glfwGetProcAddress);
   const Status attached = functions ? viewer_.attach_gl(*functions) : Status(functions.error());
   const ImVec2 size = picture_size();

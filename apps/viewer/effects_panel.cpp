@@ -47,7 +47,7 @@ void check(const char* name, bool& value) {
   ImGui::Checkbox((std::string("##") + name).c_str(), &value);
 }
 
-// Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
+// Numbers of the slider are rounded to few digits, so that 0.30000001 is never shown.
 void angle_slider(const char* name, double& value, double min, double max, const char* format) {
   label(name);
   auto shown = static_cast<float>(value);
@@ -94,7 +94,7 @@ bool whole_slider(const Parameter& parameter, SettingValue& value) {
   return true;
 }
 
-// Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
+// Numbers of the slider are rounded to few digits, so that 0.30000001 is never shown.
 bool number_slider(const Parameter& parameter, SettingValue& value) {
   auto shown = static_cast<float>(std::get<double>(value));
   const bool is_whole = parameter.slider_step >= 1;

@@ -32,7 +32,7 @@ struct bihive_scene {
   bihive::Scene as_read;                 // without the spheres: the start of each picture
   bihive::Overrides picture;
   std::vector<std::pair<std::string, std::string>> settings;  // ids and values of the other options, in their order
-  std::mutex in_use;                                          // each picture places the camera and the lights anew
+  std::mutex in_use;                                          // each picture places the camera and the lights again
 };
 
 namespace bihive::c {

@@ -250,7 +250,7 @@ async function open(
   busy(`Loading ${name}`);
   try {
     const { source: from, files } = await what;
-    if (id !== loading) return; // another one was asked for meanwhile
+    if (id !== loading) return; // another one was requested meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
     awaited.set(id, { own, framed: !state.settings?.camera?.eye });
     asked_columns = String(from.reading?.columns ?? '');

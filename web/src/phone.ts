@@ -1,5 +1,5 @@
 // The page that measures Figure 4.4 of the thesis on a phone: one file (scripts/build_phone), which opens without a
-// server. So there are no workers, which such a file cannot start everywhere; everything goes in short steps.
+// server. So there are no workers, which such a file cannot start everywhere; everything runs in short steps.
 import { describe_device } from './device';
 import { element } from './dom';
 import { save } from './download';

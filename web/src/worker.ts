@@ -66,7 +66,7 @@ function attach_gl(): void {
   }
 }
 
-// A software driver takes a while to start, so it is started only when the user asks for it.
+// A software driver takes a while to start, so it is started only when the user chooses it.
 function ensure_gl(): void {
   if (gl_description !== '') return;
   if (!gl.here) throw new BadInput('This browser has no WebGL2: the CPU engine draws instead');

@@ -1,4 +1,4 @@
-// A film as PNG files: the sequence that the user asked for, or the pictures of a shard.
+// A film as PNG files: the requested sequence, or the pictures of a shard.
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -100,7 +100,7 @@ std::optional<ByteRange> range_from(std::string_view text, std::uint64_t size) {
   return ByteRange{first, std::min(last, size - 1)};
 }
 
-// Answers with the content, with the requested part of it, or with the message that the browser's copy is still right.
+// Answers with the content, with the requested range of it, or with the message that the browser's copy is still right.
 Answer send(const Question& question, Content content, const std::string& tag, Answer found) {
   add_common_headers(found);
   found.headers.emplace_back("ETag", tag);

@@ -77,7 +77,7 @@ Question question_from(const http::request_parser<http::empty_body>& parser) {
   return question;
 }
 
-// The number of connections for which there are descriptors; each may have FILE open too. Asks for as many as it wants.
+// The number of connections for which there are descriptors; each may have FILE open too. Raises the limit if possible.
 std::size_t room_for_connections() {
   constexpr rlim_t kWanted = 2 * kMostConnections + kOtherDescriptors;
   rlimit limit{};

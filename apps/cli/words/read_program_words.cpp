@@ -31,7 +31,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-// "N|auto" offers auto: a keyword in lower case stands for itself, one in upper case for a kind of value.
+// "N|auto" offers auto: a keyword in lower case means itself, one in upper case for a kind of value.
 bool stands_for_itself(const std::string& word) {
   constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_-.";
   return !word.empty() && word.find_first_not_of(kAllowed) == std::string::npos;

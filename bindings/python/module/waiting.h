@@ -15,7 +15,7 @@ namespace bihive::python {
 
 /// Shared by the work and the thread that waits for it.
 struct Work {
-  CancelToken cancel;           ///< set: stop soon; the result is not wanted any more
+  CancelToken cancel;           ///< set: stop soon; the result is no longer needed
   std::atomic<double> done{0};  ///< the finished share, 0 to 1
 };
 

@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-// The number at the beginning of a file, if it is above 0; else 0. The word "max" is none.
+// The number at the beginning of a file, if it is above 0; else 0. "max" is not a number.
 double number_in(const std::string& path) {
   const std::string text = beginning_of_file(path);
   char* end = nullptr;

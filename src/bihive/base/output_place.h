@@ -26,7 +26,7 @@ struct OutputPlace {
 };
 
 /// An Error if the path can surely not be written to: a missing folder, a path that is itself a folder, no permission,
-/// a file that is immutable, belongs to somebody else, or stands in a folder where files can only be added. A link in a
+/// a file that is immutable, belongs to somebody else, or is in a folder where files can only be added. A link in a
 /// folder to which everybody may write (/tmp) is followed if it belongs to this user or to the folder's owner, as Linux
 /// does by fs.protected_symlinks in those of them that are sticky.
 Result<OutputPlace> find_output(const std::string& path);

@@ -1,4 +1,4 @@
-// The one place where threads are made: oneTBB natively, a small pool of our own under WebAssembly and ThreadSanitizer.
+// The only code that creates threads: oneTBB natively, a small pool of our own under WebAssembly and ThreadSanitizer.
 #pragma once
 
 #include <cstdint>

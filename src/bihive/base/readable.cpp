@@ -85,7 +85,7 @@ bool is_hostile(std::uint32_t code) {
   return false;
 }
 
-// `write_out` appends what stands for a character, or for a stray byte (length 0).
+// `write_out` appends the replacement of a character, or of a stray byte (length 0).
 template <class Keep, class WriteOut>
 std::string cleaned(std::string_view text, Keep keep, WriteOut write_out) {
   std::string clean;

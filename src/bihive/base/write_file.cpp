@@ -285,7 +285,7 @@ Status GrowingFile::finish_together(std::vector<GrowingFile>& files) {
   for (GrowingFile& file : files)
     if (const int code = file.settle(); code != 0) return file.failed(code);
 
-  // Take the places, then write those that must be written in place.
+  // Replace the files, then write those that must be written in place.
   const bool several = files.size() > 1;
   const auto undo_all = [&files] {
     for (GrowingFile& file : files) file.undo();

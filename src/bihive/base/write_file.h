@@ -72,7 +72,7 @@ class GrowingFile {
   std::unique_ptr<OutputPlace> place_;
   std::string folder_aside_;  // of the new file
   std::string aside_;         // the new file's name in its folder; empty: none
-  std::string old_;           // name of the file before while several files take their places; empty: none
+  std::string old_;           // name of the previous file while several files are replaced; empty: none
   std::string spare_name_;    // for old_
   std::string kept_name_;     // for old_, where it is the only name
   std::string new_name_;      // for aside_
@@ -80,8 +80,9 @@ class GrowingFile {
   bool placed_ = false;
 };
 
-/// An error if write_file(path) would surely fail now (missing folder, a folder in its place, no permission). Call it
-/// before long work, so that the user sees the error at once. It makes a file without a name, and leaves nothing.
+/// An error if write_file(path) would surely fail now (missing folder, a path that is itself a folder, no permission).
+/// Call it before long work, so that the user sees the error at once. It makes a file without a name, and leaves
+/// nothing.
 Status check_writable(const std::string& path);
 
 /// Whether what is written to `path` is a stream: a pipe, a device, /dev/stdout. False if the path is not writable.

@@ -13,7 +13,7 @@
 
 namespace bihive {
 
-/// Where a ray meets a cut sphere.
+/// The hit of a ray and a cut sphere.
 struct CutHit {
   double t = std::numeric_limits<double>::infinity();
   int clip = -1;  ///< whose cap it is; -1: the sphere's own surface

@@ -38,7 +38,7 @@ class TextCollector {
 
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<std::int32_t>& text_of_sphere() const { return text_of_sphere_; }
-  /// True if every text so far is empty.
+  /// True if every collected text is empty.
   bool all_empty() const { return texts_.empty() || (texts_.size() == 1 && texts_.front().empty()); }
   /// The column; leaves the collector empty.
   NamedTexts take(std::string name);

@@ -5,7 +5,7 @@
 // underflow for worlds measured in 1e-20 as in 1e20. Ids are 0-based positions in the order in which the set was read;
 // counts are 64-bit.
 //
-// A set may stand for copies of itself (images, geometry/cell.h), of which only the first is stored. The others have
+// A set may represent copies of itself (images, geometry/cell.h), of which only the first is stored. The others have
 // ids too: that of sphere `id` in copy k is k * size() + id.
 #pragma once
 
@@ -85,7 +85,7 @@ class SphereSet {
   /// The stored sphere of which this one is an image, or itself. Negative ids (nothing, the plane) stay what they are.
   std::int64_t stored_id(std::int64_t id) const { return id < size() ? id : id % size(); }
 
-  /// Makes the set stand for counts[0] x counts[1] x counts[2] copies of it along `vectors` (world units). The centre
+  /// Makes the set represent counts[0] x counts[1] x counts[2] copies of it along `vectors` (world units). The centre
   /// of an image is the stored centre plus Images::shift(), a sum in binary64, rounded once to binary32. Nothing is
   /// copied; the stored units change, so that all images are within [-1, 1]. Images that it had before are gone; 1 x 1
   /// x 1 leaves none. Error: a count below 1, a vector that is not finite or of length 0 where there are copies along

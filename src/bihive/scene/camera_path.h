@@ -31,7 +31,7 @@ struct CameraPath {
 
 /// The camera of a picture, 0 to `pictures` - 1, of an animation whose camera is `base`. The turntable turns by equal
 /// angles, and picture `pictures` would be at its end, so that 360 degrees loop seamlessly. Between two keys each
-/// number follows a cubic curve that overshoots neither, and stands still at its first and last key. The same bits on
+/// number follows a cubic curve that overshoots neither, and is at rest at its first and last key. The same bits on
 /// every platform.
 Camera camera_at(const CameraPath& path, const Camera& base, std::int64_t picture, std::int64_t pictures);
 

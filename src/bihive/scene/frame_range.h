@@ -16,7 +16,7 @@ struct FrameRange {
   std::int64_t step = 1;            ///< at least 1
 };
 
-/// "A:B:STEP", "A:B", or one frame "A"; each part of the first two may be empty. An error says what was expected.
+/// "A:B:STEP", "A:B", or one frame "A"; A and B may be empty in the first two. An error states what was expected.
 Result<FrameRange> frame_range_from_text(const std::string& text);
 
 /// A range of a trajectory whose length is known: first, first + step, ...; `count` of them, at least one.

@@ -53,7 +53,7 @@ struct Look {
 
 /// Applies all actions in their order; a later one replaces an earlier one, except that factors multiply and clips add
 /// up. Every selection sees the spheres as they were before: hidden ones too, with their first radii and opacities.
-/// Afterwards hidden spheres have left the set; Scene::id_in_input knows the ids of the rest, and materials and
+/// Afterwards hidden spheres are removed from the set; Scene::id_in_input knows the ids of the rest, and materials and
 /// attributes keep in step. Radii are rounded once.
 ///
 /// Returns how many spheres each look selects. Errors: a selection's (column and line as in select_spheres()), an

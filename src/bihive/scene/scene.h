@@ -42,7 +42,7 @@ struct Scene {
   SphereSet spheres;
   std::vector<Material> materials{matte_material()};  ///< at least one
   std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
-  std::vector<std::int64_t> id_in_input;              ///< of each sphere, where some are hidden; empty: its position
+  std::vector<std::int64_t> id_in_input;              ///< of each sphere, if some are hidden; empty: its position
   std::int64_t size_of_input = 0;                     ///< spheres with the hidden ones; 0: none is hidden
   /// The meaning of the spheres' colours, as returned by colour_by(): their elements, types or numbers. Only the legend
   /// depends on it (scene/legend.h).

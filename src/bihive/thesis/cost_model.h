@@ -62,7 +62,7 @@ std::int64_t wins_of(const FigureWork& work, const WinPattern& pattern, const St
 /// Whether the whole pattern holds.
 bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs);
 
-/// From low to high.
+/// Ascending bounds.
 struct CostRange {
   double low = 0, high = std::numeric_limits<double>::infinity();
 };

@@ -2,7 +2,7 @@
 //
 // This class draws the pictures and keeps the times. Its caller brings each picture to the screen, and says when it is
 // there; so the window and the page measure the same thing. Each configuration is drawn twice: by the wide engine, and
-// by the tree reconstructed from the text in scalar code. At rest the same picture is drawn anew for each frame;
+// by the tree reconstructed from the text in scalar code. At rest the same picture is drawn again for each frame;
 // turning, the camera orbits the scene once in the time of the measurement.
 #pragma once
 

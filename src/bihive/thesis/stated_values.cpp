@@ -30,7 +30,7 @@ bool is_whole(double number) {
   return number == std::floor(number) && std::abs(number) <= kMostWhole;
 }
 
-// The number in "4,095" or "87.51%"; nothing for words and lists.
+// The number in "4,095" or "87.51%"; nothing for texts and lists.
 std::optional<double> number_in_print(std::string printed) {
   printed.erase(std::remove(printed.begin(), printed.end(), ','), printed.end());
   if (!printed.empty() && printed.back() == '%') printed.pop_back();

@@ -31,7 +31,7 @@ class GpuPictures {
   Status begin(const Scene& scene, bool new_lights, const RenderSettings& settings);
 
   /// Copies the complete passes, with the labels of `whole`, the settings of the picture in its full size
-  /// (viewer/shown_image.h); show() draws this copy from now on. Error: no room for it.
+  /// (viewer/shown_image.h); show() then draws this copy. Error: no room for it.
   Status keep(const Scene& scene, const RenderSettings& whole);
   /// Draws the kept picture, if any, stretched to the viewport.
   void show(std::uint32_t framebuffer, const GlViewport& viewport) const;

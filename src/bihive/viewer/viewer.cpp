@@ -376,7 +376,7 @@ class Viewer::Implementation {
     return Done{};
   }
 
-  // Builds and uploads all that the settings need. After an Error the picture on show is unchanged.
+  // Builds and uploads all that the settings need. After an Error the shown picture is unchanged.
   Status make_ready(const ShownScene& shown, SceneTrees& trees, const ViewerSettings& settings, bool upload) {
     if (settings.engine == ViewerEngine::gpu)
       if (Status status = check_gpu(settings); !status) return status;

@@ -59,10 +59,10 @@ class Viewer {
 
   const ViewerLook& look() const;
   /// Another style sets its own samples, recursion, shadows and effects, except those that the user has changed. A
-  /// camera that shows the whole set is placed anew.
-  /// Returns how many spheres each row selects. Errors: an unknown style, colour or action, a style for a scene that
-  /// has a look of its own, a selection's (with its column), an attribute that the scene lacks, or that every sphere is
-  /// hidden; the previous look stays. `failed_row` (if given) is then the faulty row; rows.size() if none is.
+  /// camera that shows the whole set is placed again. Returns how many spheres each row selects. Errors: an unknown
+  /// style, colour or action, a style for a scene that has a look of its own, a selection's (with its column), an
+  /// attribute that the scene lacks, or that every sphere is hidden; the previous look stays. `failed_row` (if given)
+  /// is then the faulty row; rows.size() if none is.
   Result<std::vector<std::int64_t>> set_look(const ViewerLook& look, std::size_t* failed_row = nullptr);
 
   // The frames of the shown file. viewer/player.h decides which one is shown when.
@@ -92,7 +92,7 @@ class Viewer {
   /// a meaning, a focus on spheres that do not exist. The previous settings stay. Parameters that changed rebuild the
   /// tree. A camera that shows the whole set still does so after a change of projection, angle or lens alone.
   Status set(const ViewerSettings& settings);
-  /// Size of the picture at rest. 1 to 16384 each. A camera that shows the whole set is placed anew.
+  /// Size of the picture at rest. 1 to 16384 each. A camera that shows the whole set is placed again.
   void resize(int width_px, int height_px);
   /// The pointer moved by this many pixels: turn around look_at (the scene follows the pointer), or shift the scene. A
   /// camera that shows the whole set still does so while the set turns.

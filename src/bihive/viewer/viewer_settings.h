@@ -28,7 +28,7 @@ constexpr int kMostSamples = 64;
 struct ViewerSettings {
   ViewerEngine engine = ViewerEngine::cpu;
   View view = View::shaded;
-  /// What the user has set, over the scene's own picture with at most kMostSamples samples per pixel. The edges of the
+  /// The user's settings, over the scene's own picture with at most kMostSamples samples per pixel. The edges of the
   /// cell are drawn by the CPU alone, and stay in view.
   LayeredSettings picture;
   std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses

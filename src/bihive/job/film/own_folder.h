@@ -24,11 +24,11 @@ std::string folder_around(const std::string& path);
 /// All functions fail with kBadInput.
 class OwnFolder {
  public:
-  /// A folder that nobody else may write to. Nothing: there is none. Fails if it is a link, or if another user owns it
-  /// or may write to it.
+  /// A folder that no other user may write to. Nothing: there is none. Fails if it is a link, or if another user owns
+  /// it or may write to it.
   static std::optional<OwnFolder> open_private(const std::string& path);
   /// A folder of pictures, which may be shared with others. A link to it is followed if it belongs to this user or to
-  /// the owner of the folder where it stands.
+  /// the owner of the folder that contains it.
   static std::optional<OwnFolder> open_shared(const std::string& path);
 
   int descriptor() const { return folder_.get(); }
@@ -41,7 +41,7 @@ class OwnFolder {
   /// Whether the name exists, even as a dangling link.
   bool has(const std::string& name) const;
 
-  /// A file of this user, with no other name, that nobody else may write to; `flags` as of open(). Nothing: there is
+  /// A file of this user, with no other name, that no other user may write to; `flags` as of open(). Nothing: there is
   /// none. With O_CREAT it is made for its owner alone.
   std::optional<Descriptor> open_file(const std::string& name, int flags) const;
   /// All bytes of such a file.

@@ -33,7 +33,7 @@ HWY_INLINE void close_node(BinaryNode& node) {
   node.box = left.box;
   node.box.add(right.box);
 
-  // The right side's costs, after sixteen infinite ones: shifted by i they stand beside the sums with i slots.
+  // The right side's costs, after sixteen infinite ones: shifted by i they line up with the sums with i slots.
   HWY_ALIGN float shifted[2 * kWidth];
   for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
     hn::Store(hn::Set(d, kInfiniteFloat), d, shifted + lane);

@@ -1,4 +1,4 @@
-// The spheres that are the nearest so far for some ray of a beam, and their hits in binary64, a block at a time.
+// The spheres that are currently the nearest for some ray of a beam, and their hits in binary64, a block at a time.
 
 #if defined(BIHIVE_WIDE_TRACE_BEAM_WINNERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_BEAM_WINNERS_INL_H_

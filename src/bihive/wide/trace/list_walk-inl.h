@@ -97,7 +97,7 @@ class ListWalk {
     const NodeMemory memory(static_cast<char*>(tile_.arena.data()) + arena_used, count);
     const std::uint32_t any = test_boxes(node, list, count, memory);
 
-    // Child after child: list the rays that still want to enter it.
+    // For each child, list the rays that still enter it.
     const std::uint64_t order = node.order[order_];
     const int children = node.child_count;
     for (int k = 0; k < children; ++k) {

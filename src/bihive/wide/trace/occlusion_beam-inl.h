@@ -95,7 +95,7 @@ class OcclusionBeam {
     });
   }
 
-  /// Spheres tested against beams so far, each times the rays of the beam.
+  /// Spheres tested against beams, each times the rays of the beam.
   std::int64_t met() const { return met_; }
 
  private:

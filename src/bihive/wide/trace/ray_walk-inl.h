@@ -31,7 +31,7 @@ struct SingleRay {
   LocalRay local;
   float near_offset[3];   ///< local.offset for planes where it enters boxes, as they are: a lower bound of the distance
   float far_offset[3];    ///< and for those where it exits them
-  float s_best;           ///< upper bound of the best hit so far; the segment's end at first
+  float s_best;           ///< upper bound of the current best hit; the segment's end at first
   float sure_min;         ///< roots from here on lie surely in the segment
   float e, width;         ///< FilterBounds
   std::uint32_t left_id;  ///< of the sphere that it exits
