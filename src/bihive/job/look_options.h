@@ -31,7 +31,7 @@ struct LookOptions {
   Status set_nan_colour(const std::string& text);
   /// colour, colour-by, opacity, material, radius-scale, outline, crease, clip.
   Status act(const std::string& name, const std::string& text);
-  /// --no-hydrogens and --no-water: hide what the keyword selects; the selection of the next actions stays.
+  /// --no-hydrogens and --no-water: hide what the word selects; the selection of the next actions stays.
   void hide_word(const std::string& option, const std::string& word);
 
  private:
