@@ -1,6 +1,7 @@
 """The origin of a table's numbers: one machine and one commit, with date and command.
 
-A report of scripts/bench names its machine and its commit, and so does the output of the measured programs. A report merged from several machines, commits or instruction sets is refused.
+A report of scripts/bench names its machine and its commit, and so does the output of the measured programs. A report merged
+from several machines, commits or instruction sets is refused.
 """
 
 VECTORS = {"avx512f": "AVX-512", "avx2": "AVX2", "sse4_1": "SSE4"}
